@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace allpairs {
+
+/// An axis-aligned box: the closed set of points p with min[a] <= p[a] <= max[a] on each axis a.
+///
+/// Geometry:  min > max on some axis means empty; infinite bounds are allowed; units and frame are the caller's.
+/// Bad input: a NaN is refused by whatever takes the box, not here.
+template <class T>
+struct BasicBox {
+  std::array<T, 3> min{};
+  std::array<T, 3> max{};
+
+  friend constexpr bool operator==(const BasicBox&, const BasicBox&) = default;
+};
+
+using Box = BasicBox<double>;
+using BoxF = BasicBox<float>;
+
+/// The box that holds nothing, and leaves any other unchanged when merged with it.
+inline constexpr Box kEmptyBox{{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::infinity()},
+                               {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                                -std::numeric_limits<double>::infinity()}};
+
+/// Whether the box holds no point: min > max on some axis.
+template <class T>
+[[nodiscard]] constexpr bool isEmpty(const BasicBox<T>& box) noexcept {
+  return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
+}
+
+/// Whether any of the six bounds is a NaN.
+template <class T>
+[[nodiscard]] constexpr bool hasNan(const BasicBox<T>& box) noexcept {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] != box.min[axis] || box.max[axis] != box.max[axis]) return true;
+  }
+  return false;
+}
+
+/// Whether two boxes are at most `distance` apart on every axis; with distance 0, whether they overlap.
+///
+/// Geometry:  closed, per axis and not Euclidean, in double: apart if min1 > max2 + d or min2 > max1 + d on some axis,
+///            the sum rounded as written. A negative distance shrinks. An empty box overlaps nothing.
+[[nodiscard]] constexpr bool overlap(const Box& a, const Box& b, double distance = 0.0) noexcept {
+  if (isEmpty(a) || isEmpty(b)) return false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a.min[axis] > b.max[axis] + distance || b.min[axis] > a.max[axis] + distance) return false;
+  }
+  return true;
+}
+
+/// The smallest box that holds both; an empty box adds nothing.
+[[nodiscard]] constexpr Box merge(const Box& a, const Box& b) noexcept {
+  if (isEmpty(a)) return b;
+  if (isEmpty(b)) return a;
+  Box result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.min[axis] = std::min(a.min[axis], b.min[axis]);
+    result.max[axis] = std::max(a.max[axis], b.max[axis]);
+  }
+  return result;
+}
+
+}  // namespace allpairs

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "allpairs/Box.h"
+
+namespace allpairs {
+
+/// Where one corner (min or max) of each box lies in memory: coordinate `axis` of box `i` is
+/// data[i * boxStride + axis * axisStride]. Strides count elements and may be negative.
+template <class T>
+struct CornerView {
+  const T* data = nullptr;
+  std::ptrdiff_t boxStride = 3;
+  std::ptrdiff_t axisStride = 1;
+};
+
+/// A checked view of n boxes in the caller's memory, float32 or float64, in any strided layout.
+///
+/// Nothing is copied: the memory must outlive the set and stay unchanged while it is in use.
+/// Geometry:  boxes are closed; min > max on an axis means empty; infinite bounds are allowed.
+/// Bad input: a NaN throws InvalidBox that names the box; more than 2^32 - 1 boxes or a span of the wrong length throw
+///            InvalidArgument.
+/// Cost:      one pass over the boxes to check them, no allocation.
+/// Threads:   const use from any number of threads.
+class BoxSet {
+ public:
+  /// No boxes.
+  BoxSet() = default;
+
+  /// From an array of boxes: `std::vector<Box>` converts.
+  BoxSet(std::span<const Box> boxes);   // NOLINT(google-explicit-constructor): a view of the same thing
+  BoxSet(std::span<const BoxF> boxes);  // NOLINT(google-explicit-constructor): a view of the same thing
+
+  /// From rows of 6: minx miny minz maxx maxy maxz, n rows one after the other.
+  [[nodiscard]] static BoxSet fromRows(std::span<const float> rows);
+  [[nodiscard]] static BoxSet fromRows(std::span<const double> rows);
+
+  /// From two arrays of n rows of 3: all min corners, all max corners.
+  [[nodiscard]] static BoxSet fromCorners(std::span<const float> min, std::span<const float> max);
+  [[nodiscard]] static BoxSet fromCorners(std::span<const double> min, std::span<const double> max);
+
+  /// From corners in any strided layout, such as columns of a larger table or six separate arrays one after the other.
+  [[nodiscard]] static BoxSet fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
+  [[nodiscard]] static BoxSet fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
+
+  /// Gives every box of the set the same margin: how far it reaches beyond its bounds, on all sides.
+  ///
+  /// Bad input: NaN or -infinity throws InvalidArgument.
+  void setMargin(double margin);
+
+  /// Gives each box a margin of its own; an empty span takes them back. The memory stays the caller's.
+  ///
+  /// Bad input: a span of the wrong length throws InvalidArgument; a NaN or -infinity throws InvalidBox.
+  void setMargins(std::span<const double> margins);
+
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+  [[nodiscard]] bool empty() const noexcept { return m_size == 0; }
+
+  /// Whether the bounds are stored as float64; otherwise they are float32.
+  [[nodiscard]] bool isFloat64() const noexcept { return m_isFloat64; }
+
+  /// Whether any box has a margin other than 0.
+  [[nodiscard]] bool hasMargins() const noexcept { return m_margin != 0.0 || !m_margins.empty(); }
+
+  /// Box i in double, which holds float32 exactly, without its margin.
+  [[nodiscard]] Box operator[](std::size_t i) const noexcept {
+    return m_isFloat64 ? at(m_float64, i) : at(m_float32, i);
+  }
+
+  /// The margin of box i.
+  [[nodiscard]] double margin(std::size_t i) const noexcept { return m_margins.empty() ? m_margin : m_margins[i]; }
+
+  /// The corners as they lie in memory; only the pair that isFloat64() names is set.
+  template <class T>
+  struct Corners {
+    CornerView<T> min;
+    CornerView<T> max;
+  };
+  [[nodiscard]] const Corners<float>& float32() const noexcept { return m_float32; }
+  [[nodiscard]] const Corners<double>& float64() const noexcept { return m_float64; }
+
+ private:
+  template <class T>
+  static Box at(const Corners<T>& corners, std::size_t i) noexcept {
+    Box box;
+    const auto row = static_cast<std::ptrdiff_t>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::ptrdiff_t>(axis);
+      box.min[axis] = static_cast<double>(corners.min.data[row * corners.min.boxStride + a * corners.min.axisStride]);
+      box.max[axis] = static_cast<double>(corners.max.data[row * corners.max.boxStride + a * corners.max.axisStride]);
+    }
+    return box;
+  }
+
+  std::size_t m_size = 0;
+  bool m_isFloat64 = false;
+  Corners<float> m_float32;
+  Corners<double> m_float64;
+  double m_margin = 0.0;
+  std::span<const double> m_margins;
+};
+
+}  // namespace allpairs

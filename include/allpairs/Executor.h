@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "allpairs/FunctionRef.h"
+
+namespace allpairs {
+
+/// Where Allpairs runs its parallel work: the one interface between the engine and any thread pool or job system.
+///
+/// Results never depend on the executor: work is cut by data and output is written by block, not by thread.
+class Executor {
+ public:
+  Executor() = default;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+  Executor(Executor&&) = delete;
+  Executor& operator=(Executor&&) = delete;
+  virtual ~Executor() = default;
+
+  /// How many tasks may run at once; at least 1. It decides into how many pieces work is cut, never the result.
+  [[nodiscard]] virtual std::size_t concurrency() const noexcept = 0;
+
+  /// Calls task(0) … task(count - 1), each once, in any order and on any thread, and returns when all are done.
+  ///
+  /// Bad input: if tasks throw, one of their exceptions is thrown here, after no task runs any more.
+  virtual void run(std::size_t count, FunctionRef<void(std::size_t)> task) = 0;
+};
+
+/// Runs every task on the calling thread, in order. The default.
+class SerialExecutor final : public Executor {
+ public:
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return 1; }
+
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  }
+};
+
+}  // namespace allpairs

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace allpairs {
+
+template <class Signature>
+class FunctionRef;
+
+/// A callable that is borrowed for the length of a call: no ownership, no allocation.
+///
+/// The callable must outlive the FunctionRef, as any argument that is passed to a function does.
+template <class Result, class... Arguments>
+class FunctionRef<Result(Arguments...)> {
+ public:
+  template <class Callable>
+    requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef> &&
+             std::is_invocable_r_v<Result, Callable&, Arguments...>)
+  FunctionRef(Callable&& callable) noexcept  // NOLINT(google-explicit-constructor): meant to convert
+      : m_object(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
+        m_call([](void* object, Arguments... arguments) -> Result {
+          return (*static_cast<std::remove_reference_t<Callable>*>(object))(std::forward<Arguments>(arguments)...);
+        }) {}
+
+  Result operator()(Arguments... arguments) const { return m_call(m_object, std::forward<Arguments>(arguments)...); }
+
+ private:
+  void* m_object;
+  Result (*m_call)(void*, Arguments...);
+};
+
+}  // namespace allpairs

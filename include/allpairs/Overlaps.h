@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "allpairs/BoxSet.h"
+#include "allpairs/FunctionRef.h"
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Pair.h"
+
+namespace allpairs {
+
+/// What the last search did.
+struct OverlapStatistics {
+  std::uint64_t pairs = 0;       ///< How many pairs it gave.
+  std::uint64_t boxTests = 0;    ///< Pairs of boxes that were tested, each by one lane of a vector.
+  std::uint64_t groupTests = 0;  ///< Pairs of groups, or of a box and a group, that were tested by their bounds.
+  std::uint64_t exactTests = 0;  ///< Survivors of the float32 test that were tested again in double.
+};
+
+/// Takes pairs, a batch at a time; the span is valid during the call only.
+using PairVisitor = FunctionRef<void(std::span<const Pair>)>;
+
+/// Finds overlapping boxes, and keeps its working memory from one search to the next.
+///
+/// Geometry:  boxes are closed: sharing a face, an edge or a corner is an overlap. Empty boxes overlap nothing.
+/// Bad input: options that make no sense throw InvalidArgument; an unknown instruction set too.
+/// Cost:      a second search of the same size allocates nothing but the result that the caller keeps.
+/// Threads:   one search at a time per object; parallel inside when the options name an executor.
+class Overlaps {
+ public:
+  explicit Overlaps(OverlapOptions options = {});
+  ~Overlaps();
+  Overlaps(Overlaps&&) noexcept;
+  Overlaps& operator=(Overlaps&&) noexcept;
+
+  [[nodiscard]] const OverlapOptions& options() const noexcept;
+  void setOptions(OverlapOptions options);
+
+  /// All overlapping pairs of one set, each once. The result is valid until the next search or the end of the object.
+  [[nodiscard]] std::span<const Pair> find(const BoxSet& boxes);
+
+  /// All pairs of a box of `first` and a box of `second` that overlap.
+  [[nodiscard]] std::span<const Pair> findBetween(const BoxSet& first, const BoxSet& second);
+
+  /// How many pairs find() would give, in memory that does not depend on it.
+  [[nodiscard]] std::uint64_t count(const BoxSet& boxes);
+  [[nodiscard]] std::uint64_t countBetween(const BoxSet& first, const BoxSet& second);
+
+  /// Hands the pairs of find() to the visitor, in batches of at most options().batchSize, in memory that does not
+  /// depend on their number. The visitor is called from the calling thread; what it throws ends the search.
+  void stream(const BoxSet& boxes, PairVisitor visitor);
+  void streamBetween(const BoxSet& first, const BoxSet& second, PairVisitor visitor);
+
+  [[nodiscard]] const OverlapStatistics& statistics() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+/// All overlapping pairs among the boxes of one set, each once, ordered by (first, second).
+///
+/// Geometry:  boxes are closed: sharing a face, an edge or a corner is an overlap.
+/// Bad input: a box with a NaN never gets here (BoxSet rejects it); min > max on an axis means empty.
+/// Cost:      n(n-1)/2 vectorised tests at worst; 8 bytes a pair.
+/// Threads:   const on the set; parallel when the options name an executor.
+[[nodiscard]] std::vector<Pair> overlaps(const BoxSet& boxes, const OverlapOptions& options = {});
+
+/// All overlapping pairs of a box of `first` and a box of `second`, ordered by (first, second).
+[[nodiscard]] std::vector<Pair> overlapsBetween(const BoxSet& first, const BoxSet& second,
+                                                const OverlapOptions& options = {});
+
+/// How many pairs overlaps() would give; needs no memory for them.
+[[nodiscard]] std::uint64_t countOverlaps(const BoxSet& boxes, const OverlapOptions& options = {});
+
+/// How many pairs overlapsBetween() would give; needs no memory for them.
+[[nodiscard]] std::uint64_t countOverlapsBetween(const BoxSet& first, const BoxSet& second,
+                                                 const OverlapOptions& options = {});
+
+/// Hands the pairs of overlaps() to a visitor in batches, in bounded memory.
+void streamOverlaps(const BoxSet& boxes, PairVisitor visitor, const OverlapOptions& options = {});
+
+/// Hands the pairs of overlapsBetween() to a visitor in batches, in bounded memory.
+void streamOverlapsBetween(const BoxSet& first, const BoxSet& second, PairVisitor visitor,
+                           const OverlapOptions& options = {});
+
+/// The instruction sets that this processor has and this build carries, best first; "SCALAR" is always the last.
+[[nodiscard]] std::span<const std::string_view> instructionSets();
+
+}  // namespace allpairs

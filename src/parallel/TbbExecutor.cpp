@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/parallel/TbbExecutor.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace allpairs::parallel {
+
+struct TbbExecutor::Arena {
+  explicit Arena(int threads) : tasks(threads) {}
+
+  tbb::task_arena tasks;
+};
+
+TbbExecutor::TbbExecutor(std::size_t threads)
+    : m_arena(std::make_unique<Arena>(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads))) {}
+
+TbbExecutor::~TbbExecutor() = default;
+
+std::size_t TbbExecutor::concurrency() const noexcept {
+  return static_cast<std::size_t>(m_arena->tasks.max_concurrency());
+}
+
+void TbbExecutor::run(std::size_t count, FunctionRef<void(std::size_t)> task) {
+  m_arena->tasks.execute([&] {
+    tbb::parallel_for(
+        std::size_t{0}, count, [&](std::size_t i) { task(i); }, tbb::simple_partitioner());
+  });
+}
+
+}  // namespace allpairs::parallel
