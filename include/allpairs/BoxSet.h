@@ -57,6 +57,11 @@ class BoxSet {
   /// Bad input: a span of the wrong length throws InvalidArgument; a NaN or -infinity throws InvalidBox.
   void setMargins(std::span<const double> margins);
 
+  /// The boxes [begin, end) as a set of their own, with their margins. Costs nothing: they have been checked.
+  ///
+  /// Bad input: a range that is not within the set throws InvalidArgument.
+  [[nodiscard]] BoxSet slice(std::size_t begin, std::size_t end) const;
+
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] bool empty() const noexcept { return m_size == 0; }
 

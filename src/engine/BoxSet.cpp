@@ -84,6 +84,14 @@ BoxSet setFromCorners(std::span<const T> min, std::span<const T> max) {
   return BoxSet::fromStrided(size, CornerView<T>{min.data(), 3, 1}, CornerView<T>{max.data(), 3, 1});
 }
 
+/// Moves the view to start at box `begin`.
+template <class T>
+void moveTo(BoxSet::Corners<T>& corners, std::size_t begin) {
+  if (corners.min.data == nullptr) return;
+  corners.min.data += static_cast<std::ptrdiff_t>(begin) * corners.min.boxStride;
+  corners.max.data += static_cast<std::ptrdiff_t>(begin) * corners.max.boxStride;
+}
+
 bool isMargin(double value) { return !std::isnan(value) && value != -std::numeric_limits<double>::infinity(); }
 
 }  // namespace
@@ -133,6 +141,19 @@ void BoxSet::setMargins(std::span<const double> margins) {
     }
   }
   m_margins = margins;
+}
+
+BoxSet BoxSet::slice(std::size_t begin, std::size_t end) const {
+  if (begin > end || end > m_size) {
+    throw InvalidArgument("boxes " + std::to_string(begin) + " to " + std::to_string(end) + " of a set of " +
+                          std::to_string(m_size));
+  }
+  BoxSet part = *this;
+  part.m_size = end - begin;
+  moveTo(part.m_float32, begin);
+  moveTo(part.m_float64, begin);
+  if (!m_margins.empty()) part.m_margins = m_margins.subspan(begin, end - begin);
+  return part;
 }
 
 }  // namespace allpairs

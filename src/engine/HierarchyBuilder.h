@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "CurveOrder.h"
+#include "Join.h"
+#include "Kernels.h"
+#include "LaneReader.h"
+#include "Memory.h"
+#include "allpairs/Executor.h"
+
+namespace allpairs::engine {
+
+/// Builds the hierarchy over a set of boxes, and keeps its memory: at most 40 bytes a box.
+///
+/// Threads: parallel over the executor; the hierarchy does not depend on it.
+class HierarchyBuilder {
+ public:
+  /// Orders, gathers and bounds the boxes; `hierarchy()` is the result until the next call.
+  void build(const LaneReader& reader, const Kernels& kernels, Executor& executor);
+
+  [[nodiscard]] const Hierarchy& hierarchy() const noexcept { return m_hierarchy; }
+
+  /// Whether the lanes of all boxes are exactly the boxes.
+  [[nodiscard]] bool exact() const noexcept { return m_exact; }
+
+  /// Adds levels of one node until there are `depth` of them, so that two hierarchies can be descended side by side.
+  void deepen(std::size_t depth);
+
+ private:
+  void gather(const LaneReader& reader, std::span<const KeyedBox> order, Executor& executor);
+  void bound(const Kernels& kernels, Executor& executor);
+
+  CurveOrder m_order;
+  Buffer<LaneBlock> m_blocks;
+  Buffer<std::uint32_t> m_ids;
+  Hierarchy m_hierarchy;
+  std::size_t m_usedBlocks = 0;
+  bool m_exact = true;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "allpairs/FunctionRef.h"
+
+namespace allpairs::engine {
+
+/// Where the two ids of a hit go in a pair.
+enum class PairSide : std::uint8_t {
+  RowFirst,      ///< (row, partner): two sets, or rows in ascending order against what follows.
+  RowSecond,     ///< (partner, row): rows in ascending order against what precedes.
+  SmallerFirst,  ///< (min, max): one set in the order of the hierarchy.
+};
+
+/// Hits of the lane test, two ids each, gathered until there are enough to be worth turning into pairs.
+///
+/// Kernels write whole vectors, up to kSlack values past the end, and flush when another stretch might not fit.
+struct Hits {
+  static constexpr std::size_t kSlack = 64;
+
+  std::uint32_t* row = nullptr;
+  std::uint32_t* partner = nullptr;
+  std::size_t size = 0;
+  std::size_t capacity = 0;  ///< Without the slack.
+
+  /// If set, hits are counted in `count` and not stored.
+  bool countOnly = false;
+  std::uint64_t count = 0;
+
+  std::uint64_t boxTests = 0;
+  std::uint64_t groupTests = 0;
+
+  /// Takes what is stored; must leave size at 0.
+  void (*flush)(void* receiver, Hits& hits) = nullptr;
+  void* receiver = nullptr;
+
+  /// Makes room for `more` hits, which must not be more than the capacity.
+  void require(std::size_t more) {
+    if (size + more > capacity) flush(receiver, *this);
+  }
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The table of one instruction set.
+
+#if defined(ALLPAIRS_KERNEL_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_KERNEL_TABLE_INL_H
+#undef ALLPAIRS_KERNEL_TABLE_INL_H
+#else
+#define ALLPAIRS_KERNEL_TABLE_INL_H
+#endif
+
+#include "BlockKernels-inl.h"
+#include "FlatKernel-inl.h"
+#include "JoinKernel-inl.h"
+#include "Kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+const Kernels* kernelTable() {
+  static const Kernels table{hwy::TargetName(HWY_TARGET), &searchFlat, &join, &boundBlocks, &writePairs};
+  return &table;
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_KERNEL_TABLE_INL_H

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "FlatSearch.h"
+#include "Hits.h"
+#include "Join.h"
+#include "Lanes.h"
+#include "allpairs/Pair.h"
+
+namespace allpairs::engine {
+
+/// What is compiled once for each instruction set. The results do not depend on which one runs.
+struct Kernels {
+  std::string_view name;
+
+  /// Tests rows of a list against a range of columns each, without any hierarchy.
+  void (*searchFlat)(const FlatSearch& search, Hits& hits);
+
+  /// Joins part of one hierarchy with another, or with itself.
+  void (*join)(const JoinTask& task, Hits& hits);
+
+  /// Bounds of blocks [begin, end), each written as one lane of `parents`.
+  void (*boundBlocks)(const LaneBlock* blocks, std::size_t begin, std::size_t end, LaneBlock* parents);
+
+  /// Turns hits into pairs.
+  void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
+};
+
+/// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.
+[[nodiscard]] const Kernels* findKernels(std::string_view instructionSet);
+
+/// The names of the instruction sets that this processor has, best first.
+[[nodiscard]] std::span<const std::string_view> kernelNames();
+
+/// The kernels with one lane, compiled without vector instructions.
+[[nodiscard]] const Kernels& scalarKernels();
+
+}  // namespace allpairs::engine

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The test of one box against a vector of boxes. Included once for each instruction set: see Kernels.cpp.
+
+#if defined(ALLPAIRS_LANE_TEST_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_LANE_TEST_INL_H
+#undef ALLPAIRS_LANE_TEST_INL_H
+#else
+#define ALLPAIRS_LANE_TEST_INL_H
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "Hits.h"
+#include "Lanes.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Blocks of 16 lanes bound the width, so that a block is a whole number of vectors everywhere.
+using FloatTag = hn::CappedTag<float, kFanOut>;
+using IdTag = hn::CappedTag<std::uint32_t, kFanOut>;
+using FloatVector = hn::Vec<FloatTag>;
+using FloatMask = hn::Mask<FloatTag>;
+
+/// One box in all lanes.
+struct Query {
+  FloatVector minX, minY, minZ, maxX, maxY, maxZ;
+};
+
+HWY_INLINE Query spread(const LaneBox& box) {
+  const FloatTag d;
+  return {hn::Set(d, box.bound[0]), hn::Set(d, box.bound[1]), hn::Set(d, box.bound[2]),
+          hn::Set(d, box.bound[3]), hn::Set(d, box.bound[4]), hn::Set(d, box.bound[5])};
+}
+
+// max(min, min) <= min(max, max) says the same as the two comparisons of an axis, and minima and maxima run on more
+// ports of a processor than comparisons into a mask. Neither computes: every instruction set agrees.
+HWY_INLINE FloatMask meets(FloatVector queryMin, FloatVector queryMax, FloatVector min, FloatVector max) {
+  return hn::Le(hn::Max(queryMin, min), hn::Min(queryMax, max));
+}
+
+/// The lanes of six rows, each at its own pointer plus `i`, that overlap the query.
+template <class Rows>
+HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t i) {
+  const FloatTag d;
+  const FloatMask x = meets(q.minX, q.maxX, hn::LoadU(d, &bound[0][i]), hn::LoadU(d, &bound[3][i]));
+  const FloatMask y = meets(q.minY, q.maxY, hn::LoadU(d, &bound[1][i]), hn::LoadU(d, &bound[4][i]));
+  const FloatMask z = meets(q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
+  return hn::And(hn::And(x, y), z);
+}
+
+/// Stores the selected ids at `to` and returns how many there are; writes a whole vector.
+HWY_INLINE std::size_t storeSelected(FloatMask mask, const std::uint32_t* ids, std::uint32_t* to) {
+  const IdTag d;
+  const auto selected = hn::RebindMask(d, mask);
+  hn::StoreU(hn::Compress(hn::LoadU(d, ids), selected), d, to);
+  return hn::CountTrue(d, selected);
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_LANE_TEST_INL_H

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "PairReceiver.h"
+
+#include <string>
+
+#include "allpairs/Error.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
+constexpr std::size_t kHitCapacity = 4096;
+
+[[noreturn]] void throwTooMany(std::uint64_t count, std::uint64_t limit) {
+  throw LimitExceeded(count, "more than " + std::to_string(limit) + " pairs, the limit that was set; " +
+                                 std::to_string(count) + " had been found");
+}
+
+}  // namespace
+
+void PairReceiver::start(const PairRules& rules) {
+  constexpr std::size_t kStride = kHitCapacity + Hits::kSlack;
+  m_rules = &rules;
+  m_memory.require(2 * kStride);
+  m_hits = {};
+  m_hits.row = m_memory.data();
+  m_hits.partner = m_memory.data() + kStride;
+  m_hits.capacity = kHitCapacity;
+  m_hits.countOnly = rules.countOnly && !rules.test->needed() && !rules.ascendingOnly;
+  m_hits.receiver = this;
+  m_hits.flush = [](void* self, Hits& hits) { static_cast<PairReceiver*>(self)->receive(hits); };
+  m_size = 0;
+  m_count = 0;
+  m_exactTests = 0;
+  added = nullptr;
+}
+
+void PairReceiver::receive(Hits& hits) {
+  if (hits.size == 0) return;
+  const std::size_t begin = m_size;
+  m_pairs.grow(begin + hits.size + Hits::kSlack, begin);
+  m_rules->kernels->writePairs(hits, m_rules->side, m_pairs.data() + begin);
+  m_size += hits.size;
+  hits.size = 0;
+  if (m_rules->firstRow != 0 || m_rules->ascendingOnly || m_rules->test->needed()) selectTested(begin, m_size);
+  m_count += m_size - begin;
+  if (m_rules->countOnly) {
+    m_size = begin;
+  } else if (m_count > m_rules->maxPairs) {
+    throwTooMany(m_count, m_rules->maxPairs);
+  }
+  if (added != nullptr) added(context, *this);
+}
+
+void PairReceiver::selectTested(std::size_t begin, std::size_t end) {
+  std::size_t kept = begin;
+  for (std::size_t i = begin; i < end; ++i) {
+    Pair pair = m_pairs[i];
+    (m_rules->side == PairSide::RowSecond ? pair.second : pair.first) += m_rules->firstRow;
+    if (m_rules->ascendingOnly && pair.first >= pair.second) continue;
+    if (m_rules->test->needed() && !m_rules->test->keeps(pair)) continue;
+    m_pairs[kept++] = pair;
+  }
+  if (m_rules->test->exactTestNeeded()) m_exactTests += end - begin;
+  m_size = kept;
+}
+
+}  // namespace allpairs::engine

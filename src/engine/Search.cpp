@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "Search.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "CheckOptions.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0003).
+constexpr double kFlatPairs = 320.0 * 320.0;
+
+/// Tasks are cut to at least this many tests of a row, or leaf blocks, so that starting one costs nothing to speak of.
+constexpr std::size_t kMinRowTests = std::size_t{1} << 17;
+constexpr std::size_t kMinLeafBlocks = 64;
+constexpr std::size_t kMaxTasks = 512;
+
+/// Reads all boxes of a set, in their own order, as lanes; those that can overlap nothing as lanes that never do.
+bool readList(const LaneReader& reader, LaneListBuffer& buffer, LaneList& list) {
+  list = buffer.require(reader.size());
+  const bool exact = reader.read(
+      0, reader.size(), [&](std::size_t i, const LaneBox& box) { list.set(i, box, static_cast<std::uint32_t>(i)); },
+      [&](std::size_t i) { list.set(i, kNeverLanes, static_cast<std::uint32_t>(i)); });
+  list.size = reader.size();
+  list.pad();
+  return exact;
+}
+
+}  // namespace
+
+bool Search::prefersFlat(const Sets& sets, const OverlapOptions& options) {
+  if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
+  return static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs;
+}
+
+void Search::begin(const Sets& sets, const OverlapOptions& options) {
+  checkOptions(sets, options);
+  m_kernels = &chooseKernels(options);
+  m_executor = options.executor != nullptr ? options.executor : &m_serial;
+  m_statistics = {};
+  m_pairCount = 0;
+}
+
+Search::Plan Search::plan(const Sets& sets, const OverlapOptions& options, PairTest& test) {
+  Plan plan;
+  plan.withItself = sets.one;
+  plan.rules.kernels = m_kernels;
+  plan.rules.test = &test;
+  plan.rules.maxPairs = options.maxPairs;
+  plan.blocked = !prefersFlat(sets, options);
+  if (plan.blocked) {
+    planBlocked(sets, options, test, plan);
+  } else {
+    planFlat(sets, options, test, plan);
+  }
+  return plan;
+}
+
+void Search::planFlat(const Sets& sets, const OverlapOptions& options, PairTest& test, Plan& plan) {
+  const bool bySecond = options.order == Order::BySecond;
+  const BoxSet& rowSet = bySecond ? sets.second : sets.first;
+  const BoxSet& columnSet = bySecond ? sets.first : sets.second;
+  bool exact = readList(LaneReader(columnSet, options), m_columns, plan.flat.columns);
+  if (sets.one) {
+    plan.flat.rows = plan.flat.columns;
+    plan.flat.tested = bySecond ? Columns::Preceding : Columns::Following;
+  } else {
+    exact &= readList(LaneReader(rowSet, options), m_rows, plan.flat.rows);
+  }
+  test.requireExactTest(!exact);
+  plan.rules.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
+  plan.units = rowSet.size();
+}
+
+void Search::planBlocked(const Sets& sets, const OverlapOptions& options, PairTest& test, Plan& plan) {
+  m_firstHierarchy.build(LaneReader(sets.first, options), *m_kernels, *m_executor);
+  bool exact = m_firstHierarchy.exact();
+  if (!sets.one) {
+    m_secondHierarchy.build(LaneReader(sets.second, options), *m_kernels, *m_executor);
+    exact &= m_secondHierarchy.exact();
+    m_firstHierarchy.deepen(m_secondHierarchy.hierarchy().depth);
+    m_secondHierarchy.deepen(m_firstHierarchy.hierarchy().depth);
+  }
+  test.requireExactTest(!exact);
+  plan.rules.side = sets.one ? PairSide::SmallerFirst : PairSide::RowFirst;
+  const bool nothing =
+      m_firstHierarchy.hierarchy().depth == 0 || (!sets.one && m_secondHierarchy.hierarchy().depth == 0);
+  plan.units = nothing ? 0 : m_firstHierarchy.hierarchy().level[0].blockCount();
+}
+
+void Search::runPart(const Plan& plan, std::size_t begin, std::size_t end, Worker& worker) {
+  if (begin == end) return;
+  if (!plan.blocked) {
+    FlatSearch part = plan.flat;
+    part.rowBegin = begin;
+    part.rowEnd = end;
+    m_kernels->searchFlat(part, worker.receiver.hits());
+    return;
+  }
+  JoinTask task;
+  task.first = &m_firstHierarchy.hierarchy();
+  task.second = plan.withItself ? task.first : &m_secondHierarchy.hierarchy();
+  task.withItself = plan.withItself;
+  task.leafBegin = begin;
+  task.leafEnd = end;
+  task.scratch = &worker.scratch;
+  m_kernels->join(task, worker.receiver.hits());
+}
+
+void Search::startWorkers(std::size_t count, const PairRules& rules) {
+  while (m_workers.size() < count) m_workers.push_back(std::make_unique<Worker>());
+  for (const std::unique_ptr<Worker>& worker : m_workers) worker->receiver.start(rules);
+}
+
+std::size_t Search::claimWorker() {
+  for (;;) {
+    for (std::size_t i = 0; i < m_workers.size(); ++i) {
+      if (!m_workers[i]->busy.test_and_set(std::memory_order_acquire)) return i;
+    }
+    std::this_thread::yield();
+  }
+}
+
+void Search::runAll(const Plan& plan) {
+  const std::size_t threads = m_executor->concurrency();
+  startWorkers(threads, plan.rules);
+  const std::size_t perTask =
+      plan.blocked ? kMinLeafBlocks : 1 + kMinRowTests / std::max<std::size_t>(1, plan.flat.columns.size);
+  const std::size_t tasks = threads == 1 ? 1 : std::clamp<std::size_t>(plan.units / perTask, 1, kMaxTasks);
+  m_segments.resize(tasks);
+  m_executor->run(tasks, [&](std::size_t task) {
+    const std::size_t index = claimWorker();
+    Worker& worker = *m_workers[index];
+    const struct Release {
+      Worker& held;
+      ~Release() { held.busy.clear(std::memory_order_release); }
+    } release{worker};
+    Segment& segment = m_segments[task];
+    segment.worker = index;
+    segment.begin = worker.receiver.size();
+    runPart(plan, plan.units * task / tasks, plan.units * (task + 1) / tasks, worker);
+    worker.receiver.finish();
+    segment.end = worker.receiver.size();
+  });
+  collect(plan);
+}
+
+void Search::collect(const Plan& plan) {
+  for (const std::unique_ptr<Worker>& worker : m_workers) {
+    m_statistics.pairs += worker->receiver.count();
+    m_statistics.exactTests += worker->receiver.exactTests();
+    m_statistics.boxTests += worker->receiver.hits().boxTests;
+    m_statistics.groupTests += worker->receiver.hits().groupTests;
+  }
+  m_pairCount = plan.rules.countOnly ? 0 : m_statistics.pairs;
+}
+
+void Search::join(const Plan& plan) {
+  if (plan.rules.countOnly) return;
+  if (m_segments.size() == 1) {
+    std::swap(m_pairs, m_workers[m_segments[0].worker]->receiver.pairs());
+    return;
+  }
+  m_pairs.require(m_pairCount + Hits::kSlack);
+  std::vector<std::size_t> places(m_segments.size());
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < m_segments.size(); ++i) {
+    places[i] = place;
+    place += m_segments[i].end - m_segments[i].begin;
+  }
+  m_executor->run(m_segments.size(), [&](std::size_t i) {
+    const Segment& segment = m_segments[i];
+    std::copy_n(m_workers[segment.worker]->receiver.pairs().data() + segment.begin, segment.end - segment.begin,
+                m_pairs.data() + places[i]);
+  });
+}
+
+std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options) {
+  begin(sets, options);
+  PairTest test(sets.first, sets.second, options, sets.one);
+  const Plan search = plan(sets, options, test);
+  runAll(search);
+  join(search);
+  if (search.blocked) {
+    const std::size_t keys = options.order == Order::BySecond ? sets.second.size() : sets.first.size();
+    m_sort.sort(m_pairs, m_pairCount, keys, options.order, *m_executor);
+  }
+  return {m_pairs.data(), m_pairCount};
+}
+
+std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
+  begin(sets, options);
+  PairTest test(sets.first, sets.second, options, sets.one);
+  Plan search = plan(sets, options, test);
+  search.rules.countOnly = true;
+  runAll(search);
+  return m_statistics.pairs;
+}
+
+}  // namespace allpairs::engine

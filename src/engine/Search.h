@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "FlatSearch.h"
+#include "HierarchyBuilder.h"
+#include "Join.h"
+#include "PairReceiver.h"
+#include "PairSort.h"
+#include "allpairs/BoxSet.h"
+#include "allpairs/FunctionRef.h"
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Overlaps.h"
+
+namespace allpairs::engine {
+
+/// The boxes to search: one set against itself, or two against each other.
+struct Sets {
+  const BoxSet& first;
+  const BoxSet& second;
+  bool one = true;
+};
+
+/// Everything that a search needs between its start and its end, and the memory that it keeps for the next one.
+class Search {
+ public:
+  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
+  std::uint64_t count(const Sets& sets, const OverlapOptions& options);
+  void stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
+
+  [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
+
+ private:
+  /// What a thread works with; as many as there are threads.
+  struct Worker {
+    PairReceiver receiver;
+    JoinScratch scratch;
+    std::atomic_flag busy;
+  };
+
+  /// Where the pairs of a task are.
+  struct Segment {
+    std::size_t worker = 0;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+
+  /// One search over part of the rows, ready to run.
+  struct Plan {
+    bool blocked = false;
+    bool withItself = true;
+    FlatSearch flat;
+    std::size_t units = 0;  ///< Rows, or leaf blocks: what tasks are cut from.
+    PairRules rules;
+  };
+
+  void begin(const Sets& sets, const OverlapOptions& options);
+  Plan plan(const Sets& sets, const OverlapOptions& options, PairTest& test);
+  void planFlat(const Sets& sets, const OverlapOptions& options, PairTest& test, Plan& plan);
+  void planBlocked(const Sets& sets, const OverlapOptions& options, PairTest& test, Plan& plan);
+
+  void runPart(const Plan& plan, std::size_t begin, std::size_t end, Worker& worker);
+  void runAll(const Plan& plan);
+  std::size_t claimWorker();
+  void startWorkers(std::size_t count, const PairRules& rules);
+  void collect(const Plan& plan);
+  void join(const Plan& plan);
+
+  static bool prefersFlat(const Sets& sets, const OverlapOptions& options);
+  void streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visitor);
+  void streamInRanges(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
+  bool findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end);
+
+  OverlapStatistics m_statistics;
+  const Kernels* m_kernels = nullptr;
+  SerialExecutor m_serial;
+  Executor* m_executor = &m_serial;
+
+  LaneListBuffer m_rows;
+  LaneListBuffer m_columns;
+  HierarchyBuilder m_firstHierarchy;
+  HierarchyBuilder m_secondHierarchy;
+  std::vector<std::unique_ptr<Worker>> m_workers;
+  std::vector<Segment> m_segments;
+  Buffer<Pair> m_pairs;
+  std::size_t m_pairCount = 0;
+  PairSort m_sort;
+};
+
+}  // namespace allpairs::engine
