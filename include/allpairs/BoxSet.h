@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,9 +32,16 @@ class BoxSet {
   /// No boxes.
   BoxSet() = default;
 
-  /// From an array of boxes: `std::vector<Box>` converts.
-  BoxSet(std::span<const Box> boxes);   // NOLINT(google-explicit-constructor): a view of the same thing
-  BoxSet(std::span<const BoxF> boxes);  // NOLINT(google-explicit-constructor): a view of the same thing
+  /// From any array of boxes: std::vector, std::array, std::span, of Box or BoxF.
+  template <class Boxes>
+    requires std::convertible_to<const Boxes&, std::span<const Box>>
+  BoxSet(const Boxes& boxes) : BoxSet(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
+  template <class Boxes>
+    requires std::convertible_to<const Boxes&, std::span<const BoxF>>
+  BoxSet(const Boxes& boxes) : BoxSet(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
+
+  [[nodiscard]] static BoxSet fromBoxes(std::span<const Box> boxes);
+  [[nodiscard]] static BoxSet fromBoxes(std::span<const BoxF> boxes);
 
   /// From rows of 6: minx miny minz maxx maxy maxz, n rows one after the other.
   [[nodiscard]] static BoxSet fromRows(std::span<const float> rows);

@@ -96,8 +96,8 @@ bool isMargin(double value) { return !std::isnan(value) && value != -std::numeri
 
 }  // namespace
 
-BoxSet::BoxSet(std::span<const Box> boxes) : BoxSet(setFromBoxes(boxes)) {}
-BoxSet::BoxSet(std::span<const BoxF> boxes) : BoxSet(setFromBoxes(boxes)) {}
+BoxSet BoxSet::fromBoxes(std::span<const Box> boxes) { return setFromBoxes(boxes); }
+BoxSet BoxSet::fromBoxes(std::span<const BoxF> boxes) { return setFromBoxes(boxes); }
 
 BoxSet BoxSet::fromRows(std::span<const float> rows) { return setFromRows(rows); }
 BoxSet BoxSet::fromRows(std::span<const double> rows) { return setFromRows(rows); }

@@ -147,8 +147,11 @@ class LaneReader {
       const double half = 0.5 * reader.m_distance + margin;
       const double magnitude = 0.5 * std::abs(reader.m_distance) + std::abs(margin);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        lanes.bound[axis] = roundDown(box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude));
-        lanes.bound[axis + 3] = roundUp(box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude));
+        const float low = roundDown(box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude));
+        const float high = roundUp(box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude));
+        // A negative margin may turn a box over, and it can still meet a larger one. Turned back it is no smaller.
+        lanes.bound[axis] = std::min(low, high);
+        lanes.bound[axis + 3] = std::max(low, high);
       }
       return false;
     }

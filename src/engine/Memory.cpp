@@ -14,4 +14,9 @@ void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
 #endif
 }
 
+std::size_t& bufferAllocations() noexcept {
+  thread_local std::size_t count = 0;
+  return count;
+}
+
 }  // namespace allpairs::engine

@@ -19,6 +19,9 @@ struct FreeDeleter {
 /// spent on page faults. Does nothing elsewhere.
 void adviseLargePages(void* memory, std::size_t bytes) noexcept;
 
+/// How often a Buffer of this thread has allocated: for the tests that a second search allocates nothing.
+[[nodiscard]] std::size_t& bufferAllocations() noexcept;
+
 /// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.
 ///
 /// Not a std::vector because a vector would write every element before the engine does.
@@ -62,6 +65,7 @@ class Buffer {
                        ? nullptr
                        : std::aligned_alloc(alignment, std::max(rounded, kAlignment));
     if (memory == nullptr) throw std::bad_alloc();
+    ++bufferAllocations();
     if (alignment == kLargePage) adviseLargePages(memory, rounded);
     return static_cast<T*>(memory);
   }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "Memory.h"
+#include "allpairs/Overlaps.h"
+#include "support/Boxes.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* memory = alignment <= alignof(std::max_align_t)
+                     ? std::malloc(size)
+                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, 1); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace allpairs {
+namespace {
+
+struct AllocationCase {
+  Strategy strategy;
+  Order order;
+};
+
+class Allocation : public ::testing::TestWithParam<AllocationCase> {};
+
+INSTANTIATE_TEST_SUITE_P(EachStrategyAndOrder, Allocation,
+                         ::testing::Values(AllocationCase{Strategy::Exhaustive, Order::ByFirst},
+                                           AllocationCase{Strategy::Blocked, Order::ByFirst},
+                                           AllocationCase{Strategy::Blocked, Order::BySecond},
+                                           AllocationCase{Strategy::Blocked, Order::Unordered}));
+
+TEST_P(Allocation, ASecondSearchOfTheSameSizeAllocatesNothing) {
+  OverlapOptions options;
+  options.strategy = GetParam().strategy;
+  options.order = GetParam().order;
+  const std::vector<BoxF> boxes = test::randomBoxes(5000, 41);
+  Overlaps search(options);
+  // The result and the sort swap buffers, so that it takes two searches until both have grown.
+  static_cast<void>(search.find(boxes));
+  static_cast<void>(search.find(boxes));
+  const std::size_t before = allocations;
+  const std::size_t bufferBefore = engine::bufferAllocations();
+  EXPECT_GT(search.find(boxes).size(), 1000U);
+  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_EQ(engine::bufferAllocations() - bufferBefore, 0U);
+}
+
+}  // namespace
+}  // namespace allpairs

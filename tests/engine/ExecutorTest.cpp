@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "allpairs/Overlaps.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "support/Boxes.h"
+
+namespace allpairs {
+namespace {
+
+/// Runs tasks last to first and claims many threads, so that a result that depends on either shows.
+class BackwardExecutor final : public Executor {
+ public:
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return 7; }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    for (std::size_t i = count; i-- > 0;) task(i);
+  }
+};
+
+TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
+  const std::vector<BoxF> boxes = test::randomBoxes(60000, 31);
+  parallel::TbbExecutor two(2);
+  parallel::TbbExecutor eight(8);
+  BackwardExecutor backward;
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+    const std::span<const BoxF> part(boxes.data(), strategy == Strategy::Exhaustive ? 8000 : boxes.size());
+    for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+      OverlapOptions options;
+      options.strategy = strategy;
+      options.order = order;
+      const std::vector<Pair> serial = overlaps(part, options);
+      for (Executor* executor : std::initializer_list<Executor*>{&two, &eight, &backward}) {
+        options.executor = executor;
+        ASSERT_EQ(overlaps(part, options), serial);
+        ASSERT_EQ(countOverlaps(part, options), serial.size());
+      }
+    }
+  }
+}
+
+TEST(Executor, GivesTheSameBytesBetweenTwoSets) {
+  const std::vector<BoxF> first = test::randomBoxes(30000, 32);
+  const std::vector<BoxF> second = test::randomBoxes(20000, 33);
+  parallel::TbbExecutor eight(8);
+  OverlapOptions options;
+  const std::vector<Pair> serial = overlapsBetween(first, second, options);
+  options.executor = &eight;
+  EXPECT_EQ(overlapsBetween(first, second, options), serial);
+}
+
+TEST(Executor, PassesOnWhatAFilterThrows) {
+  const std::vector<BoxF> boxes = test::randomBoxes(30000, 34);
+  parallel::TbbExecutor four(4);
+  OverlapOptions options;
+  options.executor = &four;
+  options.filter.accept = [](std::uint32_t first, std::uint32_t) -> bool {
+    if (first == 12345) throw std::runtime_error("stop");
+    return true;
+  };
+  Overlaps search(options);
+  EXPECT_THROW(static_cast<void>(search.find(boxes)), std::runtime_error);
+  options.filter.accept = nullptr;
+  search.setOptions(options);
+  EXPECT_EQ(search.find(boxes).size(), overlaps(boxes).size());
+}
+
+TEST(TbbExecutor, RunsEachTaskOnce) {
+  parallel::TbbExecutor executor(4);
+  std::vector<std::atomic<int>> runs(1000);
+  executor.run(runs.size(), [&](std::size_t i) { ++runs[i]; });
+  for (const std::atomic<int>& count : runs) EXPECT_EQ(count.load(), 1);
+  executor.run(0, [](std::size_t) { FAIL() << "there is no task"; });
+}
+
+TEST(TbbExecutor, HasTheThreadsItWasAskedFor) {
+  EXPECT_EQ(parallel::TbbExecutor(3).concurrency(), 3U);
+  EXPECT_GE(parallel::TbbExecutor().concurrency(), 1U);
+}
+
+TEST(Overlaps, TwoObjectsInTwoThreadsNeverMeet) {
+  const std::vector<BoxF> boxes = test::randomBoxes(20000, 35);
+  const std::vector<Pair> expected = overlaps(boxes);
+  std::vector<std::vector<Pair>> results(4);
+  {
+    std::vector<std::jthread> threads;
+    for (std::vector<Pair>& result : results) threads.emplace_back([&] { result = overlaps(boxes); });
+  }
+  for (const std::vector<Pair>& result : results) EXPECT_EQ(result, expected);
+}
+
+}  // namespace
+}  // namespace allpairs

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Random boxes of every awkward kind, against the double loop. RapidCheck prints the seed and the smallest failing
+// case.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "allpairs/Overlaps.h"
+#include "support/Boxes.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Coordinates that make boxes touch, coincide, vanish and overflow: few values, chosen to meet each other.
+rc::Gen<double> coordinate() {
+  return rc::gen::weightedOneOf<double>(
+      {{6, rc::gen::map(rc::gen::inRange(-8, 9), [](int i) { return 0.5 * i; })},
+       {3, rc::gen::map(rc::gen::inRange(-8, 9), [](int i) { return 0.1 * i; })},
+       {2, rc::gen::map(rc::gen::inRange(-50, 51), [](int i) { return 1.0 + i * 0x1p-52; })},
+       {1, rc::gen::element(0.0, -0.0, 1e-320, -5e-324, 1e-45, 1e30, -1e30, 3.4e38, 3.5e38, 1e300, -1e300)},
+       {1, rc::gen::element(kInfinity, -kInfinity)}});
+}
+
+rc::Gen<Box> anyBox() {
+  return rc::gen::map(rc::gen::container<std::array<double, 6>>(coordinate()), [](const std::array<double, 6>& c) {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = std::min(c[axis], c[axis + 3]);
+      box.max[axis] = std::max(c[axis], c[axis + 3]);
+    }
+    return box;
+  });
+}
+
+/// Now and then a box that is turned over on an axis, and so empty unless it is flat there.
+rc::Gen<Box> maybeInverted() {
+  return rc::gen::map(rc::gen::pair(anyBox(), rc::gen::inRange(0, 24)), [](std::pair<Box, int> drawn) {
+    if (drawn.second < 3) {
+      const auto axis = static_cast<std::size_t>(drawn.second);
+      std::swap(drawn.first.min[axis], drawn.first.max[axis]);
+    }
+    return drawn.first;
+  });
+}
+
+rc::Gen<std::vector<Box>> scene() { return rc::gen::scale(2.0, rc::gen::container<std::vector<Box>>(maybeInverted())); }
+
+rc::Gen<double> distance() {
+  return rc::gen::weightedOneOf<double>({{4, rc::gen::just(0.0)},
+                                         {4, rc::gen::map(rc::gen::inRange(-10, 20), [](int i) { return 0.1 * i; })},
+                                         {1, rc::gen::element(1e-320, 0x1p-52, -0x1p-53, 1e30, 1e300, kInfinity)}});
+}
+
+OverlapOptions optionsWith(Strategy strategy, double d) {
+  OverlapOptions options;
+  options.strategy = strategy;
+  options.distance = d;
+  return options;
+}
+
+constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked};
+
+void showBoxes(const std::vector<Box>& boxes) {
+  RC_CLASSIFY(boxes.size() > 16, "more than a block");
+  RC_CLASSIFY(boxes.size() > 64, "more than four blocks");
+}
+
+RC_GTEST_PROP(OverlapsProperty, AnyBoxesAtAnyDistanceGiveTheOraclesPairs, ()) {
+  const auto boxes = *scene();
+  const double d = *distance();
+  showBoxes(boxes);
+  const std::vector<Pair> expected = test::oracle(boxes, d);
+  for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(boxes, optionsWith(strategy, d)) == expected);
+}
+
+RC_GTEST_PROP(OverlapsProperty, AnyFloat32BoxesGiveTheOraclesPairs, ()) {
+  std::vector<BoxF> boxes;
+  for (const Box& box : *scene()) {
+    BoxF& rounded = boxes.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rounded.min[axis] = static_cast<float>(box.min[axis]);
+      rounded.max[axis] = static_cast<float>(box.max[axis]);
+    }
+  }
+  const double d = *distance();
+  const std::vector<Pair> expected = test::oracle(test::toDouble(boxes), d);
+  for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(boxes, optionsWith(strategy, d)) == expected);
+}
+
+RC_GTEST_PROP(OverlapsProperty, AnyMarginsGiveTheOraclesPairs, ()) {
+  const auto boxes = *scene();
+  const auto margins = *rc::gen::container<std::vector<double>>(boxes.size(), distance());
+  const double d = *distance();
+  BoxSet set(boxes);
+  set.setMargins(margins);
+  const std::vector<Pair> expected = test::oracle(boxes, d, margins);
+  for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(set, optionsWith(strategy, d)) == expected);
+}
+
+RC_GTEST_PROP(OverlapsProperty, TwoSetsGiveTheOraclesPairs, ()) {
+  const auto first = *scene();
+  const auto second = *scene();
+  const double d = *distance();
+  const std::vector<Pair> expected = test::oracleBetween(first, second, d);
+  for (const Strategy strategy : kStrategies) {
+    RC_ASSERT(overlapsBetween(first, second, optionsWith(strategy, d)) == expected);
+    RC_ASSERT(countOverlapsBetween(first, second, optionsWith(strategy, d)) == expected.size());
+  }
+}
+
+RC_GTEST_PROP(OverlapsProperty, ARegionLeavesOutWhatIsOutsideOfIt, ()) {
+  const auto boxes = *scene();
+  const double d = *distance();
+  const Box region = *rc::gen::suchThat(anyBox(), [](const Box& box) { return !isEmpty(box); });
+  // A box meets the region as it would meet another box: the region goes last, and its pairs say who is in.
+  std::vector<Box> withRegion = boxes;
+  withRegion.push_back(region);
+  std::vector<bool> inside(boxes.size());
+  for (const Pair& pair : test::oracle(withRegion, d)) {
+    if (pair.second == boxes.size()) inside[pair.first] = true;
+  }
+  std::vector<Pair> expected;
+  for (const Pair& pair : test::oracle(boxes, d)) {
+    if (inside[pair.first] && inside[pair.second]) expected.push_back(pair);
+  }
+  for (const Strategy strategy : kStrategies) {
+    OverlapOptions options = optionsWith(strategy, d);
+    options.region = region;
+    RC_ASSERT(overlaps(boxes, options) == expected);
+  }
+}
+
+}  // namespace
+}  // namespace allpairs

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/Overlaps.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "support/Boxes.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+using test::cube;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Box kWholeSpace{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+
+/// Runs with each strategy; whatever is written here holds for all of them.
+class Overlaps_ : public ::testing::TestWithParam<Strategy> {
+ protected:
+  static OverlapOptions options() {
+    OverlapOptions result;
+    result.strategy = GetParam();
+    return result;
+  }
+  static std::vector<Pair> pairsOf(const std::vector<Box>& boxes, const OverlapOptions& with = options()) {
+    return overlaps(boxes, with);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(EachStrategy, Overlaps_,
+                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked));
+
+TEST_P(Overlaps_, NoBoxesAndOneBoxHaveNoPairs) {
+  EXPECT_THAT(pairsOf({}), IsEmpty());
+  EXPECT_THAT(pairsOf({cube(0, 0, 0)}), IsEmpty());
+}
+
+TEST_P(Overlaps_, BoxesSharingAFaceAnEdgeOrACornerAreAPair) {
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(1, 0, 0)}), ElementsAre(Pair{0, 1}));
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(1, 1, 0)}), ElementsAre(Pair{0, 1}));
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(1, 1, 1)}), ElementsAre(Pair{0, 1}));
+}
+
+TEST_P(Overlaps_, TheSmallestGapInDoubleIsNoPair) {
+  Box right = cube(1, 0, 0);
+  right.min[0] += std::numeric_limits<double>::epsilon();
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), right}), IsEmpty());
+}
+
+TEST_P(Overlaps_, PairsComeOrderedByFirstAndThenSecond) {
+  const std::vector<Box> boxes(4, cube(0, 0, 0));
+  EXPECT_THAT(pairsOf(boxes), ElementsAre(Pair{0, 1}, Pair{0, 2}, Pair{0, 3}, Pair{1, 2}, Pair{1, 3}, Pair{2, 3}));
+}
+
+TEST_P(Overlaps_, PairsCanBeOrderedBySecondAndThenFirst) {
+  OverlapOptions bySecond = options();
+  bySecond.order = Order::BySecond;
+  const std::vector<Box> boxes(4, cube(0, 0, 0));
+  EXPECT_THAT(pairsOf(boxes, bySecond),
+              ElementsAre(Pair{0, 1}, Pair{0, 2}, Pair{1, 2}, Pair{0, 3}, Pair{1, 3}, Pair{2, 3}));
+}
+
+TEST_P(Overlaps_, EmptyBoxesOverlapNothingNotEvenTheWholeSpace) {
+  Box inverted = cube(0, 0, 0);
+  std::swap(inverted.min[1], inverted.max[1]);
+  EXPECT_THAT(pairsOf({inverted, kWholeSpace, kEmptyBox, cube(0, 0, 0)}), ElementsAre(Pair{1, 3}));
+}
+
+TEST_P(Overlaps_, ADistanceDoesNotMakeAnEmptyBoxFull) {
+  OverlapOptions far = options();
+  far.distance = 100.0;
+  Box inverted = cube(0, 0, 0);
+  std::swap(inverted.min[1], inverted.max[1]);
+  EXPECT_THAT(pairsOf({inverted, cube(0, 0, 0), cube(50, 0, 0)}, far), ElementsAre(Pair{1, 2}));
+}
+
+TEST_P(Overlaps_, InfiniteBoxesOverlapWhatTheyReach) {
+  Box half = kWholeSpace;
+  half.min[0] = 10.0;
+  Box atInfinity = kWholeSpace;
+  atInfinity.min[0] = kInfinity;
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), half, cube(20, 0, 0), atInfinity}), ElementsAre(Pair{1, 2}, Pair{1, 3}));
+}
+
+TEST_P(Overlaps_, BoundsBeyondFloat32AreTestedInDouble) {
+  const Box huge{{1e300, 0, 0}, {1.5e300, 1, 1}};
+  const Box beyond{{1.6e300, 0, 0}, {kInfinity, 1, 1}};
+  const Box touching{{1.5e300, 0, 0}, {1.55e300, 1, 1}};
+  EXPECT_THAT(pairsOf({huge, beyond, touching}), ElementsAre(Pair{0, 2}));
+}
+
+TEST_P(Overlaps_, TheDistanceIsPerAxisAndClosed) {
+  OverlapOptions half = options();
+  half.distance = 0.5;
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(1.5, 1.5, 1.5)}, half), ElementsAre(Pair{0, 1}));
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(1.5000001, 0, 0)}, half), IsEmpty());
+}
+
+TEST_P(Overlaps_, ANegativeDistanceShrinks) {
+  OverlapOptions deep = options();
+  deep.distance = -0.5;
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(0.5, 0, 0)}, deep), ElementsAre(Pair{0, 1}));
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), cube(0.75, 0, 0)}, deep), IsEmpty());
+}
+
+TEST_P(Overlaps_, AnInfiniteDistancePairsEverythingThatIsNotEmpty) {
+  OverlapOptions any = options();
+  any.distance = kInfinity;
+  EXPECT_THAT(pairsOf({cube(0, 0, 0), kEmptyBox, cube(1e30, 0, 0)}, any), ElementsAre(Pair{0, 2}));
+}
+
+TEST_P(Overlaps_, MarginsAddUpFromLeftToRight) {
+  // 0.1 + 0.2 + 0.3 is 0.6000000000000001 from left to right and 0.6 from right to left.
+  const std::vector<Box> boxes{cube(0, 0, 0), {{1.6000000000000001, 0, 0}, {2, 1, 1}}};
+  const std::vector<double> margins{0.2, 0.3};
+  BoxSet set(boxes);
+  set.setMargins(margins);
+  OverlapOptions with = options();
+  with.distance = 0.1;
+  EXPECT_EQ(overlaps(set, with), test::oracle(boxes, 0.1, margins));
+}
+
+TEST_P(Overlaps_, AMarginOfTheSetCountsForEachBoxOfAPair) {
+  const std::vector<Box> boxes{cube(0, 0, 0), cube(1.5, 0, 0)};
+  BoxSet set(boxes);
+  set.setMargin(0.25);
+  EXPECT_THAT(overlaps(set, options()), ElementsAre(Pair{0, 1}));
+  set.setMargin(0.2);
+  EXPECT_THAT(overlaps(set, options()), IsEmpty());
+}
+
+TEST_P(Overlaps_, BoxesOutsideOfTheRegionAreLeftOut) {
+  OverlapOptions within = options();
+  within.region = Box{{0, 0, 0}, {10, 10, 10}};
+  const std::vector<Box> boxes{cube(9, 0, 0), cube(9.5, 0, 0), cube(10, 0, 0), cube(10.25, 0, 0)};
+  EXPECT_THAT(pairsOf(boxes, within), ElementsAre(Pair{0, 1}, Pair{0, 2}, Pair{1, 2}));
+  within.distance = 0.25;
+  EXPECT_EQ(pairsOf(boxes, within).size(), 6U);
+}
+
+TEST_P(Overlaps_, FilterBitsLeavePairsOut) {
+  const std::vector<Box> boxes(4, cube(0, 0, 0));
+  const std::vector<std::uint32_t> categories{1, 2, 1, 4};
+  const std::vector<std::uint32_t> masks{2 | 4, 1, 2 | 4, 1};
+  OverlapOptions with = options();
+  with.filter.first.categories = categories;
+  with.filter.first.masks = masks;
+  EXPECT_THAT(pairsOf(boxes, with), ElementsAre(Pair{0, 1}, Pair{0, 3}, Pair{1, 2}, Pair{2, 3}));
+}
+
+TEST_P(Overlaps_, BoxesOfOneGroupAreNoPairAndGroupZeroIsNone) {
+  const std::vector<Box> boxes(4, cube(0, 0, 0));
+  const std::vector<std::uint32_t> groups{7, 7, 0, 0};
+  OverlapOptions with = options();
+  with.filter.first.groups = groups;
+  EXPECT_THAT(pairsOf(boxes, with), ElementsAre(Pair{0, 2}, Pair{0, 3}, Pair{1, 2}, Pair{1, 3}, Pair{2, 3}));
+}
+
+TEST_P(Overlaps_, TheCallersPredicateSeesOverlappingPairsOnly) {
+  const std::vector<Box> boxes{cube(0, 0, 0), cube(0.5, 0, 0), cube(5, 0, 0), cube(0.75, 0, 0)};
+  OverlapOptions with = options();
+  std::vector<Pair> asked;
+  with.filter.accept = [&](std::uint32_t first, std::uint32_t second) {
+    asked.push_back({first, second});
+    return second != 3;
+  };
+  EXPECT_THAT(pairsOf(boxes, with), ElementsAre(Pair{0, 1}));
+  EXPECT_THAT(asked, ::testing::UnorderedElementsAre(Pair{0, 1}, Pair{0, 3}, Pair{1, 3}));
+}
+
+TEST_P(Overlaps_, BetweenTwoSetsThePairIsOneOfEach) {
+  const std::vector<Box> first{cube(0, 0, 0), cube(5, 0, 0)};
+  const std::vector<Box> second{cube(5.5, 0, 0), cube(0.5, 0, 0), cube(0.75, 0, 0)};
+  EXPECT_THAT(overlapsBetween(first, second, options()), ElementsAre(Pair{0, 1}, Pair{0, 2}, Pair{1, 0}));
+  OverlapOptions bySecond = options();
+  bySecond.order = Order::BySecond;
+  EXPECT_THAT(overlapsBetween(first, second, bySecond), ElementsAre(Pair{1, 0}, Pair{0, 1}, Pair{0, 2}));
+}
+
+TEST_P(Overlaps_, BetweenTwoSetsEachHasItsOwnFilterAndMargins) {
+  const std::vector<Box> first{cube(0, 0, 0), cube(0, 0, 0)};
+  const std::vector<Box> second{cube(1.5, 0, 0), cube(1.25, 0, 0)};
+  BoxSet wide(first);
+  const std::vector<double> margins{0.25, 0.5};
+  wide.setMargins(margins);
+  EXPECT_THAT(overlapsBetween(wide, second, options()), ElementsAre(Pair{0, 1}, Pair{1, 0}, Pair{1, 1}));
+  const std::vector<std::uint32_t> groupsOfFirst{1, 2};
+  const std::vector<std::uint32_t> groupsOfSecond{2, 1};
+  OverlapOptions with = options();
+  with.filter.first.groups = groupsOfFirst;
+  with.filter.second.groups = groupsOfSecond;
+  EXPECT_THAT(overlapsBetween(wide, second, with), ElementsAre(Pair{1, 1}));
+}
+
+TEST_P(Overlaps_, OneEmptySetOfTwoHasNoPairs) {
+  const std::vector<Box> boxes(20, cube(0, 0, 0));
+  const std::vector<Box> none;
+  const std::vector<Box> allEmpty(20, kEmptyBox);
+  EXPECT_THAT(overlapsBetween(boxes, none, options()), IsEmpty());
+  EXPECT_THAT(overlapsBetween(none, boxes, options()), IsEmpty());
+  EXPECT_THAT(overlapsBetween(allEmpty, boxes, options()), IsEmpty());
+  EXPECT_THAT(pairsOf(allEmpty), IsEmpty());
+}
+
+TEST_P(Overlaps_, SetsOfVeryDifferentSizeAreJoined) {
+  const std::vector<Box> many = test::toDouble(test::randomBoxes(3000, 5));
+  const std::vector<Box> few = test::toDouble(test::randomBoxes(3, 6, 3.0F));
+  EXPECT_EQ(overlapsBetween(many, few, options()), test::oracleBetween(many, few));
+  EXPECT_EQ(overlapsBetween(few, many, options()), test::oracleBetween(few, many));
+}
+
+TEST_P(Overlaps_, CountingAgreesWithFinding) {
+  const std::vector<BoxF> boxes = test::randomBoxes(2000, 1);
+  const std::vector<BoxF> others = test::randomBoxes(700, 2);
+  EXPECT_EQ(countOverlaps(boxes, options()), overlaps(boxes, options()).size());
+  EXPECT_EQ(countOverlapsBetween(boxes, others, options()), overlapsBetween(boxes, others, options()).size());
+  OverlapOptions filtered = options();
+  filtered.filter.accept = [](std::uint32_t first, std::uint32_t) { return first % 2 == 0; };
+  EXPECT_EQ(countOverlaps(boxes, filtered), overlaps(boxes, filtered).size());
+}
+
+TEST_P(Overlaps_, MorePairsThanAllowedThrowAndNothingIsCut) {
+  const std::vector<Box> boxes(100, cube(0, 0, 0));
+  OverlapOptions limited = options();
+  limited.maxPairs = 4950;
+  EXPECT_EQ(pairsOf(boxes, limited).size(), 4950U);
+  limited.maxPairs = 4949;
+  try {
+    static_cast<void>(pairsOf(boxes, limited));
+    FAIL() << "the limit was passed without an error";
+  } catch (const LimitExceeded& error) {
+    EXPECT_GT(error.count(), 4949U);
+    EXPECT_THAT(error.what(), HasSubstr("4949"));
+  }
+  EXPECT_EQ(countOverlaps(boxes, limited), 4950U);
+}
+
+TEST_P(Overlaps_, AnObjectCanBeUsedAgainAfterItThrew) {
+  const std::vector<Box> boxes(100, cube(0, 0, 0));
+  Overlaps search(options());
+  OverlapOptions limited = options();
+  limited.maxPairs = 3;
+  search.setOptions(limited);
+  EXPECT_THROW(static_cast<void>(search.find(boxes)), LimitExceeded);
+  search.setOptions(options());
+  EXPECT_EQ(search.find(boxes).size(), 4950U);
+}
+
+TEST_P(Overlaps_, BadOptionsAreRefusedByName) {
+  const std::vector<Box> boxes(2, cube(0, 0, 0));
+  OverlapOptions bad = options();
+  bad.distance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(pairsOf(boxes, bad), InvalidArgument);
+  bad = options();
+  bad.region = Box{{0, 0, 0}, {-1, 1, 1}};
+  EXPECT_THROW(pairsOf(boxes, bad), InvalidArgument);
+  bad = options();
+  const std::vector<std::uint32_t> three(3);
+  bad.filter.first.groups = three;
+  EXPECT_THROW(pairsOf(boxes, bad), InvalidArgument);
+  bad = options();
+  bad.instructionSet = "MMX";
+  try {
+    pairsOf(boxes, bad);
+    FAIL() << "an unknown instruction set was taken";
+  } catch (const InvalidArgument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("MMX"));
+    EXPECT_THAT(error.what(), HasSubstr("SCALAR"));
+  }
+}
+
+TEST(Overlaps, ExhaustiveMakesEveryTestAndCountsThem) {
+  OverlapOptions exhaustive;
+  exhaustive.strategy = Strategy::Exhaustive;
+  const std::vector<BoxF> boxes = test::randomBoxes(1000, 3);
+  Overlaps search(exhaustive);
+  static_cast<void>(search.find(boxes));
+  EXPECT_EQ(search.statistics().boxTests, 1000U * 999U / 2U);
+  const std::vector<BoxF> others = test::randomBoxes(70, 4);
+  static_cast<void>(search.findBetween(boxes, others));
+  EXPECT_EQ(search.statistics().boxTests, 70000U);
+}
+
+TEST(Overlaps, BlockedMakesFarFewerTests) {
+  OverlapOptions blocked;
+  blocked.strategy = Strategy::Blocked;
+  const std::vector<BoxF> boxes = test::randomBoxes(20000, 3);
+  Overlaps search(blocked);
+  static_cast<void>(search.find(boxes));
+  EXPECT_LT(search.statistics().boxTests + search.statistics().groupTests, 20000U * 200U);
+}
+
+}  // namespace
+}  // namespace allpairs

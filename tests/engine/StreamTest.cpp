@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "allpairs/Overlaps.h"
+#include "support/Boxes.h"
+
+namespace allpairs {
+namespace {
+
+struct StreamCase {
+  Strategy strategy;
+  Order order;
+};
+
+class Stream : public ::testing::TestWithParam<StreamCase> {
+ protected:
+  static OverlapOptions options() {
+    OverlapOptions result;
+    result.strategy = GetParam().strategy;
+    result.order = GetParam().order;
+    result.batchSize = 1000;
+    return result;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(EachStrategyAndOrder, Stream,
+                         ::testing::Values(StreamCase{Strategy::Exhaustive, Order::ByFirst},
+                                           StreamCase{Strategy::Exhaustive, Order::BySecond},
+                                           StreamCase{Strategy::Exhaustive, Order::Unordered},
+                                           StreamCase{Strategy::Blocked, Order::ByFirst},
+                                           StreamCase{Strategy::Blocked, Order::BySecond},
+                                           StreamCase{Strategy::Blocked, Order::Unordered}));
+
+TEST_P(Stream, GivesWhatFindGivesInFullBatches) {
+  const std::vector<BoxF> boxes = test::randomBoxes(40000, 21);
+  std::vector<Pair> streamed;
+  std::vector<std::size_t> batches;
+  const OverlapOptions with = options();
+  const std::vector<BoxF> part(boxes.begin(), boxes.begin() + (with.strategy == Strategy::Exhaustive ? 6000 : 40000));
+  streamOverlaps(
+      part,
+      [&](std::span<const Pair> pairs) {
+        streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+        batches.push_back(pairs.size());
+      },
+      with);
+  EXPECT_EQ(streamed, overlaps(part, with));
+  for (const std::size_t size : batches) EXPECT_LE(size, 1000U);
+}
+
+TEST_P(Stream, BetweenTwoSetsGivesWhatFindGives) {
+  const std::vector<BoxF> first = test::randomBoxes(5000, 22);
+  const std::vector<BoxF> second = test::randomBoxes(3000, 23);
+  std::vector<Pair> streamed;
+  streamOverlapsBetween(
+      first, second, [&](std::span<const Pair> pairs) { streamed.insert(streamed.end(), pairs.begin(), pairs.end()); },
+      options());
+  EXPECT_EQ(streamed, overlapsBetween(first, second, options()));
+}
+
+TEST_P(Stream, AppliesFilterMarginsAndRegionToTheRightBoxes) {
+  const std::vector<BoxF> boxes = test::randomBoxes(3000, 24);
+  std::vector<double> margins(boxes.size());
+  for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 0.001 * static_cast<double>(i % 100);
+  BoxSet set(boxes);
+  set.setMargins(margins);
+  OverlapOptions with = options();
+  with.region = Box{{2, 2, 2}, {9, 9, 9}};
+  with.filter.accept = [](std::uint32_t first, std::uint32_t second) { return (first + second) % 3 != 0; };
+  std::vector<Pair> streamed;
+  streamOverlaps(
+      set, [&](std::span<const Pair> pairs) { streamed.insert(streamed.end(), pairs.begin(), pairs.end()); }, with);
+  EXPECT_EQ(streamed, overlaps(set, with));
+  EXPECT_FALSE(streamed.empty());
+}
+
+TEST_P(Stream, HoldsAnExplosionOfPairsInRanges) {
+  // 4.5 million pairs: more than an ordered stream holds at a time.
+  const std::vector<Box> boxes(3000, test::cube(0, 0, 0));
+  Pair last{0, 0};
+  std::uint64_t count = 0;
+  bool ordered = true;
+  const bool bySecond = GetParam().order == Order::BySecond;
+  streamOverlaps(
+      boxes,
+      [&](std::span<const Pair> pairs) {
+        for (const Pair& pair : pairs) {
+          const Pair key = bySecond ? Pair{pair.second, pair.first} : pair;
+          ordered = ordered && (last < key || count == 0);
+          last = key;
+          ++count;
+        }
+      },
+      options());
+  EXPECT_EQ(count, 3000U * 2999U / 2U);
+  if (GetParam().order != Order::Unordered) {
+    EXPECT_TRUE(ordered);
+  }
+}
+
+TEST_P(Stream, EndsWithWhatTheVisitorThrows) {
+  const std::vector<BoxF> boxes = test::randomBoxes(5000, 25);
+  Overlaps search(options());
+  int calls = 0;
+  const auto stop = [&](std::span<const Pair>) {
+    if (++calls == 2) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(search.stream(boxes, stop), std::runtime_error);
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(search.count(boxes), countOverlaps(boxes, options()));
+}
+
+}  // namespace
+}  // namespace allpairs
