@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "allpairs/Box.h"
 
@@ -34,6 +35,8 @@ class BoxSet {
   /// From an array of boxes: `std::vector<Box>` converts.
   BoxSet(std::span<const Box> boxes);   // NOLINT(google-explicit-constructor): a view of the same thing
   BoxSet(std::span<const BoxF> boxes);  // NOLINT(google-explicit-constructor): a view of the same thing
+  BoxSet(const std::vector<Box>& boxes) : BoxSet(std::span(boxes)) {}   // NOLINT(google-explicit-constructor): as above
+  BoxSet(const std::vector<BoxF>& boxes) : BoxSet(std::span(boxes)) {}  // NOLINT(google-explicit-constructor): as above
 
   /// From rows of 6: minx miny minz maxx maxy maxz, n rows one after the other.
   [[nodiscard]] static BoxSet fromRows(std::span<const float> rows);
