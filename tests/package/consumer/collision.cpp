@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include <allpairs/collision/CollisionModel.h>
+
+int main() {}

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include <allpairs/scene/Scene.h>
+
+int main() {}
