@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "TaskFence.h"
+
 namespace allpairs::parallel {
 
 struct TbbExecutor::Arena {
@@ -22,10 +24,12 @@ std::size_t TbbExecutor::concurrency() const noexcept {
 }
 
 void TbbExecutor::run(std::size_t count, FunctionRef<void(std::size_t)> task) {
-  m_arena->tasks.execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t i) { task(i); }, tbb::simple_partitioner());
-  });
+  TaskFence fence;
+  const auto runOne = [&](std::size_t i) {
+    const TaskFence::Task mark(fence);
+    task(i);
+  };
+  m_arena->tasks.execute([&] { tbb::parallel_for(std::size_t{0}, count, runOne, tbb::simple_partitioner()); });
 }
 
 }  // namespace allpairs::parallel
