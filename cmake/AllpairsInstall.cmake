@@ -6,10 +6,11 @@ set(allpairs_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Allpairs")
 get_property(allpairs_components GLOBAL PROPERTY ALLPAIRS_COMPONENTS)
 
 # Headers go with the library that implements them, so that a part that was not built has none.
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        REGEX "/allpairs/(parallel|scene)$" EXCLUDE)
-foreach(component IN ITEMS parallel scene)
-  if(component IN_LIST allpairs_components)
+foreach(component IN LISTS allpairs_components)
+  if(component STREQUAL "allpairs")
+    file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/allpairs/*.h")
+    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+  else()
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs/${component}"
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
   endif()

@@ -1,4 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include <allpairs/scene/Scene.h>
 
 int main() {}

@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include <allpairs/collision/CollisionModel.h>
-
-int main() {}
