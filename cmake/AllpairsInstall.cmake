@@ -3,12 +3,50 @@
 include(CMakePackageConfigHelpers)
 
 set(allpairs_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Allpairs")
+get_property(allpairs_components GLOBAL PROPERTY ALLPAIRS_COMPONENTS)
 
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(
-  EXPORT AllpairsTargets
-  NAMESPACE allpairs::
-  DESTINATION ${allpairs_package_dir})
+# Headers go with the library that implements them, so that a part that was not built has none.
+foreach(component IN LISTS allpairs_components)
+  if(component STREQUAL "allpairs")
+    file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/allpairs/*.h")
+    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+  else()
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs/${component}"
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+  endif()
+endforeach()
+
+# Reads from what a library links which components of ours it stands on (NEEDS) and which packages of others its
+# installed target refers to (PACKAGES). A static library passes what it links privately on to whoever links it; a
+# shared one keeps that to itself.
+function(allpairs_read_links component)
+  set(needs)
+  set(packages)
+  get_target_property(links allpairs::${component} LINK_LIBRARIES)
+  foreach(link IN LISTS links)
+    if(link MATCHES "^allpairs(::|_)(.+)$")
+      list(APPEND needs ${CMAKE_MATCH_2})
+    elseif(link STREQUAL "allpairs")
+      list(APPEND needs allpairs)
+    elseif(link MATCHES "^([A-Za-z_]+)::" AND NOT BUILD_SHARED_LIBS)
+      string(REGEX REPLACE "^hwy$" "HWY" package ${CMAKE_MATCH_1}) # found as HWY, named hwy::
+      list(APPEND packages ${package})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES packages)
+  string(APPEND allpairs_links "set(_allpairs_needs_${component} ${needs})\n"
+         "set(_allpairs_packages_${component} ${packages})\n")
+  set(allpairs_links "${allpairs_links}" PARENT_SCOPE)
+endfunction()
+
+set(allpairs_links)
+foreach(component IN LISTS allpairs_components)
+  install(
+    EXPORT Allpairs_${component}
+    NAMESPACE allpairs::
+    DESTINATION ${allpairs_package_dir})
+  allpairs_read_links(${component})
+endforeach()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/AllpairsConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/AllpairsConfig.cmake" INSTALL_DESTINATION ${allpairs_package_dir})

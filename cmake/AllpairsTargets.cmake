@@ -1,33 +1,58 @@
 # How every target of the project is made: the standard, the warnings, the place of its output.
 
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+# As a part of another project, ours stays out of the way: the parent decides where programs go.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+  if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release)
+  endif()
+endif()
 
-# Compiles one of our targets as C++20 with our warnings, and without fused multiply-add, which would make the result
-# depend on the instruction set.
+# The installed tree can be moved: programs and libraries find ours beside them.
+file(RELATIVE_PATH allpairs_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${allpairs_lib_from_bin}")
+
+# Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend
+# on the instruction set; and without the path of the source tree in what is built.
 function(allpairs_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_options(
-    ${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
-                      -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wcast-qual -Wdouble-promotion)
+    ${target}
+    PRIVATE -ffp-contract=off
+            -fmacro-prefix-map=${PROJECT_SOURCE_DIR}=.
+            -fdebug-prefix-map=${PROJECT_SOURCE_DIR}=.
+            -Wall
+            -Wextra
+            -Wpedantic
+            -Wshadow
+            -Wconversion
+            -Wsign-conversion
+            -Wnon-virtual-dtor
+            -Wold-style-cast
+            -Woverloaded-virtual
+            -Wcast-qual
+            -Wdouble-promotion)
   if(ALLPAIRS_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
 
-# Adds the library allpairs_NAME (or allpairs for the engine), known to users as allpairs::NAME.
+# Adds a library of ours from the given sources, known to users as allpairs::NAME, in an export set of its own, so that
+# find_package(Allpairs COMPONENTS NAME) asks for nothing that the others need.
 function(allpairs_add_library target export_name)
   add_library(${target} ${ARGN})
   add_library(allpairs::${export_name} ALIAS ${target})
   allpairs_configure(${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  set_target_properties(
+    ${target} PROPERTIES EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION}
+                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
                                               "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-  install(
-    TARGETS ${target}
-    EXPORT AllpairsTargets
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  if(ALLPAIRS_INSTALL)
+    install(TARGETS ${target} EXPORT Allpairs_${export_name})
+    set_property(GLOBAL APPEND PROPERTY ALLPAIRS_COMPONENTS ${export_name})
+  endif()
 endfunction()
 
 # Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest.
@@ -38,4 +63,20 @@ function(allpairs_add_test target)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120)
+endfunction()
+
+# Adds a program of one page, NAME.cpp, that is run as a test: it must succeed and print exactly what is in the file
+# EXPECTED (NAME.expected beside it).
+function(allpairs_add_example name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "EXPECTED" "LIBRARIES")
+  add_executable(example_${name} ${name}.cpp)
+  allpairs_configure(example_${name})
+  target_link_libraries(example_${name} PRIVATE ${ARG_LIBRARIES})
+  if(NOT ARG_EXPECTED)
+    set(ARG_EXPECTED "${CMAKE_CURRENT_SOURCE_DIR}/${name}.expected")
+  endif()
+  if(ALLPAIRS_BUILD_TESTS)
+    add_test(NAME examples.${name} COMMAND "${PROJECT_SOURCE_DIR}/scripts/expect-output" "${ARG_EXPECTED}"
+                                           $<TARGET_FILE:example_${name}>)
+  endif()
 endfunction()

@@ -52,7 +52,7 @@ template <class T>
 void checkNoNan(std::size_t size, const BoxSet::Corners<T>& corners, const BoxSet& set) {
   const auto count = static_cast<std::ptrdiff_t>(size);
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    if (hasNanAt(corners.min, i) | hasNanAt(corners.max, i)) {
+    if (hasNanAt(corners.min, i) || hasNanAt(corners.max, i)) {
       throwNan(static_cast<std::size_t>(i), set[static_cast<std::size_t>(i)]);
     }
   }

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/parallel/TbbExecutor.h"
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <optional>
+
+#include "TaskFence.h"
 
 namespace allpairs::parallel {
 
 struct TbbExecutor::Arena {
-  explicit Arena(int threads) : tasks(threads) {}
+  explicit Arena(int threads) : tasks(threads) {
+    // oneTBB starts no more workers than the machine has cores, and warns on standard error, unless it is told to.
+    if (threads > tbb::info::default_concurrency()) {
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    }
+  }
 
+  std::optional<tbb::global_control> limit;
   tbb::task_arena tasks;
 };
 
@@ -22,10 +34,12 @@ std::size_t TbbExecutor::concurrency() const noexcept {
 }
 
 void TbbExecutor::run(std::size_t count, FunctionRef<void(std::size_t)> task) {
-  m_arena->tasks.execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t i) { task(i); }, tbb::simple_partitioner());
-  });
+  TaskFence fence;
+  const auto runOne = [&](std::size_t i) {
+    const TaskFence::Task mark(fence);
+    task(i);
+  };
+  m_arena->tasks.execute([&] { tbb::parallel_for(std::size_t{0}, count, runOne, tbb::simple_partitioner()); });
 }
 
 }  // namespace allpairs::parallel

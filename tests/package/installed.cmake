@@ -1,0 +1,50 @@
+# Installs the build to a prefix, moves it, and uses it there: all of it, and the engine alone on a system that has
+# nothing that the other parts need.
+
+include(${CMAKE_CURRENT_LIST_DIR}/Steps.cmake)
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${ALLPAIRS_BUILD} --prefix ${WORK}/first)
+file(RENAME ${WORK}/first ${WORK}/moved)
+
+# No installed file knows where it was built; but sanitizers write the names of sources into what they report from.
+file(GLOB_RECURSE installed ${WORK}/moved/*)
+if(NOT installed)
+  message(FATAL_ERROR "nothing was installed")
+endif()
+set(secrets ${WORK}/first/)
+if(NOT FLAGS MATCHES "-fsanitize")
+  list(APPEND secrets ${ALLPAIRS_SOURCE}/)
+endif()
+foreach(path IN LISTS secrets)
+  foreach(file IN LISTS installed)
+    execute_process(COMMAND grep --quiet --fixed-strings --text ${path} ${file} RESULT_VARIABLE result)
+    if(NOT result EQUAL 1)
+      message(FATAL_ERROR "${file} names ${path}")
+    endif()
+  endforeach()
+endforeach()
+
+set(found -D CMAKE_PREFIX_PATH=${WORK}/moved)
+configure_consumer(${WORK}/all ${found} -D PARTS=${COMPONENTS})
+build_and_run(${WORK}/all)
+
+set(bare)
+foreach(package IN ITEMS TBB assimp pugixml tinyobjloader fmt nlohmann_json CLI11)
+  list(APPEND bare -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+configure_consumer(${WORK}/engine ${found} ${bare} -D PARTS=engine)
+build_and_run(${WORK}/engine)
+configure_consumer(${WORK}/default ${found} ${bare} -D PARTS=none)
+
+# A part that is not there is an error that names it.
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/unknown -G ${GENERATOR} -D PARTS=submarine
+                        -D CMAKE_CXX_COMPILER=${COMPILER} ${found} RESULT_VARIABLE result ERROR_VARIABLE output
+                        OUTPUT_QUIET)
+if(result EQUAL 0 OR NOT output MATCHES "the component submarine was not built")
+  message(FATAL_ERROR "asking for an unknown component: ${result}\n${output}")
+endif()
+
+# The program runs from where it was moved to.
+if(APP)
+  run(${WORK}/moved/bin/allpairs --help)
+endif()
