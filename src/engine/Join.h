@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "Lanes.h"
 #include "Memory.h"
@@ -35,8 +37,19 @@ struct Hierarchy {
 /// Working memory of a join, one per task that runs: at each level the candidates of the node in hand.
 struct JoinScratch {
   struct PerLevel {
-    LaneListBuffer candidates;
+    std::vector<std::unique_ptr<LaneTile>> tiles;
+    std::vector<std::size_t> sizes;  ///< How many candidates are in each tile.
+    std::size_t tileCount = 0;
     Buffer<std::uint32_t> partners;
+
+    LaneTile& nextTile() {
+      if (tileCount == tiles.size()) {
+        // Not make_unique, which would write all of it first.
+        tiles.emplace_back(new LaneTile);
+        sizes.push_back(0);
+      }
+      return *tiles[tileCount++];
+    }
   };
   std::array<PerLevel, kMaxLevels> level;
 };

@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Leaf candidates that are tested together: small enough to stay in the first-level cache.
-constexpr std::size_t kLeafCandidates = 1024;
+/// A tile of candidates is full when another block might not fit.
+constexpr std::size_t kFullTile = LaneTile::kCapacity - kFanOut;
 
 /// How many blocks ahead the members of a partner are asked for.
 constexpr std::size_t kPrefetchDistance = 4;
@@ -34,40 +34,42 @@ HWY_INLINE hn::Vec<IdTag> memberIds(const std::uint32_t* ids, std::size_t first)
   return ids != nullptr ? hn::LoadU(d, ids + first) : hn::Iota(d, static_cast<std::uint32_t>(first));
 }
 
-/// Appends the members of a block that the mask selects, as lanes and ids; writes whole vectors.
-HWY_INLINE void appendSelected(const LaneBlock& block, std::size_t lane, hn::Vec<IdTag> ids, FloatMask mask,
-                               LaneList& list) {
-  const FloatTag d;
-  const IdTag di;
-  for (std::size_t row = 0; row < 6; ++row) {
-    hn::StoreU(hn::Compress(hn::Load(d, &block.bound[row][lane]), mask), d, list.bound[row] + list.size);
-  }
-  hn::StoreU(hn::Compress(ids, hn::RebindMask(di, mask)), di, list.id + list.size);
-  list.size += hn::CountTrue(d, mask);
-}
+/// A tile that is being filled.
+struct TileFiller {
+  LaneTile& tile;
+  std::size_t size = 0;
 
-/// Appends the members of block b of a level that touch the query.
-HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b, const std::uint32_t* ids,
-                               LaneList& list) {
-  const std::size_t lanes = hn::Lanes(FloatTag());
-  const LaneBlock& block = level.blocks[b];
-  for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
-    const FloatMask mask = overlapping(q, block.bound, lane);
-    appendSelected(block, lane, memberIds(ids, b * kFanOut + lane), mask, list);
+  /// Appends the members of a block that the mask selects, as lanes and ids; writes whole vectors.
+  HWY_INLINE void append(const LaneBlock& block, std::size_t lane, hn::Vec<IdTag> ids, FloatMask mask) {
+    const FloatTag d;
+    const IdTag di;
+    for (std::size_t row = 0; row < 6; ++row) {
+      hn::StoreU(hn::Compress(hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
+    }
+    hn::StoreU(hn::Compress(ids, hn::RebindMask(di, mask)), di, &tile.id[size]);
+    size += hn::CountTrue(d, mask);
   }
-}
 
-/// Appends all members of block b, so that member i of a node that meets itself is candidate i of its own list.
-HWY_INLINE void appendAll(const Level& level, std::size_t b, const std::uint32_t* ids, LaneList& list) {
-  const FloatTag d;
-  const std::size_t lanes = hn::Lanes(d);
-  const LaneBlock& block = level.blocks[b];
-  const std::size_t fill = level.fill(b);
-  for (std::size_t lane = 0; lane < fill; lane += lanes) {
-    const FloatMask mask = hn::FirstN(d, std::min(fill - lane, lanes));
-    appendSelected(block, lane, memberIds(ids, b * kFanOut + lane), mask, list);
+  /// Appends the members of block b of a level that touch the query.
+  HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b, const std::uint32_t* ids) {
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    const LaneBlock& block = level.blocks[b];
+    for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
+      append(block, lane, memberIds(ids, b * kFanOut + lane), overlapping(q, block.bound, lane));
+    }
   }
-}
+
+  /// Appends all members of block b, so that member i of a node that meets itself is candidate i of its own list.
+  HWY_INLINE void appendAll(const Level& level, std::size_t b, const std::uint32_t* ids) {
+    const FloatTag d;
+    const std::size_t lanes = hn::Lanes(d);
+    const std::size_t fill = level.fill(b);
+    for (std::size_t lane = 0; lane < fill; lane += lanes) {
+      const FloatMask mask = hn::FirstN(d, std::min(fill - lane, lanes));
+      append(level.blocks[b], lane, memberIds(ids, b * kFanOut + lane), mask);
+    }
+  }
+};
 
 /// One run of a task: the state that its functions share.
 class JoinRun {
@@ -90,82 +92,85 @@ class JoinRun {
                        : joinLeaf<HitWriter>(node, bounds, partners, count);
       return;
     }
-    const LaneList candidates = gather(level, node, bounds, partners, count);
+    gather(level, bounds, partners, count);
     const std::size_t span = std::size_t{1} << (4 * (level - 1));
     const Level& children = m_task.first->level[level];
     const std::size_t begin = std::max(node * kFanOut, m_task.leafBegin / span);
     const std::size_t end = std::min(node * kFanOut + children.fill(node), (m_task.leafEnd + span - 1) / span);
-    for (std::size_t child = begin; child < end; ++child) meetChild(level, node, child, candidates);
+    for (std::size_t child = begin; child < end; ++child) meetChild(level, node, child);
   }
 
-  /// The children, on `level`, of the partners of a node, as far as they touch the node.
-  LaneList gather(std::size_t level, std::size_t node, const LaneBox& bounds, const std::uint32_t* partners,
-                  std::size_t count) {
+  /// The children, on `level`, of the partners of a node, as far as they touch the node, in tiles.
+  void gather(std::size_t level, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
     const Level& source = m_task.second->level[level];
-    LaneList list = m_task.scratch->level[level].candidates.require(count * kFanOut);
+    JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
     const Query q = spread(bounds);
-    std::size_t i = 0;
-    if (m_task.withItself) appendAll(source, partners[i++], nullptr, list);
-    for (; i < count; ++i) appendTouching(q, source, partners[i], nullptr, list);
-    list.pad();
+    scratch.tileCount = 0;
+    for (std::size_t i = 0; i < count;) {
+      TileFiller filler{scratch.nextTile()};
+      if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++], nullptr);
+      for (; i < count && filler.size <= kFullTile; ++i) filler.appendTouching(q, source, partners[i], nullptr);
+      scratch.sizes[scratch.tileCount - 1] = filler.size;
+    }
     m_hits.groupTests += count * kFanOut;
-    static_cast<void>(node);
-    return list;
   }
 
   /// Finds the partners of one child among the candidates of its node, and goes on with it.
   // NOLINTNEXTLINE(misc-no-recursion)
-  void meetChild(std::size_t level, std::size_t node, std::size_t child, const LaneList& candidates) {
-    Buffer<std::uint32_t>& memory = m_task.scratch->level[level].partners;
-    memory.require(candidates.size + 1 + Hits::kSlack);
-    PartnerWriter partners{memory.data(), 0};
+  void meetChild(std::size_t level, std::size_t node, std::size_t child) {
+    JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
+    const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
+    const Query q = spread(bounds);
+    scratch.partners.require(scratch.tileCount * LaneTile::kCapacity + 1 + Hits::kSlack);
+    PartnerWriter partners{scratch.partners.data(), 0};
     std::size_t begin = 0;
     if (m_task.withItself) {
       partners.partners[partners.size++] = static_cast<std::uint32_t>(child);
       begin = child - node * kFanOut + 1;
     }
-    const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
-    takeRow(spread(bounds), candidates, begin, candidates.size, partners);
-    m_hits.groupTests += candidates.size - std::min(begin, candidates.size);
+    for (std::size_t t = 0; t < scratch.tileCount; ++t) {
+      takeRow<Density::Dense>(q, *scratch.tiles[t], begin, scratch.sizes[t], partners);
+      m_hits.groupTests += scratch.sizes[t] - begin;
+      begin = 0;
+    }
     if (partners.size != 0) descend(level - 1, child, bounds, partners.partners, partners.size);
   }
 
-  /// The boxes of one leaf block against the boxes of its partners, some candidates at a time.
+  /// The boxes of one leaf block against the boxes of its partners, a tile of candidates at a time.
   template <class Taker>
   void joinLeaf(std::size_t node, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
     const Level& source = m_task.second->level[0];
     const std::uint32_t* ids = m_task.second->ids;
-    LaneList list = m_task.scratch->level[0].candidates.require(kLeafCandidates + kFanOut);
+    JoinScratch::PerLevel& scratch = m_task.scratch->level[0];
+    scratch.tileCount = 0;
+    LaneTile& tile = scratch.nextTile();
     const Query q = spread(bounds);
-    bool own = m_task.withItself;
-    for (std::size_t i = 0; i < count; ++i) {
-      prefetchBlock(source.blocks[partners[std::min(i + kPrefetchDistance, count - 1)]]);
-      if (own && i == 0) {
-        appendAll(source, partners[i], ids, list);
-      } else {
-        appendTouching(q, source, partners[i], ids, list);
+    for (std::size_t i = 0; i < count;) {
+      TileFiller filler{tile};
+      const bool own = m_task.withItself && i == 0;
+      if (own) filler.appendAll(source, partners[i++], ids);
+      for (; i < count && filler.size <= kFullTile; ++i) {
+        prefetchBlock(source.blocks[partners[std::min(i + kPrefetchDistance, count - 1)]]);
+        filler.appendTouching(q, source, partners[i], ids);
       }
-      if (list.size < kLeafCandidates && i + 1 < count) continue;
-      testRows<Taker>(node, list, own);
-      own = false;
-      list.size = 0;
+      testRows<Taker>(node, tile, filler.size, own);
     }
     m_hits.groupTests += count * kFanOut;
   }
 
   template <class Taker>
-  HWY_INLINE void testRows(std::size_t node, const LaneList& list, bool own) {
+  HWY_INLINE void testRows(std::size_t node, const LaneTile& candidates, std::size_t size, bool own) {
     const Level& level = m_task.first->level[0];
     const std::uint32_t* ids = m_task.first->ids + node * kFanOut;
     const std::size_t fill = level.fill(node);
-    list.pad();
     for (std::size_t row = 0; row < fill; ++row) {
-      if (!m_hits.countOnly) m_hits.require(list.size);
+      if (!m_hits.countOnly) m_hits.require(size);
       Taker taker(m_hits, ids[row]);
-      takeRow(spread(level.blocks[node].get(row)), list, own ? row + 1 : 0, list.size, taker);
+      const std::size_t begin = own ? row + 1 : 0;
+      if (begin < size) takeRow<Density::Dense>(spread(level.blocks[node].get(row)), candidates, begin, size, taker);
       taker.finish();
     }
-    m_hits.boxTests += fill * list.size;
+    m_hits.boxTests += fill * size;
   }
 
   const JoinTask& m_task;

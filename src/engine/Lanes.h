@@ -40,17 +40,18 @@ struct alignas(64) LaneBlock {
   }
 };
 
-/// Any number of boxes with their ids, an array for each bound, padded behind the end for whole vectors.
+/// Up to 1,024 boxes with their ids, an array for each bound: what stays in the first-level cache while it is tested.
 ///
-/// Vectors are loaded up to kPadding values past the end and stored up to as many; `pad()` makes those harmless.
-struct LaneList {
+/// The distance between the arrays is a constant, so that kernels reach them all from one register.
+/// There is room behind the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
+struct alignas(64) LaneTile {
+  static constexpr std::size_t kCapacity = 1024;
   static constexpr std::size_t kPadding = 64;
 
-  std::array<float*, 6> bound{};
-  std::uint32_t* id = nullptr;
-  std::size_t size = 0;
+  std::array<std::array<float, kCapacity + kPadding>, 6> bound;
+  std::array<std::uint32_t, kCapacity + kPadding> id;
 
-  void set(std::size_t i, const LaneBox& box, std::uint32_t boxId) const noexcept {
+  void set(std::size_t i, const LaneBox& box, std::uint32_t boxId) noexcept {
     for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
     id[i] = boxId;
   }
@@ -59,28 +60,21 @@ struct LaneList {
     for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][i];
     return box;
   }
-  void pad() const noexcept {
-    for (std::size_t i = size; i < size + kPadding; ++i) set(i, kNeverLanes, 0);
-  }
 };
 
-/// The memory of a LaneList.
-class LaneListBuffer {
- public:
-  /// An empty list with room for `capacity` boxes and the padding.
-  LaneList require(std::size_t capacity) {
-    const std::size_t stride = (capacity + LaneList::kPadding + 15) / 16 * 16;
-    m_bounds.require(6 * stride);
-    m_ids.require(stride);
-    LaneList list;
-    for (std::size_t row = 0; row < 6; ++row) list.bound[row] = m_bounds.data() + row * stride;
-    list.id = m_ids.data();
-    return list;
-  }
+/// Any number of boxes, in tiles of which only the last may be partly filled.
+struct LaneList {
+  LaneTile* tiles = nullptr;
+  std::size_t size = 0;
 
- private:
-  Buffer<float> m_bounds;
-  Buffer<std::uint32_t> m_ids;
+  [[nodiscard]] LaneTile& tileOf(std::size_t i) const noexcept { return tiles[i / LaneTile::kCapacity]; }
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return tileOf(i).get(i % LaneTile::kCapacity); }
+  [[nodiscard]] std::uint32_t id(std::size_t i) const noexcept { return tileOf(i).id[i % LaneTile::kCapacity]; }
+
+  /// How many tiles `size` boxes take.
+  [[nodiscard]] static std::size_t tilesFor(std::size_t size) noexcept {
+    return (size + LaneTile::kCapacity - 1) / LaneTile::kCapacity;
+  }
 };
 
 }  // namespace allpairs::engine

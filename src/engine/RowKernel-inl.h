@@ -49,19 +49,19 @@ struct PartnerWriter {
 
 /// The hits of a query in the vector at i, of which only the columns in [begin, end) count.
 template <class Taker>
-HWY_INLINE void takePart(const Query& q, const LaneList& columns, std::size_t i, std::size_t begin, std::size_t end,
+HWY_INLINE void takePart(const Query& q, const LaneTile& columns, std::size_t i, std::size_t begin, std::size_t end,
                          Taker& taker) {
   const FloatTag d;
   const std::size_t lanes = hn::Lanes(d);
   FloatMask mask = overlapping(q, columns.bound, i);
   if (begin > i) mask = hn::AndNot(hn::FirstN(d, begin - i), mask);
   if (end < i + lanes) mask = hn::And(hn::FirstN(d, end - i), mask);
-  taker.take(mask, columns.id + i);
+  taker.take(mask, &columns.id[i]);
 }
 
-/// Four whole vectors from i on. Most often none of them has a hit: one branch for the four of them.
+/// Four whole vectors from i on, with one branch for the four of them, since most often none has a hit.
 template <class Taker>
-HWY_INLINE void takeFour(const Query& q, const LaneList& columns, std::size_t i, Taker& taker) {
+HWY_INLINE void takeFour(const Query& q, const LaneTile& columns, std::size_t i, Taker& taker) {
   const FloatTag d;
   const std::size_t lanes = hn::Lanes(d);
   const FloatMask m0 = overlapping(q, columns.bound, i);
@@ -69,15 +69,18 @@ HWY_INLINE void takeFour(const Query& q, const LaneList& columns, std::size_t i,
   const FloatMask m2 = overlapping(q, columns.bound, i + 2 * lanes);
   const FloatMask m3 = overlapping(q, columns.bound, i + 3 * lanes);
   if (hn::AllFalse(d, hn::Or(hn::Or(m0, m1), hn::Or(m2, m3)))) return;
-  taker.take(m0, columns.id + i);
-  taker.take(m1, columns.id + i + lanes);
-  taker.take(m2, columns.id + i + 2 * lanes);
-  taker.take(m3, columns.id + i + 3 * lanes);
+  taker.take(m0, &columns.id[i]);
+  taker.take(m1, &columns.id[i + lanes]);
+  taker.take(m2, &columns.id[i + 2 * lanes]);
+  taker.take(m3, &columns.id[i + 3 * lanes]);
 }
 
-/// All hits of a query among the columns [begin, end), in order. The list is padded.
-template <class Taker>
-HWY_INLINE void takeRow(const Query& q, const LaneList& columns, std::size_t begin, std::size_t end, Taker& taker) {
+/// How likely a vector is to have a hit.
+enum class Density { Sparse, Dense };
+
+/// All hits of a query among the columns [begin, end) of a tile, in order.
+template <Density kDensity, class Taker>
+HWY_INLINE void takeRow(const Query& q, const LaneTile& columns, std::size_t begin, std::size_t end, Taker& taker) {
   const FloatTag d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = begin / lanes * lanes;
@@ -85,8 +88,11 @@ HWY_INLINE void takeRow(const Query& q, const LaneList& columns, std::size_t beg
     takePart(q, columns, i, begin, end, taker);
     i += lanes;
   }
-  for (; i + 4 * lanes <= end; i += 4 * lanes) takeFour(q, columns, i, taker);
-  for (; i < end; i += lanes) takePart(q, columns, i, begin, end, taker);
+  if constexpr (kDensity == Density::Sparse) {
+    for (; i + 4 * lanes <= end; i += 4 * lanes) takeFour(q, columns, i, taker);
+  }
+  for (; i + lanes <= end; i += lanes) taker.take(overlapping(q, columns.bound, i), &columns.id[i]);
+  if (i < end) takePart(q, columns, i, begin, end, taker);
 }
 
 }  // namespace

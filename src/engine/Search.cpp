@@ -18,13 +18,17 @@ constexpr std::size_t kMinLeafBlocks = 64;
 constexpr std::size_t kMaxTasks = 512;
 
 /// Reads all boxes of a set, in their own order, as lanes; those that can overlap nothing as lanes that never do.
-bool readList(const LaneReader& reader, LaneListBuffer& buffer, LaneList& list) {
-  list = buffer.require(reader.size());
-  const bool exact = reader.read(
-      0, reader.size(), [&](std::size_t i, const LaneBox& box) { list.set(i, box, static_cast<std::uint32_t>(i)); },
-      [&](std::size_t i) { list.set(i, kNeverLanes, static_cast<std::uint32_t>(i)); });
-  list.size = reader.size();
-  list.pad();
+bool readList(const LaneReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
+  buffer.require(LaneList::tilesFor(reader.size()));
+  list = {buffer.data(), reader.size()};
+  bool exact = true;
+  for (std::size_t begin = 0; begin < reader.size(); begin += LaneTile::kCapacity) {
+    LaneTile& tile = list.tileOf(begin);
+    exact &= reader.read(
+        begin, std::min(reader.size(), begin + LaneTile::kCapacity),
+        [&](std::size_t i, const LaneBox& box) { tile.set(i - begin, box, static_cast<std::uint32_t>(i)); },
+        [&](std::size_t i) { tile.set(i - begin, kNeverLanes, static_cast<std::uint32_t>(i)); });
+  }
   return exact;
 }
 

@@ -82,8 +82,8 @@ class Search {
   SerialExecutor m_serial;
   Executor* m_executor = &m_serial;
 
-  LaneListBuffer m_rows;
-  LaneListBuffer m_columns;
+  Buffer<LaneTile> m_rows;
+  Buffer<LaneTile> m_columns;
   HierarchyBuilder m_firstHierarchy;
   HierarchyBuilder m_secondHierarchy;
   std::vector<std::unique_ptr<Worker>> m_workers;
