@@ -6,92 +6,140 @@
 #include <utility>
 
 #include "CurveGrid.h"
+#include "RadixRun.h"
 
 namespace allpairs::engine {
 namespace {
 
-/// Digits of a pass: 2^11 write positions still fit the caches; small sets are better off with fewer.
-constexpr unsigned kMaxDigitBits = 11;
+/// Keys are above the index.
+constexpr unsigned kIndexBits = 32;
+constexpr unsigned kTopBits = kIndexBits + CurveGrid::kKeyBits;
+
+/// A first pass into this many buckets leaves runs that fit the second-level cache up to some hundred million boxes.
+constexpr unsigned kTopDigitBits = 11;
+
+/// Sets below this size are sorted as one run.
+constexpr std::size_t kTopSize = std::size_t{1} << 14;
 
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 14;
 
-struct Digits {
-  unsigned bits;
-  unsigned passes;
-};
+/// Gathers boxes into a block and writes their keys when it is full.
+class KeyWriter {
+ public:
+  KeyWriter(const Kernels& kernels, const CurveGrid& grid, KeyedBox* out)
+      : m_kernels(kernels), m_grid(grid), m_begin(out), m_out(out) {
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) m_block.set(lane, kEverythingLanes);
+  }
 
-/// As few passes as there can be, and then as few bits a pass as will do.
-Digits digitsFor(unsigned keyBits, std::size_t size) {
-  const unsigned most = size < 4096 ? 8 : kMaxDigitBits;
-  const unsigned passes = (keyBits + most - 1) / most;
-  return {(keyBits + passes - 1) / passes, passes};
-}
+  void take(std::size_t index, const LaneBox& box) {
+    m_block.set(m_fill, box);
+    m_index[m_fill] = static_cast<std::uint32_t>(index);
+    if (++m_fill == kFanOut) write();
+  }
+
+  /// Writes what is left; returns how many there were in all.
+  std::size_t finish() {
+    write();
+    return static_cast<std::size_t>(m_out - m_begin);
+  }
+
+ private:
+  void write() {
+    std::array<std::uint32_t, kFanOut> keys;
+    m_kernels.curveKeys(m_block, m_grid, keys.data());
+    for (std::size_t i = 0; i < m_fill; ++i) *m_out++ = (std::uint64_t{keys[i]} << kIndexBits) | m_index[i];
+    m_fill = 0;
+  }
+
+  const Kernels& m_kernels;
+  const CurveGrid& m_grid;
+  KeyedBox* m_begin;
+  KeyedBox* m_out;
+  LaneBlock m_block;
+  std::array<std::uint32_t, kFanOut> m_index{};
+  std::size_t m_fill = 0;
+};
 
 }  // namespace
 
-void CurveOrder::cut(std::size_t size, std::size_t pieces) {
-  const std::size_t count = std::clamp<std::size_t>(std::min(pieces, size / kMinChunk), 1, 256);
-  if (m_chunks.size() != count) m_chunks.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    m_chunks[i].begin = size * i / count;
-    m_chunks[i].end = size * (i + 1) / count;
+std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
+  const std::size_t most = executor.concurrency() == 1 ? 1 : 4 * executor.concurrency();
+  m_chunkCount = std::clamp<std::size_t>(std::min(most, size / kMinChunk), 1, 256);
+  if (m_chunks.size() < m_chunkCount) m_chunks.resize(m_chunkCount);
+  for (std::size_t i = 0; i < m_chunkCount; ++i) {
+    m_chunks[i].begin = size * i / m_chunkCount;
+    m_chunks[i].end = size * (i + 1) / m_chunkCount;
   }
+  return m_chunkCount;
 }
 
-OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spare, Executor& executor) {
-  const std::size_t size = reader.size();
-  const CurveGrid grid(reader);
-  const Digits digits = digitsFor(grid.bits(), size);
-  m_boxes.require(size);
-  KeyedBox* from = m_boxes.data();
-  KeyedBox* to = spare.data();
-  if (digits.passes % 2 != 0) std::swap(from, to);
-
-  const std::size_t pieces = executor.concurrency() == 1 ? 1 : 4 * executor.concurrency();
-  cut(size, pieces);
-  executor.run(m_chunks.size(), [&](std::size_t c) {
+OrderedBoxes CurveOrder::readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed,
+                                  Executor& executor) {
+  const CurveGrid grid = CurveGrid::fit(reader);
+  executor.run(cut(reader.size(), executor), [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];
-    KeyedBox* out = from + chunk.begin;
+    KeyWriter writer(kernels, grid, keyed + chunk.begin);
     chunk.exact = reader.read(
-        chunk.begin, chunk.end,
-        [&](std::size_t i, const LaneBox& box) {
-          *out++ = {grid.key(box), static_cast<std::uint32_t>(i)};
-        },
-        [](std::size_t) {});
-    chunk.used = static_cast<std::size_t>(out - (from + chunk.begin));
+        chunk.begin, chunk.end, [&](std::size_t i, const LaneBox& box) { writer.take(i, box); }, [](std::size_t) {});
+    chunk.used = writer.finish();
   });
   OrderedBoxes result;
   std::size_t used = 0;
-  for (const Chunk& chunk : m_chunks) {
+  for (std::size_t c = 0; c < m_chunkCount; ++c) {
+    const Chunk& chunk = m_chunks[c];
     result.exact &= chunk.exact;
-    if (used != chunk.begin) std::copy_n(from + chunk.begin, chunk.used, from + used);
+    if (used != chunk.begin) std::copy_n(keyed + chunk.begin, chunk.used, keyed + used);
     used += chunk.used;
   }
+  result.boxes = {keyed, used};
+  return result;
+}
 
-  cut(used, pieces);
-  for (unsigned pass = 0; pass < digits.passes; ++pass) {
-    const unsigned shift = pass * digits.bits;
-    const std::uint32_t mask = (1U << digits.bits) - 1;
-    executor.run(m_chunks.size(), [&](std::size_t c) {
-      Chunk& chunk = m_chunks[c];
-      chunk.offsets.assign(std::size_t{mask} + 1, 0);
-      for (std::size_t i = chunk.begin; i < chunk.end; ++i) ++chunk.offsets[(from[i].key >> shift) & mask];
-    });
-    std::uint32_t place = 0;
-    for (std::uint32_t digit = 0; digit <= mask; ++digit) {
-      for (Chunk& chunk : m_chunks) place += std::exchange(chunk.offsets[digit], place);
+/// The first pass over a large set, in parallel, and then its buckets.
+void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, Executor& executor) {
+  constexpr unsigned kShift = kTopBits - kTopDigitBits;
+  constexpr std::size_t kBuckets = std::size_t{1} << kTopDigitBits;
+  executor.run(cut(size, executor), [&](std::size_t c) {
+    Chunk& chunk = m_chunks[c];
+    chunk.places.assign(kBuckets, 0);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) ++chunk.places[from[i] >> kShift];
+  });
+  std::uint32_t place = 0;
+  m_bucketEnds.assign(kBuckets + 1, 0);
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    for (std::size_t c = 0; c < m_chunkCount; ++c) {
+      place += std::exchange(m_chunks[c].places[bucket], place);
     }
-    executor.run(m_chunks.size(), [&](std::size_t c) {
-      Chunk& chunk = m_chunks[c];
-      for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-        const KeyedBox box = from[i];
-        to[chunk.offsets[(box.key >> shift) & mask]++] = box;
-      }
-    });
-    std::swap(from, to);
+    m_bucketEnds[bucket + 1] = place;
   }
-  result.boxes = {from, used};
+  executor.run(m_chunkCount, [&](std::size_t c) {
+    Chunk& chunk = m_chunks[c];
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) to[chunk.places[from[i] >> kShift]++] = from[i];
+  });
+  const std::size_t tasks = executor.concurrency() == 1 ? 1 : kBuckets / 8;
+  executor.run(tasks, [&](std::size_t task) {
+    for (std::size_t b = kBuckets * task / tasks; b < kBuckets * (task + 1) / tasks; ++b) {
+      const std::size_t begin = m_bucketEnds[b];
+      const std::size_t length = m_bucketEnds[b + 1] - begin;
+      sortRun(to + begin, from + begin, length, kShift, kIndexBits);
+    }
+  });
+}
+
+OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spare, const Kernels& kernels,
+                              Executor& executor) {
+  m_boxes.require(reader.size());
+  KeyedBox* boxes = m_boxes.data();
+  const bool large = reader.size() >= kTopSize;
+  // The result must end in our own memory: two moves of a large set bring it home, one of a small set does.
+  OrderedBoxes result = readKeys(reader, kernels, large ? boxes : spare.data(), executor);
+  if (large) {
+    sortTop(boxes, spare.data(), result.boxes.size(), executor);
+  } else {
+    sortRun(spare.data(), boxes, result.boxes.size(), kTopBits, kIndexBits);
+  }
+  result.boxes = {boxes, result.boxes.size()};
   return result;
 }
 

@@ -6,17 +6,17 @@
 #include <span>
 #include <vector>
 
+#include "Kernels.h"
 #include "LaneReader.h"
 #include "Memory.h"
 #include "allpairs/Executor.h"
 
 namespace allpairs::engine {
 
-/// A box by its index, with the key that places it in the order.
-struct KeyedBox {
-  std::uint32_t key;
-  std::uint32_t index;
-};
+/// A box in the order: its key in the upper half, its index in the lower, so that numbers compare as boxes do.
+using KeyedBox = std::uint64_t;
+
+[[nodiscard]] inline std::uint32_t indexOf(KeyedBox box) noexcept { return static_cast<std::uint32_t>(box); }
 
 /// Boxes in an order in which those that are near each other in space, and alike in size and shape, follow each other.
 struct OrderedBoxes {
@@ -24,27 +24,33 @@ struct OrderedBoxes {
   bool exact = true;                ///< Whether their lanes are exactly the boxes.
 };
 
-/// Sorts boxes along a space-filling curve.
+/// Sorts boxes along a space-filling curve, by key and then by index.
 ///
-/// Cost:    a constant number of passes over the boxes; 8 bytes a box, and 8 more of `spare` memory while it sorts.
+/// A radix sort from the top: each pass cuts a run into buckets of a few boxes, as far as its keys can tell them apart,
+/// so that crowded places are resolved as deeply as they need and others are not. Runs soon fit the caches.
+/// Cost:    8 bytes a box, and 8 more of `spare` memory while it sorts.
 /// Threads: parallel over the executor; the order does not depend on it.
 class CurveOrder {
  public:
   /// `spare` holds at least as many values as the reader has boxes; its contents are lost.
-  OrderedBoxes sort(const LaneReader& reader, std::span<KeyedBox> spare, Executor& executor);
+  OrderedBoxes sort(const LaneReader& reader, std::span<KeyedBox> spare, const Kernels& kernels, Executor& executor);
 
  private:
   struct Chunk {
     std::size_t begin = 0;
     std::size_t end = 0;
-    std::size_t used = 0;  ///< Where its first box goes, then how many it has.
+    std::size_t used = 0;
     bool exact = true;
-    std::vector<std::uint32_t> offsets;  ///< By digit: where its next box goes.
+    std::vector<std::uint32_t> places;  ///< By bucket: where its next box goes.
   };
 
-  void cut(std::size_t size, std::size_t pieces);
+  std::size_t cut(std::size_t size, Executor& executor);
+  OrderedBoxes readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed, Executor& executor);
+  void sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, Executor& executor);
 
   std::vector<Chunk> m_chunks;
+  std::size_t m_chunkCount = 0;
+  std::vector<std::uint32_t> m_bucketEnds;
   Buffer<KeyedBox> m_boxes;
 };
 

@@ -46,7 +46,7 @@ void HierarchyBuilder::build(const LaneReader& reader, const Kernels& kernels, E
   m_blocks.require(std::max(blocksFor(reader.size()), ceilDivide(reader.size() * sizeof(KeyedBox), sizeof(LaneBlock))));
   // The blocks are not written before the order is known: until then they are the second buffer of the sort.
   auto* spare = reinterpret_cast<KeyedBox*>(m_blocks.data());
-  const OrderedBoxes order = m_order.sort(reader, {spare, reader.size()}, executor);
+  const OrderedBoxes order = m_order.sort(reader, {spare, reader.size()}, kernels, executor);
   m_exact = order.exact;
   m_hierarchy = {};
   if (order.boxes.empty()) return;
@@ -63,10 +63,10 @@ void HierarchyBuilder::gather(const LaneReader& reader, std::span<const KeyedBox
     reader.withLanes([&](const auto& lanesOf) {
       LaneBox lanes;
       for (std::size_t i = task * kBlocksPerTask * kFanOut; i < end; ++i) {
-        reader.prefetch(order[std::min(i + kPrefetchDistance, size - 1)].index);
-        static_cast<void>(lanesOf(order[i].index, lanes));
+        reader.prefetch(indexOf(order[std::min(i + kPrefetchDistance, size - 1)]));
+        static_cast<void>(lanesOf(indexOf(order[i]), lanes));
         m_blocks[i / kFanOut].set(i % kFanOut, lanes);
-        m_ids[i] = order[i].index;
+        m_ids[i] = indexOf(order[i]);
       }
     });
   });

@@ -9,6 +9,7 @@
 #endif
 
 #include "BlockKernels-inl.h"
+#include "CurveKernel-inl.h"
 #include "FlatKernel-inl.h"
 #include "JoinKernel-inl.h"
 #include "Kernels.h"
@@ -18,7 +19,7 @@ namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
 const Kernels* kernelTable() {
-  static const Kernels table{hwy::TargetName(HWY_TARGET), &searchFlat, &join, &boundBlocks, &writePairs};
+  static const Kernels table{hwy::TargetName(HWY_TARGET), &searchFlat, &join, &boundBlocks, &writePairs, &curveKeys};
   return &table;
 }
 

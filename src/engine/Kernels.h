@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "CurveGrid.h"
 #include "FlatSearch.h"
 #include "Hits.h"
 #include "Join.h"
@@ -29,6 +30,9 @@ struct Kernels {
 
   /// Turns hits into pairs.
   void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
+
+  /// The keys of the sixteen boxes of a block.
+  void (*curveKeys)(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys);
 };
 
 /// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.

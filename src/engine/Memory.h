@@ -39,14 +39,20 @@ class Buffer {
     m_capacity = size;
   }
 
-  /// Makes room for `size` values and keeps the first `used`; grows by half at least, so that appending is linear.
-  void grow(std::size_t size, std::size_t used) {
+  /// Makes room for `size` values and keeps what is there; at least doubles, so that appending is linear.
+  ///
+  /// Large blocks are moved by their pages where the system can; they may lose their alignment.
+  void grow(std::size_t size) {
     if (size <= m_capacity) return;
-    const std::size_t capacity = std::max(size, m_capacity + m_capacity / 2);
-    std::unique_ptr<T, FreeDeleter> larger(allocate(capacity));
-    std::copy_n(m_data.get(), used, larger.get());
-    m_data = std::move(larger);
+    const std::size_t capacity = std::max(size, 2 * m_capacity);
+    if (capacity > kMaxSize) throw std::bad_alloc();
+    void* larger = std::realloc(m_data.get(), capacity * sizeof(T));
+    if (larger == nullptr) throw std::bad_alloc();
+    static_cast<void>(m_data.release());
+    m_data.reset(static_cast<T*>(larger));
     m_capacity = capacity;
+    ++bufferAllocations();
+    if (capacity * sizeof(T) >= 2 * kLargePage) adviseLargePages(larger, capacity * sizeof(T));
   }
 
   [[nodiscard]] T* data() const noexcept { return m_data.get(); }
@@ -56,14 +62,13 @@ class Buffer {
  private:
   static constexpr std::size_t kAlignment = 64;
   static constexpr std::size_t kLargePage = std::size_t{2} << 20;
+  static constexpr std::size_t kMaxSize = static_cast<std::size_t>(-1) / sizeof(T) / 4;
 
   static T* allocate(std::size_t size) {
     const std::size_t bytes = size * sizeof(T);
     const std::size_t alignment = bytes >= 2 * kLargePage ? kLargePage : kAlignment;
     const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    void* memory = size > static_cast<std::size_t>(-1) / sizeof(T) / 2
-                       ? nullptr
-                       : std::aligned_alloc(alignment, std::max(rounded, kAlignment));
+    void* memory = size > kMaxSize ? nullptr : std::aligned_alloc(alignment, std::max(rounded, kAlignment));
     if (memory == nullptr) throw std::bad_alloc();
     ++bufferAllocations();
     if (alignment == kLargePage) adviseLargePages(memory, rounded);

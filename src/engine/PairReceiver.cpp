@@ -38,7 +38,7 @@ void PairReceiver::start(const PairRules& rules) {
 void PairReceiver::receive(Hits& hits) {
   if (hits.size == 0) return;
   const std::size_t begin = m_size;
-  m_pairs.grow(begin + hits.size + Hits::kSlack, begin);
+  m_pairs.grow(begin + hits.size + Hits::kSlack);
   m_rules->kernels->writePairs(hits, m_rules->side, m_pairs.data() + begin);
   m_size += hits.size;
   hits.size = 0;

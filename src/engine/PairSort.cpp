@@ -2,6 +2,7 @@
 #include "PairSort.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <utility>
@@ -9,61 +10,70 @@
 namespace allpairs::engine {
 namespace {
 
-/// Pairs that a bucket should hold, so that its second pass stays in the second-level cache.
+/// Pairs that a bucket should hold, so that sorting it stays in the second-level cache.
 constexpr std::size_t kPairsPerBucket = 16384;
-constexpr std::size_t kMaxBuckets = 1024;
+constexpr std::size_t kMaxBuckets = 2048;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
-/// Rows up to this length are sorted by insertion.
-constexpr std::ptrdiff_t kShortRow = 24;
+/// Digits of a pass, and how many of them two indices of 32 bits can have.
+constexpr unsigned kMaxDigitBits = 11;
+constexpr unsigned kMaxPasses = 6;
 
 template <bool kBySecond>
 std::uint32_t keyOf(Pair pair) {
   return kBySecond ? pair.second : pair.first;
 }
 
+/// Which bits of a pair a bucket is sorted by: the low ones of its key above those of its other index.
 template <bool kBySecond>
-std::uint32_t otherOf(Pair pair) {
-  return kBySecond ? pair.first : pair.second;
+struct BucketOrder {
+  unsigned keyBits = 0;
+  unsigned otherBits = 0;
+
+  [[nodiscard]] std::uint64_t valueOf(Pair pair) const {
+    const std::uint64_t key = keyOf<kBySecond>(pair) & ((std::uint64_t{1} << keyBits) - 1);
+    return key << otherBits | keyOf<!kBySecond>(pair);
+  }
+};
+
+template <class Places, bool kBySecond>
+void countDigits(const Pair* pairs, std::size_t size, const BucketOrder<kBySecond>& order, unsigned passes,
+                 unsigned bits, Places& places) {
+  const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+  for (unsigned pass = 0; pass < passes; ++pass) std::fill_n(places[pass].begin(), mask + 1, 0U);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint64_t value = order.valueOf(pairs[i]);
+    for (unsigned pass = 0; pass < passes; ++pass) ++places[pass][(value >> (pass * bits)) & mask];
+  }
+  for (unsigned pass = 0; pass < passes; ++pass) {
+    std::uint32_t place = 0;
+    for (std::uint64_t digit = 0; digit <= mask; ++digit) place += std::exchange(places[pass][digit], place);
+  }
 }
 
+/// Sorts the pairs of one bucket from `from` into `to`, from the lowest digit up; `from` is lost.
 template <bool kBySecond>
-void sortRow(Pair* begin, Pair* end) {
-  const auto before = [](Pair a, Pair b) { return otherOf<kBySecond>(a) < otherOf<kBySecond>(b); };
-  if (end - begin > kShortRow) {
-    std::sort(begin, end, before);
-    return;
-  }
-  for (Pair* i = begin + 1; i < end; ++i) {
-    const Pair pair = *i;
-    Pair* hole = i;
-    for (; hole != begin && before(pair, hole[-1]); --hole) *hole = hole[-1];
-    *hole = pair;
-  }
-}
-
-/// Sorts the pairs of one bucket, whose keys are in [firstKey, firstKey + counts.size() - 1), by key and then by row.
-template <bool kBySecond>
-void sortBucket(const Pair* from, Pair* to, std::size_t size, std::uint32_t firstKey,
-                std::vector<std::uint32_t>& counts) {
+void sortBucket(Pair* from, Pair* to, std::size_t size, const BucketOrder<kBySecond>& order) {
   if (size > std::numeric_limits<std::uint32_t>::max()) {
     std::copy_n(from, size, to);
-    std::sort(to, to + size, [](Pair a, Pair b) {
-      return std::pair(keyOf<kBySecond>(a), otherOf<kBySecond>(a)) <
-             std::pair(keyOf<kBySecond>(b), otherOf<kBySecond>(b));
-    });
+    std::sort(to, to + size, [&](Pair a, Pair b) { return order.valueOf(a) < order.valueOf(b); });
     return;
   }
-  std::fill(counts.begin(), counts.end(), 0U);
-  for (std::size_t i = 0; i < size; ++i) ++counts[keyOf<kBySecond>(from[i]) - firstKey + 1];
-  for (std::size_t k = 1; k < counts.size(); ++k) counts[k] += counts[k - 1];
-  for (std::size_t i = 0; i < size; ++i) to[counts[keyOf<kBySecond>(from[i]) - firstKey]++] = from[i];
-  // Each counter has moved on to where the next row begins.
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : counts) {
-    if (end - begin > 1) sortRow<kBySecond>(to + begin, to + end);
-    begin = std::max(begin, end);
+  const unsigned total = order.keyBits + order.otherBits;
+  const unsigned passes = std::max(1U, (total + kMaxDigitBits - 1) / kMaxDigitBits);
+  const unsigned bits = (total + passes - 1) / passes;
+  const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+  std::array<std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>, kMaxPasses> places;
+  countDigits(from, size, order, passes, bits, places);
+  Pair* target = to;
+  for (unsigned pass = 0; pass < passes; ++pass) {
+    const unsigned shift = pass * bits;
+    for (std::size_t i = 0; i < size; ++i) {
+      target[places[pass][(order.valueOf(from[i]) >> shift) & mask]++] = from[i];
+    }
+    std::swap(from, target);
   }
+  if (from != to) std::copy_n(from, size, to);
 }
 
 }  // namespace
@@ -76,7 +86,7 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   executor.run(chunks, [&](std::size_t c) {
     m_places[c].assign(m_buckets, 0);
     for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
-      ++m_places[c][keyOf<kBySecond>(from[i]) >> m_shift];
+      ++m_places[c][keyOf<kBySecond>(from[i]) >> m_keyBits];
     }
   });
   std::size_t place = 0;
@@ -87,44 +97,41 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   }
   m_bucketBegin[m_buckets] = place;
   executor.run(chunks, [&](std::size_t c) {
+    std::size_t* places = m_places[c].data();
     for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
-      to[m_places[c][keyOf<kBySecond>(from[i]) >> m_shift]++] = from[i];
+      to[places[keyOf<kBySecond>(from[i]) >> m_keyBits]++] = from[i];
     }
   });
 }
 
 template <bool kBySecond>
-void PairSort::sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, Executor& executor) {
+void PairSort::sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, std::size_t others, Executor& executor) {
   m_other.require(pairs.capacity());
   const std::size_t wanted = std::clamp<std::size_t>(size / kPairsPerBucket, 1, kMaxBuckets);
-  const std::size_t perBucket = std::bit_ceil((keys + wanted - 1) / wanted);
-  m_shift = static_cast<unsigned>(std::countr_zero(perBucket));
-  m_buckets = (keys + perBucket - 1) / perBucket;
+  m_keyBits = static_cast<unsigned>(std::bit_width((keys - 1) / wanted));
+  m_buckets = ((keys - 1) >> m_keyBits) + 1;
+  Pair* from = pairs.data();
+  Pair* to = m_other.data();
   if (m_buckets == 1) {
     m_bucketBegin.assign({0, size});
   } else {
-    scatter<kBySecond>(pairs.data(), m_other.data(), size, executor);
+    scatter<kBySecond>(from, to, size, executor);
+    std::swap(from, to);
   }
-  // With a single bucket nothing was scattered: the pairs themselves are the source, and the other buffer the result.
-  const Pair* from = m_buckets == 1 ? pairs.data() : m_other.data();
-  Pair* to = m_buckets == 1 ? m_other.data() : pairs.data();
-  const std::size_t tasks = std::min(m_buckets, 4 * executor.concurrency());
-  if (m_counts.size() < tasks) m_counts.resize(tasks);
-  executor.run(tasks, [&](std::size_t task) {
-    m_counts[task].resize(perBucket + 1);
-    for (std::size_t b = m_buckets * task / tasks; b < m_buckets * (task + 1) / tasks; ++b) {
-      const std::size_t begin = m_bucketBegin[b];
-      sortBucket<kBySecond>(from + begin, to + begin, m_bucketBegin[b + 1] - begin,
-                            static_cast<std::uint32_t>(b * perBucket), m_counts[task]);
-    }
+  const BucketOrder<kBySecond> order{m_keyBits, static_cast<unsigned>(std::bit_width(others - 1))};
+  executor.run(m_buckets, [&](std::size_t b) {
+    const std::size_t begin = m_bucketBegin[b];
+    sortBucket(from + begin, to + begin, m_bucketBegin[b + 1] - begin, order);
   });
-  if (m_buckets == 1) std::swap(pairs, m_other);
+  // A single bucket was sorted from the pairs into the other buffer.
+  if (to == m_other.data()) std::swap(pairs, m_other);
 }
 
-void PairSort::sort(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, Order order, Executor& executor) {
+void PairSort::sort(Buffer<Pair>& pairs, std::size_t size, std::size_t firsts, std::size_t seconds, Order order,
+                    Executor& executor) {
   if (size < 2) return;
-  if (order == Order::ByFirst) sortBy<false>(pairs, size, keys, executor);
-  if (order == Order::BySecond) sortBy<true>(pairs, size, keys, executor);
+  if (order == Order::ByFirst) sortBy<false>(pairs, size, firsts, seconds, executor);
+  if (order == Order::BySecond) sortBy<true>(pairs, size, seconds, firsts, executor);
 }
 
 }  // namespace allpairs::engine

@@ -14,24 +14,26 @@ namespace allpairs::engine {
 
 /// Orders pairs by (first, second) or (second, first).
 ///
-/// Cost:    two passes over the pairs, and a sort of each row; as much memory again as the pairs take, kept.
+/// A pass cuts the pairs into buckets of neighbouring keys that fit the second-level cache; each of those is then radix
+/// sorted from the lowest digit. No step depends on how the pairs are spread, and none has a branch to mispredict.
+/// Cost:    one pass over all pairs and about three within the cache; as much memory again as the pairs, kept.
 /// Threads: parallel over the executor; the result is the same for any.
 class PairSort {
  public:
-  /// Sorts the first `size` pairs; `keys` is greater than every index that the pairs are ordered by first.
-  void sort(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, Order order, Executor& executor);
+  /// Sorts the first `size` pairs. All first indices are below `firsts`, all second ones below `seconds`.
+  void sort(Buffer<Pair>& pairs, std::size_t size, std::size_t firsts, std::size_t seconds, Order order,
+            Executor& executor);
 
  private:
   template <bool kBySecond>
-  void sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, Executor& executor);
+  void sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, std::size_t others, Executor& executor);
   template <bool kBySecond>
   void scatter(const Pair* from, Pair* to, std::size_t size, Executor& executor);
 
   Buffer<Pair> m_other;
-  std::vector<std::vector<std::size_t>> m_places;  ///< By chunk and bucket.
+  std::vector<std::vector<std::size_t>> m_places;  ///< By chunk and bucket: where its next pair goes.
   std::vector<std::size_t> m_bucketBegin;
-  std::vector<std::vector<std::uint32_t>> m_counts;  ///< By bucket task: counters of the keys of a bucket.
-  unsigned m_shift = 0;
+  unsigned m_keyBits = 0;  ///< Keys that share a bucket differ in these low bits only.
   std::size_t m_buckets = 1;
 };
 

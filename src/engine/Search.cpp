@@ -188,8 +188,7 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
   runAll(search);
   join(search);
   if (search.blocked) {
-    const std::size_t keys = options.order == Order::BySecond ? sets.second.size() : sets.first.size();
-    m_sort.sort(m_pairs, m_pairCount, keys, options.order, *m_executor);
+    m_sort.sort(m_pairs, m_pairCount, sets.first.size(), sets.second.size(), options.order, *m_executor);
   }
   return {m_pairs.data(), m_pairCount};
 }

@@ -112,7 +112,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
     return false;  // More than may be held at a time: the caller halves the range.
   }
   join(plan);
-  m_sort.sort(m_pairs, m_pairCount, bySecond ? sets.second.size() : sets.first.size(), options.order, *m_executor);
+  m_sort.sort(m_pairs, m_pairCount, sets.first.size(), sets.second.size(), options.order, *m_executor);
   return true;
 }
 

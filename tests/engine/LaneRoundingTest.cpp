@@ -67,7 +67,7 @@ TEST(PairSort, SortsSparseAndDensePairsByEitherIndex) {
         pairs.require(size + 1);
         std::copy(expected.begin(), expected.end(), pairs.data());
         SerialExecutor serial;
-        PairSort().sort(pairs, size, keys, order, serial);
+        PairSort().sort(pairs, size, keys, keys, order, serial);
         std::vector<Pair> sorted = expected;
         std::sort(sorted.begin(), sorted.end(), [&](Pair a, Pair b) {
           return order == Order::ByFirst ? a < b : Pair{a.second, a.first} < Pair{b.second, b.first};

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Keys along the curve, a block of boxes at a time.
+
+#if defined(ALLPAIRS_CURVE_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_CURVE_KERNEL_INL_H
+#undef ALLPAIRS_CURVE_KERNEL_INL_H
+#else
+#define ALLPAIRS_CURVE_KERNEL_INL_H
+#endif
+
+#include "CurveGrid.h"
+#include "LaneTest-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+/// The cell of the centres along an axis.
+HWY_INLINE hn::Vec<IdTag> cells(const LaneBlock& block, std::size_t lane, std::size_t axis, const CurveGrid& grid) {
+  const FloatTag d;
+  const hn::RebindToSigned<FloatTag> di;
+  constexpr auto kLastCell = static_cast<float>((1U << CurveGrid::kBitsPerAxis) - 1);
+  // Half of each bound first: their sum may be too large for a float32.
+  const auto half = hn::Set(d, 0.5F);
+  const auto centre = hn::Add(hn::Mul(half, hn::Load(d, &block.bound[axis][lane])),
+                              hn::Mul(half, hn::Load(d, &block.bound[axis + 3][lane])));
+  const auto position = hn::Mul(hn::Sub(centre, hn::Set(d, grid.origin[axis])), hn::Set(d, grid.scale));
+  // A NaN, of an infinite distance times a scale of 0, fails the comparison and goes to cell 0.
+  const auto inside = hn::IfThenElseZero(hn::Gt(position, hn::Zero(d)), position);
+  return hn::BitCast(IdTag(), hn::ConvertTo(di, hn::Min(inside, hn::Set(d, kLastCell))));
+}
+
+/// The bits of a number below 2^10, each moved to three times its place.
+HWY_INLINE hn::Vec<IdTag> spreadBits(hn::Vec<IdTag> x) {
+  const IdTag d;
+  x = hn::And(hn::Or(x, hn::ShiftLeft<16>(x)), hn::Set(d, 0x030000FFU));
+  x = hn::And(hn::Or(x, hn::ShiftLeft<8>(x)), hn::Set(d, 0x0300F00FU));
+  x = hn::And(hn::Or(x, hn::ShiftLeft<4>(x)), hn::Set(d, 0x030C30C3U));
+  return hn::And(hn::Or(x, hn::ShiftLeft<2>(x)), hn::Set(d, 0x09249249U));
+}
+
+HWY_INLINE FloatVector extents(const LaneBlock& block, std::size_t lane, std::size_t axis) {
+  const FloatTag d;
+  return hn::Sub(hn::Load(d, &block.bound[axis + 3][lane]), hn::Load(d, &block.bound[axis][lane]));
+}
+
+void curveKeys(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys) {
+  const FloatTag d;
+  const IdTag di;
+  bool anyLarge = false;
+  for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(d)) {
+    const auto x = spreadBits(cells(block, lane, 0, grid));
+    const auto y = hn::ShiftLeft<1>(spreadBits(cells(block, lane, 1, grid)));
+    const auto z = hn::ShiftLeft<2>(spreadBits(cells(block, lane, 2, grid)));
+    hn::StoreU(hn::Or(x, hn::Or(y, z)), di, keys + lane);
+    const auto longest = hn::Max(extents(block, lane, 0), hn::Max(extents(block, lane, 1), extents(block, lane, 2)));
+    anyLarge = anyLarge || !hn::AllFalse(d, hn::Gt(longest, hn::Set(d, grid.largeExtent)));
+  }
+  if (!anyLarge) return;
+  for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+    const LaneBox box = block.get(lane);
+    const float longest =
+        HWY_MAX(box.bound[3] - box.bound[0], HWY_MAX(box.bound[4] - box.bound[1], box.bound[5] - box.bound[2]));
+    if (longest > grid.largeExtent) keys[lane] |= grid.classOf(box) << (3 * CurveGrid::kBitsPerAxis);
+  }
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_CURVE_KERNEL_INL_H
