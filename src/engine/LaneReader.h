@@ -25,7 +25,7 @@ namespace allpairs::engine {
 
 /// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN.
 [[nodiscard]] inline float roundDown(double value) noexcept {
-  constexpr double kMax = kLaneMax;
+  constexpr double kMax = static_cast<double>(kLaneMax);
   if (!(value > -kMax)) return -kLaneMax;
   if (value >= kMax) return kLaneMax;
   const auto nearest = static_cast<float>(value);
