@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "allpairs/Box.h"
@@ -138,7 +139,7 @@ class CollisionModel {
  private:
   friend class BoundingBoxModel;
   friend class BoundingTreeBuilder;
-  friend class BruteForceBroadPhase;
+  friend class ModelTable;
 
   CollisionModel* m_last = this;
   CollisionModel* m_next = nullptr;

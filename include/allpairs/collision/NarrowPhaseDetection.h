@@ -34,6 +34,12 @@ class NarrowPhaseDetection {
   virtual void setIntersectionMethod(Intersection* method) { m_intersectionMethod = method; }
   [[nodiscard]] Intersection* getIntersectionMethod() const { return m_intersectionMethod; }
 
+  /// With a continuous method, elements are looked at over a step of this length. 0, the default, means where they are.
+  ///
+  /// Bad input: a number that is not finite throws InvalidArgument.
+  void setTimeStep(double dt);
+  [[nodiscard]] double getTimeStep() const { return m_dt; }
+
   virtual void beginNarrowPhase() = 0;
   virtual void addCollisionPair(const CollisionModelPair& pair) = 0;
   virtual void addCollisionPairs(std::span<const CollisionModelPair> pairs) {
@@ -46,6 +52,7 @@ class NarrowPhaseDetection {
 
  private:
   Intersection* m_intersectionMethod = nullptr;
+  double m_dt = 0.0;
 };
 
 /// Goes down to the elements: gives the pairs of elements whose boxes are within the method's distance.
@@ -67,11 +74,6 @@ class ElementNarrowPhase : public NarrowPhaseDetection {
   /// Where the search runs in parallel; null means on the calling thread. Not owned.
   void setExecutor(Executor* executor) { m_executor = executor; }
 
-  /// With a continuous method, the boxes hold the elements over a step of this length. 0 means where they are.
-  ///
-  /// Bad input: a number that is not finite throws InvalidArgument.
-  void setTimeStep(double dt);
-
  private:
   void fillBoxes(const CollisionModel& model, std::vector<Box>& boxes) const;
   void report(CollisionModel* first, CollisionModel* second, std::span<const Pair> found,
@@ -79,7 +81,6 @@ class ElementNarrowPhase : public NarrowPhaseDetection {
 
   Overlaps m_search;
   Executor* m_executor = nullptr;
-  double m_dt = 0.0;
   std::vector<Box> m_firstBoxes;
   std::vector<Box> m_secondBoxes;
   std::vector<CollisionElementPair> m_pairs;

@@ -19,6 +19,10 @@ struct NormalCone {
   /// Bad input: the null vector has no direction, and gives the cone that knows nothing.
   [[nodiscard]] static NormalCone of(const Vec3& normal);
 
+  /// The cone of a direction that turns during a step: around the one at the start, as wide as the angle between the
+  /// two.
+  [[nodiscard]] static NormalCone ofTurning(const Vec3& start, const Vec3& end);
+
   /// Widens this cone so that it holds the other as well.
   ///
   /// Geometry: with a the larger half-angle, if a <= pi/2 the axis is the normalised sum of the two and the half-angle
