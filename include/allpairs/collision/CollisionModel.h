@@ -2,27 +2,160 @@
 #pragma once
 
 #include <cstddef>
-#include <set>
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <typeindex>
+#include <utility>
+#include <vector>
 
 #include "allpairs/Box.h"
+#include "allpairs/collision/NormalCone.h"
 
 namespace allpairs::collision {
 
+class BoundingBoxModel;
+
 /// A body, or part of one, that may collide: a chain of levels from a root (one box) down to the elements.
 ///
-/// A model of the user's own derives from this and says how many elements it has and what box each of them fills.
+/// What a user makes and owns is the last level, the one with the elements; it owns the levels above it, which
+/// computeBoundingTree() makes. Name, flags, groups, distance and owner belong to the chain: they may be read and set
+/// on any level. A model of the user's own derives from this and says how many elements it has and what box each fills.
+/// Geometry:  boxes are closed; an element or a model with min > max on an axis is empty and overlaps nothing.
+/// Bad input: setters and the bounding trees throw InvalidArgument or InvalidBox, naming the model and the element.
+/// Threads:   const use from any number of threads; one at a time otherwise.
 class CollisionModel {
  public:
-  CollisionModel() = default;
+  explicit CollisionModel(std::string name = {});
   CollisionModel(const CollisionModel&) = delete;
   CollisionModel& operator=(const CollisionModel&) = delete;
   CollisionModel(CollisionModel&&) = delete;
   CollisionModel& operator=(CollisionModel&&) = delete;
-  virtual ~CollisionModel() = default;
+  virtual ~CollisionModel();
 
+  /// How many elements this level has.
   [[nodiscard]] virtual std::size_t getSize() const = 0;
   [[nodiscard]] bool empty() const { return getSize() == 0; }
+
+  /// The box of one element, contact distance included where the type of model includes it.
+  [[nodiscard]] virtual Box elementBox(std::size_t index) const = 0;
+
+  /// The box that holds an element at the start and at the end of a step of length dt; by default it doesn't move.
+  [[nodiscard]] virtual Box elementSweptBox(std::size_t index, double dt) const;
+
+  /// The cone of normals of an element; by default nothing is known.
+  [[nodiscard]] virtual NormalCone elementCone(std::size_t index) const;
+
+  /// The cone of an element's normals at the start and at the end of a step.
+  [[nodiscard]] virtual NormalCone elementSweptCone(std::size_t index, double dt) const;
+
+  /// What kind of model this is, under the name that SOFA gives it where it has one.
+  [[nodiscard]] virtual std::string_view typeName() const;
+
+  /// The key under which intersectors for this level's elements are looked up; by default its dynamic type.
+  [[nodiscard]] virtual std::type_index typeKey() const;
+
+  /// The key under which intersectors for this model's root box are looked up; by default that of BoundingBoxModel.
+  [[nodiscard]] virtual std::type_index rootTypeKey() const;
+
+  /// Whether this model, asked about another, lets the two collide. Both are asked, and both must agree.
+  ///
+  /// Of the same owner (no owner is one too): selfCollision of this one. Of different owners: true if either has no
+  /// group or they have none in common.
+  [[nodiscard]] virtual bool canCollideWith(CollisionModel* other);
+
+  /// Makes or updates the levels above the elements, from the elements as they are now.
+  ///
+  /// `maxDepth` 0 makes the root alone; each further level splits every box of the one above in two. The box and the
+  /// cone of the root don't depend on it. Cost: O(n), deep: O(n log n) per level. A second call allocates nothing. Bad
+  /// input: a NaN in an element's box throws InvalidBox.
+  virtual void computeBoundingTree(int maxDepth = 0);
+
+  /// The same for a continuous method: each box holds its elements at the start and at the end of a step of length dt.
+  virtual void computeContinuousBoundingTree(double dt, int maxDepth = 0);
+
+  /// Whether the levels above the elements are there and nothing said since that they are out of date.
+  [[nodiscard]] bool hasBoundingTree() const { return m_last->m_treeIsCurrent; }
+
+  /// Says that elements have moved or changed: the bounding tree is made again when it is next needed.
+  void boundsChanged() { m_last->m_treeIsCurrent = false; }
+
+  /// The levels: the root, the elements, and the neighbours of this one; null past either end. A model without a
+  /// bounding tree is its own first and last.
+  [[nodiscard]] CollisionModel* getFirst();
+  [[nodiscard]] const CollisionModel* getFirst() const;
+  [[nodiscard]] CollisionModel* getLast() { return m_last; }
+  [[nodiscard]] const CollisionModel* getLast() const { return m_last; }
+  [[nodiscard]] CollisionModel* getNext() { return m_next; }
+  [[nodiscard]] const CollisionModel* getNext() const { return m_next; }
+  [[nodiscard]] CollisionModel* getPrevious() { return m_previous; }
+  [[nodiscard]] const CollisionModel* getPrevious() const { return m_previous; }
+
+  /// The name that errors and results use.
+  [[nodiscard]] const std::string& getName() const { return m_last->m_name; }
+  void setName(std::string name) { m_last->m_name = std::move(name); }
+
+  /// Inactive models are left out by the pipeline; the broad phase doesn't look.
+  [[nodiscard]] bool isActive() const { return m_last->m_active; }
+  void setActive(bool active) { m_last->m_active = active; }
+
+  /// The bounding trees of models that don't move are not computed again by the pipeline.
+  [[nodiscard]] bool isMoving() const { return m_last->m_moving; }
+  void setMoving(bool moving) { m_last->m_moving = moving; }
+
+  /// Two models that are both not simulated are no pair.
+  [[nodiscard]] bool isSimulated() const { return m_last->m_simulated; }
+  void setSimulated(bool simulated) { m_last->m_simulated = simulated; }
+
+  /// Whether the model may collide with itself and with others of the same owner.
+  [[nodiscard]] bool getSelfCollision() const { return m_last->m_selfCollision; }
+  void setSelfCollision(bool selfCollision) { m_last->m_selfCollision = selfCollision; }
+
+  /// The groups, ascending, each once. Models of different owners that share one don't collide. Any number is a group.
+  [[nodiscard]] const std::vector<int>& getGroups() const;
+  void setGroups(std::vector<int> groups);
+  void addGroup(int group);
+
+  /// How far around its elements the model wants contacts to be seen.
+  ///
+  /// Bad input: NaN and infinities throw InvalidArgument. A negative distance shrinks.
+  [[nodiscard]] double getContactDistance() const { return m_last->m_contactDistance; }
+  void setContactDistance(double distance);
+
+  /// What the model belongs to: any address that tells bodies apart. Null is an owner like any other.
+  [[nodiscard]] const void* getOwner() const { return m_last->m_owner; }
+  void setOwner(const void* owner) { m_last->m_owner = owner; }
+
+  /// "model 'name'", or "model of type T" where it has no name: how errors call it.
+  [[nodiscard]] std::string describe() const;
+
+ protected:
+  /// For a computeBoundingTree() of the user's own: makes the root alone, with this box and cone.
+  ///
+  /// Bad input: a box with a NaN throws InvalidBox.
+  void setRoot(const Box& box, const NormalCone& cone = {});
+
+ private:
+  friend class BoundingBoxModel;
+  friend class BoundingTreeBuilder;
+  friend class ModelTable;
+
+  CollisionModel* m_last = this;
+  CollisionModel* m_next = nullptr;
+  CollisionModel* m_previous = nullptr;
+  const void* m_owner = nullptr;
+  double m_contactDistance = 0.0;
+  std::uint64_t m_groupBits = 0;  // a bit per group, by its number modulo 64: no bit in common means no group in common
+  std::shared_ptr<const std::vector<int>> m_groups;  // null where there are none
+  bool m_active = true;
+  bool m_moving = true;
+  bool m_simulated = true;
+  bool m_selfCollision = false;
+  bool m_treeIsCurrent = false;
+  Box m_rootBox = kEmptyBox;
+  std::vector<std::unique_ptr<BoundingBoxModel>> m_levels;
+  std::string m_name;
 };
 
 }  // namespace allpairs::collision

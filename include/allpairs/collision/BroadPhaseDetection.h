@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "allpairs/collision/CollisionModel.h"
+#include "allpairs/collision/Intersection.h"
+
+namespace allpairs::collision {
+
+/// Two models that may touch, as they were added; the same model twice if it may touch itself.
+using CollisionModelPair = std::pair<CollisionModel*, CollisionModel*>;
+
+/// A broad phase: it is given collision models and says which pairs of them are worth a closer look.
+///
+/// A step is beginBroadPhase(), any number of additions, endBroadPhase(). Models and methods stay the caller's, and
+/// must outlive the use of the result.
+class BroadPhaseDetection {
+ public:
+  BroadPhaseDetection() = default;
+  BroadPhaseDetection(const BroadPhaseDetection&) = delete;
+  BroadPhaseDetection& operator=(const BroadPhaseDetection&) = delete;
+  BroadPhaseDetection(BroadPhaseDetection&&) = delete;
+  BroadPhaseDetection& operator=(BroadPhaseDetection&&) = delete;
+  virtual ~BroadPhaseDetection() = default;
+
+  /// Reads the settings, once, before the first step.
+  virtual void init() {}
+
+  /// Reads the settings again.
+  virtual void reinit() {}
+
+  /// How models are tested. Not owned. Null, the default, throws InvalidArgument when a model is added.
+  virtual void setIntersectionMethod(Intersection* method) { m_intersectionMethod = method; }
+  [[nodiscard]] Intersection* getIntersectionMethod() const { return m_intersectionMethod; }
+
+  /// Starts a step: the list of pairs is empty afterwards.
+  virtual void beginBroadPhase() = 0;
+
+  /// Adds one model, by any of its levels.
+  virtual void addCollisionModel(core::CollisionModel* cm) = 0;
+
+  /// Adds several models, in order.
+  virtual void addCollisionModels(std::span<core::CollisionModel* const> models) {
+    for (core::CollisionModel* model : models) addCollisionModel(model);
+  }
+
+  /// Ends a step: the list of pairs is complete afterwards.
+  virtual void endBroadPhase() {}
+
+  /// The pairs among the models that were added so far in this step. Valid until the next addition or step.
+  [[nodiscard]] virtual const std::vector<CollisionModelPair>& getCollisionModelPairs() = 0;
+
+  /// Whether models must have levels of boxes below their roots.
+  [[nodiscard]] virtual bool needsDeepBoundingTree() const { return true; }
+
+ private:
+  Intersection* m_intersectionMethod = nullptr;
+};
+
+}  // namespace allpairs::collision

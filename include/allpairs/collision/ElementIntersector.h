@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "allpairs/collision/CollisionElement.h"
+
+namespace allpairs::collision {
+
+class Intersection;
+
+/// Tests elements of two types of model against each other. A user's own derives from this.
+///
+/// Threads: const; the broad and narrow phases ask from one thread.
+class ElementIntersector {
+ public:
+  ElementIntersector() = default;
+  ElementIntersector(const ElementIntersector&) = delete;
+  ElementIntersector& operator=(const ElementIntersector&) = delete;
+  ElementIntersector(ElementIntersector&&) = delete;
+  ElementIntersector& operator=(ElementIntersector&&) = delete;
+  virtual ~ElementIntersector() = default;
+
+  /// Whether two elements may touch, as the method measures it. The broad phase asks this of root boxes, the narrow
+  /// phase of elements whose boxes are near enough.
+  [[nodiscard]] virtual bool canIntersect(const CollisionElement& first, const CollisionElement& second,
+                                          const Intersection& method) const = 0;
+};
+
+/// Elements may touch if their boxes are within the method's distance of each other.
+class BoxIntersector : public ElementIntersector {
+ public:
+  [[nodiscard]] bool canIntersect(const CollisionElement& first, const CollisionElement& second,
+                                  const Intersection& method) const override;
+};
+
+/// As BoxIntersector, and an element may touch itself only if its cone of normals has a half-angle of at least pi/2.
+class ConeAwareBoxIntersector : public BoxIntersector {
+ public:
+  [[nodiscard]] bool canIntersect(const CollisionElement& first, const CollisionElement& second,
+                                  const Intersection& method) const override;
+};
+
+}  // namespace allpairs::collision

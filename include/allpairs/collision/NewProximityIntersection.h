@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "allpairs/collision/ProximityIntersection.h"
+
+namespace allpairs::collision {
+
+/// As MinProximityIntersection, with the closest features of each pair of elements.
+///
+/// The broad phase sees no difference between the proximity methods.
+class NewProximityIntersection : public ProximityIntersection {
+ public:
+  [[nodiscard]] std::string_view typeName() const override { return "NewProximityIntersection"; }
+};
+
+}  // namespace allpairs::collision

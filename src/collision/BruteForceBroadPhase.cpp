@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/collision/BruteForceBroadPhase.h"
+
+#include <cmath>
+#include <string>
+
+#include "ModelTable.h"
+#include "PairRules.h"
+#include "PairSearch.h"
+#include "allpairs/collision/BoxModel.h"
+
+namespace allpairs::collision {
+namespace {
+
+void checkRegion(const Box& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(box.min[axis] < box.max[axis])) {
+      throw InvalidArgument("the region box does not have min < max on the " + std::string(1, "xyz"[axis]) +
+                            " axis: " + std::to_string(box.min[axis]) + " to " + std::to_string(box.max[axis]));
+    }
+  }
+}
+
+void makeRoot(CollisionModel& model) {
+  CollisionModel& last = *model.getLast();
+  if (!last.hasBoundingTree()) last.computeBoundingTree(0);
+}
+
+std::string nameOf(const std::vector<CollisionModelPair>& pairs, std::size_t i) {
+  if (i >= pairs.size()) return "no pair";
+  return "(" + pairs[i].first->describe() + ", " + pairs[i].second->describe() + ")";
+}
+
+}  // namespace
+
+struct BruteForceBroadPhase::State {
+  /// Sees to it that rules are those of the method as it is now; rows that came before keep the ones they came with.
+  void useMethod(Intersection* method);
+
+  /// Gives the pairs of all rows that were added and not looked at yet.
+  void complete();
+
+  void completeExhaustively();
+
+  std::optional<Box> box;
+  std::unique_ptr<BoxModel> region;
+  Strategy strategy = Strategy::Automatic;
+  ModelTable models;
+  PairRules rules{models};
+  PairSearch search{models, rules};
+  std::size_t rowsDone = 0;
+  std::vector<CollisionModelPair> pairs;
+  BroadPhaseStatistics statistics;
+};
+
+void BruteForceBroadPhase::State::useMethod(Intersection* method) {
+  if (method == nullptr) throw InvalidArgument("the broad phase has no intersection method");
+  if (!rules.isOutdated(method)) return;
+  complete();
+  rules.setMethod(method);
+}
+
+void BruteForceBroadPhase::State::complete() {
+  const std::size_t n = models.size();
+  if (rowsDone != n) {
+    if (strategy == Strategy::Exhaustive) {
+      completeExhaustively();
+    } else {
+      search.addPairs(rowsDone, pairs, statistics);
+    }
+    rowsDone = n;
+  }
+  statistics.models = n;
+  statistics.pairs = pairs.size();
+  statistics.testsOfAllPairs = n == 0 ? 0 : std::uint64_t{n} * (n - 1) / 2;
+}
+
+void BruteForceBroadPhase::State::completeExhaustively() {
+  for (std::size_t newer = rowsDone; newer < models.size(); ++newer) {
+    const ModelRow& row = models.row(newer);
+    if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
+    for (std::size_t older = 0; older < newer; ++older) {
+      if (const auto pair = rules.askModels(newer, older)) pairs.push_back(*pair);
+    }
+    statistics.testsMade += newer;
+    statistics.candidates += newer;
+  }
+}
+
+BruteForceBroadPhase::BruteForceBroadPhase() : m_state(std::make_unique<State>()) {}
+BruteForceBroadPhase::~BruteForceBroadPhase() = default;
+
+void BruteForceBroadPhase::init() { reinit(); }
+
+void BruteForceBroadPhase::reinit() {
+  m_state->region.reset();
+  if (!m_state->box) return;
+  checkRegion(*m_state->box);
+  m_state->region = std::make_unique<BoxModel>("region", *m_state->box);
+  m_state->region->computeBoundingTree(0);
+}
+
+void BruteForceBroadPhase::beginBroadPhase() {
+  m_state->models.clear();
+  m_state->rules.forget();
+  m_state->pairs.clear();
+  m_state->rowsDone = 0;
+  m_state->statistics = {};
+}
+
+void BruteForceBroadPhase::addCollisionModel(core::CollisionModel* cm) {
+  State& state = *m_state;
+  if (cm == nullptr || state.models.isEmpty(*cm)) return;
+  state.useMethod(getIntersectionMethod());
+  makeRoot(*cm);
+  if (state.region && !intersectWithBoxModel(cm)) return;
+  state.models.add(cm, doesSelfCollide(cm));
+  if (state.strategy == Strategy::Exhaustive) state.complete();
+}
+
+void BruteForceBroadPhase::addCollisionModels(std::span<core::CollisionModel* const> models) {
+  BroadPhaseDetection::addCollisionModels(models);
+  m_state->complete();
+}
+
+void BruteForceBroadPhase::endBroadPhase() { m_state->complete(); }
+
+const std::vector<CollisionModelPair>& BruteForceBroadPhase::getCollisionModelPairs() {
+  m_state->complete();
+  return m_state->pairs;
+}
+
+bool BruteForceBroadPhase::keepCollisionBetween(core::CollisionModel* cm1, core::CollisionModel* cm2) {
+  if (cm1 == nullptr || cm2 == nullptr) return false;
+  CollisionModel* last1 = cm1->getLast();
+  CollisionModel* last2 = cm2->getLast();
+  return last1->canCollideWith(last2) && last2->canCollideWith(last1);
+}
+
+bool BruteForceBroadPhase::doesSelfCollide(core::CollisionModel* cm) {
+  if (!cm->isSimulated() || !m_state->models.mayCollideWithItself(*cm)) return false;
+  return PairRules::rootsMayTouch(cm, cm, *getIntersectionMethod(), false);
+}
+
+bool BruteForceBroadPhase::intersectWithBoxModel(core::CollisionModel* cm) {
+  return !m_state->region || PairRules::rootsMayTouch(cm, m_state->region.get(), *getIntersectionMethod(), true);
+}
+
+void BruteForceBroadPhase::setBox(const Vec3& min, const Vec3& max) { m_state->box = Box{min, max}; }
+void BruteForceBroadPhase::setBox(const Box& box) { m_state->box = box; }
+void BruteForceBroadPhase::clearBox() { m_state->box.reset(); }
+const std::optional<Box>& BruteForceBroadPhase::getBox() const { return m_state->box; }
+
+void BruteForceBroadPhase::setStrategy(Strategy strategy) {
+  m_state->complete();
+  m_state->strategy = strategy;
+  m_state->search.setStrategy(strategy);
+}
+
+Strategy BruteForceBroadPhase::getStrategy() const { return m_state->strategy; }
+void BruteForceBroadPhase::setExecutor(Executor* executor) { m_state->search.setExecutor(executor); }
+const BroadPhaseStatistics& BruteForceBroadPhase::statistics() const { return m_state->statistics; }
+
+void BruteForceBroadPhase::verify() {
+  m_state->complete();
+  std::vector<CollisionModelPair> expected;
+  for (std::size_t newer = 0; newer < m_state->models.size(); ++newer) {
+    CollisionModel* model = m_state->models.row(newer).model;
+    if (doesSelfCollide(model)) expected.emplace_back(model, model);
+    for (std::size_t older = 0; older < newer; ++older) {
+      if (const auto pair = m_state->rules.askModels(newer, older)) expected.push_back(*pair);
+    }
+  }
+  const std::vector<CollisionModelPair>& found = m_state->pairs;
+  if (found == expected) return;
+  std::size_t i = 0;
+  while (i < found.size() && i < expected.size() && found[i] == expected[i]) ++i;
+  throw VerificationError("pair " + std::to_string(i) + " is " + nameOf(found, i) + ", but the double loop gives " +
+                          nameOf(expected, i));
+}
+
+}  // namespace allpairs::collision

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/collision/CollisionPipeline.h"
+
+#include "allpairs/Error.h"
+
+namespace allpairs::collision {
+
+void CollisionPipeline::setDepth(int depth) {
+  if (depth < 0) throw InvalidArgument("bounding trees of negative depth");
+  m_depth = depth;
+}
+
+void CollisionPipeline::init() {
+  if (m_method == nullptr) throw InvalidArgument("the collision pipeline has no intersection method");
+  if (m_broadPhase == nullptr) throw InvalidArgument("the collision pipeline has no broad phase");
+  m_broadPhase->setIntersectionMethod(m_method);
+  if (m_narrowPhase != nullptr) m_narrowPhase->setIntersectionMethod(m_method);
+  m_broadPhase->init();
+}
+
+void CollisionPipeline::reset() {
+  m_active.clear();
+  if (m_broadPhase != nullptr) m_broadPhase->beginBroadPhase();
+  if (m_narrowPhase != nullptr) m_narrowPhase->beginNarrowPhase();
+}
+
+void CollisionPipeline::computeBoundingTrees(std::span<CollisionModel* const> models, double dt) {
+  if (m_narrowPhase != nullptr) m_narrowPhase->setTimeStep(dt);
+  const bool deep =
+      m_broadPhase->needsDeepBoundingTree() || (m_narrowPhase != nullptr && m_narrowPhase->needsDeepBoundingTree());
+  for (CollisionModel* model : models) {
+    if (model == nullptr || model->getLast()->empty() || !model->isActive()) continue;
+    if (model->isMoving() || !model->hasBoundingTree()) computeBoundingTree(*model, dt, deep ? m_depth : 0);
+    m_active.push_back(model->getLast());
+  }
+}
+
+void CollisionPipeline::computeBoundingTree(CollisionModel& model, double dt, int depth) const {
+  if (m_method->isContinuous()) {
+    model.getLast()->computeContinuousBoundingTree(dt, depth);
+  } else {
+    model.getLast()->computeBoundingTree(depth);
+  }
+}
+
+void CollisionPipeline::detect() {
+  m_broadPhase->beginBroadPhase();
+  m_broadPhase->addCollisionModels(m_active);
+  m_broadPhase->endBroadPhase();
+  if (m_narrowPhase == nullptr) return;
+  m_narrowPhase->beginNarrowPhase();
+  m_narrowPhase->addCollisionPairs(m_broadPhase->getCollisionModelPairs());
+  m_narrowPhase->endNarrowPhase();
+}
+
+const std::vector<CollisionModelPair>& CollisionPipeline::step(std::span<CollisionModel* const> models, double dt) {
+  if (m_method == nullptr || m_broadPhase == nullptr || m_broadPhase->getIntersectionMethod() != m_method) init();
+  reset();
+  computeBoundingTrees(models, dt);
+  detect();
+  return m_broadPhase->getCollisionModelPairs();
+}
+
+}  // namespace allpairs::collision

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <typeindex>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/collision/CollisionModel.h"
+
+namespace allpairs::collision {
+
+/// What the rules read of a model for each pair, in half a cache line.
+struct ModelRow {
+  static constexpr std::uint8_t kSimulated = 1;
+  static constexpr std::uint8_t kSelfCollision = 2;
+  static constexpr std::uint8_t kDefaultRules = 4;  // canCollideWith() is not overridden
+  static constexpr std::uint8_t kSelfPair = 8;
+
+  CollisionModel* model = nullptr;  // as it was added
+  const void* owner = nullptr;
+  std::uint64_t groupBits = 0;
+  std::uint32_t groups = 0;  // which of the table's group lists; 0 means none
+  std::uint16_t type = 0;    // which of the table's root types
+  std::uint8_t flags = 0;
+
+  [[nodiscard]] bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
+};
+
+/// The models of a step as they were when they were added, in columns.
+class ModelTable {
+ public:
+  void clear();
+
+  /// Notes a model; the caller has seen to it that it has a root.
+  ///
+  /// Bad input: a root box with a NaN throws InvalidBox, and the table stays as it was.
+  void add(CollisionModel* model, bool selfPair);
+
+  /// Whether a model has no elements; answers without a virtual call where it can.
+  [[nodiscard]] bool isEmpty(const CollisionModel& model);
+
+  /// Whether a model's rules let it collide with itself; answers without a virtual call where it can.
+  [[nodiscard]] bool mayCollideWithItself(CollisionModel& model);
+
+  [[nodiscard]] std::size_t size() const { return m_rows.size(); }
+  [[nodiscard]] const ModelRow& row(std::size_t i) const { return m_rows[i]; }
+  [[nodiscard]] const Box& box(std::size_t i) const { return m_boxes[i]; }
+  [[nodiscard]] const std::vector<Box>& boxes() const { return m_boxes; }
+
+  /// The contact distance of each model, 0 for all where anyContactDistance() is false.
+  [[nodiscard]] const std::vector<double>& contactDistances() const { return m_contactDistances; }
+  [[nodiscard]] bool anyContactDistance() const { return m_largestContactDistance > 0.0; }
+  [[nodiscard]] double largestContactDistance() const { return m_largestContactDistance; }
+
+  /// Whether canCollideWith()'s own rule lets a collide with b, by what was noted of both.
+  [[nodiscard]] bool letsCollide(const ModelRow& a, const ModelRow& b) const {
+    if (a.owner == b.owner) return a.has(ModelRow::kSelfCollision);
+    return (a.groupBits & b.groupBits) == 0 || !haveCommonGroup(a, b);
+  }
+
+  /// How many different types of root there are.
+  [[nodiscard]] std::size_t typeCount() const { return m_rootTypes.size(); }
+
+ private:
+  struct KnownType {
+    const std::type_info* type = nullptr;
+    bool ours = false;
+  };
+
+  [[nodiscard]] bool isOurs(const CollisionModel& last);
+  [[nodiscard]] bool haveCommonGroup(const ModelRow& a, const ModelRow& b) const;
+  [[nodiscard]] std::uint16_t rootTypeOf(const CollisionModel& model, bool ours);
+  [[nodiscard]] std::uint32_t noteGroups(const CollisionModel& last);
+
+  std::vector<ModelRow> m_rows;
+  std::vector<Box> m_boxes;
+  std::vector<double> m_contactDistances;
+  std::vector<std::shared_ptr<const std::vector<int>>> m_groupLists;
+  std::vector<std::type_index> m_rootTypes;
+  KnownType m_lastType;
+  double m_largestContactDistance = 0.0;
+};
+
+}  // namespace allpairs::collision

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "PairRules.h"
+
+#include <cmath>
+#include <typeinfo>
+#include <utility>
+
+#include "allpairs/Error.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/collision/DiscreteIntersection.h"
+#include "allpairs/collision/LocalMinDistance.h"
+#include "allpairs/collision/MinProximityIntersection.h"
+#include "allpairs/collision/NewProximityIntersection.h"
+
+namespace allpairs::collision {
+namespace {
+
+/// Whether a method is one of the library's own, and no subclass: then none of its virtual functions is overridden.
+bool isLibraryMethod(const Intersection& method) {
+  const std::type_info& type = typeid(method);
+  return type == typeid(MinProximityIntersection) || type == typeid(DiscreteIntersection) ||
+         type == typeid(NewProximityIntersection) || type == typeid(LocalMinDistance);
+}
+
+/// Whether an intersector does nothing for two different elements but to compare their boxes.
+bool onlyComparesBoxes(const ElementIntersector& intersector) {
+  const std::type_info& type = typeid(intersector);
+  return type == typeid(BoxIntersector) || type == typeid(ConeAwareBoxIntersector);
+}
+
+}  // namespace
+
+void PairRules::setMethod(Intersection* method) {
+  m_method = method;
+  m_revision = method->revision();
+  m_maximumDistance = method->maximumDistance();
+  m_addsContactDistances = method->addsContactDistances();
+  if (std::isnan(m_maximumDistance)) throw InvalidArgument("the intersection method's maximum distance is NaN");
+  m_methodIsOurs = isLibraryMethod(*method);
+  m_types = 0;
+}
+
+bool PairRules::rootsMayTouch(CollisionModel* first, CollisionModel* second, Intersection& method, bool otherwise) {
+  CollisionModel* firstRoot = first->getFirst();
+  CollisionModel* secondRoot = second->getFirst();
+  bool swap = false;
+  const ElementIntersector* intersector = method.findIntersector(firstRoot, secondRoot, swap);
+  if (intersector == nullptr) return otherwise;
+  if (swap) std::swap(firstRoot, secondRoot);
+  return intersector->canIntersect({firstRoot, 0}, {secondRoot, 0}, method);
+}
+
+std::optional<CollisionModelPair> PairRules::ask(std::size_t newer, std::size_t older, bool boxesAreNear) {
+  const ModelRow& a = m_models.row(newer);
+  const ModelRow& b = m_models.row(older);
+  if (!(a.has(ModelRow::kSimulated) || b.has(ModelRow::kSimulated)) || !keeps(a, b)) return std::nullopt;
+  const Link link = linkOf(a, b);
+  if (link.kind == Kind::None) return std::nullopt;
+  const std::size_t first = link.swap ? older : newer;
+  const std::size_t second = link.swap ? newer : older;
+  const CollisionModelPair pair{m_models.row(first).model, m_models.row(second).model};
+  if (link.kind == Kind::Boxes) {
+    if (!boxesAreNear && !this->boxesAreNear(first, second)) return std::nullopt;
+    return pair;
+  }
+  const CollisionElement firstRoot{pair.first->getFirst(), 0};
+  const CollisionElement secondRoot{pair.second->getFirst(), 0};
+  if (!link.intersector->canIntersect(firstRoot, secondRoot, *m_method)) return std::nullopt;
+  return pair;
+}
+
+std::optional<CollisionModelPair> PairRules::askModels(std::size_t newer, std::size_t older) const {
+  const ModelRow& a = m_models.row(newer);
+  const ModelRow& b = m_models.row(older);
+  if (!a.has(ModelRow::kSimulated) && !b.has(ModelRow::kSimulated)) return std::nullopt;
+  if (!BruteForceBroadPhase::keepCollisionBetween(a.model->getLast(), b.model->getLast())) return std::nullopt;
+  const Link link = findLink(a.model, b.model);
+  if (link.intersector == nullptr) return std::nullopt;
+  CollisionModelPair pair{a.model, b.model};
+  if (link.swap) std::swap(pair.first, pair.second);
+  const CollisionElement first{pair.first->getFirst(), 0};
+  const CollisionElement second{pair.second->getFirst(), 0};
+  if (!link.intersector->canIntersect(first, second, *m_method)) return std::nullopt;
+  return pair;
+}
+
+bool PairRules::keeps(const ModelRow& newer, const ModelRow& older) const {
+  const auto lets = [this](const ModelRow& a, const ModelRow& b) {
+    if (a.has(ModelRow::kDefaultRules)) return m_models.letsCollide(a, b);
+    return a.model->getLast()->canCollideWith(b.model->getLast());
+  };
+  return lets(newer, older) && lets(older, newer);
+}
+
+PairRules::Link PairRules::linkOf(const ModelRow& newer, const ModelRow& older) {
+  if (!m_methodIsOurs) return findLink(newer.model, older.model);  // a user's findIntersector() may look beyond types
+  if (m_types != m_models.typeCount()) {
+    m_types = m_models.typeCount();
+    m_links.assign(m_types * m_types, Link{});
+  }
+  Link& link = m_links[newer.type * m_types + older.type];
+  if (link.kind == Kind::Unknown) link = findLink(newer.model, older.model);
+  return link;
+}
+
+PairRules::Link PairRules::findLink(CollisionModel* newer, CollisionModel* older) const {
+  Link link;
+  link.intersector = m_method->findIntersector(newer->getFirst(), older->getFirst(), link.swap);
+  if (link.intersector == nullptr) {
+    link.kind = Kind::None;
+  } else {
+    link.kind = m_methodIsOurs && onlyComparesBoxes(*link.intersector) ? Kind::Boxes : Kind::Custom;
+  }
+  return link;
+}
+
+bool PairRules::boxesAreNear(std::size_t first, std::size_t second) const {
+  double distance = m_maximumDistance;
+  if (m_addsContactDistances) {
+    const std::vector<double>& distances = m_models.contactDistances();
+    distance = distance + distances[first] + distances[second];
+  }
+  return overlap(m_models.box(first), m_models.box(second), distance);
+}
+
+}  // namespace allpairs::collision

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "PairSearch.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace allpairs::collision {
+namespace {
+
+/// How much a distance is widened, by the size of its summands, before the search: far more than any order in which the
+/// three may be summed can round off (2^-51), and too little to let in more than a few pairs.
+constexpr double kSearchSlack = 0x1p-48;
+
+void addTests(const OverlapStatistics& search, BroadPhaseStatistics& statistics) {
+  statistics.testsMade += search.boxTests + search.groupTests + search.exactTests;
+}
+
+}  // namespace
+
+void PairSearch::addPairs(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
+  if (m_rules.maximumDistance() == std::numeric_limits<double>::infinity()) {
+    askAll(begin, pairs, statistics);
+  } else {
+    askFound(begin, pairs, statistics);
+  }
+}
+
+void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
+  for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
+    const ModelRow& row = m_models.row(newer);
+    if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
+    for (std::size_t older = 0; older < newer; ++older) {
+      if (const auto pair = m_rules.ask(newer, older, false)) pairs.push_back(*pair);
+    }
+    statistics.testsMade += newer;
+    statistics.candidates += newer;
+  }
+}
+
+void PairSearch::askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
+  Candidates withOlder = searchOlder(begin, statistics);
+  Candidates withNewer = searchNewer(begin, statistics);
+  statistics.candidates += withOlder.left.size() + withNewer.left.size();
+  for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
+    const ModelRow& row = m_models.row(newer);
+    if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
+    askRow(newer, withOlder, pairs);
+    askRow(newer, withNewer, pairs);
+  }
+}
+
+void PairSearch::askRow(std::size_t newer, Candidates& candidates, std::vector<CollisionModelPair>& pairs) {
+  const bool decided = m_rules.searchIsExact();
+  std::size_t i = 0;
+  for (; i < candidates.left.size() && candidates.left[i].second + candidates.secondOffset == newer; ++i) {
+    const std::size_t older = candidates.left[i].first + candidates.firstOffset;
+    if (const auto pair = m_rules.ask(newer, older, decided)) pairs.push_back(*pair);
+  }
+  candidates.left = candidates.left.subspan(i);
+}
+
+PairSearch::Candidates PairSearch::searchOlder(std::size_t begin, BroadPhaseStatistics& statistics) {
+  if (begin == 0) return {};
+  m_betweenNewerAndOlder.setOptions(options());
+  const std::span<const Pair> found =
+      m_betweenNewerAndOlder.findBetween(boxSet(0, begin), boxSet(begin, m_models.size()));
+  addTests(m_betweenNewerAndOlder.statistics(), statistics);
+  return {found, 0, begin};
+}
+
+PairSearch::Candidates PairSearch::searchNewer(std::size_t begin, BroadPhaseStatistics& statistics) {
+  if (m_models.size() - begin < 2) return {};
+  m_amongNewer.setOptions(options());
+  const std::span<const Pair> found = m_amongNewer.find(boxSet(begin, m_models.size()));
+  addTests(m_amongNewer.statistics(), statistics);
+  return {found, begin, begin};
+}
+
+BoxSet PairSearch::boxSet(std::size_t begin, std::size_t end) const {
+  BoxSet set(std::span<const Box>(m_models.boxes()).subspan(begin, end - begin));
+  if (m_rules.addsContactDistances() && m_models.anyContactDistance()) {
+    set.setMargins(std::span<const double>(m_models.contactDistances()).subspan(begin, end - begin));
+  }
+  return set;
+}
+
+double PairSearch::searchDistance() const {
+  const double distance = m_rules.maximumDistance();
+  if (m_rules.searchIsExact()) return distance;
+  const double contact = m_rules.addsContactDistances() ? m_models.largestContactDistance() : 0.0;
+  return distance + (std::abs(distance) + 2.0 * contact) * kSearchSlack;
+}
+
+OverlapOptions PairSearch::options() const {
+  OverlapOptions options;
+  options.strategy = m_strategy;
+  options.order = Order::BySecond;
+  options.distance = searchDistance();
+  options.executor = m_executor;
+  return options;
+}
+
+}  // namespace allpairs::collision

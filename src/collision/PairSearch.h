@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ModelTable.h"
+#include "PairRules.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+
+namespace allpairs::collision {
+
+/// Finds the pairs of the newest rows of a table: the engine gives those whose boxes are near, the rules decide.
+class PairSearch {
+ public:
+  PairSearch(const ModelTable& models, PairRules& rules) : m_models(models), m_rules(rules) {}
+
+  void setStrategy(Strategy strategy) { m_strategy = strategy; }
+  void setExecutor(Executor* executor) { m_executor = executor; }
+
+  /// Appends the pairs of rows `begin` and up, each with itself and with all rows before it, in the double loop's
+  /// order.
+  void addPairs(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
+
+ private:
+  /// The candidates of several rows, by row; a row's are taken off the front.
+  struct Candidates {
+    std::span<const Pair> left;
+    std::size_t firstOffset = 0;   // added to the older's index
+    std::size_t secondOffset = 0;  // added to the newer's index
+  };
+
+  void askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
+  void askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
+  void askRow(std::size_t newer, Candidates& candidates, std::vector<CollisionModelPair>& pairs);
+  [[nodiscard]] BoxSet boxSet(std::size_t begin, std::size_t end) const;
+  [[nodiscard]] Candidates searchOlder(std::size_t begin, BroadPhaseStatistics& statistics);
+  [[nodiscard]] Candidates searchNewer(std::size_t begin, BroadPhaseStatistics& statistics);
+  [[nodiscard]] double searchDistance() const;
+  [[nodiscard]] OverlapOptions options() const;
+
+  const ModelTable& m_models;
+  PairRules& m_rules;
+  Strategy m_strategy = Strategy::Automatic;
+  Executor* m_executor = nullptr;
+  Overlaps m_amongNewer;
+  Overlaps m_betweenNewerAndOlder;
+};
+
+}  // namespace allpairs::collision
