@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "CsvLine.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
+#include "Words.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::scene {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// Takes a quoted field from the position of its opening quote; leaves the position at the comma or the end.
 std::string takeQuoted(std::string_view line, std::size_t& position, const TextPlace& place) {
@@ -51,16 +43,6 @@ CsvField takeField(std::string_view line, std::size_t& position, const TextPlace
   field.text = trimmed(line.substr(position, end - position));
   position = end;
   return field;
-}
-
-std::optional<double> parseNumber(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size() || problem == std::errc::invalid_argument) return std::nullopt;
-  // from_chars leaves the value alone where it is too large or too small for a double.
-  if (problem == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
-  return value;
 }
 
 }  // namespace
