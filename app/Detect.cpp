@@ -2,18 +2,23 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "Arguments.h"
 #include "Commands.h"
 #include "Detection.h"
 #include "ExitStatus.h"
+#include "InputOptions.h"
 #include "Inputs.h"
 #include "Output.h"
-#include "Progress.h"
+#include "Records.h"
 #include "Table.h"
+#include "Timer.h"
 
 namespace allpairs::app {
 namespace {
@@ -69,10 +74,6 @@ DetectionOptions detectionOptions(const DetectSettings& settings, bool hasMargin
   return options;
 }
 
-scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {
-  return {.name = boxes.name(i), .type = "BoxModel", .elements = 1, .box = boxes.boxes()[i]};
-}
-
 void write(const scene::ResultView& result, const TableNotes& notes, const std::string& format, Output& output) {
   const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
   if (format == "json") {
@@ -87,23 +88,46 @@ void write(const scene::ResultView& result, const TableNotes& notes, const std::
 }
 
 std::string boxMethod(const DetectionOptions& options) {
-  std::string text = "boxes against boxes";
-  if (options.margin) text += ", at most " + std::to_string(*options.margin) + " apart on every axis";
-  if (options.region) text += ", in the region " + boxText(*options.region);
+  std::string text = "boxes";
+  if (options.margin) text += fmt::format(" at most {} apart on every axis", *options.margin);
+  if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
   return text;
 }
 
-void detectAndWrite(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options,
-                    double readSeconds, Output& output) {
+/// A detection and all that is needed to write it down.
+struct Outcome {
+  Detection detection{};
+  scene::ResultView result{};
+  TableNotes notes{};
+};
+
+Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
   const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
-  Detection detection = detectBoxes(boxes, order, options);
-  detection.statistics.readSeconds = readSeconds;
-  const scene::ResultView result{.modelCount = boxes.size(),
-                                 .model = [&boxes](std::size_t i) { return boxRecord(boxes, i); },
-                                 .pairs = detection.pairs,
-                                 .swapped = detection.swapped,
-                                 .statistics = detection.statistics};
-  write(result, {.method = boxMethod(options), .simulated = boxes.size()}, settings.format, output);
+  Outcome outcome{.detection = detectBoxes(boxes, order, options),
+                  .notes = {.method = boxMethod(options), .simulated = boxes.size()}};
+  outcome.result.modelCount = boxes.size();
+  outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
+  return outcome;
+}
+
+Outcome detect(scene::Scene& scene, const DetectSettings&, const DetectionOptions& options) {
+  Outcome outcome{.detection = detectScene(scene, options)};
+  const auto& models = scene.models;
+  outcome.notes.method = methodText(scene);
+  outcome.notes.remarkCount = scene.remarks.size();
+  for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1 : 0;
+  outcome.result.modelCount = models.size();
+  outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
+  return outcome;
+}
+
+void addChoice(CLI::App& command, const std::string& name, std::string& value, std::vector<std::string> choices,
+               const std::string& description) {
+  const auto check = [name, choices](const std::string& text) {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
+    return fmt::format("'{}' is none of {}", text, fmt::join(choices, ", "));
+  };
+  command.add_option(name, value, description)->type_name("WORD")->check(check)->capture_default_str();
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
@@ -112,11 +136,14 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
     throw UsageError("--format npy is binary and not for a terminal: name a file with -o, or redirect the output");
   }
   const Timer timer;
-  const Inputs inputs = readInputs(settings.input);
+  Inputs inputs = readInputs(settings.input);
   const double readSeconds = timer.seconds();
-  if (const auto* boxes = std::get_if<scene::BoxArray>(&inputs)) {
-    detectAndWrite(*boxes, settings, options, readSeconds, output);
-  }
+  Outcome outcome = std::visit([&](auto& input) { return detect(input, settings, options); }, inputs);
+  outcome.result.pairs = outcome.detection.pairs;
+  outcome.result.swapped = outcome.detection.swapped;
+  outcome.result.statistics = outcome.detection.statistics;
+  outcome.result.statistics.readSeconds = readSeconds;
+  write(outcome.result, outcome.notes, settings.format, output);
   output.commit();
 }
 
@@ -126,30 +153,21 @@ void addDetect(CLI::App& program) {
   const auto settings = std::make_shared<DetectSettings>();
   CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
   command->footer(kExamples);
-  command->add_option("INPUT", settings->input.paths, "Scenes, meshes, folders of meshes, box arrays; taken together")
-      ->required()
-      ->type_name("");
+  addInputOptions(*command, settings->input);
   CLI::Option* margin = command->add_option("--margin", settings->margin,
                                             "Pairs may be this far apart on every axis; for a scene: its alarmDistance")
                             ->type_name("D");
   CLI::Option* box = command->add_option("--box", settings->box, "Leave out models that do not touch this region")
                          ->type_name("x0,y0,z0,x1,y1,z1");
-  command->add_option("--strategy", settings->strategy, "How to search; every strategy gives the same pairs")
-      ->check(CLI::IsMember({"auto", "exhaustive", "blocked"}))
-      ->type_name("auto|exhaustive|blocked")
-      ->default_str("auto");
-  command->add_option("--threads", settings->threads, "How many threads may work; 0: one per core")->type_name("N");
+  addChoice(*command, "--strategy", settings->strategy, {"auto", "exhaustive", "blocked"},
+            "How to search: auto, exhaustive or blocked; all give the same pairs");
+  command->add_option("--threads", settings->threads, "How many threads may work; 0, the default: one per core")
+      ->type_name("N");
   command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
-  command->add_option("--format", settings->format, "How to write the result")
-      ->check(CLI::IsMember({"table", "csv", "json", "npy"}))
-      ->type_name("table|csv|json|npy");
+  addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"},
+            "How to write the result: table, csv, json or npy");
   command->add_option("-o,--output", settings->output, "Write to FILE, which appears only when it is complete")
       ->type_name("FILE");
-  command->add_flag("--partial", settings->input.partial, "Leave out what a scene has and is not known, and go on");
-  command->add_option("--data", settings->input.searchRoots, "Look here for the files that a scene names; repeatable")
-      ->type_name("DIR")
-      ->take_all()
-      ->allow_extra_args(false);
   command->callback([settings, margin, box] {
     runDetect(*settings, detectionOptions(*settings, margin->count() != 0, box->count() != 0));
   });

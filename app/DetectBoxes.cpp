@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "Detection.h"
-#include "ExitStatus.h"
 #include "Timer.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
 
 namespace allpairs::app {
 namespace {
@@ -20,11 +20,10 @@ OverlapOptions engineOptions(const DetectionOptions& options, BoxPairOrder order
   return engine;
 }
 
-[[noreturn]] void reportDifference(const scene::BoxArray& boxes, const Pair& pair, bool isMissing,
-                                   const std::string& strategy) {
-  throw VerificationError("verification failed: '" + boxes.name(pair.first) + "' and '" + boxes.name(pair.second) +
-                          (isMissing ? "' are a pair, and strategy " : "' are no pair, but strategy ") + strategy +
-                          (isMissing ? " does not find it" : " finds it"));
+[[noreturn]] void reportDifference(const scene::BoxArray& boxes, const Pair& pair, bool isMissing) {
+  throw collision::VerificationError("verification failed: '" + boxes.name(pair.first) + "' and '" +
+                                     boxes.name(pair.second) +
+                                     (isMissing ? "' are a pair that was not found" : "' were found and are no pair"));
 }
 
 /// Runs the exhaustive search in constant memory and compares it with what was found, pair by pair, in order.
@@ -41,15 +40,15 @@ void verifyBoxes(const scene::BoxArray& boxes, const Detection& found, OverlapOp
         ++next;
       } else {
         const bool isMissing = next == found.pairs.size() || comesBefore(pair, found.pairs[next]);
-        reportDifference(boxes, isMissing ? pair : found.pairs[next], isMissing, found.statistics.strategy);
+        reportDifference(boxes, isMissing ? pair : found.pairs[next], isMissing);
       }
     }
   };
   streamOverlaps(boxes.boxes(), compare, options);
-  if (next != found.pairs.size()) reportDifference(boxes, found.pairs[next], false, found.statistics.strategy);
+  if (next != found.pairs.size()) reportDifference(boxes, found.pairs[next], false);
 }
 
-std::uint64_t doubleLoopTests(std::uint64_t count) {
+std::uint64_t testsOfAllPairs(std::uint64_t count) {
   return count == 0 ? 0 : count * (count - 1) / 2;  // fits: indices have 32 bits
 }
 
@@ -67,10 +66,8 @@ Detection detectBoxes(const scene::BoxArray& boxes, BoxPairOrder order, const De
   detection.statistics = {.strategy = strategyName(options.strategy),
                           .threads = executor ? executor->concurrency() : 1,
                           .distance = engine.distance,
-                          .doubleLoopTests = doubleLoopTests(boxes.size()),
-                          .boxTests = counted.boxTests,
-                          .groupTests = counted.groupTests,
-                          .exactTests = counted.exactTests,
+                          .testsOfAllPairs = testsOfAllPairs(boxes.size()),
+                          .testsMade = counted.boxTests + counted.groupTests,
                           .detectSeconds = timer.seconds()};
   if (options.verify) verifyBoxes(boxes, detection, engine);
   detection.statistics.verified = options.verify;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,11 +29,11 @@ struct DetectionOptions {
 
 /// The pairs of one detection. `pairs` lies in the memory of one of the members below it.
 struct Detection {
-  std::span<const Pair> pairs;
+  std::span<const Pair> pairs{};
   bool swapped = false;  ///< The pairs are to be read second first: newest model first.
-  scene::DetectionStatistics statistics;
-  std::unique_ptr<Overlaps> search;
-  std::vector<Pair> ownPairs;
+  scene::DetectionStatistics statistics{};
+  std::unique_ptr<Overlaps> search{};
+  std::vector<Pair> ownPairs{};
 };
 
 /// In which orientation and order the pairs of box arrays are wanted.
@@ -42,8 +44,14 @@ enum class BoxPairOrder : std::uint8_t {
 
 /// The overlapping pairs of boxes, straight from the engine.
 ///
-/// Bad input: with options.verify, strategies that disagree throw VerificationError.
+/// Bad input: with options.verify, strategies that disagree throw collision::VerificationError.
 [[nodiscard]] Detection detectBoxes(const scene::BoxArray& boxes, BoxPairOrder order, const DetectionOptions& options);
+
+/// The pairs of a scene's models that may touch, as the pipeline finds them. The margin replaces the method's alarm
+/// distance, and the region that of the scene.
+///
+/// Bad input: with options.verify, strategies that disagree throw collision::VerificationError.
+[[nodiscard]] Detection detectScene(scene::Scene& scene, const DetectionOptions& options);
 
 /// The word for a strategy on the command line.
 [[nodiscard]] std::string strategyName(Strategy strategy);

@@ -20,12 +20,6 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Two strategies that gave different pairs.
-class VerificationError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// Nobody reads the output any more.
 class ClosedPipe : public std::runtime_error {
  public:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Progress.h"
+#include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::app {
 namespace {
@@ -27,12 +28,21 @@ scene::BoxArray readBoxArrays(const std::vector<std::string>& paths, const scene
   return scene::BoxArray::concatenate(std::move(arrays));
 }
 
+scene::Scene readScenes(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+  scene::Scene scene = scene::readInput(paths.front(), options);
+  for (std::size_t i = 1; i < paths.size(); ++i) scene::append(scene, scene::readInput(paths[i], options));
+  return scene;
+}
+
 }  // namespace
 
 Inputs readInputs(const InputSettings& settings) {
   ProgressLine line;
   const scene::ReadOptions options = readOptions(settings, line);
-  return readBoxArrays(settings.paths, options);
+  const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
+                                    [](const std::string& path) { return scene::isBoxArrayFile(path); });
+  if (areBoxes) return readBoxArrays(settings.paths, options);
+  return readScenes(settings.paths, options);
 }
 
 }  // namespace allpairs::app

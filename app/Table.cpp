@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "Records.h"
 
 namespace allpairs::app {
 namespace {
@@ -36,40 +40,20 @@ std::string pairLines(const scene::ResultView& result) {
 
 std::string testLines(const scene::DetectionStatistics& statistics) {
   std::string text = fmt::format("tests    {} made; the double loop makes {}\n",
-                                 grouped(statistics.boxTests + statistics.groupTests), grouped(statistics.doubleLoopTests));
+                                 grouped(statistics.testsMade), grouped(statistics.testsOfAllPairs));
   if (statistics.verified) text += "verify   the exhaustive strategy gives the same pairs in the same order\n";
   return text;
 }
 
 }  // namespace
 
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t position = digits.size(); position > 3;) {
-    position -= 3;
-    digits.insert(position, 1, ',');
-  }
-  return digits;
-}
-
-std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {
-  if (count != 1 && !plural.empty()) return fmt::format("{} {}", grouped(count), plural);
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
-
-std::string boxText(const Box& box) {
-  if (isEmpty(box)) return "empty";
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]", box.min[0], box.min[1], box.min[2],
-                     box.max[0], box.max[1], box.max[2]);
-}
-
 void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink) {
   const scene::DetectionStatistics& statistics = result.statistics;
   std::string text = fmt::format("models   {}, of which {} simulated\n", grouped(result.modelCount),
                                  notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
   text += fmt::format("method   {}\n", notes.method);
-  if (notes.remarks != 0) {
-    text += fmt::format("ignored  {}; 'allpairs info' lists them\n", counted(notes.remarks, "part", "parts"));
+  if (notes.remarkCount != 0) {
+    text += fmt::format("ignored  {}; 'allpairs info' lists them\n", counted(notes.remarkCount, "part of the input", "parts of the input"));
   }
   text += fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
   text += pairLines(result) + testLines(statistics);

@@ -13,7 +13,7 @@
 #include "Commands.h"
 #include "ExitStatus.h"
 #include "Output.h"
-#include "allpairs/Error.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
 
 namespace {
 
@@ -70,7 +70,7 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
     return ExitStatus::Success;
   } catch (const allpairs::app::UsageError& problem) {
     return fail(ExitStatus::WrongUsage, std::string(problem.what()) + " (see '" + chosenCommand(program) + " --help')");
-  } catch (const allpairs::app::VerificationError& problem) {
+  } catch (const allpairs::collision::VerificationError& problem) {
     return fail(ExitStatus::Difference, problem.what());
   } catch (const allpairs::app::ClosedPipe&) {
     return ExitStatus::ClosedPipe;
@@ -90,5 +90,6 @@ int main(int count, char** arguments) {
   program.require_subcommand(1);
   program.footer(kExamples);
   allpairs::app::addDetect(program);
+  allpairs::app::addInfo(program);
   return static_cast<int>(run(program, count, arguments));
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <cmath>
 #include <limits>
@@ -104,16 +103,16 @@ class NodeReader {
     if (mesh.mNumFaces == 0) addAllPoints(object, base);
   }
 
+  /// A face of more than three corners becomes a fan. Assimp's own triangulation ends the program on bad faces.
   void addFace(MeshObject& object, const aiFace& face, std::size_t base) {
-    std::array<std::uint32_t, 3> corners{};
-    if (face.mNumIndices == 0 || face.mNumIndices > 3) fail(object, "has a face that is no triangle");
-    for (unsigned i = 0; i < face.mNumIndices; ++i) {
+    if (face.mNumIndices == 0) fail(object, "has a face without vertices");
+    const auto corner = [&](unsigned i) {
       if (face.mIndices[i] >= object.positions.size() - base) fail(object, "names a vertex that isn't there");
-      corners[i] = static_cast<std::uint32_t>(base + face.mIndices[i]);
-    }
-    if (face.mNumIndices == 3) object.triangles.push_back(corners);
-    if (face.mNumIndices == 2) object.lines.push_back({corners[0], corners[1]});
-    if (face.mNumIndices == 1) object.points.push_back(corners[0]);
+      return static_cast<std::uint32_t>(base + face.mIndices[i]);
+    };
+    if (face.mNumIndices == 1) object.points.push_back(corner(0));
+    if (face.mNumIndices == 2) object.lines.push_back({corner(0), corner(1)});
+    for (unsigned i = 2; i < face.mNumIndices; ++i) object.triangles.push_back({corner(0), corner(i - 1), corner(i)});
   }
 
   static void addAllPoints(MeshObject& object, std::size_t base) {
@@ -169,7 +168,7 @@ std::vector<MeshObject> readAssimpObjects(const Path& path) {
   Assimp::Importer importer;
   const aiScene* scene = nullptr;
   try {
-    scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
+    scene = importer.ReadFile(path.string(), 0);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {

@@ -26,6 +26,12 @@ struct MeshObject {
 /// Bad input: throws FileError with its line.
 [[nodiscard]] std::vector<MeshObject> readObjObjects(const std::filesystem::path& path);
 
+/// Reads a Stanford file, ASCII or binary of either byte order, in double: its faces, or its vertices as points where it
+/// has no faces.
+///
+/// Bad input: throws FileError. Nothing is allocated for elements that a header only claims.
+[[nodiscard]] std::vector<MeshObject> readPlyObjects(const std::filesystem::path& path);
+
 /// Reads what Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double to
 /// positions that Assimp gives as float32.
 ///

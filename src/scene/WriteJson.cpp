@@ -58,8 +58,7 @@ void writeStatistics(const ResultView& result, TextBuffer& out) {
              number(statistics.distance));
   out.format(R"("strategy": {}, "threads": {}, "verified": {}, )", quoted(statistics.strategy), statistics.threads,
              statistics.verified);
-  out.format(R"("doubleLoopTests": {}, "boxTests": {}, "groupTests": {}, "exactTests": {}, )",
-             statistics.doubleLoopTests, statistics.boxTests, statistics.groupTests, statistics.exactTests);
+  out.format(R"("testsOfAllPairs": {}, "testsMade": {}, )", statistics.testsOfAllPairs, statistics.testsMade);
   out.format(R"("readSeconds": {}, "detectSeconds": {}}}}})", statistics.readSeconds, statistics.detectSeconds);
   out.append("\n");
 }

@@ -31,13 +31,11 @@ struct ModelRecord {
 
 /// How a detection went: the last part of a result.
 struct DetectionStatistics {
-  std::string strategy{};            ///< As the caller chose it: auto, exhaustive, blocked.
-  std::size_t threads = 1;           ///< How many it could use.
-  double distance = 0.0;             ///< The margin between boxes, or the alarm distance.
-  std::uint64_t doubleLoopTests = 0; ///< How many pairs a double loop over the models would test.
-  std::uint64_t boxTests = 0;        ///< How many pairs of boxes were tested.
-  std::uint64_t groupTests = 0;      ///< How many tests settled many pairs at once.
-  std::uint64_t exactTests = 0;      ///< How many were tested again in double.
+  std::string strategy{};             ///< As the caller chose it: auto, exhaustive, blocked.
+  std::size_t threads = 1;            ///< How many it could use.
+  double distance = 0.0;              ///< The margin between boxes, or the alarm distance.
+  std::uint64_t testsOfAllPairs = 0;  ///< How many tests a double loop over the models makes.
+  std::uint64_t testsMade = 0;        ///< How many tests, of two boxes or of the bounds of two groups, were made.
   double readSeconds = 0.0;
   double detectSeconds = 0.0;
   bool verified = false;  ///< Whether the exhaustive strategy was run too, and agreed.
@@ -46,10 +44,10 @@ struct DetectionStatistics {
 /// Models, pairs of them by index, and how they were found. The pairs are borrowed.
 struct ResultView {
   std::size_t modelCount = 0;
-  std::function<ModelRecord(std::size_t)> model;
-  std::span<const Pair> pairs;
+  std::function<ModelRecord(std::size_t)> model{};
+  std::span<const Pair> pairs{};
   bool swapped = false;  ///< Write each pair's second before its first.
-  DetectionStatistics statistics;
+  DetectionStatistics statistics{};
 };
 
 /// Takes a result's bytes, some at a time.
