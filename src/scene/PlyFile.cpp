@@ -34,7 +34,7 @@ class PlyBody {
   double nextWord() {
     std::size_t begin = 0;
     while (begin < m_text.size() && (m_text[begin] == '\n' || kBlanks.find(m_text[begin]) != std::string_view::npos)) {
-      m_line += m_text[begin] == '\n' ? 1 : 0;
+      if (m_text[begin] == '\n') ++m_line;
       ++begin;
     }
     m_text.remove_prefix(begin);
