@@ -115,7 +115,7 @@ Outcome detect(scene::Scene& scene, const DetectSettings&, const DetectionOption
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
   outcome.notes.remarkCount = scene.remarks.size();
-  for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1 : 0;
+  for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
   outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
   return outcome;

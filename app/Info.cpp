@@ -81,7 +81,7 @@ std::string describe(const scene::BoxArray& boxes) {
   std::size_t empty = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     whole = merge(whole, boxes.boxes()[i]);
-    empty += isEmpty(boxes.boxes()[i]) ? 1 : 0;
+    empty += isEmpty(boxes.boxes()[i]) ? 1U : 0U;
   }
   std::string text = fmt::format("models   {}, {}\n", counted(boxes.size(), "box", "boxes"),
                                  boxes.boxes().isFloat64() ? "float64" : "float32");
