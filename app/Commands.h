@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace allpairs::app {
+
+/// Each command has a file of its own that declares its options and runs it when it is chosen.
+void addDetect(CLI::App& program);
+void addInfo(CLI::App& program);
+
+}  // namespace allpairs::app

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Arguments.h"
+#include "Commands.h"
+#include "Detection.h"
+#include "ExitStatus.h"
+#include "InputOptions.h"
+#include "Inputs.h"
+#include "Output.h"
+#include "Records.h"
+#include "Table.h"
+#include "Timer.h"
+
+namespace allpairs::app {
+namespace {
+
+struct DetectSettings {
+  InputSettings input;
+  std::string margin;
+  std::string box;
+  std::string strategy = "auto";
+  std::string threads = "0";
+  bool verify = false;
+  std::string format = "table";
+  std::string output;
+};
+
+constexpr const char* kExamples = R"(INPUT is one or more of
+  .scn, .xml                     a SOFA scene
+  .obj .stl .ply .glb .off ...   a mesh file: each object or node in it is a model
+  a folder                       all mesh files in it
+  .npy                           boxes as a NumPy array (n, 6), float32 or float64:
+                                 minx miny minz maxx maxy maxz
+  .csv                           the same as lines of text, with a name first or last
+
+Examples:
+  allpairs detect scene.scn
+  allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
+  allpairs detect parts/ --margin 0.5
+  allpairs detect boxes.npy --format npy -o pairs.npy
+  allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
+  allpairs detect scene.scn --verify --format json | jq '.pairs | length'
+
+Boxes are closed: two that share a corner are a pair.)";
+
+Strategy strategyOf(const std::string& name) {
+  if (name == "exhaustive") return Strategy::Exhaustive;
+  return name == "blocked" ? Strategy::Blocked : Strategy::Automatic;
+}
+
+std::size_t threadsOf(const std::string& text) {
+  constexpr std::size_t kMostDigits = 4;
+  const bool isCount = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  if (!isCount || text.size() > kMostDigits) throw UsageError("--threads: '" + text + "' is not a number of threads");
+  return static_cast<std::size_t>(std::stoul(text));
+}
+
+DetectionOptions detectionOptions(const DetectSettings& settings, bool hasMargin, bool hasBox) {
+  DetectionOptions options;
+  if (hasMargin) options.margin = parseMargin(settings.margin);
+  if (hasBox) options.region = parseRegion(settings.box);
+  options.strategy = strategyOf(settings.strategy);
+  options.threads = threadsOf(settings.threads);
+  options.verify = settings.verify;
+  return options;
+}
+
+void write(const scene::ResultView& result, const TableNotes& notes, const std::string& format, Output& output) {
+  const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
+  if (format == "json") {
+    scene::writeJson(result, sink);
+  } else if (format == "csv") {
+    scene::writeCsv(result, sink);
+  } else if (format == "npy") {
+    scene::writeNpy(result, sink);
+  } else {
+    writeTable(result, notes, sink);
+  }
+}
+
+std::string boxMethod(const DetectionOptions& options) {
+  std::string text = "boxes";
+  if (options.margin) text += fmt::format(" at most {} apart on every axis", *options.margin);
+  if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
+  return text;
+}
+
+/// A detection and all that is needed to write it down.
+struct Outcome {
+  Detection detection{};
+  scene::ResultView result{};
+  TableNotes notes{};
+};
+
+Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
+  const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
+  Outcome outcome{.detection = detectBoxes(boxes, order, options),
+                  .notes = {.method = boxMethod(options), .simulated = boxes.size()}};
+  outcome.result.modelCount = boxes.size();
+  outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
+  return outcome;
+}
+
+Outcome detect(scene::Scene& scene, const DetectSettings&, const DetectionOptions& options) {
+  Outcome outcome{.detection = detectScene(scene, options)};
+  const auto& models = scene.models;
+  outcome.notes.method = methodText(scene);
+  outcome.notes.remarkCount = scene.remarks.size();
+  for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
+  outcome.result.modelCount = models.size();
+  outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
+  return outcome;
+}
+
+void addChoice(CLI::App& command, const std::string& name, std::string& value, std::vector<std::string> choices,
+               const std::string& description) {
+  const auto check = [name, choices](const std::string& text) {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
+    return fmt::format("'{}' is none of {}", text, fmt::join(choices, ", "));
+  };
+  command.add_option(name, value, description)->type_name("WORD")->check(check)->capture_default_str();
+}
+
+void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
+  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  if (settings.format == "npy" && output.isTerminal()) {
+    throw UsageError("--format npy is binary and not for a terminal: name a file with -o, or redirect the output");
+  }
+  const Timer timer;
+  Inputs inputs = readInputs(settings.input);
+  const double readSeconds = timer.seconds();
+  Outcome outcome = std::visit([&](auto& input) { return detect(input, settings, options); }, inputs);
+  outcome.result.pairs = outcome.detection.pairs;
+  outcome.result.swapped = outcome.detection.swapped;
+  outcome.result.statistics = outcome.detection.statistics;
+  outcome.result.statistics.readSeconds = readSeconds;
+  write(outcome.result, outcome.notes, settings.format, output);
+  output.commit();
+}
+
+}  // namespace
+
+void addDetect(CLI::App& program) {
+  const auto settings = std::make_shared<DetectSettings>();
+  CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
+  command->footer(kExamples);
+  addInputOptions(*command, settings->input);
+  CLI::Option* margin = command->add_option("--margin", settings->margin,
+                                            "Pairs may be this far apart on every axis; for a scene: its alarmDistance")
+                            ->type_name("D");
+  CLI::Option* box = command->add_option("--box", settings->box, "Leave out models that do not touch this region")
+                         ->type_name("x0,y0,z0,x1,y1,z1");
+  addChoice(*command, "--strategy", settings->strategy, {"auto", "exhaustive", "blocked"},
+            "How to search: auto, exhaustive or blocked; all give the same pairs");
+  command->add_option("--threads", settings->threads, "How many threads may work; 0, the default: one per core")
+      ->type_name("N");
+  command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
+  addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"},
+            "How to write the result: table, csv, json or npy");
+  command->add_option("-o,--output", settings->output, "Write to FILE, which appears only when it is complete")
+      ->type_name("FILE");
+  command->callback([settings, margin, box] {
+    runDetect(*settings, detectionOptions(*settings, margin->count() != 0, box->count() != 0));
+  });
+}
+
+}  // namespace allpairs::app

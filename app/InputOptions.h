@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Inputs.h"
+
+namespace CLI {
+class App;
+}
+
+namespace allpairs::app {
+
+/// Declares INPUT..., --partial and --data, which every command that reads has.
+void addInputOptions(CLI::App& command, InputSettings& settings);
+
+}  // namespace allpairs::app

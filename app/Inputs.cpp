@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "Inputs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "Progress.h"
+#include "allpairs/scene/ReadInput.h"
+
+namespace allpairs::app {
+namespace {
+
+scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line) {
+  scene::ReadOptions options;
+  options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
+  options.partial = settings.partial;
+  options.progress = [&line](const scene::Progress& progress) {
+    const std::string count = progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " +
+                                                             std::to_string(progress.total);
+    line.show("reading" + count + ": " + progress.file.filename().string());
+  };
+  return options;
+}
+
+scene::BoxArray readBoxArrays(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+  std::vector<scene::BoxArray> arrays;
+  for (const std::string& path : paths) arrays.push_back(scene::readBoxArray(path, options));
+  return scene::BoxArray::concatenate(std::move(arrays));
+}
+
+scene::Scene readScenes(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+  scene::Scene scene = scene::readInput(paths.front(), options);
+  for (std::size_t i = 1; i < paths.size(); ++i) scene::append(scene, scene::readInput(paths[i], options));
+  return scene;
+}
+
+}  // namespace
+
+Inputs readInputs(const InputSettings& settings) {
+  ProgressLine line;
+  const scene::ReadOptions options = readOptions(settings, line);
+  const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
+                                    [](const std::string& path) { return scene::isBoxArrayFile(path); });
+  if (areBoxes) return readBoxArrays(settings.paths, options);
+  return readScenes(settings.paths, options);
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "Progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace allpairs::app {
+namespace {
+
+constexpr double kInterval = 0.2;  // seconds: slow enough to read, and work that is done sooner stays silent
+constexpr std::size_t kWidth = 78;
+
+}  // namespace
+
+ProgressLine::ProgressLine() : m_isTerminal(::isatty(STDERR_FILENO) == 1) {}
+
+void ProgressLine::show(const std::string& text) {
+  if (!m_isTerminal || m_sinceStart.seconds() - m_lastShown < kInterval) return;
+  showNow(text);
+}
+
+void ProgressLine::showNow(const std::string& text) {
+  if (!m_isTerminal) return;
+  m_lastShown = m_sinceStart.seconds();
+  m_isShown = true;
+  std::fprintf(stderr, "\r\033[K%s", text.substr(0, kWidth).c_str());
+  std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+  if (m_isShown) std::fputs("\r\033[K", stderr);
+  m_isShown = false;
+}
+
+}  // namespace allpairs::app

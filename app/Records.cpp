@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "Records.h"
+
+#include <fmt/format.h>
+
+namespace allpairs::app {
+
+scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {
+  return {.name = boxes.name(i), .type = "BoxModel", .elements = 1, .box = boxes.boxes()[i]};
+}
+
+scene::ModelRecord modelRecord(const collision::CollisionModel& model) {
+  const collision::CollisionModel& elements = *model.getLast();
+  const bool hasRoot = !elements.empty() && elements.hasBoundingTree();
+  return {.name = elements.getName(),
+          .type = std::string(elements.typeName()),
+          .elements = elements.getSize(),
+          .box = hasRoot ? elements.getFirst()->elementBox(0) : kEmptyBox,
+          .active = elements.isActive(),
+          .simulated = elements.isSimulated(),
+          .moving = elements.isMoving(),
+          .selfCollision = elements.getSelfCollision(),
+          .groups = elements.getGroups(),
+          .contactDistance = elements.getContactDistance()};
+}
+
+std::string methodText(const scene::Scene& scene) {
+  const std::string method(scene.intersection->typeName());
+  std::string text = fmt::format("{}, alarm distance {}", method, scene.intersection->getAlarmDistance());
+  if (scene.intersection->isContinuous()) text += fmt::format(", continuous over {} s", scene.timeStep);
+  if (scene.region) text += fmt::format(", in the region {}", boxText(*scene.region));
+  return text;
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t position = digits.size(); position > 3;) {
+    position -= 3;
+    digits.insert(position, 1, ',');
+  }
+  return digits;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {
+  if (count != 1 && !plural.empty()) return fmt::format("{} {}", grouped(count), plural);
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string boxText(const Box& box) {
+  if (isEmpty(box)) return "empty";
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]", box.min[0], box.min[1], box.min[2],
+                     box.max[0], box.max[1], box.max[2]);
+}
+
+}  // namespace allpairs::app

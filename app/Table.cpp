@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "Table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "Records.h"
+
+namespace allpairs::app {
+namespace {
+
+constexpr std::size_t kPairsShown = 40;   // a screenful
+constexpr std::size_t kNameWidth = 48;    // wider names push the second column aside rather than every line
+
+std::string duration(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
+  if (seconds < 1.0) return fmt::format("{:.1f} ms", seconds * 1e3);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+std::string pairLines(const scene::ResultView& result) {
+  const std::size_t shown = std::min(result.pairs.size(), kPairsShown);
+  std::vector<std::pair<std::string, std::string>> names;
+  std::size_t width = 0;
+  for (const Pair& pair : result.pairs.first(shown)) {
+    names.emplace_back(result.model(result.swapped ? pair.second : pair.first).name,
+                       result.model(result.swapped ? pair.first : pair.second).name);
+    width = std::max(width, std::min(names.back().first.size(), kNameWidth));
+  }
+  std::string text;
+  for (const auto& [first, second] : names) text += fmt::format("  {:<{}}   {}\n", first, width, second);
+  if (shown < result.pairs.size()) {
+    text += fmt::format("  ... and {} more; --format csv or json gives all\n", grouped(result.pairs.size() - shown));
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+std::string testLines(const scene::DetectionStatistics& statistics) {
+  std::string text = fmt::format("tests    {} made; the double loop makes {}\n",
+                                 grouped(statistics.testsMade), grouped(statistics.testsOfAllPairs));
+  if (statistics.verified) text += "verify   the exhaustive strategy gives the same pairs in the same order\n";
+  return text;
+}
+
+}  // namespace
+
+void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink) {
+  const scene::DetectionStatistics& statistics = result.statistics;
+  std::string text = fmt::format("models   {}, of which {} simulated\n", grouped(result.modelCount),
+                                 notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
+  text += fmt::format("method   {}\n", notes.method);
+  if (notes.remarkCount != 0) {
+    text += fmt::format("ignored  {}; 'allpairs info' lists them\n", counted(notes.remarkCount, "part of the input", "parts of the input"));
+  }
+  text += fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
+  text += pairLines(result) + testLines(statistics);
+  text += fmt::format("time     {} to read, {} to detect on {}\n", duration(statistics.readSeconds),
+                      duration(statistics.detectSeconds), counted(statistics.threads, "thread"));
+  sink(text);
+}
+
+}  // namespace allpairs::app

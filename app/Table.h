@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "allpairs/scene/WriteResult.h"
+
+namespace allpairs::app {
+
+/// What the table says besides the result itself.
+struct TableNotes {
+  std::string method{};         ///< How models are tested, in words.
+  std::size_t simulated = 0;    ///< How many models are.
+  std::size_t remarkCount = 0;  ///< How much of the input was left out.
+};
+
+/// Writes a result for people: what was tested, the first pairs and how many more there are, what it cost.
+void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink);
+
+}  // namespace allpairs::app

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "Arguments.h"
+#include "Commands.h"
+#include "ExitStatus.h"
+#include "Output.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+
+namespace {
+
+using allpairs::app::ExitStatus;
+
+constexpr const char* kExamples = R"(Examples:
+  allpairs detect scene.scn                      which models of a scene may touch
+  allpairs detect boxes.npy --format npy -o pairs.npy
+  allpairs detect parts/ --margin 0.5            meshes of a folder at most 0.5 apart
+  allpairs info scene.scn                        what is in it, and what was ignored
+
+'allpairs detect --help' tells more. Exit status: 0 success, 1 --verify found a
+difference, 2 wrong usage, 3 a file that cannot be read or written.)";
+
+/// One line on standard error, whatever the message holds.
+void complain(std::string message) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (message.ends_with(' ')) message.pop_back();
+  std::fprintf(stderr, "allpairs: %s\n", message.c_str());
+}
+
+ExitStatus fail(ExitStatus status, const std::string& message) {
+  complain(message);
+  return status;
+}
+
+std::string chosenCommand(const CLI::App& program) {
+  const auto chosen = program.get_subcommands();
+  return chosen.empty() ? "allpairs" : "allpairs " + chosen.front()->get_name();
+}
+
+void print(const std::string& text) { allpairs::app::Output(std::nullopt).write(text); }
+
+void parse(CLI::App& program, std::vector<std::string> arguments) {
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // the order that CLI11 takes
+  try {
+    program.parse(std::move(reversed));
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = program.get_subcommands();
+    print(chosen.empty() ? program.help() : chosen.front()->help());
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + '\n');
+  } catch (const CLI::ParseError& problem) {
+    throw allpairs::app::UsageError(problem.what());
+  }
+}
+
+/// Runs the command and turns whatever goes wrong into one line and an exit status.
+ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
+  try {
+    parse(program, allpairs::app::joinNumbers(count, arguments));
+    return ExitStatus::Success;
+  } catch (const allpairs::app::UsageError& problem) {
+    return fail(ExitStatus::WrongUsage, std::string(problem.what()) + " (see '" + chosenCommand(program) + " --help')");
+  } catch (const allpairs::collision::VerificationError& problem) {
+    return fail(ExitStatus::Difference, problem.what());
+  } catch (const allpairs::app::ClosedPipe&) {
+    return ExitStatus::ClosedPipe;
+  } catch (const std::bad_alloc&) {
+    return fail(ExitStatus::BadInput, "not enough memory for this input or its result");
+  } catch (const std::exception& problem) {
+    return fail(ExitStatus::BadInput, problem.what());
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), so that temporaries are taken away
+  CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
+  program.set_version_flag("--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
+  program.require_subcommand(1);
+  program.footer(kExamples);
+  allpairs::app::addDetect(program);
+  allpairs::app::addInfo(program);
+  return static_cast<int>(run(program, count, arguments));
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "allpairs/BoxSet.h"
+#include "allpairs/scene/ReadOptions.h"
+
+namespace allpairs::scene {
+
+/// The numbers of n boxes in one block of memory, in the order of minx miny minz maxx maxy maxz.
+template <class T>
+struct BoxTable {
+  std::unique_ptr<T[]> values;  ///< 6 n of them.
+  std::size_t size = 0;
+  bool columnMajor = false;  ///< Six columns of n, as Fortran lays them out, instead of n rows of six.
+};
+
+/// Many short texts in one block of memory.
+class NameList {
+ public:
+  void add(std::string_view name) {
+    m_text += name;
+    m_ends.push_back(m_text.size());
+  }
+
+  [[nodiscard]] bool empty() const noexcept { return m_ends.empty(); }
+
+  [[nodiscard]] std::string_view operator[](std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : m_ends[i - 1];
+    return std::string_view(m_text).substr(begin, m_ends[i] - begin);
+  }
+
+ private:
+  std::string m_text;
+  std::vector<std::uint64_t> m_ends;
+};
+
+/// Boxes as a file holds them, float32 or float64, millions of them in one block, with names where the file has some.
+///
+/// Threads: const use from any number of threads.
+class BoxArray {
+ public:
+  BoxArray() = default;
+
+  /// Bad input: a NaN throws InvalidBox.
+  BoxArray(BoxTable<float> table, std::string label, NameList names = {});
+  BoxArray(BoxTable<double> table, std::string label, NameList names = {});
+
+  /// A view of the boxes that stays valid when the array is moved, but not longer than it lives.
+  [[nodiscard]] const BoxSet& boxes() const noexcept { return m_boxes; }
+  [[nodiscard]] std::size_t size() const noexcept { return m_boxes.size(); }
+
+  /// What box i is called: its name in the file; without one its index, after the file's name if there were several.
+  [[nodiscard]] std::string name(std::size_t i) const;
+
+  /// One array of all the boxes, in the order given: float32 if all are, else float64, which holds both exactly.
+  [[nodiscard]] static BoxArray concatenate(std::vector<BoxArray> arrays);
+
+ private:
+  struct Part {
+    std::size_t begin = 0;
+    std::string label;
+    NameList names;
+  };
+
+  template <class T>
+  static BoxArray concatenateAs(std::vector<BoxArray> arrays, std::size_t size);
+
+  std::variant<BoxTable<float>, BoxTable<double>> m_table;
+  BoxSet m_boxes;
+  std::vector<Part> m_parts;
+};
+
+/// Reads boxes from a NumPy file: an array of shape (n, 6), float32 or float64, either byte order, C or Fortran order,
+/// format versions 1 to 3.
+///
+/// Bad input: anything else throws FileError: another type or shape, a file that is shorter or longer than its header
+///            says, a NaN.
+/// Cost:      one read; the memory of the numbers, and no allocation for what a header only claims.
+[[nodiscard]] BoxArray readNpy(const std::filesystem::path& path);
+
+/// Reads boxes from lines of text: minx,miny,minz,maxx,maxy,maxz, as float64.
+///
+/// The first or the last column may be a name. A first line that names the columns may put them in another order. Empty
+/// lines and lines that begin with # are skipped.
+/// Bad input: throws FileError with line and column.
+[[nodiscard]] BoxArray readCsv(const std::filesystem::path& path);
+
+/// Whether the path is called like a box array: .npy or .csv.
+[[nodiscard]] bool isBoxArrayFile(const std::filesystem::path& path);
+
+/// Reads .npy or .csv.
+[[nodiscard]] BoxArray readBoxArray(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace allpairs::scene

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/FunctionRef.h"
+#include "allpairs/Pair.h"
+
+namespace allpairs::scene {
+
+/// What a result says about one model.
+struct ModelRecord {
+  std::string name;
+  std::string type;
+  std::size_t elements = 0;
+  Box box = kEmptyBox;  ///< Of the root; empty where there are no elements.
+  bool active = true;
+  bool simulated = true;
+  bool moving = true;
+  bool selfCollision = false;
+  std::vector<int> groups{};
+  double contactDistance = 0.0;
+};
+
+/// How a detection went: the last part of a result.
+struct DetectionStatistics {
+  std::string strategy{};             ///< As the caller chose it: auto, exhaustive, blocked.
+  std::size_t threads = 1;            ///< How many it could use.
+  double distance = 0.0;              ///< The margin between boxes, or the alarm distance.
+  std::uint64_t testsOfAllPairs = 0;  ///< How many tests a double loop over the models makes.
+  std::uint64_t testsMade = 0;        ///< How many tests, of two boxes or of the bounds of two groups, were made.
+  double readSeconds = 0.0;
+  double detectSeconds = 0.0;
+  bool verified = false;  ///< Whether the exhaustive strategy was run too, and agreed.
+};
+
+/// Models, pairs of them by index, and how they were found. The pairs are borrowed.
+struct ResultView {
+  std::size_t modelCount = 0;
+  std::function<ModelRecord(std::size_t)> model{};
+  std::span<const Pair> pairs{};
+  bool swapped = false;  ///< Write each pair's second before its first.
+  DetectionStatistics statistics{};
+};
+
+/// Takes a result's bytes, some at a time.
+using ByteSink = FunctionRef<void(std::string_view)>;
+
+/// Writes {"models": [...], "pairs": [[i, j], ...], "statistics": {...}}.
+///
+/// A number is written with as many digits as it takes to read the same number again. JSON has no infinities: they are
+/// the texts "inf" and "-inf".
+/// Cost: linear, in constant memory.
+void writeJson(const ResultView& result, ByteSink sink);
+
+/// Writes a header, and a line with the two names for each pair; names are quoted where they need to be (RFC 4180).
+void writeCsv(const ResultView& result, ByteSink sink);
+
+/// Writes the pairs as a NumPy array of shape (m, 2), uint32, little-endian.
+void writeNpy(const ResultView& result, ByteSink sink);
+
+}  // namespace allpairs::scene

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace allpairs::scene {
+
+using Point = std::array<double, 3>;
+
+/// One object of a mesh file, or one node that shows a mesh, where it lies in the world.
+struct MeshObject {
+  std::string name;  ///< As in the file; empty where it has none.
+  std::vector<Point> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> lines;
+  std::vector<std::uint32_t> points;
+};
+
+/// Reads a Wavefront file in double, with the names exactly as they stand there: an object for each "o", or for each
+/// "g" where there is no "o". A file of nothing but positions is one object of points.
+///
+/// Bad input: throws FileError with its line.
+[[nodiscard]] std::vector<MeshObject> readObjObjects(const std::filesystem::path& path);
+
+/// Reads a Stanford file, ASCII or binary of either byte order, in double: its faces, or its vertices as points where it
+/// has no faces.
+///
+/// Bad input: throws FileError. Nothing is allocated for elements that a header only claims.
+[[nodiscard]] std::vector<MeshObject> readPlyObjects(const std::filesystem::path& path);
+
+/// Reads what Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double to
+/// positions that Assimp gives as float32.
+///
+/// Bad input: throws FileError.
+[[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path);
+
+/// Whether Assimp knows files of this extension.
+[[nodiscard]] bool isAssimpFile(const std::filesystem::path& path);
+
+}  // namespace allpairs::scene

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/scene/ReadInput.h"
+
+#include <memory>
+#include <utility>
+
+#include "FileBytes.h"
+#include "MeshObject.h"
+#include "allpairs/Error.h"
+#include "allpairs/collision/BoxModel.h"
+#include "allpairs/scene/ReadSofaScene.h"
+
+namespace allpairs::scene {
+
+Scene toScene(const BoxArray& boxes) {
+  Scene scene = emptyScene();
+  scene.models.reserve(boxes.size());
+  scene.owners.reserve(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    auto model = std::make_unique<collision::BoxModel>(boxes.name(i), boxes.boxes()[i]);
+    scene.owners.push_back(std::make_unique<Owner>(Owner{model->getName()}));
+    model->setOwner(scene.owners.back().get());
+    scene.models.push_back(std::move(model));
+  }
+  return scene;
+}
+
+Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return readMeshFolder(path, options);
+  requireFile(path);
+  if (isBoxArrayFile(path)) return toScene(readBoxArray(path, options));
+  const std::string extension = lowerExtension(path);
+  if (extension == ".scn" || extension == ".xml") return readSofaScene(path, options);
+  if (extension == ".obj" || extension == ".ply" || isAssimpFile(path)) return readMesh(path, options);
+  throw FileError(path, "is of no kind that is known: .scn or .xml for scenes, .npy or .csv for boxes, or a mesh");
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace allpairs::scene {
+
+/// What separates words within a line; the end of a line from another system counts as one.
+inline constexpr std::string_view kBlanks = " \t\r\f\v";
+
+[[nodiscard]] inline std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// Takes the first word off the text; empty at its end.
+[[nodiscard]] inline std::string_view takeWord(std::string_view& text) {
+  text = trimmed(text);
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+/// The number that is all of the text, in any form that C knows but hexadecimal; NaN and infinities included.
+[[nodiscard]] inline std::optional<double> parseNumber(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || problem == std::errc::invalid_argument) return std::nullopt;
+  // from_chars leaves the value alone where it is too large or too small for a double.
+  if (problem == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
+  return value;
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "Expect.h"
+#include "SceneText.h"
+#include "allpairs/scene/ReadInput.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+constexpr const char* kTwoParts = R"(# two objects that share vertices, and names with blanks
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 0.1
+o part one
+f 1 2 3
+o part two
+f 1/1 2/2/2 4//3
+f -4 -3 -2 -1
+o part one
+l 1 2 3
+p 1 4
+)";
+
+constexpr const char* kStl = R"(solid two words
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0
+endloop
+endfacet
+endsolid two words
+)";
+
+// Two nodes that show one mesh, the second moved and under a parent that is scaled, a third without a name.
+constexpr const char* kGltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 3]}],
+"nodes": [{"name": "wheel", "mesh": 0}, {"name": "axle", "scale": [2, 2, 2], "children": [2]},
+{"name": "wheel", "mesh": 0, "translation": [5, 0, 0]}, {"mesh": 0}],
+"meshes": [{"name": "disc", "primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+scene::Scene read(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  return scene::readInput(folder.write(name, bytes));
+}
+
+void expectProblem(const std::string& name, const std::string& bytes, const std::string& part) {
+  expectFileError([&] { (void)read(name, bytes); }, part);
+}
+
+/// However a file is cut, it is read or refused with a FileError.
+void expectCutsAreHandled(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    const auto path = folder.write(name, std::string_view(bytes).substr(0, length));
+    try {
+      EXPECT_FALSE(scene::readInput(path).models.empty());
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
+    }
+  }
+}
+
+TEST(ObjMesh, EachObjectIsABodyWithItsNameExactlyAsInTheFile) {
+  const scene::Scene scene = read("parts.obj", kTwoParts);
+  EXPECT_EQ(namesOf(scene),
+            "part one TTriangleModel 1\npart two TTriangleModel 3\npart one#2 TLineModel 2\npart one#3 TPointModel 2\n");
+  EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 1, 0}}));
+  EXPECT_EQ(boxOf(*scene.models[3]), (Box{{0, 0, 0}, {0, 0, 0.1}})) << "0.1 is read in double";
+  std::set<const void*> owners;
+  for (const auto& model : scene.models) owners.insert(model->getOwner());
+  EXPECT_EQ(owners.size(), 3U) << "lines and points of one object are of one owner, objects of different ones";
+  EXPECT_EQ(owners.count(nullptr), 0U);
+}
+
+TEST(ObjMesh, GroupsAreObjectsWhereThereIsNoObject) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_EQ(namesOf(read("g.obj", vertices + "g a b\nf 1 2 3\ng c\nf 1 2 3\ng a b\nf 1 2 3\n")),
+            "a b TTriangleModel 2\nc TTriangleModel 1\n");
+  EXPECT_EQ(namesOf(read("g.obj", vertices + "g a\nf 1 2 3\no x\ng b\nf 1 2 3\n")),
+            "g.obj TTriangleModel 1\nx TTriangleModel 1\n");
+}
+
+TEST(ObjMesh, NothingButVerticesIsACloudOfPoints) {
+  EXPECT_EQ(namesOf(read("cloud.obj", "v 0 0 0\nv 1 0 0\n")), "cloud.obj TPointModel 2\n");
+}
+
+TEST(ObjMesh, ALineMayGoOnInTheNext) {
+  EXPECT_EQ(namesOf(read("long.obj", "v 0 0 0\nv 1 0 0\nv 0 1 \\\n 0\nf 1 2 \\\r\n 3\n")), "long.obj TTriangleModel 1\n");
+}
+
+TEST(ObjMesh, ErrorsNameTheLine) {
+  expectProblem("a.obj", "v 0 0\n", "a.obj:1: a position has three coordinates");
+  expectProblem("a.obj", "v 0 0 0\nv 0 nan 0\n", "a.obj:2: 'nan' is no finite number");
+  expectProblem("a.obj", "v 0 0 0\nf 1 1 2\n", "a.obj:2: index 2 names no vertex: the file has 1");
+  expectProblem("a.obj", "v 0 0 0\nf 1 1 0\n", "a.obj:2: index 0");
+  expectProblem("a.obj", "v 0 0 0\nf 1 1 -2\n", "a.obj:2: index -2");
+  expectProblem("a.obj", "v 0 0 0\nf 1 1 x\n", "a.obj:2: 'x' is no index");
+  expectProblem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "a.obj:2:");
+  expectProblem("a.obj", "", "holds no triangles, lines or points");
+}
+
+TEST(StlMesh, SolidsKeepTheirWholeNames) {
+  EXPECT_EQ(namesOf(read("a.stl", kStl)), "two words TTriangleModel 1\n");
+}
+
+TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
+  const scene::Scene scene = read("car.gltf", kGltf);
+  EXPECT_EQ(namesOf(scene), "wheel TTriangleModel 1\nwheel#2 TTriangleModel 1\ndisc TTriangleModel 1\n");
+  EXPECT_EQ(boxOf(*scene.models[1]), (Box{{10, 0, 0}, {12, 2, 0}}));
+}
+
+TEST(OffMesh, IsReadAndNamedAfterItsFile) {
+  EXPECT_EQ(namesOf(read("tri.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")), "tri.off TTriangleModel 2\n");
+}
+
+TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {
+  expectCutsAreHandled("cut.obj", kTwoParts);
+  expectCutsAreHandled("cut.stl", kStl);
+  expectCutsAreHandled("cut.gltf", kGltf);
+  expectCutsAreHandled("cut.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+}
+
+TEST(Mesh, AnUnknownKindOfFileIsRefused) { expectProblem("notes.txt", "hello", "is of no kind that is known"); }
+
+TEST(MeshFolder, ReadsMeshesByNameAndRemarksOnTheRest) {
+  const TempFolder folder;
+  folder.write("b.stl", kStl);
+  folder.write("a.obj", kTwoParts);
+  folder.write("c.stl", kStl);
+  folder.write("readme.txt", "hello");
+  std::filesystem::create_directory(folder.path() / "more");
+  const scene::Scene scene = scene::readInput(folder.path());
+  EXPECT_EQ(namesOf(scene),
+            "part one TTriangleModel 1\npart two TTriangleModel 3\npart one#2 TLineModel 2\npart one#3 TPointModel 2\n"
+            "two words TTriangleModel 1\ntwo words#2 TTriangleModel 1\n");
+  ASSERT_EQ(scene.remarks.size(), 2U);
+  EXPECT_EQ(scene.remarks[0].subject, "more");
+  EXPECT_EQ(scene.remarks[1].subject, "readme.txt");
+}
+
+TEST(MeshFolder, WithoutMeshesIsAnError) {
+  const TempFolder folder;
+  folder.write("readme.txt", "hello");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "is a folder without mesh files");
+}
+
+TEST(MeshFolder, AMeshThatCannotBeReadIsAnErrorUnlessPartial) {
+  const TempFolder folder;
+  folder.write("a.obj", kTwoParts);
+  folder.write("bad.obj", "v 0 0\n");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "bad.obj:1:");
+  const scene::Scene scene = scene::readInput(folder.path(), {.searchRoots = {}, .partial = true, .progress = {}});
+  EXPECT_EQ(scene.models.size(), 4U);
+  ASSERT_EQ(scene.remarks.size(), 1U);
+  EXPECT_EQ(scene.remarks[0].subject, "bad.obj");
+}
+
+}  // namespace
+}  // namespace allpairs::test

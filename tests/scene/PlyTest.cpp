@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "Expect.h"
+#include "SceneText.h"
+#include "allpairs/scene/ReadInput.h"
+#include "support/Npy.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+constexpr const char* kVertices = "element vertex 4\nproperty double x\nproperty double y\nproperty float32 z\n";
+
+scene::Scene read(const std::string& bytes) {
+  const TempFolder folder;
+  return scene::readInput(folder.write("mesh.ply", bytes));
+}
+
+std::string ascii(const std::string& elements, const std::string& body) {
+  return "ply\nformat ascii 1.0\ncomment made by hand\n" + elements + "end_header\n" + body;
+}
+
+/// A quad as binary: four vertices and one face of four.
+std::string binary(bool bigEndian) {
+  std::string bytes = std::string("ply\nformat ") + (bigEndian ? "binary_big_endian" : "binary_little_endian") + " 1.0\n" +
+                      kVertices + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 2.0}, {0.0, 2.0}}) {
+    appendNumber(bytes, x, bigEndian);
+    appendNumber(bytes, y, bigEndian);
+    appendNumber(bytes, 3.0F, bigEndian);
+  }
+  bytes += '\x04';
+  for (const std::int32_t index : {0, 1, 2, 3}) appendNumber(bytes, index, bigEndian);
+  return bytes;
+}
+
+std::string quad() {
+  return ascii(std::string(kVertices) + "element face 1\nproperty list uchar int vertex_indices\n",
+               "0 0 3\n0.1 0 3\n0.1 2 3\n0 2 3\n4 0 1 2 3\n");
+}
+
+TEST(PlyMesh, TextAndBothByteOrdersGiveTheSameInDouble) {
+  for (const std::string& bytes : {quad(), binary(false), binary(true)}) {
+    const scene::Scene scene = read(bytes);
+    ASSERT_EQ(namesOf(scene), "mesh.ply TTriangleModel 2\n");
+    EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 3}, {0.1, 2, 3}}));
+  }
+}
+
+TEST(PlyMesh, EdgesAreLinesStripsAreTrianglesAndVerticesAlonePoints) {
+  const std::string body = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  EXPECT_EQ(namesOf(read(ascii(std::string(kVertices) + "element edge 1\nproperty int vertex1\nproperty int vertex2\n",
+                               body + "0 3\n"))),
+            "mesh.ply TLineModel 1\n");
+  EXPECT_EQ(namesOf(read(ascii(std::string(kVertices) + "element tristrips 1\nproperty list int int vertex_indices\n",
+                               body + "8 0 1 2 3 -1 0 1 2\n"))),
+            "mesh.ply TTriangleModel 3\n");
+  EXPECT_EQ(namesOf(read(ascii(kVertices, body))), "mesh.ply TPointModel 4\n");
+}
+
+TEST(PlyMesh, FilesCutAnywhereAreRefused) {
+  const TempFolder folder;
+  for (const std::string& bytes : {quad(), binary(false)}) {
+    const std::size_t end = bytes.find_last_not_of('\n');
+    for (std::size_t length = 0; length <= end; ++length) {
+      const auto path = folder.write("cut.ply", std::string_view(bytes).substr(0, length));
+      EXPECT_THROW((void)scene::readInput(path), FileError) << length;
+    }
+  }
+}
+
+TEST(PlyMesh, HugeClaimsEndWithTheFile) {
+  const std::string huge = "element vertex 18446744073709551615\nproperty float x\nproperty float y\nproperty float z\n";
+  expectFileError([&] { (void)read(ascii(huge, "0 0 0\n")); }, "ends before all");
+  expectFileError([&] { (void)read(ascii("element nothing 18446744073709551615\n", "")); }, "holds no triangles");
+  expectFileError(
+      [&] {
+        (void)read(ascii(std::string(kVertices) + "element face 1\nproperty list uint int vertex_indices\n",
+                         "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4294967295 0 1 2\n"));
+      },
+      "ends before all");
+}
+
+TEST(PlyMesh, ErrorsNameTheLine) {
+  expectFileError([] { (void)read("plx\n"); }, "mesh.ply:1:");
+  expectFileError([] { (void)read("ply\nformat ascii 1.0\nelement vertex many\nend_header\n"); }, "mesh.ply:3:");
+  expectFileError([] { (void)read("ply\nformat ascii 1.0\nproperty float x\nend_header\n"); }, "mesh.ply:3:");
+  expectFileError([] { (void)read("ply\nformat ascii 1.0\nelement v 1\nproperty real x\nend_header\n"); }, "'real'");
+  expectFileError([] { (void)read(ascii(kVertices, "0 0 0\n1 x 0\n")); }, "mesh.ply:10: 'x' is not a number");
+  expectFileError(
+      [] {
+        (void)read(ascii(std::string(kVertices) + "element face 1\nproperty list uchar int vertex_index\n",
+                         "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 4\n"));
+      },
+      "names a vertex that isn't there");
+}
+
+}  // namespace
+}  // namespace allpairs::test
