@@ -212,6 +212,8 @@ const Component* Evaluation::source(const Component& component) const {
 std::optional<Numbers> Evaluation::output(const Component& component, std::string_view name) {
   const auto kind = component.kind();
   const Busy busy(*this, component, std::string{name} + " data");
+  if (kind == ComponentKind::MechanicalState || kind == ComponentKind::MeshLoader)
+    if (const auto value = placementData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (kind == ComponentKind::MeshLoader || kind == ComponentKind::SphereLoader)
     if (auto value = loaderOutput(component, mesh(component), name)) return value;
   if (isTopology(kind) && isMeshData(name)) {

@@ -117,6 +117,9 @@ class Evaluation {
 [[nodiscard]] State mapState(Evaluation& evaluation, const Component& mapping, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
                                                    const Component& parent, const State& child);
+/// How a state or a mesh loader moves its points: the data scale3d, rotation, translation, rotation2 and translation2.
+[[nodiscard]] std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component,
+                                                std::string_view name);
 /// The data of an engine, nothing if it has none of this name.
 [[nodiscard]] std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine,
                                                   std::string_view name);

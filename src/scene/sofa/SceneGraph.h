@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "allpairs/Error.h"
@@ -62,6 +63,8 @@ struct Node {
   bool active = true;
   Place place;
   Node* parent = nullptr;
+  /// Names of components, each of the first before its second when the simulation starts, whatever their order here.
+  std::vector<std::pair<std::string, std::string>> order;
   std::vector<std::unique_ptr<Component>> components;
   std::vector<std::unique_ptr<Node>> children;
 

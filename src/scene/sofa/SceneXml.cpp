@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <pugixml.hpp>
-#include <set>
+#include <sstream>
 
 #include "scene/sofa/LineIndex.h"
 #include "scene/sofa/Values.h"
@@ -205,6 +205,10 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   node->place = element.place;
   node->parent = parent;
   if (const auto* activated = element.attributes.find("activated")) node->active = parseBool(*activated).value_or(true);
+  if (const auto* depend = element.attributes.find("depend")) {
+    std::istringstream names(*depend);
+    for (std::string first, second; names >> first >> second;) node->order.emplace_back(first, second);
+  }
   for (auto& child : element.children) {
     if (child.isNode)
       node->children.push_back(toNode(std::move(child), node.get()));

@@ -98,6 +98,7 @@ bool isTooLate(Evaluation& evaluation, const Component& state, const Component& 
   const auto* mapping = evaluation.topologicalMappingOf(topology);
   if (mapping != nullptr) return mapping->node == state.node && mapping->index > state.index;
   if (topology.kind() == RegularGrid) return false;
+  if (std::ranges::find(state.node->order, std::pair{topology.name, state.name}) != state.node->order.end()) return false;
   return topology.node == state.node && topology.index > state.index;
 }
 
@@ -145,6 +146,18 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
 }
 
 }  // namespace
+
+std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component, std::string_view name) {
+  const auto placement = placementOf(evaluation, component);
+  if (name == "scale3d" && component.kind() == MeshLoader)  // Loaders multiply where states replace.
+    return evaluation.vector(component, {"scale3d"}, {1, 1, 1}) * single(component, "scale", 1);
+  if (name == "scale3d") return placement.scale;
+  if (name == "rotation") return placement.rotation;
+  if (name == "translation") return placement.translation;
+  if (name == "rotation2") return placement.rotation2;
+  if (name == "translation2") return placement.translation2;
+  return std::nullopt;
+}
 
 State initialState(Evaluation& evaluation, const Component& component) {
   State state;
