@@ -22,7 +22,7 @@ Vec3 backwards(const Steps& steps, const Vec3& p) {
 
 std::optional<Numbers> transformed(Evaluation& evaluation, const Component& engine, std::string_view name) {
   if (name != "output_position") return std::nullopt;
-  const auto given = evaluation.numbers(engine, {"quaternion"}, 1);
+  const auto given = evaluation.numbers(engine, {"quaternion"}, Evaluation::kFlat);
   const bool whole = given && given->values.size() == 4;
   const Steps steps{
       .scale = evaluation.vector(engine, {"scale"}, {1, 1, 1}),

@@ -238,6 +238,7 @@ std::optional<Numbers> Evaluation::numbers(const Component& component, Names nam
     for (const auto name : names)
       if (!found) found = throughSrc(component, name);
   if (!found) return found;
+  if (width == kFlat) return Numbers{std::move(found->values), 1};
   if (found->width == 1) {
     found->width = width;  // Plain numbers are cut into entries; what is left over is dropped.
     found->values.resize(found->size() * width);
@@ -262,7 +263,7 @@ double Evaluation::number(const Component& component, Names names, double standa
 }
 
 Vec3 Evaluation::vector(const Component& component, Names names, const Vec3& standard) {
-  const auto found = numbers(component, names, 1);
+  const auto found = numbers(component, names, kFlat);
   Vec3 result = standard;
   if (found) std::copy_n(found->values.begin(), std::min<std::size_t>(3, found->values.size()), result.begin());
   return result;

@@ -65,6 +65,8 @@ class Evaluation {
   const State& knownState(const Component& component);
 
   using Names = std::initializer_list<std::string_view>;
+  /// As a width: all numbers in a row, whatever entries they make where they come from.
+  static constexpr std::size_t kFlat = 0;
   /// The numbers of one data of a component, under any of its names: written out, linked, or found through `src`.
   std::optional<Numbers> numbers(const Component& component, Names names, std::size_t width,
                                  const std::vector<double>& filler = {});

@@ -95,7 +95,7 @@ void transformByMatrix(Mesh& mesh, const std::vector<double>& m) {
 }
 
 void transform(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
-  const auto matrix = evaluation.numbers(loader, {"transformation"}, 1);
+  const auto matrix = evaluation.numbers(loader, {"transformation"}, Evaluation::kFlat);
   if (matrix && matrix->values.size() == 16) return transformByMatrix(mesh, matrix->values);
   auto scale = evaluation.vector(loader, {"scale3d"}, {1, 1, 1});
   if (const auto* text = loader.attributes.find("scale")) scale = scale * parseWholeFloat(*text).value_or(1);

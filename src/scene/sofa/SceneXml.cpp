@@ -100,8 +100,9 @@ class ElementReader {
     if (std::ranges::find(m_openFiles, canonical) != m_openFiles.end())
       throw FileError(path, "this file includes itself, directly or through another");
     m_openFiles.push_back(canonical);
-    const SourceFile file(path);
-    auto root = read(file, file.document.document_element());
+    auto& file = m_files[canonical];
+    if (!file) file = std::make_unique<SourceFile>(path);
+    auto root = read(*file, file->document.document_element());
     m_openFiles.pop_back();
     if (!root || !root->isNode) throw FileError(path, "the outermost element of a scene must be a Node");
     return std::move(*root);
@@ -180,6 +181,7 @@ class ElementReader {
 
   const FileFinder& m_finder;
   std::vector<std::filesystem::path> m_openFiles;
+  std::map<std::filesystem::path, std::unique_ptr<SourceFile>> m_files;
   std::map<std::string, std::size_t> m_counters;
   std::size_t m_depth = 0;
   std::size_t m_elements = 0;

@@ -98,7 +98,8 @@ bool isTooLate(Evaluation& evaluation, const Component& state, const Component& 
   const auto* mapping = evaluation.topologicalMappingOf(topology);
   if (mapping != nullptr) return mapping->node == state.node && mapping->index > state.index;
   if (topology.kind() == RegularGrid) return false;
-  if (std::ranges::find(state.node->order, std::pair{topology.name, state.name}) != state.node->order.end()) return false;
+  if (std::ranges::find(state.node->order, std::pair{topology.name, state.name}) != state.node->order.end())
+    return false;
   return topology.node == state.node && topology.index > state.index;
 }
 
