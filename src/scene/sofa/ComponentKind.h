@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace allpairs::scene::sofa {
+
+/// What a component of a scene is to this reader.
+enum class ComponentKind {
+  Other,  ///< Nothing that a collision model's position depends on, as far as its name tells.
+  Pipeline,
+  BroadPhase,
+  DiscreteMethod,
+  ProximityMethod,
+  OtherMethod,
+  MechanicalState,
+  UnknownState,
+  MeshLoader,
+  SphereLoader,
+  UnknownLoader,
+  MeshTopology,
+  PointContainer,
+  EdgeContainer,
+  TriangleContainer,
+  QuadContainer,
+  TetrahedronContainer,
+  HexahedronContainer,
+  RegularGrid,
+  SparseGrid,
+  CubeTopology,
+  CylinderGrid,
+  SphereGrid,
+  UnknownTopology,
+  Tetra2Triangle,
+  Hexa2Quad,
+  Quad2Triangle,
+  Hexa2Tetra,
+  Triangle2Edge,
+  Edge2Quad,
+  UnknownTopologicalMapping,
+  RigidMapping,
+  IdentityMapping,
+  SubsetMapping,
+  BarycentricMapping,
+  UnknownMapping,
+  TransformEngine,
+  MergePoints,
+  BoxRoi,
+  PointModel,
+  LineModel,
+  TriangleModel,
+  SphereModel,
+  CapsuleModel,
+  CylinderModel,
+  OrientedBoxModel,
+  TetrahedronModel,
+  UnknownModel,
+};
+
+/// What the class names in a scene stand for.
+struct ComponentClass {
+  ComponentKind kind = ComponentKind::Other;
+  std::string_view name;  ///< SOFA's own class name, whatever alias the scene uses; empty where this reader has none.
+};
+
+/// The class behind a name in a scene, of either generation of SOFA, alias or not.
+[[nodiscard]] ComponentClass classOf(std::string_view type);
+
+/// The stem of the names that SOFA gives to components without a name; empty for classes that it would not know.
+[[nodiscard]] std::string defaultNameStem(std::string_view type);
+
+[[nodiscard]] bool isModel(ComponentKind kind);
+[[nodiscard]] bool isTopology(ComponentKind kind);
+[[nodiscard]] bool isTopologicalMapping(ComponentKind kind);
+[[nodiscard]] bool isMapping(ComponentKind kind);
+[[nodiscard]] bool isState(ComponentKind kind);
+[[nodiscard]] bool isMethod(ComponentKind kind);
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/TextScanner.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "allpairs/Error.h"
+#include "scene/sofa/FileFinder.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+constexpr std::string_view kBlanksInLine = " \t\r\v\f";
+constexpr std::size_t kQuoted = 40;  // Characters of a word at fault that a message repeats.
+
+}  // namespace
+
+TextScanner::TextScanner(const std::filesystem::path& path) : m_path(path), m_text(readWholeFile(path)) {}
+
+bool TextScanner::atEnd() { return m_text.find_first_not_of(kBlanks, m_position) == std::string::npos; }
+
+std::string_view TextScanner::word() {
+  const auto begin = m_text.find_first_not_of(kBlanks, m_position);
+  return begin == std::string::npos ? take(m_text.size()) : take(begin);
+}
+
+std::string_view TextScanner::wordInLine() {
+  const auto begin = m_text.find_first_not_of(kBlanksInLine, m_position);
+  if (begin == std::string::npos || m_text[begin] == '\n') return {};
+  return take(begin);
+}
+
+std::string_view TextScanner::take(std::size_t begin) {
+  const auto end = std::min(m_text.find_first_of(kBlanks, begin), m_text.size());
+  m_wordStart = begin;
+  m_position = end;
+  return std::string_view{m_text}.substr(begin, end - begin);
+}
+
+double TextScanner::number() { return toNumber(word()); }
+
+std::int64_t TextScanner::integer() { return toInteger(word()); }
+
+void TextScanner::expect(std::string_view wanted) {
+  const auto found = word();
+  if (found != wanted)
+    fail("expected '" + std::string{wanted} + "', found '" + std::string{found.substr(0, kQuoted)} + "'");
+}
+
+void TextScanner::skipLine() {
+  const auto end = m_text.find('\n', m_position);
+  m_position = end == std::string::npos ? m_text.size() : end + 1;
+}
+
+std::string_view TextScanner::bytes(std::size_t count) {
+  if (m_text.size() - m_position < count) fail("the file ends before its data");
+  m_wordStart = m_position;
+  m_position += count;
+  return std::string_view{m_text}.substr(m_position - count, count);
+}
+
+double TextScanner::toNumber(std::string_view word) const {
+  if (word.empty()) fail("a number is missing");
+  auto digits = word;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos) return 0;
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    fail("'" + std::string{word.substr(0, kQuoted)} + "' is not a finite number");
+  return value;
+}
+
+std::int64_t TextScanner::toInteger(std::string_view word) const {
+  if (word.empty()) fail("an integer is missing");
+  std::int64_t value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size())
+    fail("'" + std::string{word.substr(0, kQuoted)} + "' is not an integer");
+  return value;
+}
+
+void TextScanner::fail(const std::string& problem) const {
+  const auto upTo = m_text.begin() + static_cast<std::ptrdiff_t>(std::min(m_wordStart, m_text.size()));
+  throw FileError(m_path, problem, static_cast<std::size_t>(std::count(m_text.begin(), upTo, '\n')) + 1);
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using SofaGraph = SceneTest;
+
+constexpr auto kPoint = "<MechanicalObject position='1 2 3'/>";
+
+TEST_F(SofaGraph, ModelsComeInDocumentOrderAndThenChildrenDepthFirst) {
+  const auto scene = readIn(R"(
+    <MechanicalObject/>
+    <Node name="A"><PointModel name="a"/><Node name="B"><PointModel name="b"/></Node></Node>
+    <PointModel name="first"/>
+    <Node name="C"><PointModel name="c"/></Node>)");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/first", "/A/a", "/A/B/b", "/C/c"));
+}
+
+TEST_F(SofaGraph, OnlyTheNodeOfThePipelineAndWhatIsBelowItCounts) {
+  const auto scene = readIn(R"(
+    <Node name="Out"><MechanicalObject/><PointModel name="p"/></Node>
+    <Node name="In"><CollisionPipeline/><MechanicalObject/><PointModel name="p"/></Node>)");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/In/p"));
+}
+
+TEST_F(SofaGraph, InactiveNodesAreLeftOut) {
+  const auto scene = readIn(R"(<MechanicalObject/>
+    <Node name="A" activated="0"><PointModel/><Node><PointModel/></Node></Node>
+    <Node name="B" activated="false"><PointModel/></Node>
+    <Node name="C" activated="true"><PointModel name="p"/></Node>)");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/C/p"));
+}
+
+TEST_F(SofaGraph, ModelsWithoutANameAreNumberedByClassThroughoutTheFile) {
+  const auto scene = readIn(R"(<MechanicalObject/>
+    <Node name="A"><PointModel/><SphereCollisionModel/></Node><Node name="B"><Point/><PointModel name="own"/><TPointModel/></Node>)");
+  EXPECT_THAT(pathsOf(scene),
+              ElementsAre("/A/tPointModel1", "/A/tSphereModel1", "/B/tPointModel2", "/B/own", "/B/tPointModel3"));
+}
+
+TEST_F(SofaGraph, ModelsOfOneNodeShareAnOwner) {
+  const auto scene = readIn(R"(<MechanicalObject/>
+    <Node name="A"><PointModel/><SphereModel/></Node><Node name="B"><PointModel/></Node>)");
+  ASSERT_EQ(scene.models.size(), 3U);
+  EXPECT_EQ(scene.models[0].owner, scene.models[1].owner);
+  EXPECT_NE(scene.models[0].owner, scene.models[2].owner);
+  EXPECT_THAT(scene.owners, ElementsAre("/A", "/B"));
+}
+
+TEST_F(SofaGraph, ComponentsMayBeWrittenAsObjectsWithAType) {
+  const auto scene = readIn(std::string{"<Object type='MechanicalObject' position='1 2 3'/>"} +
+                            "<Object type='PointModel' name='p'/>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 2, 3, 1, 2, 3}));
+}
+
+TEST_F(SofaGraph, AnElementWithATypeThatIsNoObjectIsNothing) {
+  EXPECT_THAT(readIn(std::string{kPoint} + "<Foo type='PointModel'/>").models, IsEmpty());
+}
+
+TEST_F(SofaGraph, LinesOfModelsCountFromOne) {
+  const auto scene = readIn(std::string{kPoint} + "\n\n<PointModel/>");
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models[0].line, 4U);
+  EXPECT_EQ(scene.models[0].file.filename(), "scene.scn");
+}
+
+// Links.
+
+TEST_F(SofaGraph, LinksFollowPathsUpDownAndFromTheRoot) {
+  for (const auto link : {"@../data.position", "@/Here/data.position", "@data.position",
+                          "@/Here/There/../data.position", "@.././data.position"}) {
+    const auto scene = readIn(
+        "<Node name='Here'><MechanicalObject name='data' position='4 5 6'/><Node name='There'>"
+        "<MechanicalObject name='state' position='" +
+        std::string{link} + "'/><PointModel/></Node></Node>");
+    EXPECT_THAT(onlyBox(scene), IsBox(Corners{4, 5, 6, 4, 5, 6})) << link;
+  }
+}
+
+TEST_F(SofaGraph, NegativeNumbersLinkToComponentsBefore) {
+  const auto scene =
+      readIn(R"(<MechanicalObject name="a" position="1 1 1"/><MechanicalObject name="b" position="2 2 2"/>
+    <UnknownThing/><MechanicalObject position="@[-3].position"/><PointModel/>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 1, 1, 1, 1, 1}));
+}
+
+TEST_F(SofaGraph, LinksMayNameAnyAttributeThatIsWrittenOut) {
+  const auto scene =
+      readIn(R"(<Whatever name="w" points="1 0 0 5 0 0"/><MechanicalObject position="@w.points"/><PointModel/>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 0, 0, 5, 0, 0}));
+}
+
+TEST_F(SofaGraph, ALinkToNothingIsNamedWithItsLine) {
+  EXPECT_THAT(complaintIn("<MechanicalObject name='m' position='@nobody.position'/>\n<PointModel name='p'/>"),
+              testing::AllOf(HasSubstr("scene.scn:2: MechanicalObject 'm' (/m)"), HasSubstr("@nobody.position"),
+                             HasSubstr("PointModel 'p' (/p) depends on it")));
+}
+
+TEST_F(SofaGraph, LinksInACircleAreNamed) {
+  EXPECT_THAT(complaintIn("<MechanicalObject name='a' position='@b.position'/>"
+                          "<MechanicalObject name='b' position='@a.position'/><PointModel/>"),
+              HasSubstr("depends on itself"));
+  EXPECT_THAT(complaintIn("<MechanicalObject name='a' position='@a.position'/><PointModel/>"),
+              HasSubstr("depends on itself"));
+  EXPECT_THAT(
+      complaintIn("<X name='x' p='@y.p'/><X name='y' p='@x.p'/><MechanicalObject position='@x.p'/><PointModel/>"),
+      HasSubstr("depends on itself"));
+}
+
+TEST_F(SofaGraph, AVeryLongChainOfLinksIsAnErrorAndNoCrash) {
+  std::string text = "<X name='x0' p='1 2 3'/>";
+  for (int i = 1; i < 20000; ++i)
+    text += "<X name='x" + std::to_string(i) + "' p='@x" + std::to_string(i - 1) + ".p'/>";
+  EXPECT_THAT(complaintIn(text + "<MechanicalObject position='@x19999.p'/><PointModel/>"), HasSubstr("too long"));
+}
+
+TEST_F(SofaGraph, SrcLinksWhatIsNotGiven) {
+  const auto scene = readIn(R"(<MechanicalObject name="a" position="1 0 0 2 0 0"/><MechanicalObject name="b" src="@a"/>
+    <PointModel/>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 0, 0, 2, 0, 0}));
+  const auto given = readIn(R"(<MechanicalObject name="a" position="1 0 0 2 0 0"/>
+    <MechanicalObject name="b" src="@a" position="7 0 0 8 0 0"/><PointModel/>)");
+  EXPECT_THAT(onlyBox(given), IsBox(Corners{7, 0, 0, 8, 0, 0}));
+}
+
+// Includes.
+
+TEST_F(SofaGraph, IncludesPutTheirRootNodeWhereTheyStand) {
+  write("part.xml", "<Node name='Part'><MechanicalObject position='1 2 3'/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(readIn("<include href='part.xml'/><include href='part.xml' name='Other'/>")),
+              ElementsAre("/Part/p", "/Other/p"));
+}
+
+TEST_F(SofaGraph, ARootNamedGroupIsReplacedByItsChildren) {
+  write("part.xml", "<Node name='Group'><MechanicalObject/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(readIn("<include href='part.xml'/>")), ElementsAre("/p"));
+  write("part.xml", "<Node name='Part'><MechanicalObject/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(readIn("<include href='part.xml' name='Group'/>")), ElementsAre("/p"));
+}
+
+TEST_F(SofaGraph, AttributesOfAnIncludeReplaceThoseThatArePresent) {
+  write("part.xml", R"(<Node name="Part"><MechanicalObject name="m" dx="1" position="0 0 0"/><PointModel/></Node>)");
+  EXPECT_THAT(onlyBox(readIn("<include href='part.xml' dx='5' dy='7'/>")), IsBox(Corners{5, 0, 0, 5, 0, 0}));
+}
+
+TEST_F(SofaGraph, AnAttributeOfAnIncludeMayAddressOneComponent) {
+  write("part.xml", R"(<Node name="Part"><MechanicalObject name="a" dx="1"/><PointModel/>
+    <Node name="N"><MechanicalObject name="b" dx="1"/><PointModel/></Node></Node>)");
+  const auto scene = readIn("<include href='part.xml' b__dx='5'/>");
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_THAT(boxOf(scene.models[0]), IsBox(Corners{1, 0, 0, 1, 0, 0}));
+  EXPECT_THAT(boxOf(scene.models[1]), IsBox(Corners{5, 0, 0, 5, 0, 0}));
+}
+
+TEST_F(SofaGraph, TheOutermostIncludeHasTheLastWord) {
+  write("inner.xml", "<Node name='I'><MechanicalObject dx='1'/><PointModel/></Node>");
+  write("outer.xml", "<Node name='O'><include href='inner.xml' dx='2'/></Node>");
+  EXPECT_THAT(onlyBox(readIn("<include href='outer.xml'/>")), IsBox(Corners{2, 0, 0, 2, 0, 0}));
+  EXPECT_THAT(onlyBox(readIn("<include href='outer.xml' dx='3'/>")), IsBox(Corners{3, 0, 0, 3, 0, 0}));
+}
+
+TEST_F(SofaGraph, AnUnknownElementMayBeAFileOfObjects) {
+  write("Objects/MyPart.xml", "<Node name='Part'><MechanicalObject dx='1'/><PointModel name='p'/></Node>");
+  const auto scene = readIn("<MyPart dx='4' name='Mine'/>");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/Mine/p"));
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{4, 0, 0, 4, 0, 0}));
+}
+
+TEST_F(SofaGraph, FilesAreFoundBesideTheSceneAndThenBelowTheRoots) {
+  const Folder root;
+  m_roots = {m_folder.path() / "nowhere", root.path()};
+  root.write("lib/part.xml", "<Node name='FromRoot'><MechanicalObject/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(readIn("<include href='lib/part.xml'/>")), ElementsAre("/FromRoot/p"));
+  write("lib/part.xml", "<Node name='Beside'><MechanicalObject/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(readIn("<include href='lib/part.xml'/>")), ElementsAre("/Beside/p"));
+}
+
+TEST_F(SofaGraph, FilesThatAnIncludedFileNamesAreFoundBesideIt) {
+  write("sub/part.xml", "<Node name='P'><include href='deeper.xml'/></Node>");
+  write("sub/deeper.xml", "<Node name='D'><MechanicalObject/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(readIn("<include href='sub/part.xml'/>")), ElementsAre("/P/D/p"));
+}
+
+TEST_F(SofaGraph, AMissingIncludeIsNamed) {
+  EXPECT_THAT(complaintIn("<include href='missing.xml'/>"),
+              testing::AllOf(HasSubstr("scene.scn:2:"), HasSubstr("missing.xml")));
+  EXPECT_THAT(complaintIn("<include/>"), HasSubstr("without href"));
+}
+
+TEST_F(SofaGraph, FilesThatIncludeThemselvesAreNamed) {
+  write("a.xml", "<Node><include href='b.xml'/></Node>");
+  write("b.xml", "<Node><include href='a.xml'/></Node>");
+  EXPECT_THAT(complaintIn("<include href='a.xml'/>"), HasSubstr("includes itself"));
+  EXPECT_THAT(complaintIn("<include href='scene.scn'/>"), HasSubstr("includes itself"));
+}
+
+TEST_F(SofaGraph, IncludesThatDoubleWithEachLevelDoNotEatTheMemory) {
+  write("f0.xml", "<Node><X/><X/></Node>");
+  for (int i = 1; i < 31; ++i) {
+    const auto inner = "<include href='f" + std::to_string(i - 1) + ".xml'/>";
+    write("f" + std::to_string(i) + ".xml", "<Node>" + inner + inner + "</Node>");
+  }
+  EXPECT_THAT(complaintIn("<include href='f30.xml'/>"), HasSubstr("more elements"));
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa

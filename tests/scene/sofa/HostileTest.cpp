@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+using SofaHostile = SceneTest;
+
+constexpr auto kSmall = R"(<?xml version="1.0"?>
+<!-- a scene -->
+<Node name="root">
+  <CollisionPipeline/><MinProximityIntersection alarmDistance="0.5"/>
+  <RegularGridTopology n="2 2 2"/>
+  <MechanicalObject template="Vec3d" dx="1"/>
+  <Node name="A"><MechanicalObject position="0 0 0 1 1 1"/>
+    <BarycentricMapping/><PointModel group="1 2" proximity="0.1"/></Node>
+</Node>
+)";
+
+TEST_F(SofaHostile, ASceneCutAtEveryByteIsAnErrorThatNamesIt) {
+  const std::string text = kSmall;
+  EXPECT_EQ(complaint(text), "");
+  const auto end = text.rfind("</Node>") + 7;
+  for (std::size_t size = 0; size < end; ++size)
+    EXPECT_THAT(complaint(text.substr(0, size)), HasSubstr("scene.scn")) << "cut at " << size;
+}
+
+TEST_F(SofaHostile, ASceneWithAnyByteChangedIsReadOrNamedButNeverCrashes) {
+  const std::string text = kSmall;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    for (const char byte : {'<', '"', '@', '9', '-', '\0', '\xff'}) {
+      auto changed = text;
+      changed[i] = byte;
+      (void)complaint(changed);
+    }
+}
+
+TEST_F(SofaHostile, WhatIsNotWellFormedIsNamedWithLineAndColumn) {
+  EXPECT_THAT(complaint("<Node>\n <Node name=x/></Node>"), AllOf(HasSubstr("scene.scn:2:"), HasSubstr("well-formed")));
+  EXPECT_THAT(complaint("<Node><Node></Node>"), HasSubstr("well-formed"));
+  EXPECT_THAT(complaint("<Node></Other>"), HasSubstr("well-formed"));
+  EXPECT_THAT(complaint(""), HasSubstr("scene.scn"));
+  EXPECT_THAT(complaint("<!-- nothing -->"), HasSubstr("scene.scn"));
+  EXPECT_THAT(complaint("<PointModel/>"), HasSubstr("must be a Node"));
+}
+
+TEST_F(SofaHostile, MissingScenesAndFoldersAreNamed) {
+  const auto said = [](const std::filesystem::path& path) -> std::string {
+    try {
+      (void)describeScene(path, {});
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(said(m_folder.path() / "gone.scn"), HasSubstr("gone.scn: there is no such file"));
+  EXPECT_THAT(said(m_folder.path()), HasSubstr("not a file"));
+}
+
+TEST_F(SofaHostile, NodesNestedWithoutEndAreAnErrorAndNoCrash) {
+  std::string open, close;
+  for (int i = 0; i < 100'000; ++i) open += "<Node>", close += "</Node>";
+  EXPECT_THAT(complaint(open + close), HasSubstr("nested too deep"));
+}
+
+TEST_F(SofaHostile, PathsThatLeadOutOfTheSceneLeadNowhere) {
+  for (const auto link : {"@../../../x.position", "@", "@.", "@..", "@/", "@//.", "@[", "@[-9].position",
+                          "@[9].position", "@[-0].position", "@a/b/c/d.e", "@m/x.position", "@.position"})
+    EXPECT_NE(complaintIn("<MechanicalObject name='m' position='" + std::string{link} + "'/><PointModel/>"), "")
+        << link;
+}
+
+TEST_F(SofaHostile, HugeNumbersAreNamed) {
+  for (const auto text :
+       {"<MechanicalObject size='1e30'/><PointModel/>", "<MechanicalObject/><SphereModel group='1e30'/>",
+        "<RegularGrid n='1000000000 1 1'/><MechanicalObject/><PointModel/>",
+        "<RegularGrid nx='1e18' ny='1e18' nz='1e18'/><MechanicalObject/><PointModel/>",
+        "<MechanicalObject position='0 0 0'/><MeshTopology edges='0 4000000000'/><LineModel/>",
+        "<MechanicalObject/><Node><MechanicalObject/><SubsetMapping indices='0-99999999999'/><PointModel/></Node>"})
+    EXPECT_THAT(complaintIn(text), HasSubstr("scene.scn:2")) << text;
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa

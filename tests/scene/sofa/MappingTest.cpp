@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::HasSubstr;
+
+class SofaMapping : public SceneTest {
+ protected:
+  /// The box of a child's points below a parent.
+  [[nodiscard]] Corners box(const std::string& parent, const std::string& child) const {
+    return onlyBox(readIn(parent + "<Node name='Child'>" + child + "<PointModel/></Node>"));
+  }
+};
+
+constexpr auto kTurned = "<MechanicalObject template='Rigid3d' dx='5' rx='90' rz='90'/>";
+constexpr auto kTwoFrames = "<MechanicalObject template='Rigid' position='10 0 0 0 0 0 1  20 0 0 0 0 0 1'/>";
+
+TEST_F(SofaMapping, RigidFramesCarryPoints) {
+  EXPECT_THAT(box(kTurned, "<MechanicalObject position='0 1 0  0 2 0  1 1 0'/><RigidMapping/>"),
+              IsBox(Corners{5, 0, 1, 5, 1, 2}));
+}
+
+TEST_F(SofaMapping, TheChildsOwnTransformComesFirst) {
+  EXPECT_THAT(box("<MechanicalObject template='Rigid' rz='90'/>",
+                  "<MechanicalObject position='1 0 0' scale='2' dx='1'/><RigidMapping/>"),
+              IsBox(Corners{0, 3, 0, 0, 3, 0}));
+}
+
+TEST_F(SofaMapping, RigidFramesAreChosenByIndex) {
+  const std::string points = "<MechanicalObject position='1 0 0 2 0 0'/>";
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping/>"), IsBox(Corners{11, 0, 0, 12, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping index='1'/>"), IsBox(Corners{21, 0, 0, 22, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping index='0' indexFromEnd='1'/>"),
+              IsBox(Corners{21, 0, 0, 22, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping rigidIndexPerPoint='1 0'/>"), IsBox(Corners{12, 0, 0, 21, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping repartition='1'/>"), IsBox(Corners{11, 0, 0, 22, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping repartition='0 2'/>"), IsBox(Corners{21, 0, 0, 22, 0, 0}));
+}
+
+TEST_F(SofaMapping, AFrameThatIsNotThereIsNamed) {
+  EXPECT_THAT(complaintIn(std::string{kTwoFrames} +
+                          "<Node><MechanicalObject/><RigidMapping name='r' index='2'/><PointModel/></Node>"),
+              HasSubstr("no rigid frame number 2 among the 2"));
+}
+
+TEST_F(SofaMapping, PointsGivenToARigidMappingReplaceTheChilds) {
+  EXPECT_THAT(box(kTwoFrames, "<MechanicalObject/><RigidMapping initialPoints='1 1 1 2 2 2'/>"),
+              IsBox(Corners{11, 1, 1, 12, 2, 2}));
+}
+
+TEST_F(SofaMapping, GlobalPointsStayWhereTheyAre) {
+  EXPECT_THAT(box(kTurned, "<MechanicalObject position='1 2 3'/><RigidMapping globalToLocalCoords='true'/>"),
+              IsBox(Corners{1, 2, 3, 1, 2, 3}));
+}
+
+TEST_F(SofaMapping, RigidFramesCarryFrames) {
+  const auto scene = readIn(std::string{"<MechanicalObject template='Rigid' rz='90'/>"} +
+                            R"(<Node><MechanicalObject template="Rigid" position="1 0 0 0 0 0 1"/><RigidRigidMapping/>
+                            <OBBModel extents="3 2 1"/></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{-2, -2, -1, 2, 4, 1}));
+}
+
+TEST_F(SofaMapping, IdentityCopiesThePointsOrTheCentres) {
+  EXPECT_THAT(box("<MechanicalObject position='1 2 3 4 5 6'/>", "<MechanicalObject/><IdentityMapping/>"),
+              IsBox(Corners{1, 2, 3, 4, 5, 6}));
+  EXPECT_THAT(box(kTwoFrames, "<MechanicalObject/><IdentityMapping/>"), IsBox(Corners{10, 0, 0, 20, 0, 0}));
+}
+
+TEST_F(SofaMapping, SubsetsTakeIndicesARangeOrTheNearest) {
+  const std::string parent = "<MechanicalObject position='0 0 0 1 0 0 2 0 0 3 0 0 4 0 0'/>";
+  EXPECT_THAT(box(parent, "<MechanicalObject/><SubsetMapping indices='1 3'/>"), IsBox(Corners{1, 0, 0, 3, 0, 0}));
+  EXPECT_THAT(box(parent, "<MechanicalObject/><SubsetMapping indices='2-4'/>"), IsBox(Corners{2, 0, 0, 4, 0, 0}));
+  EXPECT_THAT(box(parent, "<MechanicalObject/><SubsetMapping first='1' last='2'/>"), IsBox(Corners{1, 0, 0, 2, 0, 0}));
+  EXPECT_THAT(box(parent, "<MechanicalObject position='2.2 0 0 9 0 0'/><SubsetMapping radius='0.5'/>"),
+              IsBox(Corners{2, 0, 0, 9, 0, 0}));
+}
+
+TEST_F(SofaMapping, PointsInTetrahedraStayWhereTheyAre) {
+  const std::string parent = R"(<MechanicalObject position="0 0 0 1 0 0 0 1 0 0 0 1"/>
+    <MeshTopology tetrahedra="0 1 2 3"/>)";
+  EXPECT_THAT(box(parent, "<MechanicalObject position='0.1 0.1 0.1 5 5 5'/><BarycentricMapping/>"),
+              IsBox(Corners{0.1, 0.1, 0.1, 5, 5, 5}));
+}
+
+TEST_F(SofaMapping, PointsInATetrahedronFollowItFromRest) {
+  const std::string parent = R"(<MechanicalObject position="0 0 0 1 0 0 0 1 0 0 0 1" translation2="5 0 0"/>
+    <MeshTopology tetrahedra="0 1 2 3"/>)";
+  EXPECT_THAT(box(parent, "<MechanicalObject position='0.1 0.2 0.3'/><BarycentricMapping useRestPosition='1'/>"),
+              IsBox(Corners{5.1, 0.2, 0.3, 5.1, 0.2, 0.3}));
+}
+
+TEST_F(SofaMapping, PointsInAGridFollowIt) {
+  const std::string grid =
+      "<RegularGridTopology n='3 3 3' min='0 0 0' max='2 2 2'/><MechanicalObject dx='10' scale='2'/>";
+  EXPECT_THAT(box(grid, "<MechanicalObject position='0.5 1.5 1 2 2 2'/><BarycentricMapping/>"),
+              IsBox(Corners{11, 3, 2, 14, 4, 4}));
+}
+
+TEST_F(SofaMapping, PointsOutsideAGridGoOnAsTheNearestCell) {
+  const std::string grid = "<RegularGridTopology n='2 2 2'/><MechanicalObject scale='3'/>";
+  EXPECT_THAT(box(grid, "<MechanicalObject position='-1 0 0 0 5 0'/><BarycentricMapping/>"),
+              IsBox(Corners{-3, 0, 0, 0, 15, 0}));
+}
+
+TEST_F(SofaMapping, PointsInASparseGridFollowItsTransform) {
+  const std::string grid =
+      "<SparseGridTopology n='3 3 3' fileTopology='x.obj'/><MechanicalObject scale='2' rz='90' dx='1'/>";
+  EXPECT_THAT(box(grid, "<MechanicalObject position='1 0 0 0 1 0'/><BarycentricMapping/>"),
+              IsBox(Corners{-1, 0, 0, 1, 2, 0}));
+}
+
+TEST_F(SofaMapping, PointsFallOntoTheNearestTriangleOrQuad) {
+  const std::string triangle = "<MechanicalObject position='0 0 0 1 0 0 0 1 0'/><MeshTopology triangles='0 1 2'/>";
+  EXPECT_THAT(box(triangle, "<MechanicalObject position='0.25 0.25 7'/><BarycentricMapping/>"),
+              IsBox(Corners{0.25, 0.25, 0, 0.25, 0.25, 0}));
+  const std::string quads =
+      "<MechanicalObject position='0 0 0 1 0 0 1 1 0 0 1 0 5 0 0 6 0 0 6 1 0 5 1 0'/>"
+      "<QuadSetTopologyContainer quads='0 1 2 3 4 5 6 7'/>";
+  EXPECT_THAT(box(quads, "<MechanicalObject position='5.5 0.5 3'/><BarycentricMapping/>"),
+              IsBox(Corners{5.5, 0.5, 0, 5.5, 0.5, 0}));
+}
+
+TEST_F(SofaMapping, PointsFallOntoTheFirstEdgeBesideWhichTheyLieElseTheLast) {
+  const std::string edges = "<MechanicalObject position='0 0 0 2 0 0 2 2 0'/><MeshTopology edges='0 1 1 2'/>";
+  EXPECT_THAT(box(edges, "<MechanicalObject position='1 9 0'/><BarycentricMapping/>"),
+              IsBox(Corners{1, 0, 0, 1, 0, 0}));
+  EXPECT_THAT(box(edges, "<MechanicalObject position='3 1 0'/><BarycentricMapping/>"),
+              IsBox(Corners{2, 1, 0, 2, 1, 0}));
+  EXPECT_THAT(box(edges, "<MechanicalObject position='3 -1 0'/><BarycentricMapping/>"),
+              IsBox(Corners{2, -1, 0, 2, -1, 0}));
+}
+
+TEST_F(SofaMapping, PointsInAHexahedronOfAMeshFollowItsCorners) {
+  // The far corner sticks out: what lies half way in the first corner's frame is pulled along.
+  const std::string hexahedron = R"(<MechanicalObject position="0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 3 3 3 0 1 1"/>
+    <MeshTopology hexahedra="0 1 2 3 4 5 6 7"/>)";
+  EXPECT_THAT(box(hexahedron, "<MechanicalObject position='0.5 0.5 0.5'/><BarycentricMapping/>"),
+              IsBox(Corners{0.75, 0.75, 0.75, 0.75, 0.75, 0.75}));
+}
+
+TEST_F(SofaMapping, MappingsFollowOneAnother) {
+  const auto scene = readIn(R"(<MechanicalObject template="Rigid" dx="10"/>
+    <Node><MechanicalObject position="0 0 0 1 0 0 0 1 0 0 0 1"/><RigidMapping/><MeshTopology tetrahedra="0 1 2 3"/>
+      <Node><MechanicalObject/><IdentityMapping/><PointModel/></Node></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{10, 0, 0, 11, 1, 1}));
+}
+
+TEST_F(SofaMapping, MappingsMayNameWhatTheyJoin) {
+  const auto scene = readIn(R"(<Node name="A"><MechanicalObject name="in" position="3 3 3"/></Node>
+    <Node name="B"><MechanicalObject name="out"/><PointModel/></Node>
+    <Node name="M"><IdentityMapping input="@../A/in" output="@/B/out"/></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{3, 3, 3, 3, 3, 3}));
+}
+
+TEST_F(SofaMapping, WhatAMappingLacksIsNamed) {
+  EXPECT_THAT(complaintIn("<MechanicalObject/><Node><MechanicalObject/><RigidMapping/><PointModel/></Node>"),
+              HasSubstr("the state that it reads is not rigid"));
+  EXPECT_THAT(complaintIn("<Node><MechanicalObject/><IdentityMapping input='@nobody'/><PointModel/></Node>"),
+              HasSubstr("the state that it reads is nowhere to be found"));
+  EXPECT_THAT(complaintIn("<MechanicalObject/><Node><MechanicalObject/><BarycentricMapping/><PointModel/></Node>"),
+              HasSubstr("its input has no topology"));
+}
+
+TEST_F(SofaMapping, MappingsInACircleAreNamed) {
+  EXPECT_THAT(complaintIn(R"(<MechanicalObject name="a"/><MechanicalObject name="b"/>
+    <IdentityMapping input="@a" output="@b"/><IdentityMapping input="@b" output="@a"/><PointModel/>)"),
+              HasSubstr("depends on itself"));
+}
+
+TEST_F(SofaMapping, EnginesTransformPoints) {
+  const auto scene = readIn(R"(<MechanicalObject name="m" position="1 0 0"/>
+    <TransformEngine name="t" input_position="@m.position" scale="2 1 1" rotation="0 0 90" translation="0 0 5"/>
+    <Node><MechanicalObject position="@../t.output_position"/><PointModel/></Node>
+    <TransformEngine name="u" input_position="@t.output_position" inverse="1" scale="2 1 1" rotation="0 0 90" translation="0 0 5"/>
+    <Node><MechanicalObject position="@../u.output_position"/><PointModel/></Node>)");
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_THAT(boxOf(scene.models[0]), IsBox(Corners{0, 2, 5, 0, 2, 5}));
+  EXPECT_THAT(boxOf(scene.models[1]), IsBox(Corners{1, 0, 0, 1, 0, 0}));
+}
+
+TEST_F(SofaMapping, DataOfAnUnknownEngineIsNamed) {
+  EXPECT_THAT(complaintIn("<MagicEngine name='e'/><MechanicalObject position='@e.output'/><PointModel/>"),
+              HasSubstr("needs the output of MagicEngine 'e' (/e), which this reader cannot compute"));
+  EXPECT_THAT(complaintIn("<MagicLoader name='e'/><MechanicalObject src='@e'/><PointModel/>"),
+              HasSubstr("MagicLoader 'e'"));
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include <map>
+
+#include "scene/sofa/Mesh.h"
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+using Line = std::array<Index, 2>;
+using Triangle = std::array<Index, 3>;
+using Four = std::array<Index, 4>;
+
+class SofaMeshFile : public SceneTest {
+ protected:
+  [[nodiscard]] Mesh mesh(const std::string& name, const std::string& text) const {
+    auto result = readMesh(m_folder.write(name, text));
+    checkMesh(result, name);
+    return result;
+  }
+  [[nodiscard]] std::string problem(const std::string& name, const std::string& text) const {
+    try {
+      (void)mesh(name, text);
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return {};
+  }
+};
+
+constexpr auto kObj = "# a comment\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\n";
+
+TEST_F(SofaMeshFile, ObjKeepsItsPointsAndTheOrderOfItsFaces) {
+  const auto m = mesh("a.obj", std::string{kObj} + "g part\nf 1 2 3\nf 1/1 2/2/2 3//3 4\nl 3 1\nf -5 -4 -3\n");
+  EXPECT_THAT(m.positions, SizeIs(5));
+  EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 2}));
+  EXPECT_THAT(m.quads, ElementsAre(Four{0, 1, 2, 3}));
+  EXPECT_THAT(m.edges, ElementsAre(Line{0, 2}));
+}
+
+TEST_F(SofaMeshFile, ObjFansLargerFaces) {
+  const auto m = mesh("a.obj", std::string{kObj} + "f 1 2 3 4 5\n");
+  EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
+}
+
+TEST_F(SofaMeshFile, ObjCutsQuadsOnRequest) {
+  const auto file = m_folder.write("a.obj", std::string{kObj} + "f 1 2 3 4\n");
+  EXPECT_THAT(readObj(file, {.triangulate = true}).triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+}
+
+TEST_F(SofaMeshFile, ObjSplitsSeamsOnRequestAndDropsWhatNoFaceUses) {
+  const auto file = m_folder.write(
+      "a.obj",
+      "v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/1/1 4/1/1\nf 1/2/1 2/1/1 4/1/1\n");
+  const auto m = readObj(file, {.triangulate = false, .splitSeams = true});
+  EXPECT_THAT(m.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}));
+  EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 2, 3}, Triangle{1, 2, 3}));
+}
+
+TEST_F(SofaMeshFile, ObjNamesTheLineOfWhatIsWrong) {
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nv 1 x 0\n"), AllOf(HasSubstr("a.obj:2:"), HasSubstr("'x'")));
+  EXPECT_THAT(problem("a.obj", "v 0 0\n"), HasSubstr("a.obj:1:"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 nan\n"), HasSubstr("not a finite number"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 1e999\n"), HasSubstr("not a finite number"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 1 2 3\n"), HasSubstr("a point that isn't there"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr("count from 1"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nf -2 1 1\n"), HasSubstr("before the first point"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n"), HasSubstr("not an integer"));
+}
+
+constexpr auto kNodes = "4\n10 0 0 0\n20 1 0 0\n30 0 1 0\n7 0 0 1\n";
+
+TEST_F(SofaMeshFile, GmshOneAndTwoRenumberNodesByTheirOrder) {
+  const auto first = mesh("a.msh", std::string{"$NOD\n"} + kNodes +
+                                       "$ENDNOD\n$ELM\n3\n1 1 0 0 2 10 20\n2 2 0 0 3 10 20 30\n"
+                                       "3 4 0 0 4 10 20 30 7\n$ENDELM\n");
+  const auto second = mesh("b.msh", std::string{"$MeshFormat\n2.1 0 8\n$EndMeshFormat\n$Nodes\n"} + kNodes +
+                                        "$EndNodes\n$Elements\n4\n1 1 2 0 0 10 20\n2 2 0 10 20 30\n3 4 1 5 10 20 30 7\n"
+                                        "4 15 2 0 0 10\n$EndElements\n");
+  for (const auto& m : {first, second}) {
+    EXPECT_THAT(m.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}));
+    EXPECT_THAT(m.edges, ElementsAre(Line{0, 1}));
+    EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}));
+    EXPECT_THAT(m.tetrahedra, ElementsAre(Four{0, 1, 2, 3}));
+  }
+}
+
+TEST_F(SofaMeshFile, GmshPassesOverOtherSectionsAndElements) {
+  const auto m =
+      mesh("a.msh", std::string{"$MeshFormat\n2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"x\"\n"
+                                "$EndPhysicalNames\n$Nodes\n"} +
+                        kNodes + "$EndNodes\n$Elements\n2\n1 99 2 0 0 10 20 30\n2 2 2 0 0 10 20 30\n$EndElements\n");
+  EXPECT_THAT(m.triangles, SizeIs(1));
+}
+
+TEST_F(SofaMeshFile, GmshNamesWhatIsWrong) {
+  EXPECT_THAT(problem("a.msh", "hello"), HasSubstr("no Gmsh mesh"));
+  EXPECT_THAT(problem("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"), HasSubstr("only the forms 1 and 2"));
+  EXPECT_THAT(problem("a.msh", "$MeshFormat\n2.1 1 8\n"), HasSubstr("only Gmsh meshes in ASCII"));
+  EXPECT_THAT(problem("a.msh", "$NOD\n1000000000\n1 0 0 0\n"), HasSubstr("missing"));
+  EXPECT_THAT(problem("a.msh", std::string{"$NOD\n"} + kNodes + "$ENDNOD\n$ELM\n1\n1 2 0 0 3 10 20 99\n$ENDELM"),
+              HasSubstr("a node that isn't there"));
+  EXPECT_THAT(problem("a.msh", std::string{"$NOD\n"} + kNodes + "$ENDNOD\n$ELM\n1\n1 2 0 0 1 10\n$ENDELM"),
+              HasSubstr("too few nodes"));
+}
+
+TEST_F(SofaMeshFile, SpheresHaveCentresAndRadii) {
+  const auto m = mesh("a.sph", "sph 1.0\nnums 2\nsphe 0 1 2 3 0.5\n# comment\nwhat is this\nsphe 1 4 5 6 2\n");
+  EXPECT_THAT(m.positions, ElementsAre(Vec3{1, 2, 3}, Vec3{4, 5, 6}));
+  EXPECT_THAT(m.radii, ElementsAre(0.5, 2));
+  EXPECT_THAT(problem("a.sph", "nums 2\n"), HasSubstr("starts with 'sph 1.0'"));
+  EXPECT_THAT(problem("a.sph", "sph 1.0\nsphe 0 1 2\n"), HasSubstr("a.sph:"));
+}
+
+constexpr auto kVtuHead =
+    "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece><Points><DataArray format='ascii'>"
+    "0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>";
+
+TEST_F(SofaMeshFile, VtkIsReadAsXmlAndAsText) {
+  const auto xml = mesh("a.vtu", std::string{kVtuHead} +
+                                     "<DataArray Name='connectivity'>0 1 2 3 0 1 2</DataArray>"
+                                     "<DataArray Name='offsets'>4 7</DataArray><DataArray Name='types'>10 5</DataArray>"
+                                     "</Cells></Piece></UnstructuredGrid></VTKFile>");
+  const auto text = mesh("a.vtk",
+                         "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                         "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_TYPES 2\n10\n5\n");
+  for (const auto& m : {xml, text}) {
+    EXPECT_THAT(m.positions, SizeIs(4));
+    EXPECT_THAT(m.tetrahedra, ElementsAre(Four{0, 1, 2, 3}));
+    EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}));
+  }
+}
+
+TEST_F(SofaMeshFile, VtkMayBeBinary) {
+  const std::string one("\x3f\x80\0\0", 4), zero(4, '\0');
+  const auto number = [](char n) { return std::string(3, '\0') + n; };
+  const auto m = mesh("a.vtk", "# vtk DataFile Version 3.0\ntitle\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n" + zero +
+                                   zero + zero + one + zero + zero + zero + one + zero + "\nPOLYGONS 1 4\n" +
+                                   number(3) + number(0) + number(1) + number(2) + "\n");
+  EXPECT_THAT(m.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}));
+  EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}));
+}
+
+TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
+  EXPECT_THAT(problem("a.vtk", "nothing"), HasSubstr("no VTK file"));
+  EXPECT_THAT(problem("a.vtu", "<VTKFile><Unstr"), HasSubstr("not well-formed"));
+  EXPECT_THAT(
+      problem("a.vtu", std::string{kVtuHead} + "<DataArray Name='connectivity'>0 1 9</DataArray><DataArray "
+                                               "Name='offsets'>3</DataArray><DataArray Name='types'>5</DataArray>"
+                                               "</Cells></Piece></UnstructuredGrid></VTKFile>"),
+      HasSubstr("missing point"));
+  EXPECT_THAT(
+      problem("a.vtu", std::string{kVtuHead} + "<DataArray Name='connectivity'>0 1 2</DataArray><DataArray "
+                                               "Name='offsets'>1e300</DataArray></Cells></Piece></UnstructuredGrid>"
+                                               "</VTKFile>"),
+      HasSubstr("offsets"));
+  EXPECT_THAT(
+      problem("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3000000000 float\n0 0 0\n"),
+      HasSubstr("out of all reason"));
+}
+
+TEST_F(SofaMeshFile, OffAndTrianAreRead) {
+  EXPECT_THAT(mesh("a.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n").quads, SizeIs(1));
+  EXPECT_THAT(mesh("a.trian", "3\n0 0 0\n1 0 0\n1 1 0\n1\n0 1 2 -1 -1 -1\n").triangles, SizeIs(1));
+}
+
+TEST_F(SofaMeshFile, OtherKindsOfFilesAreNamed) {
+  EXPECT_THAT(problem("a.xyz", ""), HasSubstr("'.xyz' cannot be read"));
+}
+
+TEST_F(SofaMeshFile, EveryFormatCutAtEveryByteIsReadOrNamedButNeverCrashes) {
+  const std::map<std::string, std::string> whole = {
+      {"a.obj", std::string{kObj} + "vt 0 0\nf 1/1 2/1 3/1 4/1\nl 1 2\n"},
+      {"a.msh", std::string{"$NOD\n"} + kNodes + "$ENDNOD\n$ELM\n1\n1 4 0 0 4 10 20 30 7\n$ENDELM\n"},
+      {"a.sph", "sph 1.0\nnums 1\nsphe 0 1 2 3 0.5\n"},
+      {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"},
+      {"a.vtk",
+       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 "
+       "2\n"},
+      {"a.vtu", std::string{kVtuHead} + "<DataArray Name='connectivity'>0 1 2</DataArray><DataArray Name='offsets'>3"
+                                        "</DataArray><DataArray Name='types'>5</DataArray></Cells></Piece>"
+                                        "</UnstructuredGrid></VTKFile>"}};
+  for (const auto& [name, text] : whole) {
+    EXPECT_EQ(problem(name, text), "") << name;
+    for (std::size_t size = 0; size < text.size(); ++size) {
+      const auto said = problem(name, text.substr(0, size));
+      EXPECT_TRUE(said.empty() || said.find(name) != std::string::npos) << name << " cut at " << size << ": " << said;
+    }
+  }
+}
+
+// Loaders.
+
+class SofaLoader : public SofaMeshFile {
+ protected:
+  [[nodiscard]] SceneDescription load(const std::string& attributes,
+                                      const std::string& models = "<PointModel/>") const {
+    write("a.obj", std::string{kObj} + "f 1 2 3 4\n");
+    return readIn("<MeshObjLoader name='loader' filename='a.obj' " + attributes +
+                  "/><MechanicalObject src='@loader'/><MeshTopology src='@loader'/>" + models);
+  }
+};
+
+TEST_F(SofaLoader, TheirScaleMultipliesScale3d) {
+  EXPECT_THAT(onlyBox(load("scale3d='1 2 3' scale='2'")), IsBox(Corners{0, 0, 0, 10, 20, 30}));
+}
+
+TEST_F(SofaLoader, TheyScaleTurnAndMove) {
+  EXPECT_THAT(onlyBox(load("scale3d='2 1 1' rotation='0 0 90' translation='100 0 0'")),
+              IsBox(Corners{95, 0, 0, 100, 10, 5}));
+}
+
+TEST_F(SofaLoader, TheirTransformIsNotTakenThroughSrc) {
+  EXPECT_THAT(onlyBox(load("translation='100 0 0'")), IsBox(Corners{100, 0, 0, 105, 5, 5}));
+}
+
+TEST_F(SofaLoader, AMatrixReplacesTheRest) {
+  EXPECT_THAT(onlyBox(load("translation='7 7 7' transformation='1 0 0 100  0 1 0 0  0 0 1 0  0 0 0 1'")),
+              IsBox(Corners{100, 0, 0, 105, 5, 5}));
+}
+
+TEST_F(SofaLoader, TheyCutQuadsAndDropLoosePointsOnRequest) {
+  const auto counts = [&](const std::string& attributes) {
+    std::vector<std::size_t> result;
+    for (const auto& model : load(attributes, "<PointModel/><TriangleModel/><LineModel/>").models)
+      result.push_back(model.elementCount());
+    return result;
+  };
+  EXPECT_THAT(counts(""), ElementsAre(5, 2, 4));
+  EXPECT_THAT(counts("triangulate='1'"), ElementsAre(5, 2, 5));
+  EXPECT_THAT(counts("onlyAttachedPoints='1'"), ElementsAre(4, 2, 4));
+  EXPECT_THAT(counts("handleSeams='1'"), ElementsAre(4, 2, 4));
+}
+
+TEST_F(SofaLoader, TheyGoByBothNames) {
+  write("a.obj", kObj);
+  for (const auto name : {"MeshObjLoader", "MeshOBJLoader"})
+    EXPECT_THAT(onlyBox(readIn(std::string{"<"} + name +
+                               " name='l' filename='a.obj'/><MechanicalObject position='@l.position'/><PointModel/>")),
+                IsBox(Corners{0, 0, 0, 5, 5, 5}));
+}
+
+TEST_F(SofaLoader, TopologiesMayNameAFileThemselves) {
+  write("a.obj", std::string{kObj} + "f 1 2 3 4\n");
+  const auto scene = readIn("<MeshTopology filename='a.obj'/><MechanicalObject/><PointModel/><TriangleModel/>");
+  ASSERT_THAT(scene.models, SizeIs(2));
+  EXPECT_EQ(scene.models[0].elementCount(), 5U);
+  EXPECT_EQ(scene.models[1].elementCount(), 2U);
+}
+
+TEST_F(SofaLoader, RigidMappingsMayNameAFile) {
+  write("a.obj", kObj);
+  EXPECT_THAT(onlyBox(readIn(R"(<MechanicalObject template="Rigid" dx="10"/>
+    <Node><MechanicalObject/><RigidMapping filename="a.obj"/><PointModel/></Node>)")),
+              IsBox(Corners{10, 0, 0, 15, 5, 5}));
+}
+
+TEST_F(SofaLoader, MissingAndBrokenFilesAreNamedWithWhatNeedsThem) {
+  EXPECT_THAT(
+      complaintIn("<MeshObjLoader name='l' filename='gone.obj'/><MechanicalObject src='@l'/><PointModel name='p'/>"),
+      AllOf(HasSubstr("scene.scn:2: MeshObjLoader 'l' (/l): the file 'gone.obj' is nowhere to be found"),
+            HasSubstr("PointModel 'p' (/p) depends on it")));
+  write("bad.obj", "v 0 0 0\nv 1\n");
+  EXPECT_THAT(
+      complaintIn("<MeshObjLoader name='l' filename='bad.obj'/><MechanicalObject src='@l'/><PointModel name='p'/>"),
+      AllOf(HasSubstr("bad.obj:2: a number is missing"), HasSubstr("PointModel 'p' (/p) depends on it")));
+  EXPECT_THAT(complaintIn("<MeshObjLoader name='l'/><MechanicalObject src='@l'/><PointModel/>"),
+              HasSubstr("names no file"));
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa

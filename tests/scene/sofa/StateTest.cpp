@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::HasSubstr;
+
+/// States: sizes, points from topologies, transforms. What they hold is seen through a model of points.
+class SofaState : public SceneTest {
+ protected:
+  [[nodiscard]] ModelDescription points(const std::string& text) const {
+    auto scene = readIn(text + "<PointModel/>");
+    EXPECT_EQ(scene.models.size(), 1U);
+    return scene.models.at(0);
+  }
+  [[nodiscard]] Corners box(const std::string& text) const { return boxOf(points(text)); }
+  [[nodiscard]] std::size_t count(const std::string& text) const { return points(text).elementCount(); }
+};
+
+TEST_F(SofaState, HasOnePointAtTheOriginUnlessToldOtherwise) {
+  EXPECT_EQ(count("<MechanicalObject/>"), 1U);
+  EXPECT_THAT(box("<MechanicalObject/>"), IsBox(Corners{}));
+  EXPECT_EQ(count("<MechanicalObject size='4'/>"), 4U);
+  EXPECT_EQ(count("<MechanicalObject position='1 1 1' size='3'/>"), 3U);
+  EXPECT_EQ(count("<MechanicalObject velocity='0 0 0 0 0 0'/>"), 2U);
+  EXPECT_EQ(count("<MechanicalObject position=''/>"), 0U);
+}
+
+TEST_F(SofaState, AnIncompleteLastPointIsDropped) { EXPECT_EQ(count("<MechanicalObject position='1 1 1 2 2'/>"), 1U); }
+
+TEST_F(SofaState, ScalesThenTurnsThenMoves) {
+  EXPECT_THAT(box("<MechanicalObject position='1 2 3 2 2 3' scale3d='2 1 1' rotation='0 0 90' translation='10 0 0'/>"),
+              IsBox(Corners{8, 2, 3, 8, 4, 3}));
+}
+
+TEST_F(SofaState, TurnsAboutXThenYThenZ) {
+  EXPECT_THAT(box("<MechanicalObject position='0 0 1' rotation='90 90 0'/>"), IsBox(Corners{0, -1, 0, 0, -1, 0}));
+  EXPECT_THAT(box("<MechanicalObject position='1 0 0' rotation='0 90 90'/>"), IsBox(Corners{0, 0, -1, 0, 0, -1}));
+}
+
+TEST_F(SofaState, TheSecondTransformComesAfterTheFirst) {
+  EXPECT_THAT(box("<MechanicalObject position='1 0 0' translation='1 0 0' rotation2='0 0 90' translation2='0 0 5'/>"),
+              IsBox(Corners{0, 2, 5, 0, 2, 5}));
+  EXPECT_THAT(box("<MechanicalObject position='1 0 0' rz2='90' dz2='5'/>"), IsBox(Corners{0, 1, 5, 0, 1, 5}));
+}
+
+TEST_F(SofaState, SingleAttributesOverrideVectors) {
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' scale3d='9 9 9' scale='2'/>"), IsBox(Corners{2, 2, 2, 2, 2, 2}));
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' scale='3' sy='2'/>"), IsBox(Corners{1, 2, 1, 1, 2, 1}));
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' translation='9 9 9' dx='2'/>"), IsBox(Corners{3, 1, 1, 3, 1, 1}));
+  EXPECT_THAT(box("<MechanicalObject position='1 0 0' rotation='9 9 9' rz='90'/>"), IsBox(Corners{0, 1, 0, 0, 1, 0}));
+}
+
+TEST_F(SofaState, AFloatAttributeThatDoesNotParseAsAWholeKeepsItsDefault) {
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' scale='0.25 0.25 0.25'/>"), IsBox(Corners{1, 1, 1, 1, 1, 1}));
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' dx='2 '/>"), IsBox(Corners{1, 1, 1, 1, 1, 1}));
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' dx='2m' dy=' 3'/>"), IsBox(Corners{1, 4, 1, 1, 4, 1}));
+}
+
+TEST_F(SofaState, AVectorWithTooFewNumbersKeepsTheDefaultsOfTheRest) {
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' scale3d='4'/>"), IsBox(Corners{4, 1, 1, 4, 1, 1}));
+}
+
+TEST_F(SofaState, FloatAttributesAreSinglePrecision) {
+  EXPECT_EQ(box("<MechanicalObject dx='0.1'/>")[0], static_cast<double>(0.1F));
+  EXPECT_EQ(box("<MechanicalObject translation='0.1 0 0'/>")[0], 0.1);
+}
+
+TEST_F(SofaState, WithOnePointTakesThoseOfItsTopology) {
+  const std::string mesh = "<MeshTopology position='1 0 0 2 0 0 3 0 0' edges='0 1'/>";
+  EXPECT_EQ(count(mesh + "<MechanicalObject/>"), 2U);  // One more than the largest index.
+  EXPECT_THAT(box(mesh + "<MechanicalObject position='9 9 9' dx='1'/>"), IsBox(Corners{2, 0, 0, 3, 0, 0}));
+  EXPECT_THAT(box(mesh + "<MechanicalObject position='9 9 9 8 8 8'/>"), IsBox(Corners{8, 8, 8, 9, 9, 9}));
+  EXPECT_EQ(count(mesh + "<MechanicalObject useTopology='0'/>"), 1U);
+  EXPECT_EQ(count("<MeshTopology edges='0 4'/><MechanicalObject/>"), 1U);  // That one has no points to give.
+}
+
+TEST_F(SofaState, DoesNotTakePointsFromATopologyAbove) {
+  EXPECT_EQ(count("<MeshTopology position='1 0 0 2 0 0' edges='0 1'/><Node><MechanicalObject/></Node><MechanicalObject "
+                  "size='3'/>"),
+            3U);
+}
+
+TEST_F(SofaState, BeforeItsTopologyTakesNothingFromAMeshAndAllFromAGrid) {
+  EXPECT_EQ(count("<MechanicalObject/><MeshTopology position='1 0 0 2 0 0' edges='0 1'/>"), 0U);
+  EXPECT_EQ(count("<MechanicalObject/><RegularGridTopology n='2 3 4'/>"), 24U);
+}
+
+TEST_F(SofaState, ANodeMayOrderTheTopologyFirst) {
+  const auto scene = readIn(R"(<Node depend="topo dofs"><MechanicalObject name="dofs"/>
+    <TetrahedronSetTopologyContainer name="topo" position="1 0 0 2 0 0"/><PointModel/></Node>)");
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models[0].elementCount(), 2U);
+}
+
+TEST_F(SofaState, ContainersGiveAllTheirPoints) {
+  EXPECT_EQ(count("<PointSetTopologyContainer position='1 0 0 2 0 0 3 0 0'/><MechanicalObject/>"), 3U);
+  EXPECT_EQ(
+      count("<TriangleSetTopologyContainer position='1 0 0 2 0 0 3 0 0 4 0 0' triangles='0 1 2'/><MechanicalObject/>"),
+      4U);
+}
+
+TEST_F(SofaState, RigidFramesTurnAboutTheOriginAndAboutThemselves) {
+  const auto scene = readIn(R"(<MechanicalObject template="Rigid3d" position="1 0 0 0 0 0 1" rz="90" dx="5"/>
+    <OBBModel extents="3 2 1"/>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{3, -2, -1, 7, 4, 1}));
+}
+
+TEST_F(SofaState, RigidFramesLinkedFromPointsAreNotTurned) {
+  const auto scene = readIn(R"(<MechanicalObject name="p" position="1 2 3 4 5 6"/>
+    <Node><MechanicalObject template="Rigid" position="@../p.position"/><OBBModel/></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{0, 1, 2, 5, 6, 7}));
+}
+
+TEST_F(SofaState, AScaleMayBeLinkedFromAnotherState) {
+  EXPECT_THAT(box("<MechanicalObject name='a' scale='2'/><MechanicalObject position='1 1 1' scale3d='@a.scale3d'/>"),
+              IsBox(Corners{2, 2, 2, 2, 2, 2}));
+}
+
+TEST_F(SofaState, WhatIsNoFiniteNumberIsNamed) {
+  for (const auto word : {"nan", "inf", "1e999", "abc", "1,2,3", "0x10"})
+    EXPECT_THAT(complaintIn("<MechanicalObject name='m' position='0 0 " + std::string{word} + "'/><PointModel/>"),
+                testing::AllOf(HasSubstr("scene.scn:2: MechanicalObject 'm'"), HasSubstr(word)));
+}
+
+TEST_F(SofaState, ResultsThatOverflowAreNamed) {
+  EXPECT_THAT(complaintIn("<MechanicalObject position='1e300 0 0' scale3d='1e300 1 1'/><PointModel/>"),
+              HasSubstr("not finite"));
+}
+
+TEST_F(SofaState, SizesOutOfAllReasonAreNamed) {
+  EXPECT_THAT(complaintIn("<MechanicalObject size='2000000000'/><PointModel/>"), HasSubstr("out of all reason"));
+}
+
+TEST_F(SofaState, StatesOfAnotherKindAreNamed) {
+  EXPECT_THAT(complaintIn("<MechanicalObject template='Vec1d'/><PointModel/>"), HasSubstr("states of this kind"));
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::HasSubstr;
+
+struct Counts {
+  std::size_t points, lines, triangles;
+
+  friend bool operator==(const Counts&, const Counts&) = default;
+  friend std::ostream& operator<<(std::ostream& out, const Counts& c) {
+    return out << c.points << " points, " << c.lines << " lines, " << c.triangles << " triangles";
+  }
+};
+
+class SofaTopology : public SceneTest {
+ protected:
+  /// The elements that models of points, lines and triangles find on a topology.
+  [[nodiscard]] Counts counts(const std::string& text) const {
+    const auto scene = readIn(text + "<PointModel/><LineModel/><TriangleModel/>");
+    EXPECT_EQ(scene.models.size(), 3U);
+    return {scene.models.at(0).elementCount(), scene.models.at(1).elementCount(), scene.models.at(2).elementCount()};
+  }
+};
+
+constexpr auto kCorners = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1";
+
+std::string onCorners(const std::string& topology) {
+  return "<MechanicalObject position='" + std::string{kCorners} + "'/>" + topology;
+}
+
+TEST_F(SofaTopology, MeshesDeriveEdgesAndFacesFromCells) {
+  EXPECT_EQ(counts(onCorners("<MeshTopology tetrahedra='0 1 2 4'/>")), (Counts{8, 6, 4}));
+  EXPECT_EQ(counts(onCorners("<MeshTopology tetrahedra='0 1 2 4 0 2 1 6'/>")), (Counts{8, 9, 7}));
+  EXPECT_EQ(counts(onCorners("<MeshTopology hexahedra='0 1 2 3 4 5 6 7'/>")), (Counts{8, 12, 12}));
+  EXPECT_EQ(counts(onCorners("<MeshTopology triangles='0 1 2 0 2 3'/>")), (Counts{8, 5, 2}));
+  EXPECT_EQ(counts(onCorners("<MeshTopology quads='0 1 2 3'/>")), (Counts{8, 4, 2}));
+}
+
+TEST_F(SofaTopology, MeshesDeriveNothingThatIsGiven) {
+  EXPECT_EQ(counts(onCorners("<MeshTopology tetrahedra='0 1 2 4' triangles='5 6 7' edges='0 7'/>")), (Counts{8, 1, 1}));
+}
+
+TEST_F(SofaTopology, ListsGoByTheirOldNamesToo) {
+  EXPECT_EQ(counts(onCorners("<Mesh lines='0 1 1 2'/>")), (Counts{8, 2, 0}));
+  EXPECT_EQ(counts(onCorners("<Mesh tetras='0 1 2 4'/>")), (Counts{8, 6, 4}));
+  EXPECT_EQ(counts(onCorners("<Mesh hexas='0 1 2 3 4 5 6 7'/>")), (Counts{8, 12, 12}));
+}
+
+TEST_F(SofaTopology, ContainersDeriveFromTheirOwnElements) {
+  const std::string points = "position='" + std::string{kCorners} + "'";
+  EXPECT_EQ(counts("<EdgeSetTopologyContainer " + points + " edges='0 1'/><MechanicalObject/>"), (Counts{8, 1, 0}));
+  EXPECT_EQ(counts("<TriangleSetTopologyContainer " + points + " triangles='0 1 2'/><MechanicalObject/>"),
+            (Counts{8, 3, 1}));
+  EXPECT_EQ(counts("<QuadSetTopologyContainer " + points + " quads='0 1 2 3'/><MechanicalObject/>"), (Counts{8, 4, 2}));
+  EXPECT_EQ(counts("<TetrahedronSetTopologyContainer " + points + " tetrahedra='0 1 2 4'/><MechanicalObject/>"),
+            (Counts{8, 6, 4}));
+  EXPECT_EQ(counts("<HexahedronSetTopologyContainer " + points + " hexahedra='0 1 2 3 4 5 6 7'/><MechanicalObject/>"),
+            (Counts{8, 12, 12}));
+}
+
+TEST_F(SofaTopology, ContainersIgnoreElementsThatTheyCannotHold) {
+  EXPECT_EQ(counts(onCorners("<EdgeSetTopologyContainer edges='0 1' triangles='0 1 2'/>")), (Counts{8, 1, 0}));
+}
+
+TEST_F(SofaTopology, TriangleContainersWithoutPointsDeriveNoEdges) {
+  EXPECT_EQ(counts(onCorners("<TriangleSetTopologyContainer triangles='0 1 2'/>")), (Counts{8, 0, 1}));
+}
+
+TEST_F(SofaTopology, BadIndicesAreNamed) {
+  for (const auto bad : {"0 -1", "0 1.5", "0 5e9"})
+    EXPECT_THAT(complaintIn(onCorners("<MeshTopology name='t' edges='" + std::string{bad} + "'/><LineModel/>")),
+                testing::AllOf(HasSubstr("MeshTopology 't'"), HasSubstr("edges")));
+}
+
+// Grids.
+
+class SofaGrid : public SofaTopology {
+ protected:
+  [[nodiscard]] Corners box(const std::string& attributes) const {
+    return onlyBox(readIn("<RegularGridTopology " + attributes + "/><MechanicalObject/><PointModel/>"));
+  }
+};
+
+TEST_F(SofaGrid, FillsTheSpaceBetweenItsCorners) {
+  EXPECT_THAT(box("n='3 4 5' min='-1 -2 -3' max='1 2 3'"), IsBox(Corners{-1, -2, -3, 1, 2, 3}));
+  EXPECT_THAT(box("nx='3' ny='4' nz='5' xmin='-1' ymin='-2' zmin='-3' xmax='1' ymax='2' zmax='3'"),
+              IsBox(Corners{-1, -2, -3, 1, 2, 3}));
+  EXPECT_THAT(box(""), IsBox(Corners{0, 0, 0, 1, 1, 1}));
+}
+
+TEST_F(SofaGrid, OnePointOnAnAxisLiesInTheMiddleOfXAndYAndAtTheBottomOfZ) {
+  EXPECT_THAT(box("n='1 1 1' min='0 0 0' max='2 4 6'"), IsBox(Corners{1, 2, 0, 1, 2, 0}));
+}
+
+TEST_F(SofaGrid, ItsFirstPointMayBeMoved) {
+  EXPECT_THAT(box("n='2 2 2' min='0 0 0' max='1 2 3' p0='10 0 0'"), IsBox(Corners{10, 0, 0, 11, 2, 3}));
+}
+
+TEST_F(SofaGrid, ScaleAppliesToTheSixSingleNumbersOnly) {
+  EXPECT_THAT(box("scale='2' xmin='0' ymin='0' zmin='0' xmax='1' ymax='1' zmax='1'"), IsBox(Corners{0, 0, 0, 2, 2, 2}));
+  EXPECT_THAT(box("scale='2' min='0 0 0' max='1 1 1'"), IsBox(Corners{0, 0, 0, 1, 1, 1}));
+}
+
+TEST_F(SofaGrid, HasEdgesQuadsAndTheirTriangles) {
+  // 12 edges; six quads, each as itself and as two triangles.
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2'/><MechanicalObject/>"), (Counts{8, 12, 24}));
+  EXPECT_EQ(counts("<RegularGrid n='3 3 1'/><MechanicalObject/>"), (Counts{9, 12, 16}));
+}
+
+TEST_F(SofaGrid, AResolutionBelowOneBecomesTwo) {
+  EXPECT_EQ(counts("<RegularGrid n='0 5 5' max='3 3 3'/><MechanicalObject/>").points, 8U);
+}
+
+TEST_F(SofaGrid, ResolutionsOutOfAllReasonDoNotEatTheMemory) {
+  for (const auto n : {"1000000000 1 1", "100000 100000 100000", "1e300 1 1"})
+    EXPECT_THAT(complaintIn("<RegularGridTopology n='" + std::string{n} + "'/><MechanicalObject/><PointModel/>"),
+                HasSubstr("more than this reader makes"));
+  EXPECT_THAT(complaintIn("<RegularGridTopology cellWidth='1e-9'/><MechanicalObject/><PointModel/>"),
+              HasSubstr("more than this reader makes"));
+}
+
+// Mappings between topologies.
+
+constexpr auto kCube = "<RegularGridTopology name='grid' n='2 2 2'/><MechanicalObject/>";
+
+TEST_F(SofaTopology, TetrahedraShowTheTrianglesOfTheirBorder) {
+  const auto scene = readIn(R"(<TetrahedronSetTopologyContainer name="t" position="0 0 0 1 0 0 0 1 0 0 0 1 1 1 1"
+      tetrahedra="0 1 2 3 1 2 3 4"/><MechanicalObject/>
+    <Node><TriangleSetTopologyContainer name="c"/><Tetra2TriangleTopologicalMapping input="@../t" output="@c"/>
+    <LineModel/><TriangleModel/></Node>)");
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_EQ(scene.models[0].elementCount(), 9U);
+  EXPECT_EQ(scene.models[1].elementCount(), 6U);
+}
+
+TEST_F(SofaTopology, MappingsGoFromTheParentsTopologyToTheirOwnNodesUnlessTold) {
+  const auto scene = readIn(std::string{kCube} + R"(<Node><TetrahedronSetTopologyContainer/>
+    <Hexa2TetraTopologicalMapping/><TetrahedronModel/></Node>)");
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models[0].elementCount(), 6U);
+}
+
+TEST_F(SofaTopology, HexahedraShowTheQuadsOfTheirBorderAndQuadsTwoTrianglesEach) {
+  const auto scene = readIn(R"(<RegularGridTopology name="grid" n="3 2 2"/><MechanicalObject/>
+    <Node name="Q"><QuadSetTopologyContainer name="q"/><Hexa2QuadTopologicalMapping input="@../grid" output="@q"/>
+      <TriangleModel/>
+      <Node name="T"><TriangleSetTopologyContainer name="t"/>
+        <Quad2TriangleTopologicalMapping input="@../q" output="@t"/><TriangleModel/>
+        <Node name="E"><EdgeSetTopologyContainer name="e"/>
+          <Triangle2EdgeTopologicalMapping object1="@../t" object2="@e"/><LineModel/></Node></Node></Node>)");
+  ASSERT_EQ(scene.models.size(), 3U);
+  EXPECT_EQ(scene.models[0].elementCount(), 20U);
+  EXPECT_EQ(scene.models[1].elementCount(), 20U);
+  EXPECT_EQ(scene.models[2].elementCount(), 0U);  // A closed surface has no border.
+}
+
+TEST_F(SofaTopology, TheBorderOfASheetOfTrianglesIsItsEdges) {
+  const auto scene = readIn(R"(<TriangleSetTopologyContainer name="t" position="0 0 0 1 0 0 1 1 0 0 1 0"
+      triangles="0 1 2 0 2 3"/><MechanicalObject/>
+    <Node><EdgeSetTopologyContainer/><Triangle2EdgeTopologicalMapping/><LineModel/></Node>)");
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models[0].elementCount(), 4U);
+}
+
+TEST_F(SofaTopology, UnknownTopologiesAndMappingsOfThemAreNamed) {
+  EXPECT_THAT(complaintIn("<MagicTopology name='t'/><MechanicalObject/><LineModel/>"),
+              HasSubstr("MagicTopology 't' (/t): this kind of topology is not known"));
+  EXPECT_THAT(complaintIn(std::string{kCube} +
+                          "<Node><EdgeSetTopologyContainer/><MagicTopologicalMapping name='m'/><LineModel/></Node>"),
+              HasSubstr("MagicTopologicalMapping 'm' (/1/m): this kind of topological mapping is not known"));
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa
