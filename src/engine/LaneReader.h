@@ -15,21 +15,17 @@
 
 namespace allpairs::engine {
 
-/// The next float32 below; the argument is finite and not the lowest.
-[[nodiscard]] inline float nextBelow(float value) noexcept {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  if (value > 0.0F) return std::bit_cast<float>(bits - 1);
-  if (value < 0.0F) return std::bit_cast<float>(bits + 1);
-  return -std::numeric_limits<float>::denorm_min();
-}
-
-/// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN.
+/// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN. No branches.
 [[nodiscard]] inline float roundDown(double value) noexcept {
-  constexpr double kMax = static_cast<double>(kLaneMax);
-  if (!(value > -kMax)) return -kLaneMax;
-  if (value >= kMax) return kLaneMax;
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? nextBelow(nearest) : nearest;
+  constexpr double kMax = kLaneMax;
+  const double above = value > -kMax ? value : -kMax;
+  const double inside = above < kMax ? above : kMax;
+  const auto nearest = static_cast<float>(inside);
+  // One float32 further down is one less for a positive number's bits and one more for a negative one's. Zero never has
+  // to go down: a negative value that is rounded to zero becomes -0.
+  const auto bits = std::bit_cast<std::int32_t>(nearest);
+  const std::int32_t step = bits < 0 ? 1 : -1;
+  return std::bit_cast<float>(bits + (static_cast<double>(nearest) > inside ? step : 0));
 }
 
 /// The least float32 that is not below the value, kept within the finite ones; the greatest for a NaN.

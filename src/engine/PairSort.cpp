@@ -15,65 +15,78 @@ constexpr std::size_t kPairsPerBucket = 16384;
 constexpr std::size_t kMaxBuckets = 2048;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
-/// Digits of a pass, and how many of them two indices of 32 bits can have.
+/// Bits of a digit, and so how many keys share a bucket at most.
 constexpr unsigned kMaxDigitBits = 11;
-constexpr unsigned kMaxPasses = 6;
 
-template <bool kBySecond>
-std::uint32_t keyOf(Pair pair) {
-  return kBySecond ? pair.second : pair.first;
+/// Digits of an index of 32 bits.
+constexpr unsigned kMaxPasses = 3;
+
+using Places = std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>;
+
+template <bool kSecond>
+std::uint32_t indexOf(Pair pair) {
+  return kSecond ? pair.second : pair.first;
 }
 
-/// Which bits of a pair a bucket is sorted by: the low ones of its key above those of its other index.
-template <bool kBySecond>
-struct BucketOrder {
-  unsigned keyBits = 0;
-  unsigned otherBits = 0;
-
-  [[nodiscard]] std::uint64_t valueOf(Pair pair) const {
-    const std::uint64_t key = keyOf<kBySecond>(pair) & ((std::uint64_t{1} << keyBits) - 1);
-    return key << otherBits | keyOf<!kBySecond>(pair);
-  }
+/// The digits of one of the two indices, from the lowest up.
+struct Digits {
+  unsigned passes = 0;
+  unsigned bits = 0;
+  std::uint32_t mask = 0;
 };
 
-template <class Places, bool kBySecond>
-void countDigits(const Pair* pairs, std::size_t size, const BucketOrder<kBySecond>& order, unsigned passes,
-                 unsigned bits, Places& places) {
-  const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-  for (unsigned pass = 0; pass < passes; ++pass) std::fill_n(places[pass].begin(), mask + 1, 0U);
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint64_t value = order.valueOf(pairs[i]);
-    for (unsigned pass = 0; pass < passes; ++pass) ++places[pass][(value >> (pass * bits)) & mask];
-  }
-  for (unsigned pass = 0; pass < passes; ++pass) {
+/// As few digits for the low `bits` bits as there can be, all of the same length.
+Digits digitsFor(unsigned bits) {
+  Digits digits;
+  digits.passes = (bits + kMaxDigitBits - 1) / kMaxDigitBits;
+  digits.bits = digits.passes == 0 ? 0 : (bits + digits.passes - 1) / digits.passes;
+  digits.mask = (1U << digits.bits) - 1;
+  return digits;
+}
+
+template <bool kSecond>
+void countDigits(const Pair* pairs, std::size_t size, const Digits& digits, std::array<Places, kMaxPasses>& places) {
+  for (unsigned pass = 0; pass < digits.passes; ++pass) {
+    std::fill_n(places[pass].begin(), std::size_t{digits.mask} + 1, 0U);
+    const unsigned shift = pass * digits.bits;
+    for (std::size_t i = 0; i < size; ++i) ++places[pass][(indexOf<kSecond>(pairs[i]) >> shift) & digits.mask];
     std::uint32_t place = 0;
-    for (std::uint64_t digit = 0; digit <= mask; ++digit) place += std::exchange(places[pass][digit], place);
+    for (std::size_t digit = 0; digit <= digits.mask; ++digit) place += std::exchange(places[pass][digit], place);
   }
 }
 
-/// Sorts the pairs of one bucket from `from` into `to`, from the lowest digit up; `from` is lost.
+/// Sorts by the digits of one index, back and forth between the two buffers; returns where the result is.
+template <bool kSecond>
+std::pair<Pair*, Pair*> sortByDigits(Pair* from, Pair* to, std::size_t size, const Digits& digits) {
+  std::array<Places, kMaxPasses> places;
+  countDigits<kSecond>(from, size, digits, places);
+  for (unsigned pass = 0; pass < digits.passes; ++pass) {
+    const unsigned shift = pass * digits.bits;
+    const std::uint32_t mask = digits.mask;
+    std::uint32_t* next = places[pass].data();
+    for (std::size_t i = 0; i < size; ++i) {
+      const Pair pair = from[i];
+      to[next[(indexOf<kSecond>(pair) >> shift) & mask]++] = pair;
+    }
+    std::swap(from, to);
+  }
+  return {from, to};
+}
+
+/// Sorts the pairs of one bucket from `from` into `to`; `from` is lost. Keys of a bucket differ in their low bits only.
 template <bool kBySecond>
-void sortBucket(Pair* from, Pair* to, std::size_t size, const BucketOrder<kBySecond>& order) {
+void sortBucket(Pair* from, Pair* to, std::size_t size, unsigned keyBits, unsigned otherBits) {
   if (size > std::numeric_limits<std::uint32_t>::max()) {
     std::copy_n(from, size, to);
-    std::sort(to, to + size, [&](Pair a, Pair b) { return order.valueOf(a) < order.valueOf(b); });
+    std::sort(to, to + size, [](Pair a, Pair b) {
+      return std::pair(indexOf<kBySecond>(a), indexOf<!kBySecond>(a)) <
+             std::pair(indexOf<kBySecond>(b), indexOf<!kBySecond>(b));
+    });
     return;
   }
-  const unsigned total = order.keyBits + order.otherBits;
-  const unsigned passes = std::max(1U, (total + kMaxDigitBits - 1) / kMaxDigitBits);
-  const unsigned bits = (total + passes - 1) / passes;
-  const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-  std::array<std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>, kMaxPasses> places;
-  countDigits(from, size, order, passes, bits, places);
-  Pair* target = to;
-  for (unsigned pass = 0; pass < passes; ++pass) {
-    const unsigned shift = pass * bits;
-    for (std::size_t i = 0; i < size; ++i) {
-      target[places[pass][(order.valueOf(from[i]) >> shift) & mask]++] = from[i];
-    }
-    std::swap(from, target);
-  }
-  if (from != to) std::copy_n(from, size, to);
+  const auto byOther = sortByDigits<!kBySecond>(from, to, size, digitsFor(otherBits));
+  const auto byBoth = sortByDigits<kBySecond>(byOther.first, byOther.second, size, digitsFor(keyBits));
+  if (byBoth.first != to) std::copy_n(byBoth.first, size, to);
 }
 
 }  // namespace
@@ -86,7 +99,7 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   executor.run(chunks, [&](std::size_t c) {
     m_places[c].assign(m_buckets, 0);
     for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
-      ++m_places[c][keyOf<kBySecond>(from[i]) >> m_keyBits];
+      ++m_places[c][indexOf<kBySecond>(from[i]) >> m_keyBits];
     }
   });
   std::size_t place = 0;
@@ -99,7 +112,7 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   executor.run(chunks, [&](std::size_t c) {
     std::size_t* places = m_places[c].data();
     for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
-      to[places[keyOf<kBySecond>(from[i]) >> m_keyBits]++] = from[i];
+      to[places[indexOf<kBySecond>(from[i]) >> m_keyBits]++] = from[i];
     }
   });
 }
@@ -108,7 +121,8 @@ template <bool kBySecond>
 void PairSort::sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, std::size_t others, Executor& executor) {
   m_other.require(pairs.capacity());
   const std::size_t wanted = std::clamp<std::size_t>(size / kPairsPerBucket, 1, kMaxBuckets);
-  m_keyBits = static_cast<unsigned>(std::bit_width((keys - 1) / wanted));
+  m_keyBits = std::min(static_cast<unsigned>(std::bit_width((keys - 1) / wanted)), kMaxDigitBits);
+  while (((keys - 1) >> m_keyBits) >= kMaxBuckets) ++m_keyBits;
   m_buckets = ((keys - 1) >> m_keyBits) + 1;
   Pair* from = pairs.data();
   Pair* to = m_other.data();
@@ -118,10 +132,10 @@ void PairSort::sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, s
     scatter<kBySecond>(from, to, size, executor);
     std::swap(from, to);
   }
-  const BucketOrder<kBySecond> order{m_keyBits, static_cast<unsigned>(std::bit_width(others - 1))};
+  const auto otherBits = static_cast<unsigned>(std::bit_width(others - 1));
   executor.run(m_buckets, [&](std::size_t b) {
     const std::size_t begin = m_bucketBegin[b];
-    sortBucket(from + begin, to + begin, m_bucketBegin[b + 1] - begin, order);
+    sortBucket<kBySecond>(from + begin, to + begin, m_bucketBegin[b + 1] - begin, m_keyBits, otherBits);
   });
   // A single bucket was sorted from the pairs into the other buffer.
   if (to == m_other.data()) std::swap(pairs, m_other);

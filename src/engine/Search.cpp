@@ -2,6 +2,7 @@
 #include "Search.h"
 
 #include <algorithm>
+#include <array>
 #include <thread>
 
 #include "CheckOptions.h"
@@ -16,6 +17,24 @@ constexpr double kFlatPairs = 320.0 * 320.0;
 constexpr std::size_t kMinRowTests = std::size_t{1} << 17;
 constexpr std::size_t kMinLeafBlocks = 64;
 constexpr std::size_t kMaxTasks = 512;
+
+/// Whether about a tenth of all pairs overlap, by a few of them. Then there is little to leave out, and the exhaustive
+/// search finds its pairs in order.
+bool overlapsMuch(const LaneReader& reader) {
+  constexpr std::size_t kSample = 24;
+  std::array<LaneBox, kSample> boxes;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < kSample; ++i) {
+    const std::size_t index = i * reader.size() / kSample;
+    static_cast<void>(reader.read(
+        index, index + 1, [&](std::size_t, const LaneBox& box) { boxes[size++] = box; }, [](std::size_t) {}));
+  }
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
+  }
+  return hits * 10 > kSample * (kSample - 1) / 2;
+}
 
 /// Reads all boxes of a set, in their own order, as lanes; those that can overlap nothing as lanes that never do.
 bool readList(const LaneReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
@@ -36,7 +55,8 @@ bool readList(const LaneReader& reader, Buffer<LaneTile>& buffer, LaneList& list
 
 bool Search::prefersFlat(const Sets& sets, const OverlapOptions& options) {
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
-  return static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs;
+  if (static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs) return true;
+  return sets.one && options.order != Order::Unordered && overlapsMuch(LaneReader(sets.first, options));
 }
 
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
