@@ -36,17 +36,16 @@ class VerificationError : public Error {
 /// that all overlap, with (m,m) before the others of m if m may touch itself. A model's root box, flags, groups,
 /// distance and owner are read when it is added; it must not change otherwise before the result is read. A model that
 /// has no bounding tree, or whose positions were set since, gets its root computed then (of a continuous method too:
-/// without a step there is no motion). Geometry:  closed boxes, per axis, in double, as allpairs::overlap() with the
-/// method's distance. Bad input: a root box with a NaN throws InvalidBox that names the model; a missing method throws
-/// InvalidArgument.
+/// without a step there is no motion).
+///
+/// Geometry:  closed boxes, per axis, in double, as allpairs::overlap() with the method's distance.
+/// Bad input: a root box with a NaN throws InvalidBox that names the model; a missing method throws InvalidArgument.
 ///            Null and empty models are ignored.
-/// Cost:      that of allpairs::Overlaps on the root boxes, and the rules for each pair that overlaps. n(n-1)/2 calls
-/// of
+/// Cost:      that of allpairs::Overlaps on the root boxes, and the rules for each pair that overlaps; n(n-1)/2 calls of
 ///            the rules with Strategy::Exhaustive, or if the method can't bound its distance. A second step like the
 ///            first allocates nothing.
 /// Threads:   one step at a time per object; the search runs on the executor, rules and intersectors are called from
-/// the
-///            calling thread.
+///            the calling thread.
 class BruteForceBroadPhase : public BroadPhaseDetection {
  public:
   BruteForceBroadPhase();
