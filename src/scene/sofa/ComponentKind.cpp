@@ -19,6 +19,8 @@ void addModels(Table& table) {
   for (const auto name : {"TriangleModel", "TriangleCollisionModel", "TTriangleModel", "Triangle", "TriangleMesh",
                           "TriangleSet", "TriangleMeshModel", "TriangleSetModel"})
     table[name] = {TriangleModel, "TTriangleModel"};
+  for (const auto name : {"TriangleOctreeModel", "TriangleOctree", "TriangleOctreeCollisionModel"})
+    table[name] = {TriangleModel, "TriangleOctreeModel"};
   for (const auto name : {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere"})
     table[name] = {SphereModel, "TSphereModel"};
   for (const auto name : {"CapsuleModel", "CapsuleCollisionModel", "TCapsuleModel", "Capsule", "RigidCapsule",
@@ -81,6 +83,11 @@ void addMappings(Table& table) {
   table["SubsetMapping"] = {SubsetMapping, "SubsetMapping"};
   for (const auto name : {"BarycentricMapping", "TopologyBarycentricMapping"})
     table[name] = {BarycentricMapping, "BarycentricMapping"};
+  table["IdentityMultiMapping"] = {IdentityMultiMapping, "IdentityMultiMapping"};
+  table["SubsetMultiMapping"] = {SubsetMultiMapping, "SubsetMultiMapping"};
+  table["DeformableOnRigidFrameMapping"] = {DeformableOnRigidFrameMapping, "DeformableOnRigidFrameMapping"};
+  for (const auto name : {"SkinningMapping", "LinearBlendSkinningMapping"})
+    table[name] = {SkinningMapping, "SkinningMapping"};
 }
 
 void addSources(Table& table) {

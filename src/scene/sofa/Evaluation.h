@@ -117,6 +117,14 @@ class Evaluation {
 [[nodiscard]] Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target);
 [[nodiscard]] State initialState(Evaluation& evaluation, const Component& component);
 [[nodiscard]] State mapState(Evaluation& evaluation, const Component& mapping, State child);
+/// The points of several states, one after the other.
+[[nodiscard]] State mapAllOf(Evaluation& evaluation, const Component& mapping, State child);
+/// Chosen points of several states.
+[[nodiscard]] State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child);
+/// The points of one state, carried by a rigid frame of another.
+[[nodiscard]] State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child);
+/// A skin on bones that are at rest: it stays where it is.
+[[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
                                                    const Component& parent, const State& child);
 /// How a state or a mesh loader moves its points: the data scale3d, rotation, translation, rotation2 and translation2.

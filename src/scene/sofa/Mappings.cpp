@@ -168,8 +168,20 @@ const Component* mappingOutput(const Component& mapping) { return endOf(mapping,
 State mapState(Evaluation& evaluation, const Component& mapping, State child) {
   const auto* input = mappingInput(mapping);
   if (mapping.kind() == UnknownMapping) throw Unplaceable(mapping, "this kind of mapping is not known to this reader");
+  switch (mapping.kind()) {
+    case IdentityMultiMapping:
+      return mapAllOf(evaluation, mapping, std::move(child));
+    case SubsetMultiMapping:
+      return mapSomeOf(evaluation, mapping, std::move(child));
+    case DeformableOnRigidFrameMapping:
+      return mapOnFrame(evaluation, mapping, std::move(child));
+    default:
+      break;
+  }
   if (input == nullptr) throw Unplaceable(mapping, "the state that it reads is nowhere to be found");
   switch (mapping.kind()) {
+    case SkinningMapping:
+      return mapSkin(evaluation, mapping, *input, std::move(child));
     case RigidMapping:
       return mapRigidly(evaluation, mapping, evaluation.knownState(*input), child);
     case IdentityMapping:

@@ -96,7 +96,7 @@ class ElementReader {
 
   Element readFile(const std::filesystem::path& path) {
     if (m_openFiles.size() >= kMaxIncludeDepth) throw FileError(path, "included too many levels deep");
-    const auto canonical = std::filesystem::weakly_canonical(path);
+    const auto canonical = path.lexically_normal();  // A link that hides a circle runs into the depth above.
     if (std::ranges::find(m_openFiles, canonical) != m_openFiles.end())
       throw FileError(path, "this file includes itself, directly or through another");
     m_openFiles.push_back(canonical);
