@@ -21,11 +21,6 @@ void checkRegion(const Box& box) {
   }
 }
 
-void makeRoot(CollisionModel& model) {
-  CollisionModel& last = *model.getLast();
-  if (!last.hasBoundingTree()) last.computeBoundingTree(0);
-}
-
 std::string nameOf(const std::vector<CollisionModelPair>& pairs, std::size_t i) {
   if (i >= pairs.size()) return "no pair";
   return "(" + pairs[i].first->describe() + ", " + pairs[i].second->describe() + ")";
@@ -110,11 +105,15 @@ void BruteForceBroadPhase::beginBroadPhase() {
 
 void BruteForceBroadPhase::addCollisionModel(core::CollisionModel* cm) {
   State& state = *m_state;
-  if (cm == nullptr || state.models.isEmpty(*cm)) return;
+  if (cm == nullptr) return;
+  CollisionModel& last = *cm->getLast();
+  const bool ours = state.models.isOurs(last);
+  if (ModelTable::isEmpty(last, ours)) return;
   state.useMethod(getIntersectionMethod());
-  makeRoot(*cm);
+  if (!last.hasBoundingTree()) last.computeBoundingTree(0);
   if (state.region && !intersectWithBoxModel(cm)) return;
-  state.models.add(cm, doesSelfCollide(cm));
+  const bool mayHaveSelfPair = !ours || last.getSelfCollision();
+  state.models.add(cm, ours, mayHaveSelfPair && doesSelfCollide(cm));
   if (state.strategy == Strategy::Exhaustive) state.complete();
 }
 
@@ -138,7 +137,8 @@ bool BruteForceBroadPhase::keepCollisionBetween(core::CollisionModel* cm1, core:
 }
 
 bool BruteForceBroadPhase::doesSelfCollide(core::CollisionModel* cm) {
-  if (!cm->isSimulated() || !m_state->models.mayCollideWithItself(*cm)) return false;
+  CollisionModel* last = cm->getLast();
+  if (!cm->isSimulated() || !last->canCollideWith(last)) return false;
   return PairRules::rootsMayTouch(cm, cm, *getIntersectionMethod(), false);
 }
 

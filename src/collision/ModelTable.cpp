@@ -28,48 +28,50 @@ bool isLibraryType(const std::type_info& type) {
 
 }  // namespace
 
+ModelTable::ModelTable() : m_rootTypes{typeid(BoundingBoxModel)} {}
+
 void ModelTable::clear() {
-  m_rows.clear();
-  m_boxes.clear();
-  m_contactDistances.clear();
+  m_size = 0;
   m_groupLists.clear();
-  m_rootTypes.clear();
+  m_rootTypes.erase(m_rootTypes.begin() + 1, m_rootTypes.end());
   m_largestContactDistance = 0.0;
+  m_allOurs = true;
+  m_anySelfPair = false;
 }
 
-bool ModelTable::isOurs(const CollisionModel& last) {
-  const std::type_info& type = typeid(last);
-  if (&type != m_lastType.type) m_lastType = {&type, isLibraryType(type)};
-  return m_lastType.ours;
-}
+void ModelTable::lookUpType(const std::type_info& type) { m_lastType = {&type, isLibraryType(type)}; }
 
-bool ModelTable::isEmpty(const CollisionModel& model) {
-  const CollisionModel& last = *model.m_last;
-  return last.m_treeIsCurrent && isOurs(last) ? last.m_levels.empty() : last.empty();
-}
-
-bool ModelTable::mayCollideWithItself(CollisionModel& model) {
-  CollisionModel* last = model.m_last;
-  return isOurs(*last) ? last->m_selfCollision : last->canCollideWith(last);
-}
-
-void ModelTable::add(CollisionModel* model, bool selfPair) {
+void ModelTable::add(CollisionModel* model, bool ours, bool selfPair) {
   const CollisionModel& last = *model->m_last;
-  const bool ours = isOurs(last);
-  const Box box = ours || !last.m_levels.empty() ? last.m_rootBox : last.elementBox(0);
-  if (hasNan(box)) throw InvalidBox(m_rows.size(), last.describe() + ": its root box has a NaN");
-  ModelRow row{model, last.m_owner, last.m_groupBits, noteGroups(last), rootTypeOf(*model, ours), 0};
-  row.flags = static_cast<std::uint8_t>((last.m_simulated ? ModelRow::kSimulated : 0) |
-                                        (last.m_selfCollision ? ModelRow::kSelfCollision : 0) |
-                                        (ours ? ModelRow::kDefaultRules : 0) | (selfPair ? ModelRow::kSelfPair : 0));
-  m_rows.push_back(row);
-  m_boxes.push_back(box);
-  m_contactDistances.push_back(last.m_contactDistance);
+  const Box box = last.m_hasLevels ? last.m_rootBox : last.elementBox(0);
+  if (!ours && hasNan(box)) throw InvalidBox(m_size, last.describe() + ": its root box has a NaN");
+  const std::uint16_t rootType = ours ? std::uint16_t{0} : rootTypeOf(*model);
+  if (m_size == m_rows.size()) grow();
+  const int flags = (last.m_simulated ? ModelRow::kSimulated : 0) |
+                    (last.m_selfCollision ? ModelRow::kSelfCollision : 0) | (ours ? ModelRow::kDefaultRules : 0) |
+                    (selfPair ? ModelRow::kSelfPair : 0);
+  m_rows[m_size] = {model,
+                    last.m_owner,
+                    last.m_groupBits,
+                    last.m_groups == nullptr ? 0U : noteGroups(last),
+                    rootType,
+                    static_cast<std::uint8_t>(flags)};
+  m_boxes[m_size] = box;
+  m_contactDistances[m_size] = last.m_contactDistance;
   m_largestContactDistance = std::max(m_largestContactDistance, std::abs(last.m_contactDistance));
+  m_allOurs = m_allOurs && ours;
+  m_anySelfPair = m_anySelfPair || selfPair;
+  ++m_size;
+}
+
+void ModelTable::grow() {
+  const std::size_t size = std::max<std::size_t>(64, 2 * m_size);
+  m_boxes.resize(size);
+  m_contactDistances.resize(size);
+  m_rows.resize(size);  // last: its size is the one that is looked at
 }
 
 std::uint32_t ModelTable::noteGroups(const CollisionModel& last) {
-  if (last.m_groups == nullptr) return 0;
   if (m_groupLists.empty() || m_groupLists.back() != last.m_groups) m_groupLists.push_back(last.m_groups);
   return static_cast<std::uint32_t>(m_groupLists.size());
 }
@@ -78,8 +80,8 @@ bool ModelTable::haveCommonGroup(const ModelRow& a, const ModelRow& b) const {
   return haveCommonMember(*m_groupLists[a.groups - 1], *m_groupLists[b.groups - 1]);
 }
 
-std::uint16_t ModelTable::rootTypeOf(const CollisionModel& model, bool ours) {
-  const std::type_index type = ours ? std::type_index(typeid(BoundingBoxModel)) : model.getFirst()->typeKey();
+std::uint16_t ModelTable::rootTypeOf(const CollisionModel& model) {
+  const std::type_index type = model.getFirst()->typeKey();
   const auto found = std::find(m_rootTypes.begin(), m_rootTypes.end(), type);
   const auto index = static_cast<std::uint16_t>(found - m_rootTypes.begin());
   if (found == m_rootTypes.end()) m_rootTypes.push_back(type);

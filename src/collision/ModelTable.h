@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <typeindex>
 #include <typeinfo>
 #include <utility>
@@ -34,26 +35,34 @@ struct ModelRow {
 /// The models of a step as they were when they were added, in columns.
 class ModelTable {
  public:
+  ModelTable();
+
   void clear();
+
+  /// Whether the last level of a model is of one of the library's own types, none of whose functions is overridden.
+  [[nodiscard]] bool isOurs(const CollisionModel& last) {
+    const std::type_info& type = typeid(last);
+    if (&type != m_lastType.type) lookUpType(type);
+    return m_lastType.ours;
+  }
+
+  /// Whether a model has no elements; without a virtual call if it is ours and has a root.
+  [[nodiscard]] static bool isEmpty(const CollisionModel& last, bool ours) {
+    return ours && last.m_treeIsCurrent ? !last.m_hasLevels : last.empty();
+  }
 
   /// Notes a model; the caller has seen to it that it has a root.
   ///
   /// Bad input: a root box with a NaN throws InvalidBox, and the table stays as it was.
-  void add(CollisionModel* model, bool selfPair);
+  void add(CollisionModel* model, bool ours, bool selfPair);
 
-  /// Whether a model has no elements; answers without a virtual call where it can.
-  [[nodiscard]] bool isEmpty(const CollisionModel& model);
-
-  /// Whether a model's rules let it collide with itself; answers without a virtual call where it can.
-  [[nodiscard]] bool mayCollideWithItself(CollisionModel& model);
-
-  [[nodiscard]] std::size_t size() const { return m_rows.size(); }
+  [[nodiscard]] std::size_t size() const { return m_size; }
   [[nodiscard]] const ModelRow& row(std::size_t i) const { return m_rows[i]; }
   [[nodiscard]] const Box& box(std::size_t i) const { return m_boxes[i]; }
-  [[nodiscard]] const std::vector<Box>& boxes() const { return m_boxes; }
+  [[nodiscard]] std::span<const Box> boxes() const { return {m_boxes.data(), m_size}; }
 
-  /// The contact distance of each model, 0 for all where anyContactDistance() is false.
-  [[nodiscard]] const std::vector<double>& contactDistances() const { return m_contactDistances; }
+  /// The contact distance of each model.
+  [[nodiscard]] std::span<const double> contactDistances() const { return {m_contactDistances.data(), m_size}; }
   [[nodiscard]] bool anyContactDistance() const { return m_largestContactDistance > 0.0; }
   [[nodiscard]] double largestContactDistance() const { return m_largestContactDistance; }
 
@@ -63,8 +72,12 @@ class ModelTable {
     return (a.groupBits & b.groupBits) == 0 || !haveCommonGroup(a, b);
   }
 
-  /// How many different types of root there are.
+  /// How many different types of root there are; BoundingBoxModel, always there, is number 0.
   [[nodiscard]] std::size_t typeCount() const { return m_rootTypes.size(); }
+
+  /// Whether all models have the library's own rules and roots.
+  [[nodiscard]] bool isPlain() const { return m_allOurs; }
+  [[nodiscard]] bool anySelfPair() const { return m_anySelfPair; }
 
  private:
   struct KnownType {
@@ -72,11 +85,13 @@ class ModelTable {
     bool ours = false;
   };
 
-  [[nodiscard]] bool isOurs(const CollisionModel& last);
+  void grow();
+  void lookUpType(const std::type_info& type);
   [[nodiscard]] bool haveCommonGroup(const ModelRow& a, const ModelRow& b) const;
-  [[nodiscard]] std::uint16_t rootTypeOf(const CollisionModel& model, bool ours);
+  [[nodiscard]] std::uint16_t rootTypeOf(const CollisionModel& model);
   [[nodiscard]] std::uint32_t noteGroups(const CollisionModel& last);
 
+  std::size_t m_size = 0;  // of the columns, which are as long as they ever were
   std::vector<ModelRow> m_rows;
   std::vector<Box> m_boxes;
   std::vector<double> m_contactDistances;
@@ -84,6 +99,8 @@ class ModelTable {
   std::vector<std::type_index> m_rootTypes;
   KnownType m_lastType;
   double m_largestContactDistance = 0.0;
+  bool m_allOurs = true;
+  bool m_anySelfPair = false;
 };
 
 }  // namespace allpairs::collision

@@ -92,12 +92,21 @@ bool PairRules::keeps(const ModelRow& newer, const ModelRow& older) const {
   return lets(newer, older) && lets(older, newer);
 }
 
+bool PairRules::arePlain() {
+  if (!m_methodIsOurs || !m_models.isPlain() || m_models.size() == 0) return false;
+  const Link link = linkOf(m_models.row(0), m_models.row(0));
+  return link.kind == Kind::Boxes && !link.swap;
+}
+
+void PairRules::countTypes() {
+  if (m_types == m_models.typeCount()) return;
+  m_types = m_models.typeCount();
+  m_links.assign(m_types * m_types, Link{});
+}
+
 PairRules::Link PairRules::linkOf(const ModelRow& newer, const ModelRow& older) {
   if (!m_methodIsOurs) return findLink(newer.model, older.model);  // a user's findIntersector() may look beyond types
-  if (m_types != m_models.typeCount()) {
-    m_types = m_models.typeCount();
-    m_links.assign(m_types * m_types, Link{});
-  }
+  countTypes();
   Link& link = m_links[newer.type * m_types + older.type];
   if (link.kind == Kind::Unknown) link = findLink(newer.model, older.model);
   return link;
@@ -117,7 +126,7 @@ PairRules::Link PairRules::findLink(CollisionModel* newer, CollisionModel* older
 bool PairRules::boxesAreNear(std::size_t first, std::size_t second) const {
   double distance = m_maximumDistance;
   if (m_addsContactDistances) {
-    const std::vector<double>& distances = m_models.contactDistances();
+    const std::span<const double> distances = m_models.contactDistances();
     distance = distance + distances[first] + distances[second];
   }
   return overlap(m_models.box(first), m_models.box(second), distance);

@@ -40,6 +40,17 @@ class PairRules {
     return m_methodIsOurs && !(m_addsContactDistances && m_models.anyContactDistance());
   }
 
+  /// Whether every pair is decided by what the table notes of both models, and reported newest first.
+  [[nodiscard]] bool arePlain();
+
+  /// Whether two models of plain rules are a pair. `boxesAreNear`: a search has tested the boxes.
+  [[nodiscard]] bool askPlain(std::size_t newer, std::size_t older, bool boxesAreNear) const {
+    const ModelRow& a = m_models.row(newer);
+    const ModelRow& b = m_models.row(older);
+    return ((a.flags | b.flags) & ModelRow::kSimulated) != 0 && m_models.letsCollide(a, b) &&
+           m_models.letsCollide(b, a) && (boxesAreNear || this->boxesAreNear(newer, older));
+  }
+
   /// The pair to report for two rows of the table, if there is one. `boxesAreNear`: a search has tested the boxes.
   [[nodiscard]] std::optional<CollisionModelPair> ask(std::size_t newer, std::size_t older, bool boxesAreNear);
 
@@ -61,6 +72,7 @@ class PairRules {
   };
 
   [[nodiscard]] bool keeps(const ModelRow& newer, const ModelRow& older) const;
+  void countTypes();
   [[nodiscard]] Link linkOf(const ModelRow& newer, const ModelRow& older);
   [[nodiscard]] Link findLink(CollisionModel* newer, CollisionModel* older) const;
   [[nodiscard]] bool boxesAreNear(std::size_t first, std::size_t second) const;

@@ -42,22 +42,48 @@ void PairSearch::askFound(std::size_t begin, std::vector<CollisionModelPair>& pa
   Candidates withOlder = searchOlder(begin, statistics);
   Candidates withNewer = searchNewer(begin, statistics);
   statistics.candidates += withOlder.left.size() + withNewer.left.size();
+  const bool plain = m_rules.arePlain();
+  if (plain && begin == 0 && !m_models.anySelfPair()) {
+    askPlain(withNewer.left, withNewer, pairs);
+    return;
+  }
   for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
     const ModelRow& row = m_models.row(newer);
     if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
-    askRow(newer, withOlder, pairs);
-    askRow(newer, withNewer, pairs);
+    for (Candidates* candidates : {&withOlder, &withNewer}) {
+      const std::span<const Pair> ofRow = takeRow(newer, *candidates);
+      plain ? askPlain(ofRow, *candidates, pairs) : askEach(ofRow, *candidates, pairs);
+    }
   }
 }
 
-void PairSearch::askRow(std::size_t newer, Candidates& candidates, std::vector<CollisionModelPair>& pairs) {
-  const bool decided = m_rules.searchIsExact();
+std::span<const Pair> PairSearch::takeRow(std::size_t newer, Candidates& candidates) {
+  const std::span<const Pair> left = candidates.left;
   std::size_t i = 0;
-  for (; i < candidates.left.size() && candidates.left[i].second + candidates.secondOffset == newer; ++i) {
-    const std::size_t older = candidates.left[i].first + candidates.firstOffset;
-    if (const auto pair = m_rules.ask(newer, older, decided)) pairs.push_back(*pair);
+  while (i < left.size() && left[i].second + candidates.secondOffset == newer) ++i;
+  candidates.left = left.subspan(i);
+  return left.first(i);
+}
+
+void PairSearch::askPlain(std::span<const Pair> found, const Candidates& offsets,
+                          std::vector<CollisionModelPair>& pairs) const {
+  const bool decided = m_rules.searchIsExact();
+  for (const Pair& pair : found) {
+    const std::size_t newer = pair.second + offsets.secondOffset;
+    const std::size_t older = pair.first + offsets.firstOffset;
+    if (!m_rules.askPlain(newer, older, decided)) continue;
+    pairs.emplace_back(m_models.row(newer).model, m_models.row(older).model);
   }
-  candidates.left = candidates.left.subspan(i);
+}
+
+void PairSearch::askEach(std::span<const Pair> found, const Candidates& offsets,
+                         std::vector<CollisionModelPair>& pairs) {
+  const bool decided = m_rules.searchIsExact();
+  for (const Pair& candidate : found) {
+    const auto pair =
+        m_rules.ask(candidate.second + offsets.secondOffset, candidate.first + offsets.firstOffset, decided);
+    if (pair) pairs.push_back(*pair);
+  }
 }
 
 PairSearch::Candidates PairSearch::searchOlder(std::size_t begin, BroadPhaseStatistics& statistics) {
@@ -78,9 +104,9 @@ PairSearch::Candidates PairSearch::searchNewer(std::size_t begin, BroadPhaseStat
 }
 
 BoxSet PairSearch::boxSet(std::size_t begin, std::size_t end) const {
-  BoxSet set(std::span<const Box>(m_models.boxes()).subspan(begin, end - begin));
+  BoxSet set(m_models.boxes().subspan(begin, end - begin));
   if (m_rules.addsContactDistances() && m_models.anyContactDistance()) {
-    set.setMargins(std::span<const double>(m_models.contactDistances()).subspan(begin, end - begin));
+    set.setMargins(m_models.contactDistances().subspan(begin, end - begin));
   }
   return set;
 }

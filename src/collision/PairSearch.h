@@ -34,7 +34,9 @@ class PairSearch {
 
   void askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
   void askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
-  void askRow(std::size_t newer, Candidates& candidates, std::vector<CollisionModelPair>& pairs);
+  void askPlain(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs) const;
+  void askEach(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs);
+  [[nodiscard]] static std::span<const Pair> takeRow(std::size_t newer, Candidates& candidates);
   [[nodiscard]] BoxSet boxSet(std::size_t begin, std::size_t end) const;
   [[nodiscard]] Candidates searchOlder(std::size_t begin, BroadPhaseStatistics& statistics);
   [[nodiscard]] Candidates searchNewer(std::size_t begin, BroadPhaseStatistics& statistics);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// A program of its own: it replaces the global operator new.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "Fixture.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* memory = alignment <= alignof(std::max_align_t)
+                     ? std::malloc(size)
+                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, 1); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace allpairs::test {
+namespace {
+
+using collision::BruteForceBroadPhase;
+
+class AllocationCount : public BroadPhaseTest {
+ protected:
+  void addRandom(std::size_t count) {
+    std::size_t number = 0;
+    for (const Box& box : toDouble(randomBoxes(count, 3))) {
+      collision::BoxModel& model = add(box);
+      if (number % 3 == 0) model.setGroups({static_cast<int>(number % 7)});
+      if (number % 4 == 0) model.setContactDistance(0.01);
+      model.setSelfCollision(number++ % 5 == 0);
+    }
+  }
+
+  template <class Step>
+  static std::size_t allocationsOf(const Step& step) {
+    for (int i = 0; i < 3; ++i) step();  // buffers that are swapped take more than one step to have grown
+    const std::size_t before = allocations;
+    step();
+    return allocations - before;
+  }
+};
+
+class ComponentAllocation : public AllocationCount, public ::testing::WithParamInterface<Strategy> {};
+
+INSTANTIATE_TEST_SUITE_P(EachStrategy, ComponentAllocation,
+                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked));
+
+TEST_P(ComponentAllocation, ASecondStepLikeTheFirstAllocatesNothing) {
+  addRandom(1200);
+  BruteForceBroadPhase phase;
+  phase.setIntersectionMethod(&m_method);
+  phase.setBox({-1.0, -1.0, -1.0}, {1e3, 1e3, 1e3});
+  phase.init();
+  phase.setStrategy(GetParam());
+  EXPECT_EQ(allocationsOf([&] {
+              phase.beginBroadPhase();
+              phase.addCollisionModels(m_models);
+              phase.endBroadPhase();
+            }),
+            0U);
+  EXPECT_FALSE(phase.getCollisionModelPairs().empty());
+}
+
+TEST_P(ComponentAllocation, ReadingAfterEachAdditionAllocatesNothingTheSecondTime) {
+  addRandom(150);
+  BruteForceBroadPhase phase;
+  phase.setIntersectionMethod(&m_method);
+  phase.setStrategy(GetParam());
+  EXPECT_EQ(allocationsOf([&] {
+              phase.beginBroadPhase();
+              for (collision::CollisionModel* model : m_models) {
+                phase.addCollisionModel(model);
+                static_cast<void>(phase.getCollisionModelPairs());
+              }
+            }),
+            0U);
+}
+
+TEST_F(AllocationCount, ASecondBoundingTreeAllocatesNothing) {
+  std::vector<Box> boxes = toDouble(randomBoxes(500, 5));
+  collision::BoxModel model("many", boxes);
+  EXPECT_EQ(allocationsOf([&] { model.computeBoundingTree(); }), 0U);
+  EXPECT_EQ(allocationsOf([&] { model.computeContinuousBoundingTree(0.1, 5); }), 0U);
+}
+
+}  // namespace
+}  // namespace allpairs::test
