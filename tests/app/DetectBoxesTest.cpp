@@ -55,7 +55,7 @@ TEST(DetectBoxes, EveryArrayOfTheDataFolderGivesItsPairsByteForByte) {
     if (path.ends_with(".pairs.npy")) continue;
     const std::string expected = readBytes(path.substr(0, path.size() - 4) + ".pairs.npy");
     for (const char* strategy : {"auto", "exhaustive", "blocked"}) {
-      const Run run = runProgram({"detect", path, "--format", "npy", "--strategy", strategy});
+      const ProgramRun run = runProgram({"detect", path, "--format", "npy", "--strategy", strategy});
       expectSuccess(run);
       EXPECT_TRUE(run.out == expected) << path << ' ' << strategy;
     }
@@ -76,7 +76,7 @@ TEST(DetectBoxes, EveryStrategyThreadCountAndFormatGivesTheDoubleLoopsPairs) {
       const auto run = [&common](const char* format) {
         std::vector<std::string> words = common;
         words.insert(words.end(), {"--format", format});
-        const Run result = runProgram(words);
+        const ProgramRun result = runProgram(words);
         expectSuccess(result);
         return result.out;
       };
@@ -90,8 +90,8 @@ TEST(DetectBoxes, EveryStrategyThreadCountAndFormatGivesTheDoubleLoopsPairs) {
 TEST(DetectBoxes, ManyBoxesOnManyThreadsGiveTheSameBytesAsOnOne) {
   const TempFolder folder;
   const std::string path = folder.write("boxes.npy", npyBytes(someBoxes(30'000), {.descr = "<f4"}));
-  const Run one = runProgram({"detect", path, "--format", "npy", "--threads", "1"});
-  const Run many = runProgram({"detect", path, "--format", "npy", "--threads", "4"});
+  const ProgramRun one = runProgram({"detect", path, "--format", "npy", "--threads", "1"});
+  const ProgramRun many = runProgram({"detect", path, "--format", "npy", "--threads", "4"});
   expectSuccess(one);
   EXPECT_TRUE(one.out == many.out);
   EXPECT_GT(one.out.size(), 100'000U);
@@ -103,8 +103,8 @@ TEST(DetectBoxes, AMarginWidensAndANegativeOneShrinks) {
   const std::string path = folder.write("boxes.npy", npyBytes(boxes));
   for (const double margin : {0.25, -0.25, 0.0}) {
     const std::string text = std::to_string(margin);
-    const Run apart = runProgram({"detect", path, "--format", "npy", "--margin", text});
-    const Run joined = runProgram({"detect", path, "--format", "npy", "--margin=" + text});
+    const ProgramRun apart = runProgram({"detect", path, "--format", "npy", "--margin", text});
+    const ProgramRun joined = runProgram({"detect", path, "--format", "npy", "--margin=" + text});
     expectSuccess(apart);
     EXPECT_EQ(pairsOfNpy(apart.out), oracle(boxes, margin));
     EXPECT_TRUE(apart.out == joined.out);
@@ -143,7 +143,7 @@ TEST(DetectBoxes, BoxesAmongMeshesAreModelsAndPairAsBoxesDo) {
   const std::vector<Box> boxes = someBoxes(60);
   const std::string array = folder.write("boxes.npy", npyBytes(boxes));
   const std::string mesh = folder.write("far.obj", "v 900 900 900\nv 901 900 900\nv 900 901 900\nf 1 2 3\n");
-  const Run run = runProgram({"detect", array, mesh, "--format", "json"});
+  const ProgramRun run = runProgram({"detect", array, mesh, "--format", "json"});
   expectSuccess(run);
   EXPECT_EQ(pairsOfJson(run.out), newestFirst(oracle(boxes)));
 }
@@ -157,7 +157,7 @@ TEST(DetectBoxes, NamesComeThroughToTheCsv) {
 TEST(DetectBoxes, TheTableShowsThePairsAndWhatTheyCost) {
   const TempFolder folder;
   const std::string path = folder.write("b.csv", "left,0,0,0,1,1,1\nright,1,1,1,2,2,2\nfar,9,9,9,10,10,10\n");
-  const Run run = runProgram({"detect", path, "--verify"});
+  const ProgramRun run = runProgram({"detect", path, "--verify"});
   expectSuccess(run);
   for (const char* part : {"models   3", "pairs    1\n", "  right   left\n", "the double loop makes 3", "verify"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;
@@ -167,13 +167,13 @@ TEST(DetectBoxes, TheTableShowsThePairsAndWhatTheyCost) {
 TEST(DetectBoxes, TheTableSaysHowManyPairsItDoesNotShow) {
   const TempFolder folder;
   const std::vector<Box> boxes(60, cube(0, 0, 0));
-  const Run run = runProgram({"detect", folder.write("same.npy", npyBytes(boxes))});
+  const ProgramRun run = runProgram({"detect", folder.write("same.npy", npyBytes(boxes))});
   EXPECT_NE(run.out.find("... and 1,730 more"), std::string::npos) << run.out;
 }
 
 TEST(Info, ShowsWhatAnArrayHolds) {
   const TempFolder folder;
-  const Run run = runProgram({"info", folder.write("b.npy", npyBytes({cube(0, 0, 0), cube(2, 2, 2), {{1, 0, 0}, {0, 0, 0}}}))});
+  const ProgramRun run = runProgram({"info", folder.write("b.npy", npyBytes({cube(0, 0, 0), cube(2, 2, 2), {{1, 0, 0}, {0, 0, 0}}}))});
   expectSuccess(run);
   for (const char* part : {"3 boxes, float64", "empty    1", "[0, 0, 0] to [3, 3, 3]", "[2, 2, 2] to [3, 3, 3]"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;
@@ -184,7 +184,7 @@ TEST(Info, ShowsModelsAndWhatWasIgnored) {
   const TempFolder folder;
   folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no wheel of wood\nf 1 2 3\n");
   folder.write("notes.txt", "hello");
-  const Run run = runProgram({"info", folder.path().string()});
+  const ProgramRun run = runProgram({"info", folder.path().string()});
   expectSuccess(run);
   for (const char* part : {"wheel of wood", "TTriangleModel", "ignored\n", "notes.txt", "is no mesh file"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;

@@ -11,13 +11,13 @@
 namespace allpairs::test {
 
 /// The run ended well and complained about nothing.
-inline void expectSuccess(const Run& run) {
+inline void expectSuccess(const ProgramRun& run) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
 }
 
 /// The run ended with this status and said why in one line that begins with the program's name and holds `part`.
-inline void expectFailure(const Run& run, int status, const std::string& part) {
+inline void expectFailure(const ProgramRun& run, int status, const std::string& part) {
   EXPECT_EQ(run.status, status);
   EXPECT_EQ(run.out, "");
   EXPECT_TRUE(run.err.starts_with("allpairs: ")) << run.err;

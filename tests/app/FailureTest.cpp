@@ -67,7 +67,7 @@ TEST(OutputFile, AppearsWholeAndUnderItsName) {
   const TempFolder folder;
   const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(1, 1, 1)}));
   const std::string target = folder.path() / "pairs.npy";
-  const Run run = runProgram({"detect", path, "-o", target});
+  const ProgramRun run = runProgram({"detect", path, "-o", target});
   expectSuccess(run);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(pairsOfNpy(readBytes(target)), (std::vector<Pair>{{0, 1}})) << "the extension says the format";
@@ -110,7 +110,7 @@ TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
            {"detect", path}, {"detect", path, "--format", "json"}, {"info", path}, {"--help"}, {"--version"}}) {
     expectFailure(runProgram(words, StandardOutput::FullDevice), kBadInput, "standard output: cannot be written");
     expectFailure(runProgram(words, StandardOutput::Closed), kBadInput, "standard output: cannot be written");
-    const Run run = runProgram(words, StandardOutput::ClosedPipe);
+    const ProgramRun run = runProgram(words, StandardOutput::ClosedPipe);
     EXPECT_EQ(run.status, kClosedPipe);
     EXPECT_EQ(run.err, "") << "who closed the pipe knows";
   }

@@ -28,7 +28,7 @@ class Help : public testing::TestWithParam<std::vector<std::string>> {};
 TEST_P(Help, HasExamplesAndEveryOptionIsInTheManualAndInTheCompletion) {
   std::vector<std::string> words = GetParam();
   words.emplace_back("--help");
-  const Run run = runProgram(words);
+  const ProgramRun run = runProgram(words);
   expectSuccess(run);
   EXPECT_NE(run.out.find("Examples:\n  allpairs "), std::string::npos);
   std::string manual = readBytes(ALLPAIRS_SOURCE_DIR "/docs/man/allpairs.1");
@@ -56,7 +56,7 @@ TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
 }
 
 TEST(Version, IsOneLine) {
-  const Run run = runProgram({"--version"});
+  const ProgramRun run = runProgram({"--version"});
   expectSuccess(run);
   EXPECT_TRUE(std::regex_match(run.out, std::regex("allpairs [0-9]+\\.[0-9]+\\.[0-9]+\n"))) << run.out;
 }

@@ -32,7 +32,7 @@ void redirectOutput(StandardOutput output, const char* path) {
 
 }  // namespace
 
-Run runProgram(const std::vector<std::string>& arguments, StandardOutput output) {
+ProgramRun runProgram(const std::vector<std::string>& arguments, StandardOutput output) {
   const TempFolder folder;
   const std::string outPath = folder.path() / "out";
   const std::string errPath = folder.path() / "err";

@@ -7,17 +7,17 @@
 namespace allpairs::test {
 
 /// How one run of the program ended.
-struct Run {
+struct ProgramRun {
   int status = -1;  ///< Its exit status; -1 if a signal ended it.
   std::string out;
   std::string err;
 };
 
-/// Where the program's standard output goes instead of into Run::out.
+/// Where the program's standard output goes instead of into ProgramRun::out.
 enum class StandardOutput { Captured, FullDevice, ClosedPipe, Closed };
 
 /// Runs the command with these arguments and waits for its end.
-[[nodiscard]] Run runProgram(const std::vector<std::string>& arguments,
+[[nodiscard]] ProgramRun runProgram(const std::vector<std::string>& arguments,
                              StandardOutput output = StandardOutput::Captured);
 
 }  // namespace allpairs::test
