@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -161,8 +161,9 @@ void addDetect(CLI::App& program) {
   CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
   command->footer(kExamples);
   addInputOptions(*command, settings->input);
-  CLI::Option* margin = command->add_option("--margin", settings->margin,
-                                            "Pairs may be this far apart on every axis; for a scene: its alarmDistance")
+  CLI::Option* margin = command
+                            ->add_option("--margin", settings->margin,
+                                         "Pairs may be this far apart on every axis; for a scene: its alarmDistance")
                             ->type_name("D");
   CLI::Option* box = command->add_option("--box", settings->box, "Leave out models that do not touch this region")
                          ->type_name("x0,y0,z0,x1,y1,z1");

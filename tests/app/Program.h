@@ -18,6 +18,6 @@ enum class StandardOutput { Captured, FullDevice, ClosedPipe, Closed };
 
 /// Runs the command with these arguments and waits for its end.
 [[nodiscard]] ProgramRun runProgram(const std::vector<std::string>& arguments,
-                             StandardOutput output = StandardOutput::Captured);
+                                    StandardOutput output = StandardOutput::Captured);
 
 }  // namespace allpairs::test
