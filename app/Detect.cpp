@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +30,7 @@ struct DetectSettings {
   std::string strategy = "auto";
   std::string threads = "0";
   bool verify = false;
-  std::string format = "table";
+  std::string format;  ///< Empty: as the output file's extension says, else a table.
   std::string output;
 };
 
@@ -46,7 +46,7 @@ Examples:
   allpairs detect scene.scn
   allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
   allpairs detect parts/ --margin 0.5
-  allpairs detect boxes.npy --format npy -o pairs.npy
+  allpairs detect boxes.npy -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
   allpairs detect scene.scn --verify --format json | jq '.pairs | length'
 
@@ -62,6 +62,13 @@ std::size_t threadsOf(const std::string& text) {
   const bool isCount = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   if (!isCount || text.size() > kMostDigits) throw UsageError("--threads: '" + text + "' is not a number of threads");
   return static_cast<std::size_t>(std::stoul(text));
+}
+
+std::string formatOf(const DetectSettings& settings) {
+  if (!settings.format.empty()) return settings.format;
+  const std::string extension = std::filesystem::path(settings.output).extension().string();
+  const bool isKnown = extension == ".csv" || extension == ".json" || extension == ".npy";
+  return isKnown ? extension.substr(1) : "table";
 }
 
 DetectionOptions detectionOptions(const DetectSettings& settings, bool hasMargin, bool hasBox) {
@@ -127,7 +134,7 @@ void addChoice(CLI::App& command, const std::string& name, std::string& value, s
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
     return fmt::format("'{}' is none of {}", text, fmt::join(choices, ", "));
   };
-  command.add_option(name, value, description)->type_name("WORD")->check(check)->capture_default_str();
+  command.add_option(name, value, description)->type_name("WORD")->check(check);
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
@@ -154,21 +161,23 @@ void addDetect(CLI::App& program) {
   CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
   command->footer(kExamples);
   addInputOptions(*command, settings->input);
-  CLI::Option* margin = command->add_option("--margin", settings->margin,
-                                            "Pairs may be this far apart on every axis; for a scene: its alarmDistance")
+  CLI::Option* margin = command
+                            ->add_option("--margin", settings->margin,
+                                         "Pairs may be this far apart on every axis; for a scene: its alarmDistance")
                             ->type_name("D");
   CLI::Option* box = command->add_option("--box", settings->box, "Leave out models that do not touch this region")
                          ->type_name("x0,y0,z0,x1,y1,z1");
   addChoice(*command, "--strategy", settings->strategy, {"auto", "exhaustive", "blocked"},
-            "How to search: auto, exhaustive or blocked; all give the same pairs");
+            "How to search: auto, the default, exhaustive or blocked; all give the same pairs");
   command->add_option("--threads", settings->threads, "How many threads may work; 0, the default: one per core")
       ->type_name("N");
   command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
   addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"},
-            "How to write the result: table, csv, json or npy");
+            "How to write the result: table, csv, json or npy; by default as FILE is called, else a table");
   command->add_option("-o,--output", settings->output, "Write to FILE, which appears only when it is complete")
       ->type_name("FILE");
   command->callback([settings, margin, box] {
+    settings->format = formatOf(*settings);
     runDetect(*settings, detectionOptions(*settings, margin->count() != 0, box->count() != 0));
   });
 }

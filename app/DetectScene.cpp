@@ -58,6 +58,7 @@ Detection detectScene(scene::Scene& scene, const DetectionOptions& options) {
   statistics.distance = scene.intersection->getAlarmDistance();
   statistics.testsOfAllPairs = broadPhase.statistics().testsOfAllPairs;
   statistics.testsMade = broadPhase.statistics().testsMade;
+  statistics.candidates = broadPhase.statistics().candidates;
   statistics.verified = options.verify;
   return detection;
 }

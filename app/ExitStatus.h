@@ -8,10 +8,10 @@ namespace allpairs::app {
 /// What the program says to the shell when it ends. The manual page lists them.
 enum class ExitStatus : int {
   Success = 0,
-  Difference = 1,     ///< --verify found that two strategies disagree.
-  WrongUsage = 2,     ///< An option or argument that makes no sense.
-  BadInput = 3,       ///< A file that can't be read, understood or written.
-  ClosedPipe = 141,   ///< Whoever read the output went away: what a shell reports for SIGPIPE.
+  Difference = 1,    ///< --verify found that two strategies disagree.
+  WrongUsage = 2,    ///< An option or argument that makes no sense.
+  BadInput = 3,      ///< A file that can't be read, understood or written.
+  ClosedPipe = 141,  ///< Whoever read the output went away: what a shell reports for SIGPIPE.
 };
 
 /// A command line that makes no sense.

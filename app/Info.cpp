@@ -45,7 +45,7 @@ std::string flagsText(const scene::ModelRecord& model) {
 
 Row rowOf(std::size_t index, const scene::ModelRecord& model) {
   const std::string groups = model.groups.empty() ? "-" : fmt::format("{}", fmt::join(model.groups, " "));
-  return {std::to_string(index), model.name, model.type, grouped(model.elements),
+  return {std::to_string(index), model.name, model.type,        grouped(model.elements),
           flagsText(model),      groups,     boxText(model.box)};
 }
 

@@ -15,8 +15,8 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;
   options.progress = [&line](const scene::Progress& progress) {
-    const std::string count = progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " +
-                                                             std::to_string(progress.total);
+    const std::string count =
+        progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " + std::to_string(progress.total);
     line.show("reading" + count + ": " + progress.file.filename().string());
   };
   return options;

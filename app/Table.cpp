@@ -12,8 +12,8 @@
 namespace allpairs::app {
 namespace {
 
-constexpr std::size_t kPairsShown = 40;   // a screenful
-constexpr std::size_t kNameWidth = 48;    // wider names push the second column aside rather than every line
+constexpr std::size_t kPairsShown = 50;  // a screenful
+constexpr std::size_t kNameWidth = 48;   // wider names push the second column aside rather than every line
 
 std::string duration(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
@@ -39,8 +39,9 @@ std::string pairLines(const scene::ResultView& result) {
 }
 
 std::string testLines(const scene::DetectionStatistics& statistics) {
-  std::string text = fmt::format("tests    {} made; the double loop makes {}\n",
-                                 grouped(statistics.testsMade), grouped(statistics.testsOfAllPairs));
+  std::string text = fmt::format("tests    {} of boxes", grouped(statistics.testsMade - statistics.candidates));
+  if (statistics.candidates != 0) text += fmt::format(", {} of flags and groups", grouped(statistics.candidates));
+  text += fmt::format("; the double loop makes {}\n", grouped(statistics.testsOfAllPairs));
   if (statistics.verified) text += "verify   the exhaustive strategy gives the same pairs in the same order\n";
   return text;
 }
@@ -53,7 +54,8 @@ void writeTable(const scene::ResultView& result, const TableNotes& notes, scene:
                                  notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
   text += fmt::format("method   {}\n", notes.method);
   if (notes.remarkCount != 0) {
-    text += fmt::format("ignored  {}; 'allpairs info' lists them\n", counted(notes.remarkCount, "part of the input", "parts of the input"));
+    text += fmt::format("ignored  {}; 'allpairs info' lists them\n",
+                        counted(notes.remarkCount, "part of the input", "parts of the input"));
   }
   text += fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
   text += pairLines(result) + testLines(statistics);

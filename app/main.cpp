@@ -21,7 +21,7 @@ using allpairs::app::ExitStatus;
 
 constexpr const char* kExamples = R"(Examples:
   allpairs detect scene.scn                      which models of a scene may touch
-  allpairs detect boxes.npy --format npy -o pairs.npy
+  allpairs detect boxes.npy -o pairs.npy         overlapping boxes, from NumPy to NumPy
   allpairs detect parts/ --margin 0.5            meshes of a folder at most 0.5 apart
   allpairs info scene.scn                        what is in it, and what was ignored
 
@@ -49,7 +49,7 @@ std::string chosenCommand(const CLI::App& program) {
 
 void print(const std::string& text) { allpairs::app::Output(std::nullopt).write(text); }
 
-void parse(CLI::App& program, std::vector<std::string> arguments) {
+void parse(CLI::App& program, const std::vector<std::string>& arguments) {
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // the order that CLI11 takes
   try {
     program.parse(std::move(reversed));
@@ -58,6 +58,10 @@ void parse(CLI::App& program, std::vector<std::string> arguments) {
     print(chosen.empty() ? program.help() : chosen.front()->help());
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + '\n');
+  } catch (const CLI::RequiredError&) {
+    const bool hasWord = program.get_subcommands().empty() && !arguments.empty();
+    if (hasWord) throw allpairs::app::UsageError("'" + arguments.front() + "' is no command");
+    throw allpairs::app::UsageError(program.get_subcommands().empty() ? "a command is needed" : "INPUT is needed");
   } catch (const CLI::ParseError& problem) {
     throw allpairs::app::UsageError(problem.what());
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <assimp/config.h>
+#include <assimp/scene.h>
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/scene.h>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -142,7 +142,8 @@ std::vector<std::string> solidNames(const Path& path) {
 }
 
 void restoreSolidNames(std::vector<MeshObject>& objects, const Path& path) {
-  const bool isNamed = std::any_of(objects.begin(), objects.end(), [](const auto& object) { return !object.name.empty(); });
+  const bool isNamed =
+      std::any_of(objects.begin(), objects.end(), [](const auto& object) { return !object.name.empty(); });
   if (!isNamed) return;
   std::vector<std::string> names = solidNames(path);
   if (names.size() != objects.size()) return;

@@ -26,8 +26,8 @@ struct MeshObject {
 /// Bad input: throws FileError with its line.
 [[nodiscard]] std::vector<MeshObject> readObjObjects(const std::filesystem::path& path);
 
-/// Reads a Stanford file, ASCII or binary of either byte order, in double: its faces, or its vertices as points where it
-/// has no faces.
+/// Reads a Stanford file, ASCII or binary of either byte order, in double: its faces, or its vertices as points where
+/// it has no faces.
 ///
 /// Bad input: throws FileError. Nothing is allocated for elements that a header only claims.
 [[nodiscard]] std::vector<MeshObject> readPlyObjects(const std::filesystem::path& path);

@@ -141,8 +141,7 @@ NpyHeader parseNpyHeader(std::string_view text) { return HeaderParser(text).pars
 std::string npyPairsHeader(std::uint64_t rows) {
   constexpr std::size_t kPrefix = 10;     // magic, version, 16-bit length
   constexpr std::size_t kAlignment = 64;  // of the data, so that it can be mapped into memory
-  std::string dictionary =
-      "{'descr': '<u4', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", 2), }";
+  std::string dictionary = "{'descr': '<u4', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", 2), }";
   const std::size_t used = kPrefix + dictionary.size() + 1;
   dictionary.append((kAlignment - used % kAlignment) % kAlignment, ' ');
   dictionary += '\n';

@@ -97,7 +97,8 @@ class ObjReader {
     } else if (kind == 'l' || corners.size() == 2) {
       for (std::size_t i = 1; i < corners.size(); ++i) object.lines.push_back({corners[i - 1], corners[i]});
     } else {
-      for (std::size_t i = 2; i < corners.size(); ++i) object.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+      for (std::size_t i = 2; i < corners.size(); ++i)
+        object.triangles.push_back({corners[0], corners[i - 1], corners[i]});
     }
   }
 

@@ -48,14 +48,22 @@ class PlyBody {
 
   double nextBinary(PlyType type) {
     switch (type) {
-      case PlyType::Int8: return take<std::int8_t>();
-      case PlyType::UInt8: return take<std::uint8_t>();
-      case PlyType::Int16: return take<std::int16_t>();
-      case PlyType::UInt16: return take<std::uint16_t>();
-      case PlyType::Int32: return take<std::int32_t>();
-      case PlyType::UInt32: return take<std::uint32_t>();
-      case PlyType::Float32: return static_cast<double>(take<float>());
-      case PlyType::Float64: return take<double>();
+      case PlyType::Int8:
+        return take<std::int8_t>();
+      case PlyType::UInt8:
+        return take<std::uint8_t>();
+      case PlyType::Int16:
+        return take<std::int16_t>();
+      case PlyType::UInt16:
+        return take<std::uint16_t>();
+      case PlyType::Int32:
+        return take<std::int32_t>();
+      case PlyType::UInt32:
+        return take<std::uint32_t>();
+      case PlyType::Float32:
+        return static_cast<double>(take<float>());
+      case PlyType::Float64:
+        return take<double>();
     }
     return 0.0;
   }
@@ -87,7 +95,8 @@ class PlyReader {
       if (element.properties.empty()) continue;  // takes no room in the file, however many there are
       for (std::uint64_t row = 0; row < element.count; ++row) readRow(element);
     }
-    if (m_highestIndex >= static_cast<double>(m_object.positions.size())) m_body.fail("names a vertex that isn't there");
+    if (m_highestIndex >= static_cast<double>(m_object.positions.size()))
+      m_body.fail("names a vertex that isn't there");
     const bool hasElements = !m_object.triangles.empty() || !m_object.lines.empty();
     for (std::uint32_t i = 0; !hasElements && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
     return {std::move(m_object)};

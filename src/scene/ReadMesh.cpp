@@ -88,8 +88,8 @@ std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Re
     if (!isFolder && isMeshFile(entry)) {
       meshes.push_back(std::move(entry));
     } else {
-      const char* reason = isFolder ? "is a folder; folders within a folder are not searched"
-                                    : "is no mesh file by its extension";
+      const char* reason =
+          isFolder ? "is a folder; folders within a folder are not searched" : "is no mesh file by its extension";
       remarks.push_back({.file = entry, .subject = entry.filename().string(), .reason = reason});
     }
   }

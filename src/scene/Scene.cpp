@@ -32,9 +32,9 @@ void chooseMethod(Scene& scene, Scene& more) {
     scene.timeStep = more.timeStep;
   } else if (scene.intersectionName != more.intersectionName ||
              scene.intersection->getAlarmDistance() != more.intersection->getAlarmDistance()) {
-    scene.remarks.push_back({.subject = more.intersectionName,
-                             .reason = "an input before it already says how models are tested: " +
-                                       scene.intersectionName});
+    scene.remarks.push_back(
+        {.subject = more.intersectionName,
+         .reason = "an input before it already says how models are tested: " + scene.intersectionName});
   }
 }
 

@@ -58,7 +58,8 @@ void writeStatistics(const ResultView& result, TextBuffer& out) {
              number(statistics.distance));
   out.format(R"("strategy": {}, "threads": {}, "verified": {}, )", quoted(statistics.strategy), statistics.threads,
              statistics.verified);
-  out.format(R"("testsOfAllPairs": {}, "testsMade": {}, )", statistics.testsOfAllPairs, statistics.testsMade);
+  out.format(R"("testsOfAllPairs": {}, "testsMade": {}, "candidates": {}, )", statistics.testsOfAllPairs,
+             statistics.testsMade, statistics.candidates);
   out.format(R"("readSeconds": {}, "detectSeconds": {}}}}})", statistics.readSeconds, statistics.detectSeconds);
   out.append("\n");
 }

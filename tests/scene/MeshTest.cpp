@@ -70,8 +70,9 @@ void expectCutsAreHandled(const std::string& name, const std::string& bytes) {
 
 TEST(ObjMesh, EachObjectIsABodyWithItsNameExactlyAsInTheFile) {
   const scene::Scene scene = read("parts.obj", kTwoParts);
-  EXPECT_EQ(namesOf(scene),
-            "part one TTriangleModel 1\npart two TTriangleModel 3\npart one#2 TLineModel 2\npart one#3 TPointModel 2\n");
+  EXPECT_EQ(
+      namesOf(scene),
+      "part one TTriangleModel 1\npart two TTriangleModel 3\npart one#2 TLineModel 2\npart one#3 TPointModel 2\n");
   EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 1, 0}}));
   EXPECT_EQ(boxOf(*scene.models[3]), (Box{{0, 0, 0}, {0, 0, 0.1}})) << "0.1 is read in double";
   std::set<const void*> owners;
@@ -93,7 +94,8 @@ TEST(ObjMesh, NothingButVerticesIsACloudOfPoints) {
 }
 
 TEST(ObjMesh, ALineMayGoOnInTheNext) {
-  EXPECT_EQ(namesOf(read("long.obj", "v 0 0 0\nv 1 0 0\nv 0 1 \\\n 0\nf 1 2 \\\r\n 3\n")), "long.obj TTriangleModel 1\n");
+  EXPECT_EQ(namesOf(read("long.obj", "v 0 0 0\nv 1 0 0\nv 0 1 \\\n 0\nf 1 2 \\\r\n 3\n")),
+            "long.obj TTriangleModel 1\n");
 }
 
 TEST(ObjMesh, ErrorsNameTheLine) {
@@ -107,9 +109,7 @@ TEST(ObjMesh, ErrorsNameTheLine) {
   expectProblem("a.obj", "", "holds no triangles, lines or points");
 }
 
-TEST(StlMesh, SolidsKeepTheirWholeNames) {
-  EXPECT_EQ(namesOf(read("a.stl", kStl)), "two words TTriangleModel 1\n");
-}
+TEST(StlMesh, SolidsKeepTheirWholeNames) { EXPECT_EQ(namesOf(read("a.stl", kStl)), "two words TTriangleModel 1\n"); }
 
 TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
   const scene::Scene scene = read("car.gltf", kGltf);
@@ -118,7 +118,8 @@ TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
 }
 
 TEST(OffMesh, IsReadAndNamedAfterItsFile) {
-  EXPECT_EQ(namesOf(read("tri.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")), "tri.off TTriangleModel 2\n");
+  EXPECT_EQ(namesOf(read("tri.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")),
+            "tri.off TTriangleModel 2\n");
 }
 
 TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {

@@ -83,8 +83,8 @@ TEST(Npy, NoByteOfTheHeaderCanBeChangedIntoACrash) {
 }
 
 TEST(Npy, HugeClaimsAreRefusedBeforeAnythingIsAllocated) {
-  for (const char* shape : {"(4294967295, 6)", "(4294967296, 6)", "(18446744073709551615, 6)", "(99999999999999999999, 6)",
-                            "(3074457345618258603, 6)"}) {
+  for (const char* shape : {"(4294967295, 6)", "(4294967296, 6)", "(18446744073709551615, 6)",
+                            "(99999999999999999999, 6)", "(3074457345618258603, 6)"}) {
     const TempFolder folder;
     const auto path = folder.write("huge.npy", npyBytes({}, {.descr = "<f8", .shape = shape}));
     EXPECT_THROW((void)scene::readNpy(path), FileError) << shape;
@@ -118,7 +118,9 @@ TEST(Npy, HeadersThatAreNotExactlyThatDictionaryAreRefused) {
 
 TEST(Npy, BytesAfterTheArrayAreAnError) { expectProblem(npyBytes(someBoxes()) + "x", "145 bytes of numbers"); }
 
-TEST(Npy, AnUnknownVersionIsNamed) { expectProblem(npyBytes(someBoxes(), {.descr = "<f8", .version = 4}), "version 4"); }
+TEST(Npy, AnUnknownVersionIsNamed) {
+  expectProblem(npyBytes(someBoxes(), {.descr = "<f8", .version = 4}), "version 4");
+}
 
 TEST(Npy, ANanIsNamedWithItsBox) {
   std::vector<Box> boxes = someBoxes();

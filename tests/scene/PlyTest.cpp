@@ -23,8 +23,8 @@ std::string ascii(const std::string& elements, const std::string& body) {
 
 /// A quad as binary: four vertices and one face of four.
 std::string binary(bool bigEndian) {
-  std::string bytes = std::string("ply\nformat ") + (bigEndian ? "binary_big_endian" : "binary_little_endian") + " 1.0\n" +
-                      kVertices + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string bytes = std::string("ply\nformat ") + (bigEndian ? "binary_big_endian" : "binary_little_endian") +
+                      " 1.0\n" + kVertices + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 2.0}, {0.0, 2.0}}) {
     appendNumber(bytes, x, bigEndian);
     appendNumber(bytes, y, bigEndian);
@@ -71,7 +71,8 @@ TEST(PlyMesh, FilesCutAnywhereAreRefused) {
 }
 
 TEST(PlyMesh, HugeClaimsEndWithTheFile) {
-  const std::string huge = "element vertex 18446744073709551615\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string huge =
+      "element vertex 18446744073709551615\nproperty float x\nproperty float y\nproperty float z\n";
   expectFileError([&] { (void)read(ascii(huge, "0 0 0\n")); }, "ends before all");
   expectFileError([&] { (void)read(ascii("element nothing 18446744073709551615\n", "")); }, "holds no triangles");
   expectFileError(

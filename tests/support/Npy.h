@@ -43,9 +43,10 @@ void appendNumber(std::string& bytes, T value, bool bigEndian) {
 /// Boxes as the bytes of a .npy file.
 inline std::string npyBytes(const std::vector<Box>& boxes, const NpyStyle& style = {}) {
   const std::string shape = style.shape.empty() ? '(' + std::to_string(boxes.size()) + ", 6)" : style.shape;
-  std::string bytes = npyHeaderBytes("{'descr': '" + style.descr + "', 'fortran_order': " +
-                                         (style.fortran ? "True" : "False") + ", 'shape': " + shape + ", }",
-                                     style.version);
+  std::string bytes =
+      npyHeaderBytes("{'descr': '" + style.descr + "', 'fortran_order': " + (style.fortran ? "True" : "False") +
+                         ", 'shape': " + shape + ", }",
+                     style.version);
   for (std::size_t k = 0; k < boxes.size() * 6; ++k) {
     const std::size_t row = style.fortran ? k % boxes.size() : k / 6;
     const std::size_t column = style.fortran ? k / boxes.size() : k % 6;

@@ -18,7 +18,8 @@ namespace allpairs::scene {
 struct Remark {
   std::filesystem::path file{};
   std::size_t line = 0;  ///< From 1; 0 where the file has no lines.
-  std::string subject{}; ///< What was left out, by the name that the user knows: a path in the scene, an object's name.
+  std::string
+      subject{};  ///< What was left out, by the name that the user knows: a path in the scene, an object's name.
   std::string reason{};
 };
 
@@ -43,8 +44,8 @@ struct Scene {
 
 /// Puts the models of `more` behind those of `scene`.
 ///
-/// A model whose name is taken in `scene` gets a number behind it: "wheel#2". The first method and the first region that
-/// a file names count for all; others get a remark.
+/// A model whose name is taken in `scene` gets a number behind it: "wheel#2". The first method and the first region
+/// that a file names count for all; others get a remark.
 void append(Scene& scene, Scene more);
 
 }  // namespace allpairs::scene

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "Expect.h"
+#include "support/Boxes.h"
+#include "support/Npy.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+constexpr int kWrongUsage = 2;
+constexpr int kBadInput = 3;
+constexpr int kClosedPipe = 141;
+
+std::size_t entriesOf(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(WrongUsage, IsOneLineAndStatusTwo) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
+  expectFailure(runProgram({}), kWrongUsage, "a command is needed");
+  expectFailure(runProgram({"find"}), kWrongUsage, "'find' is no command");
+  expectFailure(runProgram({"detect"}), kWrongUsage, "INPUT is needed");
+  expectFailure(runProgram({"detect", path, "--frob"}), kWrongUsage, "--frob");
+  expectFailure(runProgram({"detect", path, "--format", "xml"}), kWrongUsage, "'xml' is none of table, csv, json, npy");
+  expectFailure(runProgram({"detect", path, "--strategy", "fast"}), kWrongUsage, "'fast' is none of");
+  expectFailure(runProgram({"detect", path, "--margin"}), kWrongUsage, "--margin");
+  expectFailure(runProgram({"detect", path, "--margin", "wide"}), kWrongUsage, "--margin: 'wide'");
+  expectFailure(runProgram({"detect", path, "--margin", "nan"}), kWrongUsage, "--margin: 'nan'");
+  expectFailure(runProgram({"detect", path, "--margin", "-inf"}), kWrongUsage, "--margin: '-inf'");
+  expectFailure(runProgram({"detect", path, "--threads", "-1"}), kWrongUsage, "--threads");
+  expectFailure(runProgram({"detect", path, "--threads", "many"}), kWrongUsage, "--threads: 'many'");
+  expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1"}), kWrongUsage, "has 5 numbers");
+  expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1,1,"}), kWrongUsage, "is not a number");
+  expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1,1,2"}), kWrongUsage, "has 7 numbers");
+  expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,0,1"}), kWrongUsage, "is not in y");
+  expectFailure(runProgram({"detect", path, "--box", "0,0,nan,1,0,1"}), kWrongUsage, "'nan'");
+  expectFailure(runProgram({"info"}), kWrongUsage, "INPUT is needed");
+}
+
+TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {
+  const TempFolder folder;
+  std::vector<Box> boxes{cube(0, 0, 0), cube(1, 1, 1)};
+  boxes[1].min[1] = std::numeric_limits<double>::quiet_NaN();
+  const std::string nan = folder.write("nan.npy", npyBytes(boxes));
+  const std::string cut = folder.write("cut.npy", npyBytes({cube(0, 0, 0)}).substr(0, 150));
+  const std::string csv = folder.write("bad.csv", "0,0,0,1,1,1\n0,0,0,1,x,1\n");
+  const std::string obj = folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+  const std::string text = folder.write("notes.txt", "hello");
+  std::filesystem::create_directory(folder.path() / "empty");
+  for (const char* command : {"detect", "info"}) {
+    expectFailure(runProgram({command, "nowhere.npy"}), kBadInput, "nowhere.npy: no such file");
+    expectFailure(runProgram({command, nan}), kBadInput, nan + ": box 1: min y is not a number");
+    expectFailure(runProgram({command, cut}), kBadInput, cut + ": ");
+    expectFailure(runProgram({command, csv}), kBadInput, csv + ":2:9: 'x' is not a number");
+    expectFailure(runProgram({command, obj}), kBadInput, obj + ":2: ");
+    expectFailure(runProgram({command, text}), kBadInput, text + ": ");
+    expectFailure(runProgram({command, folder.path() / "empty"}), kBadInput, "is a folder without mesh files");
+  }
+}
+
+TEST(OutputFile, AppearsWholeAndUnderItsName) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(1, 1, 1)}));
+  const std::string target = folder.path() / "pairs.npy";
+  const ProgramRun run = runProgram({"detect", path, "-o", target});
+  expectSuccess(run);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(pairsOfNpy(readBytes(target)), (std::vector<Pair>{{0, 1}})) << "the extension says the format";
+  EXPECT_EQ(entriesOf(folder.path()), 2U) << "no temporary is left";
+}
+
+TEST(OutputFile, IsNotTouchedWhenTheInputIsBad) {
+  const TempFolder folder;
+  const std::string target = folder.write("pairs.csv", "before");
+  expectFailure(runProgram({"detect", "nowhere.npy", "-o", target}), kBadInput, "nowhere.npy");
+  EXPECT_EQ(readBytes(target), "before");
+  EXPECT_EQ(entriesOf(folder.path()), 1U);
+}
+
+TEST(OutputFile, InAMissingFolderOrWhereAFolderIsIsAnError) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
+  const std::string missing = folder.path() / "no" / "pairs.npy";
+  expectFailure(runProgram({"detect", path, "-o", missing}), kBadInput, missing + ": cannot be created");
+  expectFailure(runProgram({"detect", path, "-o", folder.path()}), kBadInput, "is a folder");
+}
+
+TEST(OutputFile, ALinkStaysALinkAndKeepsItsTargetsPermissions) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
+  const std::filesystem::path target = folder.write("real.json", "");
+  std::filesystem::permissions(target, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  std::filesystem::create_symlink("real.json", folder.path() / "link.json");
+  expectSuccess(runProgram({"detect", path, "-o", folder.path() / "link.json"}));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link.json"));
+  EXPECT_TRUE(readBytes(target).starts_with("{\"models\""));
+  EXPECT_EQ(std::filesystem::status(target).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(1, 1, 1)}));
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"detect", path}, {"detect", path, "--format", "json"}, {"info", path}, {"--help"}, {"--version"}}) {
+    expectFailure(runProgram(words, StandardOutput::FullDevice), kBadInput, "standard output: cannot be written");
+    expectFailure(runProgram(words, StandardOutput::Closed), kBadInput, "standard output: cannot be written");
+    const ProgramRun run = runProgram(words, StandardOutput::ClosedPipe);
+    EXPECT_EQ(run.status, kClosedPipe);
+    EXPECT_EQ(run.err, "") << "who closed the pipe knows";
+  }
+  expectFailure(runProgram({"detect", path, "-o", "/dev/full"}), kBadInput, "/dev/full: cannot be written");
+}
+
+}  // namespace
+}  // namespace allpairs::test

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "Expect.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+/// Every option and command that a help text names at the beginning of a line.
+std::set<std::string> optionsOf(const std::string& help) {
+  std::set<std::string> options;
+  const std::regex line(R"(\n  (-[^ ]*|[a-z]+)(?= ))");
+  for (auto match = std::sregex_iterator(help.begin(), help.end(), line); match != std::sregex_iterator(); ++match) {
+    std::istringstream words(std::regex_replace((*match)[1].str(), std::regex(","), " "));
+    for (std::string word; words >> word;) options.insert(word);
+  }
+  options.erase("allpairs");  // an example
+  options.erase("a");         // "a folder", in the list of inputs
+  return options;
+}
+
+class Help : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(Help, HasExamplesAndEveryOptionIsInTheManualAndInTheCompletion) {
+  std::vector<std::string> words = GetParam();
+  words.emplace_back("--help");
+  const ProgramRun run = runProgram(words);
+  expectSuccess(run);
+  EXPECT_NE(run.out.find("Examples:\n  allpairs "), std::string::npos);
+  std::string manual = readBytes(ALLPAIRS_SOURCE_DIR "/docs/man/allpairs.1");
+  manual = std::regex_replace(manual, std::regex(R"(\\-)"), "-");
+  const std::string completion = readBytes(ALLPAIRS_SOURCE_DIR "/completions/allpairs.bash");
+  const std::set<std::string> options = optionsOf(run.out);
+  EXPECT_TRUE(options.contains("--help"));
+  for (const std::string& option : options) {
+    const std::regex whole("(^|[^a-z-])" + option + "($|[^a-z-])");
+    EXPECT_TRUE(std::regex_search(manual, whole)) << option << " is missing in the manual page";
+    EXPECT_TRUE(std::regex_search(completion, whole)) << option << " is missing in the completion";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, Help,
+                         testing::Values(std::vector<std::string>{}, std::vector<std::string>{"detect"},
+                                         std::vector<std::string>{"info"}));
+
+TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
+  const std::set<std::string> options = optionsOf(runProgram({"detect", "--help"}).out);
+  for (const char* option : {"--margin", "--box", "--strategy", "--threads", "--verify", "--format", "-o", "--output",
+                             "--partial", "--data", "-h", "--help"}) {
+    EXPECT_TRUE(options.contains(option)) << option;
+  }
+}
+
+TEST(Version, IsOneLine) {
+  const ProgramRun run = runProgram({"--version"});
+  expectSuccess(run);
+  EXPECT_TRUE(std::regex_match(run.out, std::regex("allpairs [0-9]+\\.[0-9]+\\.[0-9]+\n"))) << run.out;
+}
+
+}  // namespace
+}  // namespace allpairs::test

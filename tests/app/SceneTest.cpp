@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "Expect.h"
+#include "support/Data.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// SOFA computes in float32; this is the tolerance at which its boxes are known.
+void expectSameBox(const Json& box, const Json& expected, const std::string& name) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double value = box[k / 3][k % 3];
+    const double wanted = expected[k / 3][k % 3];
+    EXPECT_NEAR(value, wanted, 1e-5 * std::max(1.0, std::abs(wanted))) << name;
+  }
+}
+
+void expectSameModels(const Json& models, const Json& expected, const std::string& scene) {
+  ASSERT_EQ(models.size(), expected.size()) << scene;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const std::string name = expected[i]["path"];
+    EXPECT_EQ(models[i]["name"], name) << scene;
+    EXPECT_EQ(models[i]["type"], expected[i]["type"]) << scene << ' ' << name;
+    EXPECT_EQ(models[i]["elements"], expected[i]["elements"]) << scene << ' ' << name;
+    EXPECT_EQ(models[i]["simulated"], expected[i]["simulated"]) << scene << ' ' << name;
+    EXPECT_EQ(models[i]["moving"], expected[i]["moving"]) << scene << ' ' << name;
+    expectSameBox(models[i]["box"], expected[i]["box"], scene + ' ' + name);
+  }
+}
+
+TEST(DetectScene, TheScenesOfTheDataFolderGiveTheModelsAndPairsBesideThem) {
+  const std::filesystem::path folder = dataFolder() / "scenes";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder of data: scenes/expected/*.json are not tried";
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "expected")) {
+    const Json expected = Json::parse(readBytes(entry.path()));
+    const std::string scene = folder / expected["scene"].get<std::string>();
+    const ProgramRun run =
+        runProgram({"detect", scene, "--data", folder, "--data", folder / "examples", "--format", "json", "--verify"});
+    expectSuccess(run);
+    const Json result = Json::parse(run.out);
+    expectSameModels(result["models"], expected["models"], scene);
+    EXPECT_EQ(result["pairs"], expected["pairs"]) << scene;
+    ++count;
+  }
+  EXPECT_EQ(count, 12U);
+}
+
+TEST(DetectScene, AMarginReplacesTheAlarmDistanceAndABoxTheRegion) {
+  const TempFolder folder;
+  const std::string scene = folder.write("two.scn", R"(<Node name="root"><DefaultPipeline/><BruteForceBroadPhase/>
+<MinProximityIntersection alarmDistance="5"/>
+<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)");
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv"}).out, "first,second\n/B/s,/A/s\n");
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--margin", "1"}).out, "first,second\n/B/s,/A/s\n");
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--margin", "0.5"}).out, "first,second\n");
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--margin", "1", "--box", "-9,-9,-9,0,9,9"}).out,
+            "first,second\n");
+}
+
+TEST(DetectScene, AMalformedSceneIsNamedWithItsLine) {
+  const TempFolder folder;
+  const std::string scene = folder.write("bad.scn", "<Node>\n<Node>\n</Node>\n");
+  expectFailure(runProgram({"detect", scene}), 3, scene + ":");
+}
+
+TEST(Demo, ShowsATableOfEveryPairWithoutAComplaint) {
+  const std::string scene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
+  const ProgramRun run = runProgram({"detect", scene, "--verify"});
+  expectSuccess(run);
+  EXPECT_EQ(run.out.find(" more;"), std::string::npos) << "the demo's table is whole";
+  EXPECT_EQ(run.out.find("ignored"), std::string::npos);
+  for (const char* pair :
+       {"  /Hose/Rubber             /Hose/Rubber\n", "  /Hammer/Head             /Bench/Top/Beech\n"}) {
+    EXPECT_NE(run.out.find(pair), std::string::npos) << run.out;
+  }
+  EXPECT_EQ(run.out.find("Van"), std::string::npos) << "what is outside of the region pairs with nobody";
+}
+
+TEST(Demo, HasEveryTypeOfModelThatASceneCanHold) {
+  const ProgramRun run = runProgram({"detect", ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn", "--format", "json"});
+  expectSuccess(run);
+  std::set<std::string> types;
+  for (const Json& model : Json::parse(run.out)["models"]) types.insert(model["type"]);
+  EXPECT_EQ(types, (std::set<std::string>{"TCapsuleModel", "TLineModel", "TOBBModel", "TPointModel", "TSphereModel",
+                                          "TTriangleModel", "TetrahedronModel"}));
+}
+
+}  // namespace
+}  // namespace allpairs::test
