@@ -96,6 +96,11 @@ void HierarchyBuilder::bound(const Kernels& kernels, Executor& executor) {
   }
 }
 
+std::span<Pair> HierarchyBuilder::takeMemory() noexcept {
+  m_hierarchy = {};
+  return {reinterpret_cast<Pair*>(m_blocks.data()), m_blocks.capacity() * sizeof(LaneBlock) / sizeof(Pair)};
+}
+
 void HierarchyBuilder::deepen(std::size_t depth) {
   if (m_hierarchy.depth == 0) return;
   while (m_hierarchy.depth < depth) {

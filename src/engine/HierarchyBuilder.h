@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "CurveOrder.h"
 #include "Join.h"
@@ -10,6 +11,7 @@
 #include "LaneReader.h"
 #include "Memory.h"
 #include "allpairs/Executor.h"
+#include "allpairs/Pair.h"
 
 namespace allpairs::engine {
 
@@ -25,6 +27,9 @@ class HierarchyBuilder {
 
   /// Whether the lanes of all boxes are exactly the boxes.
   [[nodiscard]] bool exact() const noexcept { return m_exact; }
+
+  /// The memory of the blocks, for another use; the hierarchy is no more.
+  [[nodiscard]] std::span<Pair> takeMemory() noexcept;
 
   /// Adds levels of one node until there are `depth` of them, so that two hierarchies can be descended side by side.
   void deepen(std::size_t depth);

@@ -24,4 +24,9 @@ std::size_t& bufferAllocations() noexcept {
   return count;
 }
 
+std::size_t& bufferBytes() noexcept {
+  thread_local std::size_t bytes = 0;
+  return bytes;
+}
+
 }  // namespace allpairs::engine

@@ -22,6 +22,9 @@ void adviseLargePages(void* memory, std::size_t bytes) noexcept;
 /// How often a Buffer of this thread has allocated: for the tests that a second search allocates nothing.
 [[nodiscard]] std::size_t& bufferAllocations() noexcept;
 
+/// How many bytes those allocations asked for in all.
+[[nodiscard]] std::size_t& bufferBytes() noexcept;
+
 /// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.
 ///
 /// Not a std::vector because a vector would write every element before the engine does.
@@ -52,6 +55,7 @@ class Buffer {
     m_data.reset(static_cast<T*>(larger));
     m_capacity = capacity;
     ++bufferAllocations();
+    bufferBytes() += capacity * sizeof(T);
     if (capacity * sizeof(T) >= 2 * kLargePage) adviseLargePages(larger, capacity * sizeof(T));
   }
 
@@ -71,6 +75,7 @@ class Buffer {
     void* memory = size > kMaxSize ? nullptr : std::aligned_alloc(alignment, std::max(rounded, kAlignment));
     if (memory == nullptr) throw std::bad_alloc();
     ++bufferAllocations();
+    bufferBytes() += rounded;
     if (alignment == kLargePage) adviseLargePages(memory, rounded);
     return static_cast<T*>(memory);
   }

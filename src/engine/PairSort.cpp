@@ -118,34 +118,31 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
 }
 
 template <bool kBySecond>
-void PairSort::sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, std::size_t others, Executor& executor) {
-  m_other.require(pairs.capacity());
-  const std::size_t wanted = std::clamp<std::size_t>(size / kPairsPerBucket, 1, kMaxBuckets);
+void PairSort::sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std::size_t others, Executor& executor) {
+  const std::size_t wanted = std::clamp<std::size_t>(pairs.size() / kPairsPerBucket, 1, kMaxBuckets);
   m_keyBits = std::min(static_cast<unsigned>(std::bit_width((keys - 1) / wanted)), kMaxDigitBits);
   while (((keys - 1) >> m_keyBits) >= kMaxBuckets) ++m_keyBits;
   m_buckets = ((keys - 1) >> m_keyBits) + 1;
-  Pair* from = pairs.data();
-  Pair* to = m_other.data();
-  if (m_buckets == 1) {
-    m_bucketBegin.assign({0, size});
-  } else {
-    scatter<kBySecond>(from, to, size, executor);
-    std::swap(from, to);
-  }
+  scatter<kBySecond>(pairs.data(), other, pairs.size(), executor);
   const auto otherBits = static_cast<unsigned>(std::bit_width(others - 1));
   executor.run(m_buckets, [&](std::size_t b) {
     const std::size_t begin = m_bucketBegin[b];
-    sortBucket<kBySecond>(from + begin, to + begin, m_bucketBegin[b + 1] - begin, m_keyBits, otherBits);
+    sortBucket<kBySecond>(other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin, m_keyBits, otherBits);
   });
-  // A single bucket was sorted from the pairs into the other buffer.
-  if (to == m_other.data()) std::swap(pairs, m_other);
 }
 
-void PairSort::sort(Buffer<Pair>& pairs, std::size_t size, std::size_t firsts, std::size_t seconds, Order order,
-                    Executor& executor) {
-  if (size < 2) return;
-  if (order == Order::ByFirst) sortBy<false>(pairs, size, firsts, seconds, executor);
-  if (order == Order::BySecond) sortBy<true>(pairs, size, seconds, firsts, executor);
+void PairSort::sort(std::span<Pair> pairs, const Task& task, Executor& executor) {
+  if (pairs.size() < 2 || task.order == Order::Unordered) return;
+  Pair* other = task.spare.data();
+  if (task.spare.size() < pairs.size()) {
+    m_own.require(pairs.size());
+    other = m_own.data();
+  }
+  if (task.order == Order::ByFirst) {
+    sortBy<false>(pairs, other, task.firsts, task.seconds, executor);
+  } else {
+    sortBy<true>(pairs, other, task.seconds, task.firsts, executor);
+  }
 }
 
 }  // namespace allpairs::engine

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "Memory.h"
@@ -16,21 +17,29 @@ namespace allpairs::engine {
 ///
 /// A pass cuts the pairs into buckets of neighbouring keys that fit the second-level cache; each of those is then radix
 /// sorted from the lowest digit. No step depends on how the pairs are spread, and none has a branch to mispredict.
-/// Cost:    one pass over all pairs and about three within the cache; as much memory again as the pairs, kept.
+/// Cost:    one pass over all pairs and about three within the cache; as much memory again as the pairs.
 /// Threads: parallel over the executor; the result is the same for any.
 class PairSort {
  public:
-  /// Sorts the first `size` pairs. All first indices are below `firsts`, all second ones below `seconds`.
-  void sort(Buffer<Pair>& pairs, std::size_t size, std::size_t firsts, std::size_t seconds, Order order,
-            Executor& executor);
+  /// What a sort is told besides where the pairs are.
+  struct Task {
+    std::size_t firsts = 0;   ///< All first indices are below.
+    std::size_t seconds = 0;  ///< All second indices are below.
+    Order order = Order::ByFirst;
+
+    /// Memory that may be overwritten: where the pairs fit in there, the sort needs none of its own.
+    std::span<Pair> spare;
+  };
+
+  void sort(std::span<Pair> pairs, const Task& task, Executor& executor);
 
  private:
   template <bool kBySecond>
-  void sortBy(Buffer<Pair>& pairs, std::size_t size, std::size_t keys, std::size_t others, Executor& executor);
+  void sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std::size_t others, Executor& executor);
   template <bool kBySecond>
   void scatter(const Pair* from, Pair* to, std::size_t size, Executor& executor);
 
-  Buffer<Pair> m_other;
+  Buffer<Pair> m_own;
   std::vector<std::vector<std::size_t>> m_places;  ///< By chunk and bucket: where its next pair goes.
   std::vector<std::size_t> m_bucketBegin;
   unsigned m_keyBits = 0;  ///< Keys that share a bucket differ in these low bits only.

@@ -64,7 +64,7 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_kernels = &chooseKernels(options);
   m_executor = options.executor != nullptr ? options.executor : &m_serial;
   m_statistics = {};
-  m_pairCount = 0;
+  m_pairs = {};
 }
 
 Search::Plan Search::plan(const Sets& sets, const OverlapOptions& options, PairTest& test) {
@@ -168,36 +168,36 @@ void Search::runAll(const Plan& plan) {
     worker.receiver.finish();
     segment.end = worker.receiver.size();
   });
-  collect(plan);
+  collect();
 }
 
-void Search::collect(const Plan& plan) {
+void Search::collect() {
   for (const std::unique_ptr<Worker>& worker : m_workers) {
     m_statistics.pairs += worker->receiver.count();
     m_statistics.exactTests += worker->receiver.exactTests();
     m_statistics.boxTests += worker->receiver.hits().boxTests;
     m_statistics.groupTests += worker->receiver.hits().groupTests;
   }
-  m_pairCount = plan.rules.countOnly ? 0 : m_statistics.pairs;
 }
 
 void Search::join(const Plan& plan) {
   if (plan.rules.countOnly) return;
   if (m_segments.size() == 1) {
-    std::swap(m_pairs, m_workers[m_segments[0].worker]->receiver.pairs());
+    m_pairs = {m_workers[m_segments[0].worker]->receiver.pairs().data(), m_statistics.pairs};
     return;
   }
-  m_pairs.require(m_pairCount + Hits::kSlack);
-  std::vector<std::size_t> places(m_segments.size());
+  m_joined.require(m_statistics.pairs);
+  m_pairs = {m_joined.data(), m_statistics.pairs};
+  m_places.resize(m_segments.size());
   std::size_t place = 0;
   for (std::size_t i = 0; i < m_segments.size(); ++i) {
-    places[i] = place;
+    m_places[i] = place;
     place += m_segments[i].end - m_segments[i].begin;
   }
   m_executor->run(m_segments.size(), [&](std::size_t i) {
     const Segment& segment = m_segments[i];
     std::copy_n(m_workers[segment.worker]->receiver.pairs().data() + segment.begin, segment.end - segment.begin,
-                m_pairs.data() + places[i]);
+                m_pairs.data() + m_places[i]);
   });
 }
 
@@ -207,10 +207,13 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
   const Plan search = plan(sets, options, test);
   runAll(search);
   join(search);
-  if (search.blocked) {
-    m_sort.sort(m_pairs, m_pairCount, sets.first.size(), sets.second.size(), options.order, *m_executor);
-  }
-  return {m_pairs.data(), m_pairCount};
+  if (search.blocked) sortPairs(sets, options.order);
+  return m_pairs;
+}
+
+void Search::sortPairs(const Sets& sets, Order order) {
+  // The hierarchy has done its work: its memory is where the sort moves pairs to and fro.
+  m_sort.sort(m_pairs, {sets.first.size(), sets.second.size(), order, m_firstHierarchy.takeMemory()}, *m_executor);
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {

@@ -69,8 +69,9 @@ class Search {
   void runAll(const Plan& plan);
   std::size_t claimWorker();
   void startWorkers(std::size_t count, const PairRules& rules);
-  void collect(const Plan& plan);
+  void collect();
   void join(const Plan& plan);
+  void sortPairs(const Sets& sets, Order order);
 
   static bool prefersFlat(const Sets& sets, const OverlapOptions& options);
   void streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visitor);
@@ -88,8 +89,9 @@ class Search {
   HierarchyBuilder m_secondHierarchy;
   std::vector<std::unique_ptr<Worker>> m_workers;
   std::vector<Segment> m_segments;
-  Buffer<Pair> m_pairs;
-  std::size_t m_pairCount = 0;
+  Buffer<Pair> m_joined;
+  std::vector<std::size_t> m_places;
+  std::span<Pair> m_pairs;  ///< The result: joined from several tasks, or where the only one left it.
   PairSort m_sort;
 };
 

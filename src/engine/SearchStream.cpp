@@ -60,7 +60,7 @@ void Search::streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visi
   runPart(plan, 0, plan.units, worker);
   worker.receiver.finish();
   handOver({worker.receiver.pairs().data(), worker.receiver.size()}, batchSize, visitor);
-  collect(plan);
+  collect();
 }
 
 /// The boxes that the pairs are ordered by, range by range, each against all of the other side.
@@ -76,7 +76,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Pai
       length = (end - begin + 1) / 2;
       continue;
     }
-    handOver({m_pairs.data(), m_pairCount}, options.batchSize, visitor);
+    handOver(m_pairs, options.batchSize, visitor);
     total.pairs += m_statistics.pairs;
     total.boxTests += m_statistics.boxTests;
     total.groupTests += m_statistics.groupTests;
@@ -112,7 +112,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
     return false;  // More than may be held at a time: the caller halves the range.
   }
   join(plan);
-  m_sort.sort(m_pairs, m_pairCount, sets.first.size(), sets.second.size(), options.order, *m_executor);
+  sortPairs(sets, options.order);
   return true;
 }
 

@@ -63,16 +63,15 @@ TEST(PairSort, SortsSparseAndDensePairsByEitherIndex) {
         pair = {static_cast<std::uint32_t>(generator() % keys), static_cast<std::uint32_t>(generator() % keys)};
       }
       for (const Order order : {Order::ByFirst, Order::BySecond}) {
-        Buffer<Pair> pairs;
-        pairs.require(size + 1);
-        std::copy(expected.begin(), expected.end(), pairs.data());
+        std::vector<Pair> pairs = expected;
+        std::vector<Pair> spare(generator() % 2 == 0 ? size : 0);
         SerialExecutor serial;
-        PairSort().sort(pairs, size, keys, keys, order, serial);
+        PairSort().sort(pairs, {keys, keys, order, spare}, serial);
         std::vector<Pair> sorted = expected;
         std::sort(sorted.begin(), sorted.end(), [&](Pair a, Pair b) {
           return order == Order::ByFirst ? a < b : Pair{a.second, a.first} < Pair{b.second, b.first};
         });
-        ASSERT_TRUE(std::equal(sorted.begin(), sorted.end(), pairs.data())) << size << ' ' << keys;
+        ASSERT_TRUE(sorted == pairs) << size << ' ' << keys;
       }
     }
   }
