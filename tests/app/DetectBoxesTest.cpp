@@ -28,7 +28,8 @@ std::vector<Pair> newestFirst(std::vector<Pair> pairs) {
 
 std::vector<Pair> pairsOfJson(const std::string& text) {
   std::vector<Pair> pairs;
-  for (const auto& pair : nlohmann::json::parse(text)["pairs"]) pairs.push_back({pair[0], pair[1]});
+  const auto result = nlohmann::json::parse(text);
+  for (const auto& pair : result["pairs"]) pairs.push_back({pair[0], pair[1]});
   return pairs;
 }
 

@@ -3,6 +3,7 @@
 
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "Expect.h"
 #include "support/TempFolder.h"

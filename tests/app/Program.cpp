@@ -17,6 +17,7 @@ namespace {
 void redirect(int descriptor, const char* path) {
   const int file = ::open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file < 0 || ::dup2(file, descriptor) < 0) ::_exit(126);
+  if (file != descriptor) ::close(file);
 }
 
 void redirectOutput(StandardOutput output, const char* path) {
@@ -45,8 +46,8 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, StandardOutput 
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) {
-    redirectOutput(output, outPath.c_str());
     redirect(STDERR_FILENO, errPath.c_str());
+    redirectOutput(output, outPath.c_str());
     ::execv(pointers[0], pointers.data());
     ::_exit(127);
   }

@@ -91,7 +91,8 @@ TEST(Demo, HasEveryTypeOfModelThatASceneCanHold) {
   const ProgramRun run = runProgram({"detect", ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn", "--format", "json"});
   expectSuccess(run);
   std::set<std::string> types;
-  for (const Json& model : Json::parse(run.out)["models"]) types.insert(model["type"]);
+  const Json result = Json::parse(run.out);
+  for (const Json& model : result["models"]) types.insert(model["type"]);
   EXPECT_EQ(types, (std::set<std::string>{"TCapsuleModel", "TLineModel", "TOBBModel", "TPointModel", "TSphereModel",
                                           "TTriangleModel", "TetrahedronModel"}));
 }
