@@ -23,11 +23,10 @@ struct Coordinates {
 /// deepest inside, or if it is in none to the one with the nearest centre.
 class Cells {
  public:
-  explicit Cells(Topology& topology, bool volumes = true, bool surfaces = true)
-      : m_tetrahedra(volumes ? topology.tetrahedra() : Elements<4>{}),
-        m_hexahedra(volumes ? topology.hexahedra() : Elements<8>{}) {
+  explicit Cells(Topology& topology) : m_tetrahedra(topology.tetrahedra()), m_hexahedra(topology.hexahedra()) {
     if (!m_tetrahedra.empty() || !m_hexahedra.empty()) return;
-    if (surfaces) m_triangles = topology.triangles(), m_quads = topology.quads();
+    m_triangles = topology.triangles();
+    m_quads = topology.quads();
     if (m_triangles.empty() && m_quads.empty()) m_edges = topology.edges();
   }
 
@@ -175,14 +174,11 @@ void checkPointCount(const Component& mapping, Topology& topology, std::size_t p
     throw Unplaceable(mapping, "the topology of its input has more points than its input's state");
 }
 
-std::vector<Vec3> throughCells(Evaluation& evaluation, const Component& mapping, const Component& parent,
-                               const State& child, const Cells& cells) {
-  const auto& in = evaluation.knownState(parent);
-  const bool atRest = evaluation.flag(mapping, "useRestPosition", false);
-  if (cells.onlyTetrahedra() && !atRest) return child.positions;
+std::vector<Vec3> throughCells(const Cells& cells, const State& in, const State& child, bool boundAtRest) {
+  if (cells.onlyTetrahedra() && !boundAtRest) return child.positions;
   if (cells.empty()) return {};
   std::vector<Vec3> result;
-  for (const auto& at : cells.locate(atRest ? child.rest : child.positions, atRest ? in.rest : in.positions))
+  for (const auto& at : cells.locate(boundAtRest ? child.rest : child.positions, boundAtRest ? in.rest : in.positions))
     result.push_back(cells.interpolate(at, in.positions));
   return result;
 }
@@ -201,24 +197,20 @@ std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& ma
     for (const auto& p : child.positions) moved.push_back((*in.fromTopology)(p));
     return moved;
   }
+  (void)evaluation.knownState(parent);
   checkPointCount(mapping, topology, in.positions.size());
   if (topology.grid && topology.grid->isVolume()) return throughGrid(*topology.grid, in.positions, child.positions);
+  const bool boundAtRest = evaluation.flag(mapping, "useRestPosition", false);
   switch (which->kind()) {
     case PointContainer:
       return child.positions;  // SOFA finds no way to map, says so, and leaves the child alone.
     case EdgeContainer:
       return {};  // SOFA binds no point to these.
-    case TriangleContainer:
-    case TetrahedronContainer:
-    case QuadContainer:
-      return throughCells(evaluation, mapping, parent, child, Cells(topology));
-    case HexahedronContainer: {
+    case HexahedronContainer:
       // Bound at rest, in coordinates that are exact even in bent cells: what has not moved since stays where it is.
-      if (in.rest == in.positions) return child.positions;
-      return throughCells(evaluation, mapping, parent, child, Cells(topology));
-    }
+      return in.rest == in.positions ? child.positions : throughCells(Cells(topology), in, child, boundAtRest);
     default:
-      return throughCells(evaluation, mapping, parent, child, Cells(topology));
+      return throughCells(Cells(topology), in, child, boundAtRest);
   }
 }
 

@@ -5,10 +5,10 @@ namespace allpairs::scene::sofa {
 namespace {
 
 struct Steps {
-  Vec3 scale;
+  Vec3 scale{1, 1, 1};
   Quat rotation;
   Quat quaternion;
-  Vec3 translation;
+  Vec3 translation{};
 };
 
 Vec3 forwards(const Steps& steps, const Vec3& p) {

@@ -46,12 +46,17 @@ void checkCorners(const Component& model, const Elements<N>& elements, std::size
             model, "its topology names point " + std::to_string(corner) + ", its state has " + std::to_string(points));
 }
 
-/// The values of a list, continued with the default up to the count.
-std::vector<double> padded(Evaluation& evaluation, const Component& model, Evaluation::Names list, double standard,
-                           std::size_t count) {
+/// How many values a list must have, and what follows those that are given.
+struct Padding {
+  std::size_t count = 0;
+  double value = 0;
+};
+
+std::vector<double> padded(Evaluation& evaluation, const Component& model, std::string_view list,
+                           const Padding& padding) {
   std::vector<double> values;
-  if (auto given = evaluation.numbers(model, list, 1)) values = std::move(given->values);
-  values.resize(count, standard);
+  if (auto given = evaluation.numbers(model, {list}, 1)) values = std::move(given->values);
+  values.resize(padding.count, padding.value);
   return values;
 }
 
@@ -81,7 +86,7 @@ void describeTetrahedra(Evaluation& evaluation, const Component& component, Mode
 void describeSpheres(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = stateOf(evaluation, component).positions;
   const double radius = evaluation.number(component, {"radius", "defaultRadius"}, 1);
-  model.radii = padded(evaluation, component, {"listRadius"}, radius, model.positions.size());
+  model.radii = padded(evaluation, component, "listRadius", {model.positions.size(), radius});
 }
 
 void describeOrientedBoxes(Evaluation& evaluation, const Component& component, ModelDescription& model) {
@@ -100,8 +105,8 @@ void describeRigidCapsules(Evaluation& evaluation, const Component& component, M
   const bool cylinder = component.kind() == CylinderModel;
   const double height = cylinder ? evaluation.number(component, {"defaultHeight", "dafaultHeight"}, 2)
                                  : evaluation.number(component, {"dafaultHeight", "defaultHeight"}, 2);
-  const auto heights = padded(evaluation, component, {"heights"}, height, count);
-  model.radii = padded(evaluation, component, {"radii"}, evaluation.number(component, {"defaultRadius"}, 0.5), count);
+  const auto heights = padded(evaluation, component, "heights", {count, height});
+  model.radii = padded(evaluation, component, "radii", {count, evaluation.number(component, {"defaultRadius"}, 0.5)});
   const Vec3 along = cylinder ? evaluation.vector(component, {"defaultLocalAxis"}, {0, 1, 0}) : Vec3{0, 1, 0};
   auto axes = cylinder ? evaluation.points(component, {"localAxes"}) : std::vector<Vec3>{};
   axes.resize(count, along);
@@ -118,7 +123,7 @@ void describeCapsules(Evaluation& evaluation, const Component& component, ModelD
     return describeRigidCapsules(evaluation, component, model);
   describeLines(evaluation, component, model);
   const double radius = evaluation.number(component, {"defaultRadius"}, 0.5);
-  model.radii = padded(evaluation, component, {"listCapsuleRadii"}, radius, model.lines.size());
+  model.radii = padded(evaluation, component, "listCapsuleRadii", {model.lines.size(), radius});
 }
 
 void describeElements(Evaluation& evaluation, const Component& component, ModelDescription& model) {

@@ -6,20 +6,19 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-enum VtkType : std::int64_t {
-  kLine = 3,
-  kTriangle = 5,
-  kTriangleStrip = 6,
-  kPolygon = 7,
-  kPixel = 8,
-  kQuad = 9,
-  kTetrahedron = 10,
-  kVoxel = 11,
-  kHexahedron = 12,
-  kQuadraticEdge = 21,
-  kQuadraticTriangle = 22,
-  kQuadraticTetrahedron = 24,
-};
+// VTK's numbers for the types of cells.
+constexpr std::int64_t kLine = 3;
+constexpr std::int64_t kTriangle = 5;
+constexpr std::int64_t kTriangleStrip = 6;
+constexpr std::int64_t kPolygon = 7;
+constexpr std::int64_t kPixel = 8;
+constexpr std::int64_t kQuad = 9;
+constexpr std::int64_t kTetrahedron = 10;
+constexpr std::int64_t kVoxel = 11;
+constexpr std::int64_t kHexahedron = 12;
+constexpr std::int64_t kQuadraticEdge = 21;
+constexpr std::int64_t kQuadraticTriangle = 22;
+constexpr std::int64_t kQuadraticTetrahedron = 24;
 
 std::size_t cornersNeeded(std::int64_t type) {
   switch (type) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "scene/sofa/DataScenes.h"
 #include "scene/sofa/SceneText.h"
 
 namespace allpairs::scene::sofa {
@@ -9,17 +9,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// The folder of scenes with known answers; empty where there is none.
-std::filesystem::path dataScenes() {
-  const char* folder = std::getenv("ALLPAIRS_DATA");
-  const auto scenes = std::filesystem::path{folder != nullptr ? folder : "../shared/data"} / "scenes";
-  return std::filesystem::is_directory(scenes) ? scenes : std::filesystem::path{};
-}
-
-#define ALLPAIRS_NEED_SCENES(scenes) \
-  const auto scenes = dataScenes();  \
-  if (scenes.empty()) GTEST_SKIP() << "no ../shared/data/scenes, and ALLPAIRS_DATA names none: nothing was compared"
 
 struct Known {
   std::string path;

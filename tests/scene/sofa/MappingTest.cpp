@@ -140,6 +140,37 @@ TEST_F(SofaMapping, PointsInAHexahedronOfAMeshFollowItsCorners) {
               IsBox(Corners{0.75, 0.75, 0.75, 0.75, 0.75, 0.75}));
 }
 
+constexpr auto kTwoStates =
+    "<MechanicalObject name='a' position='1 1 1 2 2 2'/><MechanicalObject name='b' position='3 3 3'/>";
+
+TEST_F(SofaMapping, SeveralStatesAreJoinedWholeOrInPart) {
+  const std::string child = "<MechanicalObject name='c'/>";
+  EXPECT_THAT(box(kTwoStates, child + "<IdentityMultiMapping input='@../a @../b' output='@c'/>"),
+              IsBox(Corners{1, 1, 1, 3, 3, 3}));
+  EXPECT_THAT(box(kTwoStates, child + "<SubsetMultiMapping input='@../a @../b' output='@c' indexPairs='0 1 1 0'/>"),
+              IsBox(Corners{2, 2, 2, 3, 3, 3}));
+  EXPECT_THAT(complaintIn(kTwoStates + ("<Node>" + child) +
+                          "<SubsetMultiMapping input='@../a @../b' output='@c' indexPairs='1 1'/><PointModel/></Node>"),
+              HasSubstr("a point that isn't there"));
+}
+
+TEST_F(SofaMapping, ARigidFrameCarriesADeformableBody) {
+  const std::string parents =
+      "<MechanicalObject name='frame' template='Rigid' dx='10' rz='90'/>"
+      "<MechanicalObject name='body' position='1 0 0 2 0 0'/>";
+  EXPECT_THAT(box(parents,
+                  "<MechanicalObject name='c'/>"
+                  "<DeformableOnRigidFrameMapping input1='@../body' input2='@../frame' output='@c'/>"),
+              IsBox(Corners{10, 1, 0, 10, 2, 0}));
+}
+
+TEST_F(SofaMapping, ASkinStaysWhereItIsWhileItsBonesRest) {
+  const std::string skin = "<MechanicalObject position='1 2 3'/><SkinningMapping/>";
+  EXPECT_THAT(box(kTwoFrames, skin), IsBox(Corners{1, 2, 3, 1, 2, 3}));
+  EXPECT_THAT(complaintIn("<MechanicalObject template='Rigid' dx2='1'/><Node>" + skin + "<PointModel/></Node>"),
+              HasSubstr("not where they rest"));
+}
+
 TEST_F(SofaMapping, MappingsFollowOneAnother) {
   const auto scene = readIn(R"(<MechanicalObject template="Rigid" dx="10"/>
     <Node><MechanicalObject position="0 0 0 1 0 0 0 1 0 0 0 1"/><RigidMapping/><MeshTopology tetrahedra="0 1 2 3"/>
