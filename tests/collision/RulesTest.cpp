@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the contract says of the rules, case by case.
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "Fixture.h"
 #include "SceneWorld.h"
@@ -68,6 +70,14 @@ TEST_F(Rules, ContactDistancesAreAddedLeftToRightInTheOrderOfThePair) {
   m_owned[0]->setContactDistance(large);
   m_owned[1]->setContactDistance(small);
   EXPECT_EQ(detect(), Numbers{});
+}
+
+TEST_F(Rules, TheSearchLosesNoPairToAnotherOrderOfAdding) {
+  m_method.setAlarmDistance(0x1p-53);
+  const double gap = 1.0 + 0x1p-52;  // alarm + newer + older; with the older added first it is 1
+  add({{-1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}}).setContactDistance(1.0);
+  add({{gap, 0.0, 0.0}, {3.0, 1.0, 1.0}}).setContactDistance(0x1p-53);
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
 }
 
 TEST_F(Rules, ContactDistancesPlayNoPartWithDiscreteIntersectionOrWithTheSwitchOff) {
@@ -240,6 +250,27 @@ TEST_F(Rules, ANearlyFlatPatchCannotTouchItselfWithDiscreteIntersection) {
   EXPECT_EQ(detect(), (Numbers{{0, 0}}));  // proximity methods don't look at cones
   dynamic_cast<TriangleModel&>(*m_others.back()).setUseCurvature(false);
   EXPECT_EQ(detect(discrete), (Numbers{{0, 0}}));
+}
+
+/// One element with a cone of the given half-angle.
+class ConeModel : public UserModel {
+ public:
+  explicit ConeModel(double halfAngle) : UserModel(unitBoxAt(0.0)), m_halfAngle(halfAngle) { setSelfCollision(true); }
+  [[nodiscard]] NormalCone elementCone(std::size_t /*index*/) const override { return {{0.0, 0.0, 1.0}, m_halfAngle}; }
+
+ private:
+  double m_halfAngle;
+};
+
+TEST_F(Rules, AHalfAngleOfAQuarterTurnIsEnoughToTouchItselfAndALittleLessIsNot) {
+  const double quarter = std::numbers::pi / 2.0;
+  for (const double halfAngle : {quarter, std::nextafter(quarter, 0.0)}) {
+    m_others.push_back(std::make_unique<ConeModel>(halfAngle));
+    m_others.back()->setOwner(m_others.back().get());
+    m_models.push_back(m_others.back().get());
+  }
+  DiscreteIntersection discrete;
+  EXPECT_EQ(detect(discrete), (Numbers{{0, 0}, {1, 0}}));
 }
 
 TEST_F(Rules, ASharpFoldMayTouchItselfWithDiscreteIntersection) {
