@@ -73,10 +73,14 @@ TEST_F(Rules, ContactDistancesAreAddedLeftToRightInTheOrderOfThePair) {
 }
 
 TEST_F(Rules, TheSearchLosesNoPairToAnotherOrderOfAdding) {
-  m_method.setAlarmDistance(0x1p-53);
-  const double gap = 1.0 + 0x1p-52;  // alarm + newer + older; with the older added first it is 1
-  add({{-1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}}).setContactDistance(1.0);
-  add({{gap, 0.0, 0.0}, {3.0, 1.0, 1.0}}).setContactDistance(0x1p-53);
+  const double alarm = 0.007;
+  const double older = 0.6;
+  const double newer = 2.1;
+  const double gap = alarm + newer + older;
+  ASSERT_LT(alarm * (1.0 + 0x1p-48) + older + newer, gap) << "the distance alone, widened, is not enough";
+  m_method.setAlarmDistance(alarm);
+  add({{-1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}}).setContactDistance(older);
+  add({{gap, 0.0, 0.0}, {gap + 1.0, 1.0, 1.0}}).setContactDistance(newer);
   EXPECT_EQ(detect(), (Numbers{{1, 0}}));
 }
 
