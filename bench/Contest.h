@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "OwnSearches.h"
+#include "Peer.h"
+#include "Samples.h"
+
+namespace allpairs::bench {
+
+/// One of those that are measured against each other.
+struct Contender {
+  std::string name;
+  std::string setting;
+  std::size_t threads = 1;
+  MakeSearch make;
+  bool givesPairs = true;  ///< False for one that only counts; its result is not compared.
+};
+
+/// How thoroughly to measure.
+struct Effort {
+  double secondsEach = 1.0;       ///< For each contender on each scene; a long run is repeated a few times even so.
+  double shortestSampleMs = 1.0;  ///< Shorter runs are repeated within a sample until it lasts this long.
+  std::size_t fewestSamples = 3;
+  std::size_t mostSamples = 200;
+};
+
+/// What one contender did on one scene.
+struct Outcome {
+  measure::Summary times;
+  std::uint64_t pairs = 0;
+  std::string hash;     ///< Of the pairs in order; see measure::hashOfPairs. Empty for one that gives no pairs.
+  std::string mistake;  ///< How its pairs differ from the first contender's; empty if they don't.
+};
+
+/// Measures all contenders on the same boxes, turn by turn, so that whatever else the machine does meets them alike.
+///
+/// Each runs once first, untimed as far as the result goes, and its pairs are compared whole with the first one's.
+[[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
+                                           const Effort& effort);
+
+/// The setting in which the peer is the fastest on these boxes: each is tried, slow ones once and fast ones thrice.
+[[nodiscard]] const Setting& fastestSetting(const Peer& peer, std::span<const float> rows);
+
+}  // namespace allpairs::bench
