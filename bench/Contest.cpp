@@ -2,7 +2,7 @@
 #include "Contest.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "PairHash.h"
 #include "Stopwatch.h"
@@ -20,7 +20,7 @@ measure::Duration timeOnce(const MakeSearch& make, std::span<const float> rows) 
 }
 
 /// The mean of runs that are too short for the clock; it includes taking down what they built.
-measure::Duration timeBatch(const MakeSearch& make, std::span<const float> rows, std::size_t runs) {
+measure::Duration timeRuns(const MakeSearch& make, std::span<const float> rows, std::size_t runs) {
   if (runs == 1) return timeOnce(make, rows);
   const measure::Stopwatch watch;
   for (std::size_t run = 0; run < runs; ++run) (void)make()->find(rows);
@@ -38,56 +38,25 @@ std::string difference(std::span<const Pair> found, std::span<const Pair> expect
   return text + ", first missing one " + describe(*e);
 }
 
-/// One contender's part in a contest.
-class Turn {
- public:
-  Turn(const Contender& contender, std::span<const float> rows, const Effort& effort)
-      : m_contender(contender), m_rows(rows) {
-    m_runs = runsFor(effort, timeOnce(contender.make, rows).wallMs);
-    // Once more, now warm, decides how many samples there is time for.
-    const double sampleMs = timeBatch(contender.make, rows, m_runs).wallMs * static_cast<double>(m_runs);
-    const double samples = effort.secondsEach * 1e3 / std::max(sampleMs, 1e-6);
-    m_allowance = static_cast<std::size_t>(
-        std::clamp(samples, static_cast<double>(effort.fewestSamples), static_cast<double>(effort.mostSamples)));
-  }
-
-  [[nodiscard]] std::size_t allowance() const { return m_allowance; }
-
-  /// Takes a sample in round `round` of `rounds` if it is due: allowances are spread evenly.
-  void take(std::size_t round, std::size_t rounds) {
-    if ((round + 1) * m_allowance / rounds == round * m_allowance / rounds) return;
-    m_samples.add(timeBatch(m_contender.make, m_rows, m_runs));
-  }
-
-  [[nodiscard]] measure::Summary summary() const { return m_samples.summary(); }
-
- private:
-  static std::size_t runsFor(const Effort& effort, double runMs) {
-    constexpr double kMostRuns = 1000.0;
-    return static_cast<std::size_t>(
-        std::clamp(std::ceil(effort.shortestSampleMs / std::max(runMs, 1e-6)), 1.0, kMostRuns));
-  }
-
-  const Contender& m_contender;
-  std::span<const float> m_rows;
-  std::size_t m_runs = 1;
-  std::size_t m_allowance = 1;
-  measure::Samples m_samples;
-};
-
 std::vector<measure::Summary> takeTurns(std::span<const Contender> contenders, std::span<const float> rows,
-                                        const Effort& effort) {
-  std::vector<Turn> turns;
+                                        const measure::Effort& effort) {
+  std::vector<measure::Sampling> turns;
   std::size_t rounds = 1;
   for (const Contender& contender : contenders) {
-    turns.emplace_back(contender, rows, effort);
+    turns.emplace_back([&](std::size_t runs) { return timeRuns(contender.make, rows, runs); }, effort);
     rounds = std::max(rounds, turns.back().allowance());
   }
+  // Who has fewer samples takes them in rounds that are spread evenly over the whole.
+  const auto isDue = [rounds](std::size_t round, std::size_t allowance) {
+    return (round + 1) * allowance / rounds != round * allowance / rounds;
+  };
   for (std::size_t round = 0; round < rounds; ++round) {
-    for (Turn& turn : turns) turn.take(round, rounds);
+    for (measure::Sampling& turn : turns) {
+      if (isDue(round, turn.allowance())) turn.take();
+    }
   }
   std::vector<measure::Summary> summaries;
-  for (const Turn& turn : turns) summaries.push_back(turn.summary());
+  for (const measure::Sampling& turn : turns) summaries.push_back(turn.summary());
   return summaries;
 }
 
@@ -111,7 +80,8 @@ std::vector<Outcome> compareResults(std::span<const Contender> contenders, std::
 
 }  // namespace
 
-std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows, const Effort& effort) {
+std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
+                             const measure::Effort& effort) {
   std::vector<Outcome> outcomes = compareResults(contenders, rows);
   const std::vector<measure::Summary> summaries = takeTurns(contenders, rows, effort);
   for (std::size_t k = 0; k < outcomes.size(); ++k) outcomes[k].times = summaries[k];

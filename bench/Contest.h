@@ -8,7 +8,7 @@
 
 #include "OwnSearches.h"
 #include "Peer.h"
-#include "Samples.h"
+#include "Sampling.h"
 
 namespace allpairs::bench {
 
@@ -19,14 +19,6 @@ struct Contender {
   std::size_t threads = 1;
   MakeSearch make;
   bool givesPairs = true;  ///< False for one that only counts; its result is not compared.
-};
-
-/// How thoroughly to measure.
-struct Effort {
-  double secondsEach = 1.0;       ///< For each contender on each scene; a long run is repeated a few times even so.
-  double shortestSampleMs = 1.0;  ///< Shorter runs are repeated within a sample until it lasts this long.
-  std::size_t fewestSamples = 3;
-  std::size_t mostSamples = 200;
 };
 
 /// What one contender did on one scene.
@@ -41,7 +33,7 @@ struct Outcome {
 ///
 /// Each runs once first, untimed as far as the result goes, and its pairs are compared whole with the first one's.
 [[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
-                                           const Effort& effort);
+                                           const measure::Effort& effort);
 
 /// The setting in which the peer is the fastest on these boxes: each is tried, slow ones once and fast ones thrice.
 [[nodiscard]] const Setting& fastestSetting(const Peer& peer, std::span<const float> rows);

@@ -45,7 +45,7 @@ void keepOnly(std::vector<bench::Cell>& cells, const Arguments& a) {
 
 void choosePlan(Arguments& a) {
   a.run.plan = a.quick ? bench::quickPlan() : bench::fullPlan();
-  if (a.secondsEach > 0.0) a.run.plan.effort.secondsEach = a.secondsEach;
+  if (a.secondsEach > 0.0) a.run.plan.effort.seconds = a.secondsEach;
   keepOnly(a.run.plan.cells, a);
   keepOnly(a.run.plan.threadCells, a);
 }

@@ -17,7 +17,7 @@ void addSizes(std::vector<Cell>& cells, std::string_view scene, std::initializer
 
 Plan quickPlan() {
   Plan plan;
-  plan.effort = {.secondsEach = 0.05, .shortestSampleMs = 0.5, .fewestSamples = 3, .mostSamples = 30};
+  plan.effort = {.seconds = 0.05, .shortestSampleMs = 0.5, .fewestSamples = 3, .mostSamples = 30};
   for (const generate::BoxScene& scene : generate::boxScenes()) {
     if (scene.name == "uniform")
       addSizes(plan.cells, scene.name, {100, 217, 1000, 10000});
@@ -32,7 +32,7 @@ Plan quickPlan() {
 
 Plan fullPlan() {
   Plan plan;
-  plan.effort = {.secondsEach = 1.0, .shortestSampleMs = 1.0, .fewestSamples = 3, .mostSamples = 200};
+  plan.effort = {.seconds = 1.0, .shortestSampleMs = 1.0, .fewestSamples = 3, .mostSamples = 200};
   for (const generate::BoxScene& scene : generate::boxScenes()) {
     if (scene.name == "uniform")
       addSizes(plan.cells, scene.name, {100, 217, 1000, 10000, 100000, 1000000});

@@ -20,7 +20,7 @@ struct Cell {
 struct Plan {
   std::vector<Cell> cells;
   std::vector<Cell> threadCells;  ///< On these, ours alone, by number of threads.
-  Effort effort;
+  measure::Effort effort;
 };
 
 /// A few scenes of up to 10,000 boxes: under a minute.

@@ -81,7 +81,8 @@ std::vector<float> needleBoxes(std::size_t count, std::uint64_t seed) {
   for (std::size_t i = 0; i < count; ++i) {
     Random random(seed, i);
     std::array<double, 3> size{thickness, thickness, thickness};
-    size[random.below(3)] *= kLengthOfThickness * random.between(0.5, 1.5);
+    const std::size_t longAxis = random.below(3);
+    size[longAxis] *= kLengthOfThickness * random.between(0.5, 1.5);
     rows.addAround(unitPoint(random), size);
   }
   return std::move(rows).take();
