@@ -88,12 +88,12 @@ std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<co
   return outcomes;
 }
 
-const Setting& fastestSetting(const Peer& peer, std::span<const float> rows) {
+const Setting* fastestSetting(const Peer& peer, std::span<const float> rows) {
   constexpr double kHopeless = 1.5;  // A setting this much slower at its first try is not tried again.
-  const Setting* fastest = &peer.settings.front();
+  const Setting* fastest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const Setting& setting : peer.settings) {
-    if (peer.settings.size() == 1) break;
+    if (rows.size() / 6 > setting.mostBoxes) continue;
     double time = timeOnce(setting.make, rows).cpuMs;
     for (int again = 0; again < 2 && time < kHopeless * least; ++again) {
       time = std::min(time, timeOnce(setting.make, rows).cpuMs);
@@ -101,7 +101,7 @@ const Setting& fastestSetting(const Peer& peer, std::span<const float> rows) {
     if (time < least) fastest = &setting;
     least = std::min(least, time);
   }
-  return *fastest;
+  return fastest;
 }
 
 }  // namespace allpairs::bench

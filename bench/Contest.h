@@ -35,7 +35,8 @@ struct Outcome {
 [[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
                                            const measure::Effort& effort);
 
-/// The setting in which the peer is the fastest on these boxes: each is tried, slow ones once and fast ones thrice.
-[[nodiscard]] const Setting& fastestSetting(const Peer& peer, std::span<const float> rows);
+/// The setting in which the peer is the fastest on these boxes: each is tried, slow ones once and fast ones thrice;
+/// null if there are too many boxes for all of them.
+[[nodiscard]] const Setting* fastestSetting(const Peer& peer, std::span<const float> rows);
 
 }  // namespace allpairs::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// allpairs-bench: Allpairs and its peers on the same boxes, in turn, their pairs compared.
+// allpairs_bench: Allpairs and its peers on the same boxes, in turn, their pairs compared.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -64,7 +64,7 @@ int runBenchmarks(Arguments& a) {
   const std::string_view best = instructionSets().front();
   bench::Results results(a.output, a.run.instructionSet.empty() ? std::string(best) : a.run.instructionSet);
   const std::size_t mistakes = bench::Runner(a.run, results).run();
-  if (mistakes != 0) std::fprintf(stderr, "allpairs-bench: %zu results differ from ours\n", mistakes);
+  if (mistakes != 0) std::fprintf(stderr, "allpairs_bench: %zu results differ from ours\n", mistakes);
   return mistakes == 0 ? 0 : 1;
 }
 
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   try {
     return runBenchmarks(arguments);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "allpairs-bench: %s\n", error.what());
+    std::fprintf(stderr, "allpairs_bench: %s\n", error.what());
     return 3;
   }
 }

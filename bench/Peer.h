@@ -32,13 +32,13 @@ class Search {
 struct Setting {
   std::string name;
   std::function<std::unique_ptr<Search>()> make;
+  std::size_t mostBoxes = std::numeric_limits<std::size_t>::max();  ///< More would take it too long.
 };
 
 /// A program that answers the same question; it is measured in whichever of its settings is the fastest on the scene.
 struct Peer {
   std::string name;
   std::string version;
-  std::size_t mostBoxes = std::numeric_limits<std::size_t>::max();  ///< More would take it too long.
   std::vector<Setting> settings;
 };
 

@@ -13,6 +13,11 @@ void addSizes(std::vector<Cell>& cells, std::string_view scene, std::initializer
   for (const std::size_t boxes : sizes) cells.push_back({std::string(scene), boxes});
 }
 
+std::vector<Cell> threadCells(std::vector<Cell> cells) {
+  for (Cell& cell : cells) cell.part = "threads";
+  return cells;
+}
+
 }  // namespace
 
 Plan quickPlan() {
@@ -26,7 +31,7 @@ Plan quickPlan() {
     else
       addSizes(plan.cells, scene.name, {1000, 10000});
   }
-  plan.threadCells = {{"uniform", 100000}};
+  plan.threadCells = threadCells({{"uniform", 100000}});
   return plan;
 }
 
@@ -46,7 +51,8 @@ Plan fullPlan() {
   for (const generate::BoxScene& scene : generate::boxScenes()) {
     if (scene.name != kDense) plan.cells.push_back({std::string(scene.name), 100000, true});
   }
-  plan.threadCells = {{"uniform", 100000}, {"uniform", 1000000}, {"uniform", 10000000}, {"needles", 1000000}};
+  plan.threadCells =
+      threadCells({{"uniform", 100000}, {"uniform", 1000000}, {"uniform", 10000000}, {"needles", 1000000}});
   return plan;
 }
 

@@ -14,6 +14,7 @@ struct Cell {
   std::string scene;
   std::size_t boxes = 0;
   bool sorted = false;
+  std::string part = "contest";  ///< Or "threads": ours alone, by number of threads.
 };
 
 /// What a run of the benchmarks measures, and how thoroughly.

@@ -11,7 +11,7 @@ namespace allpairs::bench {
 namespace {
 
 constexpr const char* kColumns =
-    "name,setting,scene,n,threads,pairs,hash,median_ms,median_cpu_ms,min_ms,max_ms,repetitions,mistake,"
+    "name,setting,part,scene,n,threads,pairs,hash,median_ms,median_cpu_ms,min_ms,max_ms,repetitions,mistake,"
     "commit,compiler,build,processor,processors,instruction_set,date\n";
 
 std::string quoted(const std::string& text) {
@@ -26,10 +26,10 @@ std::string quoted(const std::string& text) {
 std::string lineOf(const Cell& cell, const Contender& contender, const Outcome& outcome) {
   const measure::Summary& times = outcome.times;
   std::ostringstream line;
-  line << quoted(contender.name) << ',' << quoted(contender.setting) << ',' << sceneName(cell) << ',' << cell.boxes
-       << ',' << contender.threads << ',' << outcome.pairs << ',' << outcome.hash << ',' << times.medianMs << ','
-       << times.medianCpuMs << ',' << times.minMs << ',' << times.maxMs << ',' << times.repetitions << ','
-       << quoted(outcome.mistake);
+  line << quoted(contender.name) << ',' << quoted(contender.setting) << ',' << cell.part << ',' << sceneName(cell)
+       << ',' << cell.boxes << ',' << contender.threads << ',' << outcome.pairs << ',' << outcome.hash << ','
+       << times.medianMs << ',' << times.medianCpuMs << ',' << times.minMs << ',' << times.maxMs << ','
+       << times.repetitions << ',' << quoted(outcome.mistake);
   return line.str();
 }
 

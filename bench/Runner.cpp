@@ -49,9 +49,9 @@ std::size_t Runner::run() {
 void Runner::runCell(const Cell& cell) {
   std::vector<Contender> contenders = ownContenders();
   for (const Peer& peer : m_peers) {
-    if (!isWanted(peer, cell)) continue;
-    const Setting& setting = settingFor(peer, cell);
-    contenders.push_back({.name = peer.name, .setting = setting.name, .make = setting.make});
+    const Setting* const setting = isWanted(peer) ? settingFor(peer, cell) : nullptr;
+    if (setting == nullptr || cell.boxes > setting->mostBoxes) continue;
+    contenders.push_back({.name = peer.name, .setting = setting->name, .make = setting->make});
   }
   keep(cell, contenders, boxesOf(cell));
 }
@@ -89,17 +89,17 @@ std::vector<float> Runner::boxesOf(const Cell& cell) const {
   return generate::makeBoxes({.scene = cell.scene, .count = cell.boxes, .seed = m_options.seed, .sorted = cell.sorted});
 }
 
-bool Runner::isWanted(const Peer& peer, const Cell& cell) const {
+bool Runner::isWanted(const Peer& peer) const {
   const auto& only = m_options.peers;
-  return cell.boxes <= peer.mostBoxes && (only.empty() || std::find(only.begin(), only.end(), peer.name) != only.end());
+  return only.empty() || std::find(only.begin(), only.end(), peer.name) != only.end();
 }
 
-const Setting& Runner::settingFor(const Peer& peer, const Cell& cell) {
+const Setting* Runner::settingFor(const Peer& peer, const Cell& cell) {
   Cell trial = cell;
   trial.boxes = std::min(trial.boxes, kTrialBoxes);
-  const Setting*& chosen = m_settings[{peer.name, sceneName(trial) + std::to_string(trial.boxes)}];
-  if (chosen == nullptr) chosen = &fastestSetting(peer, boxesOf(trial));
-  return *chosen;
+  const auto [entry, isNew] = m_settings.try_emplace({peer.name, sceneName(trial) + std::to_string(trial.boxes)});
+  if (isNew) entry->second = fastestSetting(peer, boxesOf(trial));
+  return entry->second;
 }
 
 void Runner::keep(const Cell& cell, const std::vector<Contender>& contenders, const std::vector<float>& rows) {

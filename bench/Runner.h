@@ -35,8 +35,8 @@ class Runner {
   [[nodiscard]] std::vector<Contender> ownContenders() const;
   [[nodiscard]] OverlapOptions optionsFor(Order order) const;
   [[nodiscard]] std::vector<float> boxesOf(const Cell& cell) const;
-  [[nodiscard]] bool isWanted(const Peer& peer, const Cell& cell) const;
-  [[nodiscard]] const Setting& settingFor(const Peer& peer, const Cell& cell);
+  [[nodiscard]] bool isWanted(const Peer& peer) const;
+  [[nodiscard]] const Setting* settingFor(const Peer& peer, const Cell& cell);
   void keep(const Cell& cell, const std::vector<Contender>& contenders, const std::vector<float>& rows);
 
   RunOptions m_options;

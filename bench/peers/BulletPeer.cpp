@@ -111,7 +111,9 @@ Peer bulletPeer() {
   peer.settings.push_back({"dbvt, inserted", [] { return std::make_unique<DynamicTree>(false); }});
   peer.settings.push_back({"dbvt, rebuilt top down", [] { return std::make_unique<DynamicTree>(true); }});
   peer.settings.push_back({"dbvt broad phase", [] { return std::make_unique<CachedBroadPhase<btDbvtBroadphase>>(); }});
-  peer.settings.push_back({"axis sweep", [] { return std::make_unique<CachedBroadPhase<bt32BitAxisSweep3>>(); }});
+  constexpr std::size_t kMostBoxesSwept = 10000;  // Each box is sorted in from the end: O(n^2).
+  peer.settings.push_back(
+      {"axis sweep", [] { return std::make_unique<CachedBroadPhase<bt32BitAxisSweep3>>(); }, kMostBoxesSwept});
   return peer;
 }
 

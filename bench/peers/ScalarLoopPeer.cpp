@@ -25,10 +25,10 @@ class ScalarLoop final : public Search {
 }  // namespace
 
 Peer scalarLoopPeer() {
+  constexpr std::size_t kMostBoxes = 10000;
   return {.name = "scalar loop",
           .version = "",
-          .mostBoxes = 10000,
-          .settings = {{"array of boxes", [] { return std::make_unique<ScalarLoop>(); }}}};
+          .settings = {{"array of boxes", [] { return std::make_unique<ScalarLoop>(); }, kMostBoxes}}};
 }
 
 }  // namespace allpairs::bench
