@@ -53,7 +53,13 @@ class LogScale:
         return self.start + share * (self.end - self.start)
 
     def decades(self):
-        return [10.0**e for e in range(math.ceil(self.low), math.floor(self.high) + 1)]
+        return self.ticks((1,))
+
+    def ticks(self, mantissas):
+        """The numbers with these first digits that lie on the scale."""
+        exponents = range(math.floor(self.low), math.floor(self.high) + 1)
+        values = [mantissa * 10.0**e for e in exponents for mantissa in mantissas]
+        return [value for value in values if self.low <= math.log10(value) <= self.high]
 
 
 def number_text(value):
@@ -121,10 +127,14 @@ class Plot:
         return pixels[-1]
 
     def draw_labels(self, ends):
-        """Names beside the ends of their lines, all in one column."""
+        """Names beside the ends of their lines: in one column, or above the end of a line that stops early."""
         column = self.width - self.right + 22
-        placed = spread_labels({name: y for name, (_, y) in ends.items()}, 15)
+        last = max(x for x, _ in ends.values())
+        placed = spread_labels({name: y for name, (x, y) in ends.items() if x == last}, 15)
         for name, (x, y) in ends.items():
+            if name not in placed:
+                self.picture.text(x - 4, y - 9, name, css=css_name(name), anchor="end", halo=True)
+                continue
             self.picture.line([(x + 6, y), (column - 4, placed[name])], "grid")
             weight = "700" if name == OURS else "normal"
             self.picture.text(column, placed[name] + 4, name, css=css_name(name), size=12, weight=weight)
@@ -171,7 +181,7 @@ def pair_cost_chart(table, cells):
         picture.text(left - 12, y + 4, number_text(boxes), css="soft", size=11, anchor="end")
         picture.line([(left, y), (picture.width - right, y)], "grid")
         _draw_cost_row(picture, scale, y, row, others)
-    _draw_key(picture, [n for n in _names(rows)], others, 60)
+    _draw_key(picture, _names(rows), others, 60)
     return picture.render()
 
 
@@ -189,7 +199,7 @@ def _names(rows):
 
 
 def _draw_cost_axis(picture, scale, top, bottom):
-    for value in scale.decades():
+    for value in scale.ticks((1, 2, 5)):
         x = scale(value)
         picture.line([(x, top), (x, bottom)], "grid")
         picture.text(x, bottom + 16, f"{value:g} ns" if value < 1e3 else f"{value / 1e3:g} µs", "soft", 11, "middle")
@@ -239,12 +249,10 @@ def _throughput(record):
 def _draw_thread_axes(plot, threads):
     picture = plot.picture
     base = plot.height - plot.bottom
-    for mantissa in (1, 2, 5):
-        for value in [mantissa * 10.0**e for e in range(3, 10)]:
-            y = plot.y(value)
-            if plot.top <= y <= base:
-                picture.line([(plot.left, y), (plot.width - plot.right, y)], "grid")
-                picture.text(plot.left - 8, y + 4, number_text(value) + "/s", "soft", 11, "end")
+    for value in plot.y.ticks((1, 2, 5)):
+        y = plot.y(value)
+        picture.line([(plot.left, y), (plot.width - plot.right, y)], "grid")
+        picture.text(plot.left - 8, y + 4, number_text(value) + "/s", "soft", 11, "end")
     picture.line([(plot.left, base), (plot.width - plot.right, base)], "axis")
     for count in threads:
         picture.text(plot.x(count), base + 17, str(count), "soft", 11, "middle")

@@ -31,9 +31,11 @@ class Picture:
             f'stroke-linejoin="round" stroke-linecap="round"{dashes}/>'
         )
 
-    def text(self, x, y, text, css="ink", size=12, anchor="start", weight="normal"):
+    def text(self, x, y, text, css="ink", size=12, anchor="start", weight="normal", halo=False):
+        """Text; with a halo in the page's colour where it may lie over lines."""
+        rim = " halo" if halo else ""
         self.parts.append(
-            f'<text class="f-{css}" x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}" '
+            f'<text class="f-{css}{rim}" x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}" '
             f'font-weight="{weight}">{escape(text)}</text>'
         )
 
@@ -66,7 +68,9 @@ class Picture:
 
 def _rules(colours):
     rules = "".join(f".f-{name}{{fill:{value}}}.s-{name}{{stroke:{value}}}" for name, value in colours.items())
-    return rules + f".rim{{stroke:{colours['surface']};stroke-width:1.2}}"
+    surface = colours["surface"]
+    halo = f".halo{{stroke:{surface};stroke-width:4;paint-order:stroke;stroke-linejoin:round}}"
+    return rules + f".rim{{stroke:{surface};stroke-width:1.2}}" + halo
 
 
 def _marker_shape(x, y, shape, size):

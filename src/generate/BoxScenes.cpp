@@ -19,11 +19,11 @@ using Family = std::vector<float> (*)(std::size_t count, std::uint64_t seed);
 constexpr std::array<BoxScene, 7> kScenes{{
     {"uniform", "equal cubes, centres spread evenly over a unit cube; about 2.3 pairs a box"},
     {"clusters", "clouds of about 500 cubes, each cloud of its own size and place; about 3 pairs a box"},
-    {"power-law", "cubes of many sizes, P(side > s) ~ 1/s^2 up to a quarter of the whole; about 3 pairs a box"},
+    {"power-law", "cubes of many sizes, P(side > s) ~ 1/s^2 up to a quarter of the whole; about 2 pairs a box"},
     {"city", "blocks on a plane, so flat as a whole and all at the same height; about 3 pairs a box"},
-    {"needles", "boxes 10 to 30 times as long as thick, along a random axis; about 5 pairs a box"},
+    {"needles", "boxes 10 to 30 times as long as thick, along a random axis; about 4 pairs a box"},
     {"all-overlap", "boxes around one common point: all n(n-1)/2 pairs"},
-    {"mesh", "the boxes of the triangles of a wavy torus, shuffled; about 10 pairs a box"},
+    {"mesh", "the boxes of the triangles of a wavy torus, shuffled; about 6 pairs a box"},
 }};
 
 constexpr std::array<Family, kScenes.size()> kFamilies{uniformBoxes, clusteredBoxes,   powerLawBoxes, cityBoxes,

@@ -76,7 +76,7 @@ std::vector<float> cityBoxes(std::size_t count, std::uint64_t seed) {
 
 std::vector<float> needleBoxes(std::size_t count, std::uint64_t seed) {
   constexpr double kLengthOfThickness = 20.0;
-  const double thickness = sideOfCubes(count, 0.0156);  // About five pairs a box.
+  const double thickness = sideOfCubes(count, 0.0156);  // Four to five pairs a box.
   Rows rows(count);
   for (std::size_t i = 0; i < count; ++i) {
     Random random(seed, i);
