@@ -48,6 +48,7 @@ void choosePlan(Arguments& a) {
   if (a.secondsEach > 0.0) a.run.plan.effort.seconds = a.secondsEach;
   keepOnly(a.run.plan.cells, a);
   keepOnly(a.run.plan.threadCells, a);
+  keepOnly(a.run.plan.kernelCells, a);
 }
 
 /// 1, 2, 4, ... and as many as the machine has.

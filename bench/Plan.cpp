@@ -13,8 +13,8 @@ void addSizes(std::vector<Cell>& cells, std::string_view scene, std::initializer
   for (const std::size_t boxes : sizes) cells.push_back({std::string(scene), boxes});
 }
 
-std::vector<Cell> threadCells(std::vector<Cell> cells) {
-  for (Cell& cell : cells) cell.part = "threads";
+std::vector<Cell> cellsOfPart(std::string_view part, std::vector<Cell> cells) {
+  for (Cell& cell : cells) cell.part = part;
   return cells;
 }
 
@@ -31,7 +31,8 @@ Plan quickPlan() {
     else
       addSizes(plan.cells, scene.name, {1000, 10000});
   }
-  plan.threadCells = threadCells({{"uniform", 100000}});
+  plan.threadCells = cellsOfPart("threads", {{"uniform", 100000}});
+  plan.kernelCells = cellsOfPart("kernel", {{"uniform", 2000}});
   return plan;
 }
 
@@ -52,7 +53,8 @@ Plan fullPlan() {
     if (scene.name != kDense) plan.cells.push_back({std::string(scene.name), 100000, true});
   }
   plan.threadCells =
-      threadCells({{"uniform", 100000}, {"uniform", 1000000}, {"uniform", 10000000}, {"needles", 1000000}});
+      cellsOfPart("threads", {{"uniform", 100000}, {"uniform", 1000000}, {"uniform", 10000000}, {"needles", 1000000}});
+  plan.kernelCells = cellsOfPart("kernel", {{"uniform", 500}, {"uniform", 2000}, {"uniform", 20000}});
   return plan;
 }
 

@@ -14,13 +14,14 @@ struct Cell {
   std::string scene;
   std::size_t boxes = 0;
   bool sorted = false;
-  std::string part = "contest";  ///< Or "threads": ours alone, by number of threads.
+  std::string part = "contest";  ///< Or "threads", "kernel": see Plan.
 };
 
 /// What a run of the benchmarks measures, and how thoroughly.
 struct Plan {
   std::vector<Cell> cells;
   std::vector<Cell> threadCells;  ///< On these, ours alone, by number of threads.
+  std::vector<Cell> kernelCells;  ///< On these, our exhaustive kernel alone, counting, by instruction set.
   measure::Effort effort;
 };
 

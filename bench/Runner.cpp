@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "allpairs/Overlaps.h"
 #include "allpairs/generate/BoxScenes.h"
 #include "allpairs/parallel/TbbExecutor.h"
 
@@ -43,6 +44,7 @@ Runner::Runner(RunOptions options, Results& results)
 std::size_t Runner::run() {
   for (const Cell& cell : m_options.plan.cells) runCell(cell);
   for (const Cell& cell : m_options.plan.threadCells) runThreads(cell);
+  for (const Cell& cell : m_options.plan.kernelCells) runKernel(cell);
   return m_mistakes;
 }
 
@@ -65,6 +67,20 @@ void Runner::runThreads(const Cell& cell) {
     if (threads > 1) options.executor = executors.back().get();
     contenders.push_back(
         {.name = "allpairs", .setting = "unordered", .threads = threads, .make = freshSearches(options)});
+  }
+  keep(cell, contenders, boxesOf(cell));
+}
+
+void Runner::runKernel(const Cell& cell) {
+  std::vector<Contender> contenders;
+  for (const std::string_view instructionSet : instructionSets()) {
+    OverlapOptions options;
+    options.strategy = Strategy::Exhaustive;
+    options.instructionSet = instructionSet;
+    contenders.push_back({.name = "allpairs count",
+                          .setting = std::string(instructionSet),
+                          .make = countingSearches(options),
+                          .givesPairs = false});
   }
   keep(cell, contenders, boxesOf(cell));
 }

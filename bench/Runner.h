@@ -32,6 +32,7 @@ class Runner {
  private:
   void runCell(const Cell& cell);
   void runThreads(const Cell& cell);
+  void runKernel(const Cell& cell);
   [[nodiscard]] std::vector<Contender> ownContenders() const;
   [[nodiscard]] OverlapOptions optionsFor(Order order) const;
   [[nodiscard]] std::vector<float> boxesOf(const Cell& cell) const;

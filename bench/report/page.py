@@ -46,7 +46,9 @@ PEERS = """## The peers
 | native loop | two loops over six arrays | this processor's widest vectors, compressed stores |
 | scalar loop | two loops over an array of boxes | what anybody writes first |
 
-Loops are left out where they would take minutes.
+Loops and Bullet's sweep are left out where they would take minutes. A program that is not packaged can be measured
+aside, on the boxes that `allpairs generate` writes, and noted in [benchmarks-external.csv](benchmarks-external.csv); the
+next report then compares its time and the hash of its pairs with ours.
 """
 
 SCENES = """## The scenes
@@ -69,7 +71,7 @@ in Morton order, which is kinder to most peers.
 def write_page(table, records):
     parts = [INTRODUCTION, _machine(records), _mistakes(records), _summary(table), METHOD]
     parts += [_scene_section(table, scene) for scene in table.scenes()]
-    parts += [_sorted_section(table), _pair_cost(), _threads(table), _external(table), SCENES, PEERS, _settings(table)]
+    parts += [_sorted_section(table), _pair_cost(), _threads(table), _kernel(table), _external(table), SCENES, PEERS, _settings(table)]
     return "\n".join(part for part in parts if part)
 
 
@@ -184,6 +186,20 @@ def _threads(table):
         return ""
     picture = "![Throughput per thread](images/benchmarks/threads.svg)\n"
     return f"## Threads\n\nWall time here.\n\n{picture}\n" + _grid(["boxes", "threads", "wall", "processor", "speedup"], rows)
+
+
+def _kernel(table):
+    rows = []
+    for r in table.kernel:
+        tests = r.boxes * (r.boxes - 1) / 2
+        rows.append([number_text(r.boxes), r.setting, time_text(r.cpu_ms), f"{tests / r.cpu_ms / 1e6:.2f}"])
+    if not rows:
+        return ""
+    text = (
+        "## The exhaustive kernel\n\nEvery pair is tested: `Strategy::Exhaustive`, counting only, one thread, by "
+        "instruction set.\n\n"
+    )
+    return text + _grid(["boxes", "instruction set", "time", "billion tests a second"], rows)
 
 
 def _external(table):

@@ -17,7 +17,7 @@ OWN_VARIANTS = {
 class Record:
     name: str
     setting: str
-    part: str  # "contest": against peers; "threads": ours alone, by number of threads.
+    part: str  # "contest": against peers; ours alone: "threads", by their number, and "kernel", exhaustive.
     scene: str
     boxes: int
     threads: int
@@ -101,10 +101,13 @@ class Table:
     def __init__(self, records):
         self.contests = {}
         self.scaling = {}
+        self.kernel = []
         for record in records:
             key = (record.scene, record.boxes)
             if record.part == "threads":
                 self.scaling.setdefault(key, {})[record.threads] = record
+            elif record.part == "kernel":
+                self.kernel.append(record)
             else:
                 self.contests.setdefault(key, {})[record.name] = record
 
