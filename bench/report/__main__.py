@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes docs/benchmarks.md and its pictures from the records of a run: python3 bench/report RECORDS.csv [--docs DIR]."""
+"""Writes docs/benchmarks.md and its pictures from the records of a run."""
 
 import argparse
 import sys

@@ -169,7 +169,8 @@ def pair_cost_chart(table, cells):
     left, right, top, row_height = 178, 28, 86, 30
     picture = Picture(760, top + row_height * len(cells) + 44, "Cost per pair")
     picture.text(16, 22, "Cost per pair", size=15, weight="600")
-    picture.text(16, 38, "processor time of one search divided by the pairs it finds, one thread; logarithmic", "soft", 11.5)
+    subtitle = "processor time of one search divided by the pairs it finds, one thread; logarithmic"
+    picture.text(16, 38, subtitle, "soft", 11.5)
     rows = [(scene, boxes, _contest(table, scene, boxes)) for scene, boxes in cells]
     costs = [_cost(r) for _, _, row in rows for r in row.values()]
     scale = LogScale(costs, left, picture.width - right)
@@ -226,7 +227,7 @@ def _draw_key(picture, names, others, y):
 def thread_chart(table):
     """Boxes a second and thread, against the number of threads: level means that the work splits without loss."""
     size = (760, 340)
-    plot = Plot("Throughput per thread", "boxes a second divided by the threads; a level line loses nothing", size)
+    plot = Plot("Throughput per thread", "boxes a second divided by the threads; level means no loss; logarithmic", size)
     lines = {f"{scene} {number_text(boxes)}": row for (scene, boxes), row in table.scaling.items()}
     records = [r for row in lines.values() for r in row.values()]
     plot.scales([r.threads for r in records], [_throughput(r) for r in records])

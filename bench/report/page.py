@@ -131,7 +131,8 @@ def _summary_row(scene, boxes, cell):
 
 
 def _summary(table):
-    rows = [_summary_row(s, n, table.cell(s, n)) for s in table.scenes() for n in table.sizes(s) if OURS in table.cell(s, n)]
+    cells = [(scene, boxes, table.cell(scene, boxes)) for scene in table.scenes() for boxes in table.sizes(scene)]
+    rows = [_summary_row(scene, boxes, cell) for scene, boxes, cell in cells if OURS in cell]
     heading = ["scene", "pairs", "Allpairs", "ordered", "best peer", "which", "ratio", "native loop"]
     return (
         "## Summary\n\nOne thread, everything from boxes to pairs. *Allpairs* gives pairs in the order of discovery, "
@@ -180,12 +181,13 @@ def _threads(table):
         alone = row[min(row)]
         for threads in sorted(row):
             r = row[threads]
-            speedup = alone.wall_ms / r.wall_ms
-            rows.append([f"{scene} {number_text(boxes)}", threads, time_text(r.wall_ms), time_text(r.cpu_ms), f"{speedup:.2f}x"])
+            times = [time_text(r.wall_ms), time_text(r.cpu_ms), f"{alone.wall_ms / r.wall_ms:.2f}x"]
+            rows.append([f"{scene} {number_text(boxes)}", threads] + times)
     if not rows:
         return ""
     picture = "![Throughput per thread](images/benchmarks/threads.svg)\n"
-    return f"## Threads\n\nWall time here.\n\n{picture}\n" + _grid(["boxes", "threads", "wall", "processor", "speedup"], rows)
+    heading = ["boxes", "threads", "wall", "processor", "speedup"]
+    return f"## Threads\n\nWall time here.\n\n{picture}\n" + _grid(heading, rows)
 
 
 def _kernel(table):
@@ -227,4 +229,5 @@ def _settings(table):
         if r.is_peer and not r.external
     ]
     body = _grid(["boxes", "peer", "its best setting"], rows)
-    return f"## Settings\n\n<details><summary>Which setting of each peer was the fastest</summary>\n\n{body}\n</details>\n"
+    summary = "<summary>Which setting of each peer was the fastest</summary>"
+    return f"## Settings\n\n<details>{summary}\n\n{body}\n</details>\n"
