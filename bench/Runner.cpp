@@ -15,8 +15,11 @@ namespace {
 constexpr std::size_t kTrialBoxes = 100000;  // Settings of peers are chosen on no more boxes than this.
 
 void printHeading(const Cell& cell, const Outcome& outcome) {
-  std::printf("\n%s, %zu boxes, %llu pairs, hash %s\n", sceneName(cell).c_str(), cell.boxes,
-              static_cast<unsigned long long>(outcome.pairs), outcome.hash.c_str());
+  std::printf("\n%s, %zu boxes", sceneName(cell).c_str(), cell.boxes);
+  if (!outcome.hash.empty()) {
+    std::printf(", %llu pairs, hash %s", static_cast<unsigned long long>(outcome.pairs), outcome.hash.c_str());
+  }
+  std::printf("\n");
   std::printf("  %-20s %3s %12s %12s %12s %12s %5s %8s  %s\n", "", "T", "median ms", "cpu ms", "min ms", "max ms",
               "runs", "ratio", "setting");
 }
