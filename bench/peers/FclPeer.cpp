@@ -15,8 +15,10 @@ namespace {
 class BoxObject final : public fcl::CollisionObjectd {
  public:
   BoxObject(const float* row, std::uint32_t number) : fcl::CollisionObjectd(nullptr), m_number(number) {
-    aabb.min_ = fcl::Vector3d(row[0], row[1], row[2]);
-    aabb.max_ = fcl::Vector3d(row[3], row[4], row[5]);
+    for (int axis = 0; axis < 3; ++axis) {
+      aabb.min_[axis] = static_cast<double>(row[axis]);
+      aabb.max_[axis] = static_cast<double>(row[axis + 3]);
+    }
   }
 
   [[nodiscard]] std::uint32_t number() const { return m_number; }

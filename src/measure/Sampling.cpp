@@ -27,8 +27,11 @@ std::size_t samplesFor(const Effort& effort, double sampleMs) {
 }  // namespace
 
 Sampling::Sampling(TimedRuns timedRuns, const Effort& effort) : m_timedRuns(std::move(timedRuns)) {
-  m_runs = runsFor(effort, m_timedRuns(1).wallMs);
-  m_allowance = samplesFor(effort, m_timedRuns(m_runs).wallMs * static_cast<double>(m_runs));
+  constexpr double kSlowMs = 200.0;  // One trial of what is slow tells enough.
+  const double firstMs = m_timedRuns(1).wallMs;
+  m_runs = runsFor(effort, firstMs);
+  const double runMs = firstMs < kSlowMs ? m_timedRuns(m_runs).wallMs : firstMs;
+  m_allowance = samplesFor(effort, runMs * static_cast<double>(m_runs));
 }
 
 }  // namespace allpairs::measure

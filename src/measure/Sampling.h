@@ -20,7 +20,7 @@ struct Effort {
 /// Does what is measured so many times in a row, and says how long one of them took.
 using TimedRuns = std::function<Duration(std::size_t runs)>;
 
-/// Takes samples of one thing, as many as an effort allows: two trials at first, which do not count, say how many.
+/// Takes samples of one thing, as many as an effort allows: a trial or two at first, which do not count, say how many.
 class Sampling {
  public:
   Sampling(TimedRuns timedRuns, const Effort& effort);

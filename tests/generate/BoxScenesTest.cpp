@@ -60,7 +60,8 @@ std::multiset<Row> rowsOf(const std::vector<float>& values) {
 double meanStep(const std::vector<float>& rows) {
   double sum = 0.0;
   for (std::size_t i = 6; i < rows.size(); i += 6) {
-    for (std::size_t axis = 0; axis < 3; ++axis) sum += std::abs(double{rows[i + axis]} - double{rows[i - 6 + axis]});
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum += static_cast<double>(std::abs(rows[i + axis] - rows[i - 6 + axis]));
   }
   return sum / static_cast<double>(rows.size() / 6);
 }
