@@ -3,6 +3,7 @@
 _allpairs() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local command=${COMP_WORDS[1]} words=''
+  local scenes='uniform clusters power-law city needles all-overlap mesh'
   COMPREPLY=()
   case $previous in
     --strategy) words='auto exhaustive blocked' ;;
@@ -12,14 +13,14 @@ _allpairs() {
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
       return
       ;;
-    --margin | --box | --threads) return ;;
+    --margin | --box | --threads | --boxes | -n | --seed | --repetitions | --instruction-set) return ;;
   esac
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info --help -h --version' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect info generate bench --help -h --version' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
@@ -28,12 +29,20 @@ _allpairs() {
         words='--margin --box --strategy --threads --verify --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
+      generate) words='--boxes -n --seed --sorted -o --output -h --help' ;;
+      bench)
+        words='--boxes -n --seed --sorted --threads --repetitions --unordered --count --strategy --instruction-set --json
+          -h --help'
+        ;;
     esac
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
     return
   fi
   compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen -f -- "$current")
+  if [[ $command == generate || $command == bench ]]; then
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$scenes" -- "$current")
+  fi
 }
 
 complete -F _allpairs allpairs

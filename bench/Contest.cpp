@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "Contest.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "PairHash.h"
+#include "Stopwatch.h"
+
+namespace allpairs::bench {
+
+namespace {
+
+/// One run; what it built is taken down after the clock has been read.
+measure::Duration timeOnce(const MakeSearch& make, std::span<const float> rows) {
+  const measure::Stopwatch watch;
+  const std::unique_ptr<Search> search = make();
+  (void)search->find(rows);
+  return watch.elapsed();
+}
+
+/// The mean of runs that are too short for the clock; it includes taking down what they built.
+measure::Duration timeRuns(const MakeSearch& make, std::span<const float> rows, std::size_t runs) {
+  if (runs == 1) return timeOnce(make, rows);
+  const measure::Stopwatch watch;
+  for (std::size_t run = 0; run < runs; ++run) (void)make()->find(rows);
+  return watch.elapsed() / static_cast<double>(runs);
+}
+
+std::string describe(const Pair& pair) { return std::to_string(pair.first) + " and " + std::to_string(pair.second); }
+
+/// How `found` differs from `expected`, both in order.
+std::string difference(std::span<const Pair> found, std::span<const Pair> expected) {
+  const auto [f, e] = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
+  if (f == found.end() && e == expected.end()) return {};
+  std::string text = std::to_string(found.size()) + " pairs instead of " + std::to_string(expected.size());
+  if (e == expected.end() || (f != found.end() && *f < *e)) return text + ", first wrong one " + describe(*f);
+  return text + ", first missing one " + describe(*e);
+}
+
+std::vector<measure::Summary> takeTurns(std::span<const Contender> contenders, std::span<const float> rows,
+                                        const measure::Effort& effort) {
+  std::vector<measure::Sampling> turns;
+  std::size_t rounds = 1;
+  for (const Contender& contender : contenders) {
+    turns.emplace_back([&](std::size_t runs) { return timeRuns(contender.make, rows, runs); }, effort);
+    rounds = std::max(rounds, turns.back().allowance());
+  }
+  // Who has fewer samples takes them in rounds that are spread evenly over the whole.
+  const auto isDue = [rounds](std::size_t round, std::size_t allowance) {
+    return (round + 1) * allowance / rounds != round * allowance / rounds;
+  };
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (measure::Sampling& turn : turns) {
+      if (isDue(round, turn.allowance())) turn.take();
+    }
+  }
+  std::vector<measure::Summary> summaries;
+  for (const measure::Sampling& turn : turns) summaries.push_back(turn.summary());
+  return summaries;
+}
+
+/// Runs each once and compares its pairs, whole, with those of the first.
+std::vector<Outcome> compareResults(std::span<const Contender> contenders, std::span<const float> rows) {
+  std::vector<Outcome> outcomes(contenders.size());
+  std::vector<Pair> expected;
+  for (std::size_t k = 0; k < contenders.size(); ++k) {
+    if (!contenders[k].givesPairs) continue;
+    const std::unique_ptr<Search> search = contenders[k].make();
+    std::vector<Pair> found = measure::normalised(search->find(rows));
+    outcomes[k].pairs = found.size();
+    outcomes[k].hash = measure::hexadecimal(measure::hashOfPairs(found));
+    if (k == 0)
+      expected = std::move(found);
+    else
+      outcomes[k].mistake = difference(found, expected);
+  }
+  return outcomes;
+}
+
+}  // namespace
+
+std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
+                             const measure::Effort& effort) {
+  std::vector<Outcome> outcomes = compareResults(contenders, rows);
+  const std::vector<measure::Summary> summaries = takeTurns(contenders, rows, effort);
+  for (std::size_t k = 0; k < outcomes.size(); ++k) outcomes[k].times = summaries[k];
+  return outcomes;
+}
+
+const Setting* fastestSetting(const Peer& peer, std::span<const float> rows) {
+  constexpr double kHopeless = 1.5;  // A setting this much slower at its first try is not tried again.
+  const Setting* fastest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Setting& setting : peer.settings) {
+    if (rows.size() / 6 > setting.mostBoxes) continue;
+    double time = timeOnce(setting.make, rows).cpuMs;
+    for (int again = 0; again < 2 && time < kHopeless * least; ++again) {
+      time = std::min(time, timeOnce(setting.make, rows).cpuMs);
+    }
+    if (time < least) fastest = &setting;
+    least = std::min(least, time);
+  }
+  return fastest;
+}
+
+}  // namespace allpairs::bench

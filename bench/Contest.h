@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "OwnSearches.h"
+#include "Peer.h"
+#include "Sampling.h"
+
+namespace allpairs::bench {
+
+/// One of those that are measured against each other.
+struct Contender {
+  std::string name;
+  std::string setting;
+  std::size_t threads = 1;
+  MakeSearch make;
+  bool givesPairs = true;  ///< False for one that only counts; its result is not compared.
+};
+
+/// What one contender did on one scene.
+struct Outcome {
+  measure::Summary times;
+  std::uint64_t pairs = 0;
+  std::string hash;     ///< Of the pairs in order; see measure::hashOfPairs. Empty for one that gives no pairs.
+  std::string mistake;  ///< How its pairs differ from the first contender's; empty if they don't.
+};
+
+/// Measures all contenders on the same boxes, turn by turn, so that whatever else the machine does meets them alike.
+///
+/// Each runs once first, untimed as far as the result goes, and its pairs are compared whole with the first one's.
+[[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
+                                           const measure::Effort& effort);
+
+/// The setting in which the peer is the fastest on these boxes: each is tried, slow ones once and fast ones thrice;
+/// null if there are too many boxes for all of them.
+[[nodiscard]] const Setting* fastestSetting(const Peer& peer, std::span<const float> rows);
+
+}  // namespace allpairs::bench

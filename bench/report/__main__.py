@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""Writes docs/benchmarks.md and its pictures from the records of a run."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from charts import pair_cost_chart, thread_chart, time_chart
+from page import write_page
+from records import Table, read_external, read_results
+
+
+def chart_cells(table):
+    """For each scene the size that most contenders were measured at, the largest of those below a million."""
+    cells = []
+    for scene in table.scenes():
+        sizes = [boxes for boxes in table.sizes(scene) if boxes <= 100000]
+        cells.append((scene, max(sizes)))
+    return cells
+
+
+def write_pictures(table, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    for scene in table.scenes():
+        (folder / f"time-{scene}.svg").write_text(time_chart(table, scene), encoding="utf-8")
+    (folder / "pair-cost.svg").write_text(pair_cost_chart(table, chart_cells(table)), encoding="utf-8")
+    if table.scaling:
+        (folder / "threads.svg").write_text(thread_chart(table), encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("records", type=Path, help="CSV file that allpairs_bench wrote")
+    parser.add_argument("--external", type=Path, help="CSV file of other programs: name,scene,n,ms,pairs,hash")
+    parser.add_argument("--docs", type=Path, default=Path("docs"), help="folder to write to")
+    arguments = parser.parse_args()
+    records = read_results(arguments.records)
+    if arguments.external and arguments.external.exists():
+        records += read_external(arguments.external)
+    if not records:
+        sys.exit(f"{arguments.records}: no records")
+    table = Table(records)
+    write_pictures(table, arguments.docs / "images" / "benchmarks")
+    (arguments.docs / "benchmarks.md").write_text(write_page(table, records), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

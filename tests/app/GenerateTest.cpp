@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "Expect.h"
+#include "allpairs/generate/BoxScenes.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+/// The numbers behind the header of a NumPy file of version 1.
+std::vector<float> numbersOf(const std::string& bytes) {
+  const auto length = static_cast<std::size_t>(static_cast<unsigned char>(bytes[8])) +
+                      256 * static_cast<std::size_t>(static_cast<unsigned char>(bytes[9]));
+  std::vector<float> numbers((bytes.size() - 10 - length) / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data() + 10 + length, numbers.size() * sizeof(float));
+  return numbers;
+}
+
+TEST(Generate, WritesTheBoxesOfTheSceneAsANumpyArray) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "boxes.npy").string();
+  expectSuccess(runProgram({"generate", "needles", "-n", "321", "--seed", "9", "--sorted", "-o", file}));
+  const std::string bytes = readBytes(file);
+  EXPECT_NE(bytes.find("{'descr': '<f4', 'fortran_order': False, 'shape': (321, 6), }"), std::string::npos);
+  EXPECT_EQ(numbersOf(bytes), generate::makeBoxes({.scene = "needles", .count = 321, .seed = 9, .sorted = true}));
+}
+
+TEST(Generate, WritesWhatDetectAndBenchRead) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "boxes.npy").string();
+  expectSuccess(runProgram({"generate", "all-overlap", "-n", "7", "-o", file}));
+  const ProgramRun detected = runProgram({"detect", file, "--format", "csv"});
+  expectSuccess(detected);
+  EXPECT_EQ(std::count(detected.out.begin(), detected.out.end(), '\n'), 1 + 7 * 6 / 2);
+}
+
+TEST(Generate, OfAnUnknownSceneIsWrongUsage) {
+  expectFailure(runProgram({"generate", "forest", "-o", "/dev/null"}), 2, "'forest'");
+}
+
+TEST(Generate, OfMoreBoxesThanAnIndexCanNumberIsWrongUsage) {
+  expectFailure(runProgram({"generate", "uniform", "-n", "4294967296", "-o", "/dev/null"}), 2, "4294967295");
+}
+
+TEST(Generate, ThatCannotWriteLeavesNoFile) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.path() / "missing" / "boxes.npy";
+  expectFailure(runProgram({"generate", "uniform", "-o", file.string()}), 3, file.string());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace allpairs::test
