@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "BlockReader.h"
 #include "CurveGrid.h"
 #include "RadixRun.h"
 
@@ -38,9 +39,24 @@ class KeyWriter {
     if (++m_fill == kFanOut) write();
   }
 
+  /// Takes whole blocks from `begin` on as long as there are any before `end`; returns where they stop.
+  std::size_t takeBlocks(const BlockReader& reader, std::size_t begin, std::size_t end, bool& exact) {
+    std::array<std::uint32_t, kFanOut> keys;
+    for (; begin + kFanOut <= end; begin += kFanOut) {
+      const RowBlockResult read = reader.readRun(begin, m_block);
+      exact &= read.exact;
+      m_kernels.curveKeys(m_block, m_grid, keys.data());
+      for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+        *m_out = (std::uint64_t{keys[lane]} << kIndexBits) | (begin + lane);
+        m_out += 1U - ((read.emptyLanes >> lane) & 1U);
+      }
+    }
+    return begin;
+  }
+
   /// Writes what is left; returns how many there were in all.
   std::size_t finish() {
-    write();
+    if (m_fill != 0) write();
     return static_cast<std::size_t>(m_out - m_begin);
   }
 
@@ -77,11 +93,15 @@ std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
 OrderedBoxes CurveOrder::readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed,
                                   Executor& executor) {
   const CurveGrid grid = CurveGrid::fit(reader);
+  const BlockReader blocks(reader, kernels);
   executor.run(cut(reader.size(), executor), [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];
     KeyWriter writer(kernels, grid, keyed + chunk.begin);
-    chunk.exact = reader.read(
-        chunk.begin, chunk.end, [&](std::size_t i, const LaneBox& box) { writer.take(i, box); }, [](std::size_t) {});
+    chunk.exact = true;
+    const std::size_t begin =
+        blocks.isUsable() ? writer.takeBlocks(blocks, chunk.begin, chunk.end, chunk.exact) : chunk.begin;
+    chunk.exact &= reader.read(
+        begin, chunk.end, [&](std::size_t i, const LaneBox& box) { writer.take(i, box); }, [](std::size_t) {});
     chunk.used = writer.finish();
   });
   OrderedBoxes result;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kBlocksPerTask = 1024;
 
 /// How many boxes ahead the gather asks for memory.
-constexpr std::size_t kPrefetchDistance = 16;
+constexpr std::size_t kPrefetchDistance = 32;
 
 std::size_t ceilDivide(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
@@ -50,25 +50,51 @@ void HierarchyBuilder::build(const LaneReader& reader, const Kernels& kernels, E
   m_exact = order.exact;
   m_hierarchy = {};
   if (order.boxes.empty()) return;
-  gather(reader, order.boxes, executor);
+  gather(reader, kernels, order.boxes, executor);
   bound(kernels, executor);
 }
 
-void HierarchyBuilder::gather(const LaneReader& reader, std::span<const KeyedBox> order, Executor& executor) {
+void HierarchyBuilder::gatherBlocks(const BlockReader& reader, std::span<const KeyedBox> order, std::size_t begin,
+                                    std::size_t end) {
+  std::array<std::int32_t, kFanOut> offsets;
+  for (std::size_t b = begin; b < end; ++b) {
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+      const std::uint32_t index = indexOf(order[b * kFanOut + lane]);
+      reader.prefetch(indexOf(order[std::min(b * kFanOut + lane + kPrefetchDistance, order.size() - 1)]));
+      m_ids[b * kFanOut + lane] = index;
+      offsets[lane] = static_cast<std::int32_t>(6 * index);
+    }
+    static_cast<void>(reader.readAt(offsets, m_blocks[b]));
+  }
+}
+
+void HierarchyBuilder::gatherBoxes(const LaneReader& reader, std::span<const KeyedBox> order, std::size_t begin,
+                                   std::size_t end) {
+  reader.withLanes([&](const auto& lanesOf) {
+    LaneBox lanes;
+    for (std::size_t i = begin; i < end; ++i) {
+      reader.prefetch(indexOf(order[std::min(i + kPrefetchDistance, order.size() - 1)]));
+      static_cast<void>(lanesOf(indexOf(order[i]), lanes));
+      m_blocks[i / kFanOut].set(i % kFanOut, lanes);
+      m_ids[i] = indexOf(order[i]);
+    }
+  });
+}
+
+void HierarchyBuilder::gather(const LaneReader& reader, const Kernels& kernels, std::span<const KeyedBox> order,
+                              Executor& executor) {
   const std::size_t size = order.size();
   const std::size_t blocks = ceilDivide(size, kFanOut);
+  const BlockReader blockReader(reader, kernels);
   m_ids.require(blocks * kFanOut);
   executor.run(ceilDivide(blocks, kBlocksPerTask), [&](std::size_t task) {
-    const std::size_t end = std::min(size, (task + 1) * kBlocksPerTask * kFanOut);
-    reader.withLanes([&](const auto& lanesOf) {
-      LaneBox lanes;
-      for (std::size_t i = task * kBlocksPerTask * kFanOut; i < end; ++i) {
-        reader.prefetch(indexOf(order[std::min(i + kPrefetchDistance, size - 1)]));
-        static_cast<void>(lanesOf(indexOf(order[i]), lanes));
-        m_blocks[i / kFanOut].set(i % kFanOut, lanes);
-        m_ids[i] = indexOf(order[i]);
-      }
-    });
+    std::size_t begin = task * kBlocksPerTask * kFanOut;
+    const std::size_t end = std::min(size, begin + kBlocksPerTask * kFanOut);
+    if (blockReader.isUsable()) {
+      gatherBlocks(blockReader, order, begin / kFanOut, end / kFanOut);
+      begin = std::max(begin, end / kFanOut * kFanOut);
+    }
+    gatherBoxes(reader, order, begin, end);
   });
   for (std::size_t i = size; i < blocks * kFanOut; ++i) m_ids[i] = 0;
   m_hierarchy.level[0] = {m_blocks.data(), size};

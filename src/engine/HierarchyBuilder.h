@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "BlockReader.h"
 #include "CurveOrder.h"
 #include "Join.h"
 #include "Kernels.h"
@@ -35,7 +36,9 @@ class HierarchyBuilder {
   void deepen(std::size_t depth);
 
  private:
-  void gather(const LaneReader& reader, std::span<const KeyedBox> order, Executor& executor);
+  void gather(const LaneReader& reader, const Kernels& kernels, std::span<const KeyedBox> order, Executor& executor);
+  void gatherBlocks(const BlockReader& reader, std::span<const KeyedBox> order, std::size_t begin, std::size_t end);
+  void gatherBoxes(const LaneReader& reader, std::span<const KeyedBox> order, std::size_t begin, std::size_t end);
   void bound(const Kernels& kernels, Executor& executor);
 
   CurveOrder m_order;

@@ -11,7 +11,10 @@
 #include <algorithm>
 #include <bit>
 
+#include <span>
+
 #include "Join.h"
+#include "LeafKernel-inl.h"
 #include "RowKernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,45 +31,40 @@ HWY_INLINE void prefetchBlock(const LaneBlock& block) {
   for (const auto& row : block.bound) __builtin_prefetch(row.data());
 }
 
-/// The ids of the members of a block: of the caller's boxes on level 0, of nodes above.
-HWY_INLINE hn::Vec<IdTag> memberIds(const std::uint32_t* ids, std::size_t first) {
-  const IdTag d;
-  return ids != nullptr ? hn::LoadU(d, ids + first) : hn::Iota(d, static_cast<std::uint32_t>(first));
-}
-
 /// A tile that is being filled.
 struct TileFiller {
   LaneTile& tile;
   std::size_t size = 0;
 
-  /// Appends the members of a block that the mask selects, as lanes and ids; writes whole vectors.
-  HWY_INLINE void append(const LaneBlock& block, std::size_t lane, hn::Vec<IdTag> ids, FloatMask mask) {
+  /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole vectors.
+  HWY_INLINE void append(const LaneBlock& block, std::size_t lane, std::size_t firstNode, FloatMask mask) {
     const FloatTag d;
     const IdTag di;
     for (std::size_t row = 0; row < 6; ++row) {
       hn::StoreU(hn::Compress(hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
     }
-    hn::StoreU(hn::Compress(ids, hn::RebindMask(di, mask)), di, &tile.id[size]);
+    const auto nodes = hn::Iota(di, static_cast<std::uint32_t>(firstNode + lane));
+    hn::StoreU(hn::Compress(nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
     size += hn::CountTrue(d, mask);
   }
 
   /// Appends the members of block b of a level that touch the query.
-  HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b, const std::uint32_t* ids) {
+  HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     const LaneBlock& block = level.blocks[b];
     for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
-      append(block, lane, memberIds(ids, b * kFanOut + lane), overlapping(q, block.bound, lane));
+      append(block, lane, b * kFanOut, overlapping(q, block.bound, lane));
     }
   }
 
   /// Appends all members of block b, so that member i of a node that meets itself is candidate i of its own list.
-  HWY_INLINE void appendAll(const Level& level, std::size_t b, const std::uint32_t* ids) {
+  HWY_INLINE void appendAll(const Level& level, std::size_t b) {
     const FloatTag d;
     const std::size_t lanes = hn::Lanes(d);
     const std::size_t fill = level.fill(b);
     for (std::size_t lane = 0; lane < fill; lane += lanes) {
       const FloatMask mask = hn::FirstN(d, std::min(fill - lane, lanes));
-      append(level.blocks[b], lane, memberIds(ids, b * kFanOut + lane), mask);
+      append(level.blocks[b], lane, b * kFanOut, mask);
     }
   }
 };
@@ -88,8 +86,8 @@ class JoinRun {
   void descend(std::size_t level, std::size_t node, const LaneBox& bounds, const std::uint32_t* partners,
                std::size_t count) {
     if (level == 0) {
-      m_hits.countOnly ? joinLeaf<HitCounter>(node, bounds, partners, count)
-                       : joinLeaf<HitWriter>(node, bounds, partners, count);
+      m_hits.countOnly ? joinLeaf<LeafHitCounter>(node, bounds, partners, count)
+                       : joinLeaf<LeafHitWriter>(node, bounds, partners, count);
       return;
     }
     gather(level, bounds, partners, count);
@@ -108,8 +106,8 @@ class JoinRun {
     scratch.tileCount = 0;
     for (std::size_t i = 0; i < count;) {
       TileFiller filler{scratch.nextTile()};
-      if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++], nullptr);
-      for (; i < count && filler.size <= kFullTile; ++i) filler.appendTouching(q, source, partners[i], nullptr);
+      if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++]);
+      for (; i < count && filler.size <= kFullTile; ++i) filler.appendTouching(q, source, partners[i]);
       scratch.sizes[scratch.tileCount - 1] = filler.size;
     }
     m_hits.groupTests += count * kFanOut;
@@ -136,41 +134,40 @@ class JoinRun {
     if (partners.size != 0) descend(level - 1, child, bounds, partners.partners, partners.size);
   }
 
-  /// The boxes of one leaf block against the boxes of its partners, a tile of candidates at a time.
+  /// The boxes of one leaf block against the boxes of its partners.
   template <class Taker>
   void joinLeaf(std::size_t node, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
-    const Level& source = m_task.second->level[0];
-    const std::uint32_t* ids = m_task.second->ids;
-    JoinScratch::PerLevel& scratch = m_task.scratch->level[0];
-    scratch.tileCount = 0;
-    LaneTile& tile = scratch.nextTile();
-    const Query q = spread(bounds);
-    for (std::size_t i = 0; i < count;) {
-      TileFiller filler{tile};
-      const bool own = m_task.withItself && i == 0;
-      if (own) filler.appendAll(source, partners[i++], ids);
-      for (; i < count && filler.size <= kFullTile; ++i) {
-        prefetchBlock(source.blocks[partners[std::min(i + kPrefetchDistance, count - 1)]]);
-        filler.appendTouching(q, source, partners[i], ids);
-      }
-      testRows<Taker>(node, tile, filler.size, own);
-    }
+    Buffer<std::uint32_t>& memory = m_task.scratch->level[0].partners;
+    memory.require((count + 1) * kFanOut + Hits::kSlack);
+    const std::size_t own = m_task.withItself ? 1 : 0;
+    const std::size_t size = listTouching(bounds, {partners + own, count - own}, memory.data());
+    const Leaf leaf{m_task.first->level[0].blocks[node], m_task.first->ids + node * kFanOut,
+                    m_task.first->level[0].fill(node)};
+    const LeafVectors vectors(leaf);
+    if (m_task.withItself) meetItself<Taker>(leaf, vectors, m_hits);
+    meetOthers<Taker>(vectors, *m_task.second, {memory.data(), size}, m_hits);
     m_hits.groupTests += count * kFanOut;
+    m_hits.boxTests += (size + (m_task.withItself ? kFanOut / 2 : 0)) * leaf.fill;
   }
 
-  template <class Taker>
-  HWY_INLINE void testRows(std::size_t node, const LaneTile& candidates, std::size_t size, bool own) {
-    const Level& level = m_task.first->level[0];
-    const std::uint32_t* ids = m_task.first->ids + node * kFanOut;
-    const std::size_t fill = level.fill(node);
-    for (std::size_t row = 0; row < fill; ++row) {
-      if (!m_hits.countOnly) m_hits.require(size);
-      Taker taker(m_hits, ids[row]);
-      const std::size_t begin = own ? row + 1 : 0;
-      if (begin < size) takeRow<Density::Dense>(spread(level.blocks[node].get(row)), candidates, begin, size, taker);
-      taker.finish();
+  /// Lists the places of the boxes, in blocks of the second hierarchy, that touch the bounds; returns how many.
+  std::size_t listTouching(const LaneBox& bounds, std::span<const std::uint32_t> blocks, std::uint32_t* places) {
+    const IdTag d;
+    const std::size_t lanes = hn::Lanes(d);
+    const LaneBlock* source = m_task.second->level[0].blocks;
+    const Query q = spread(bounds);
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      prefetchBlock(source[blocks[std::min(i + kPrefetchDistance, blocks.size() - 1)]]);
+      const std::uint32_t first = blocks[i] * static_cast<std::uint32_t>(kFanOut);
+      for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
+        const auto touching = hn::RebindMask(d, overlapping(q, source[blocks[i]].bound, lane));
+        const auto place = hn::Iota(d, first + static_cast<std::uint32_t>(lane));
+        hn::StoreU(hn::Compress(place, touching), d, places + size);
+        size += hn::CountTrue(d, touching);
+      }
     }
-    m_hits.boxTests += fill * size;
+    return size;
   }
 
   const JoinTask& m_task;

@@ -13,13 +13,21 @@
 #include "FlatKernel-inl.h"
 #include "JoinKernel-inl.h"
 #include "Kernels.h"
+#include "ReadKernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
 const Kernels* kernelTable() {
-  static const Kernels table{hwy::TargetName(HWY_TARGET), &searchFlat, &join, &boundBlocks, &writePairs, &curveKeys};
+  static const Kernels table{hwy::TargetName(HWY_TARGET),
+                             &searchFlat,
+                             &join,
+                             &boundBlocks,
+                             &writePairs,
+                             &curveKeys,
+                             &readFloat32,
+                             &readFloat64};
   return &table;
 }
 

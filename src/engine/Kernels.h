@@ -11,6 +11,7 @@
 #include "Hits.h"
 #include "Join.h"
 #include "Lanes.h"
+#include "RowBlock.h"
 #include "allpairs/Pair.h"
 
 namespace allpairs::engine {
@@ -33,6 +34,10 @@ struct Kernels {
 
   /// The keys of the sixteen boxes of a block.
   void (*curveKeys)(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys);
+
+  /// Reads sixteen boxes, those that start `offsets` values after `rows`, as lanes that are no smaller.
+  RowBlockResult (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);
+  RowBlockResult (*readFloat64)(const double* rows, const std::int32_t* offsets, LaneBlock& block);
 };
 
 /// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.

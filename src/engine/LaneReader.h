@@ -47,7 +47,7 @@ class LaneReader {
   /// `lanesOf.isEmpty(i)` says whether it is empty.
   template <class Use>
   auto withLanes(Use&& use) const {
-    if (m_distance != 0.0 || m_boxes->hasMargins()) return use(WidenedLanes{*this});
+    if (isWidened()) return use(WidenedLanes{*this});
     if (m_boxes->isFloat64()) return use(RoundedLanes{*m_boxes});
     return use(PlainLanes{m_boxes->float32()});
   }
@@ -70,6 +70,14 @@ class LaneReader {
       }
       return exact;
     });
+  }
+
+  /// Where the boxes lie as rows of six that need no more than to be rounded: no margins, no region; else null.
+  [[nodiscard]] const float* plainFloat32() const noexcept {
+    return isPlain() && !m_boxes->isFloat64() && isPacked(m_boxes->float32()) ? m_boxes->float32().min.data : nullptr;
+  }
+  [[nodiscard]] const double* plainFloat64() const noexcept {
+    return isPlain() && m_boxes->isFloat64() && isPacked(m_boxes->float64()) ? m_boxes->float64().min.data : nullptr;
   }
 
   /// Asks for the memory of box i ahead of its use.
@@ -153,6 +161,15 @@ class LaneReader {
     }
     [[nodiscard]] bool isEmpty(std::size_t i) const noexcept { return allpairs::isEmpty((*reader.m_boxes)[i]); }
   };
+
+  [[nodiscard]] bool isWidened() const noexcept { return m_distance != 0.0 || m_boxes->hasMargins(); }
+  [[nodiscard]] bool isPlain() const noexcept { return !isWidened() && !m_region; }
+
+  template <class T>
+  [[nodiscard]] static bool isPacked(const BoxSet::Corners<T>& corners) noexcept {
+    return corners.min.boxStride == 6 && corners.max.boxStride == 6 && corners.min.axisStride == 1 &&
+           corners.max.axisStride == 1 && corners.max.data == corners.min.data + 3;
+  }
 
   [[nodiscard]] bool touchesRegion(std::size_t i) const noexcept {
     return overlap((*m_boxes)[i], *m_region, m_distance + m_boxes->margin(i));

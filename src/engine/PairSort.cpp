@@ -93,6 +93,11 @@ void sortBucket(Pair* from, Pair* to, std::size_t size, unsigned keyBits, unsign
 
 template <bool kBySecond>
 void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& executor) {
+  if (m_buckets == 1) {
+    std::copy_n(from, size, to);
+    m_bucketBegin.assign({0, size});
+    return;
+  }
   const std::size_t most = executor.concurrency() == 1 ? 1 : 4 * executor.concurrency();
   const std::size_t chunks = std::clamp<std::size_t>(std::min(most, size / kMinChunk), 1, 256);
   if (m_places.size() != chunks) m_places.resize(chunks);

@@ -17,14 +17,17 @@ namespace {  // Each file that compiles the kernels has its own.
 /// Takes the hits of one row as ids of row and partner.
 struct HitWriter {
   Hits& hits;
+  std::uint32_t* HWY_RESTRICT rows;
+  std::uint32_t* HWY_RESTRICT partners;
   std::uint32_t rowId;
   std::size_t size;
 
-  HWY_INLINE HitWriter(Hits& target, std::uint32_t id) : hits(target), rowId(id), size(target.size) {}
+  HWY_INLINE HitWriter(Hits& target, std::uint32_t id)
+      : hits(target), rows(target.row), partners(target.partner), rowId(id), size(target.size) {}
   HWY_INLINE void take(FloatMask mask, const std::uint32_t* ids) {
     const IdTag d;
-    hn::StoreU(hn::Set(d, rowId), d, hits.row + size);
-    size += storeSelected(mask, ids, hits.partner + size);
+    hn::StoreU(hn::Set(d, rowId), d, rows + size);
+    size += storeSelected(mask, ids, partners + size);
   }
   HWY_INLINE void finish() { hits.size = size; }
 };

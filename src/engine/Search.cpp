@@ -5,6 +5,7 @@
 #include <array>
 #include <thread>
 
+#include "BlockReader.h"
 #include "CheckOptions.h"
 
 namespace allpairs::engine {
@@ -36,16 +37,35 @@ bool overlapsMuch(const LaneReader& reader) {
   return hits * 10 > kSample * (kSample - 1) / 2;
 }
 
+/// Reads whole blocks of a tile's boxes by a kernel; returns where it stopped.
+std::size_t readBlocks(const BlockReader& reader, std::size_t begin, std::size_t end, LaneTile& tile, bool& exact) {
+  LaneBlock block;
+  std::size_t i = begin;
+  for (; i + kFanOut <= end; i += kFanOut) {
+    const RowBlockResult read = reader.readRun(i, block);
+    exact &= read.exact;
+    for (std::size_t row = 0; row < 6; ++row)
+      std::copy_n(block.bound[row].data(), kFanOut, &tile.bound[row][i - begin]);
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+      tile.id[i - begin + lane] = static_cast<std::uint32_t>(i + lane);
+      if ((read.emptyLanes >> lane & 1U) != 0) tile.set(i - begin + lane, kNeverLanes, 0);
+    }
+  }
+  return i;
+}
+
 /// Reads all boxes of a set, in their own order, as lanes; those that can overlap nothing as lanes that never do.
-bool readList(const LaneReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
+bool readList(const LaneReader& reader, const Kernels& kernels, Buffer<LaneTile>& buffer, LaneList& list) {
   buffer.require(LaneList::tilesFor(reader.size()));
   list = {buffer.data(), reader.size()};
+  const BlockReader blocks(reader, kernels);
   bool exact = true;
   for (std::size_t begin = 0; begin < reader.size(); begin += LaneTile::kCapacity) {
     LaneTile& tile = list.tileOf(begin);
+    const std::size_t end = std::min(reader.size(), begin + LaneTile::kCapacity);
+    const std::size_t rest = blocks.isUsable() ? readBlocks(blocks, begin, end, tile, exact) : begin;
     exact &= reader.read(
-        begin, std::min(reader.size(), begin + LaneTile::kCapacity),
-        [&](std::size_t i, const LaneBox& box) { tile.set(i - begin, box, static_cast<std::uint32_t>(i)); },
+        rest, end, [&](std::size_t i, const LaneBox& box) { tile.set(i - begin, box, static_cast<std::uint32_t>(i)); },
         [&](std::size_t i) { tile.set(i - begin, kNeverLanes, static_cast<std::uint32_t>(i)); });
   }
   return exact;
@@ -86,12 +106,12 @@ void Search::planFlat(const Sets& sets, const OverlapOptions& options, PairTest&
   const bool bySecond = options.order == Order::BySecond;
   const BoxSet& rowSet = bySecond ? sets.second : sets.first;
   const BoxSet& columnSet = bySecond ? sets.first : sets.second;
-  bool exact = readList(LaneReader(columnSet, options), m_columns, plan.flat.columns);
+  bool exact = readList(LaneReader(columnSet, options), *m_kernels, m_columns, plan.flat.columns);
   if (sets.one) {
     plan.flat.rows = plan.flat.columns;
     plan.flat.tested = bySecond ? Columns::Preceding : Columns::Following;
   } else {
-    exact &= readList(LaneReader(rowSet, options), m_rows, plan.flat.rows);
+    exact &= readList(LaneReader(rowSet, options), *m_kernels, m_rows, plan.flat.rows);
   }
   test.requireExactTest(!exact);
   plan.rules.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;

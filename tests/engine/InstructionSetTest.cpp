@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -65,6 +67,30 @@ TEST_P(InstructionSet, ReadsBoxesAtEveryMisalignment) {
     for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
       ASSERT_EQ(overlaps(set, optionsFor(GetParam(), strategy)), expected) << "shifted by " << shift;
     }
+  }
+}
+
+/// Boxes in double a hair apart, turned over, infinite, and beyond float32, among others.
+std::vector<Box> awkwardBoxes(std::size_t n) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(n, 16, 2.0F));
+  for (std::size_t i = 0; i + 8 < n; i += 8) {
+    boxes[i].min[0] = std::nextafter(boxes[i + 1].max[0], kInfinity);
+    boxes[i].max[0] = boxes[i].min[0] + 0.1;
+    boxes[i + 2].max[1] = boxes[i + 1].min[1];
+    boxes[i + 3].max[2] = kInfinity;
+    boxes[i + 4].min[2] = -1e300;
+    boxes[i + 5].min[1] = std::nextafter(boxes[i + 5].max[1], kInfinity);
+    boxes[i + 6] = {{-5e-324, -1e-46, 0}, {0, 1e-46, 5e-324}};
+  }
+  return boxes;
+}
+
+TEST_P(InstructionSet, GivesTheOraclesPairsOfAwkwardDoubles) {
+  const std::vector<Box> boxes = awkwardBoxes(600);
+  const std::vector<Pair> expected = test::oracle(boxes);
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+    EXPECT_EQ(overlaps(boxes, optionsFor(GetParam(), strategy)), expected);
   }
 }
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Sixteen boxes from rows of six in the caller's memory to a block of lanes.
+
+#if defined(ALLPAIRS_READ_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_READ_KERNEL_INL_H
+#undef ALLPAIRS_READ_KERNEL_INL_H
+#else
+#define ALLPAIRS_READ_KERNEL_INL_H
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "LaneTest-inl.h"
+#include "RowBlock.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+using DoubleTag = hn::CappedTag<double, kFanOut>;
+using HalfFloatTag = hn::Rebind<float, DoubleTag>;
+
+/// float32 as it is, kept within the finite ones; returns whether that changed nothing.
+HWY_INLINE bool readColumn(const float* column, const std::int32_t* offsets, float* to) {
+  const FloatTag d;
+  const hn::RebindToSigned<FloatTag> di;
+  bool same = true;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const auto value = hn::GatherIndex(d, column, hn::LoadU(di, offsets + i));
+    const auto inside = hn::Max(hn::Set(d, -kLaneMax), hn::Min(value, hn::Set(d, kLaneMax)));
+    same = same && hn::AllTrue(d, hn::Eq(inside, value));
+    hn::Store(inside, d, to + i);
+  }
+  return same;
+}
+
+/// The next float32 below where `further` says so. Zero never has to go down: see roundDown().
+HWY_INLINE hn::Vec<HalfFloatTag> stepDown(hn::Vec<HalfFloatTag> value, hn::Mask<HalfFloatTag> further) {
+  const HalfFloatTag d;
+  const hn::RebindToSigned<HalfFloatTag> di;
+  const auto bits = hn::BitCast(di, value);
+  // -1 for a positive number, +1 for a negative one.
+  const auto step = hn::Or(hn::Not(hn::ShiftRight<31>(bits)), hn::Set(di, 1));
+  const auto moved = hn::BitCast(d, hn::Add(bits, step));
+  return hn::IfThenElse(further, moved, value);
+}
+
+/// float64 rounded down to float32 and kept within the finite ones; `same` stays true if that changed nothing.
+HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
+  const DoubleTag d;
+  const HalfFloatTag df;
+  const auto most = hn::Set(d, static_cast<double>(kLaneMax));
+  const auto inside = hn::Max(hn::Neg(most), hn::Min(value, most));
+  const auto nearest = hn::DemoteTo(df, inside);
+  const auto above = hn::Gt(hn::PromoteTo(d, nearest), inside);
+  const auto further = hn::Gt(hn::DemoteTo(df, hn::IfThenElseZero(above, hn::Set(d, 1.0))), hn::Zero(df));
+  const auto down = stepDown(nearest, further);
+  same = same && hn::AllTrue(d, hn::Eq(hn::PromoteTo(d, down), value));
+  return down;
+}
+
+/// The lanes of a mask as bits.
+template <class D, class M>
+HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
+  if (hn::AllFalse(d, mask)) return 0;
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(d, mask, bytes.data());
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
+
+/// Lanes whose box is empty, as bits.
+HWY_INLINE std::uint32_t emptyLanes(const LaneBlock& block) {
+  const FloatTag d;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const auto inverted = [&](std::size_t axis) HWY_ATTR {
+      return hn::Gt(hn::Load(d, &block.bound[axis][i]), hn::Load(d, &block.bound[axis + 3][i]));
+    };
+    bits |= bitsOf(d, hn::Or(hn::Or(inverted(0), inverted(1)), inverted(2))) << i;
+  }
+  return bits;
+}
+
+RowBlockResult readFloat32(const float* rows, const std::int32_t* offsets, LaneBlock& block) {
+  bool exact = true;
+  for (std::size_t row = 0; row < 6; ++row) exact &= readColumn(rows + row, offsets, block.bound[row].data());
+  return {exact, emptyLanes(block)};
+}
+
+/// Whether a box is empty is asked in double: rounded outward, it may not be.
+RowBlockResult readFloat64(const double* rows, const std::int32_t* offsets, LaneBlock& block) {
+  const DoubleTag d;
+  const HalfFloatTag df;
+  const hn::Rebind<std::int32_t, DoubleTag> di;
+  RowBlockResult result;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const auto offset = hn::PromoteTo(hn::RebindToSigned<DoubleTag>(), hn::LoadU(di, offsets + i));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto min = hn::GatherIndex(d, rows + axis, offset);
+      const auto max = hn::GatherIndex(d, rows + axis + 3, offset);
+      result.emptyLanes |= bitsOf(d, hn::Gt(min, max)) << i;
+      hn::StoreU(lower(min, result.exact), df, &block.bound[axis][i]);
+      hn::StoreU(hn::Neg(lower(hn::Neg(max), result.exact)), df, &block.bound[axis + 3][i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_READ_KERNEL_INL_H
