@@ -11,7 +11,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Pairs that a bucket should hold, so that sorting it stays in the second-level cache.
-constexpr std::size_t kPairsPerBucket = 16384;
+constexpr std::size_t kPairsPerBucket = 32768;
 constexpr std::size_t kMaxBuckets = 2048;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
@@ -103,8 +103,10 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   if (m_places.size() != chunks) m_places.resize(chunks);
   executor.run(chunks, [&](std::size_t c) {
     m_places[c].assign(m_buckets, 0);
+    std::size_t* counts = m_places[c].data();
+    const unsigned shift = m_keyBits;
     for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
-      ++m_places[c][indexOf<kBySecond>(from[i]) >> m_keyBits];
+      ++counts[indexOf<kBySecond>(from[i]) >> shift];
     }
   });
   std::size_t place = 0;
@@ -116,8 +118,10 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   m_bucketBegin[m_buckets] = place;
   executor.run(chunks, [&](std::size_t c) {
     std::size_t* places = m_places[c].data();
+    const unsigned shift = m_keyBits;
     for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
-      to[places[indexOf<kBySecond>(from[i]) >> m_keyBits]++] = from[i];
+      const Pair pair = from[i];
+      to[places[indexOf<kBySecond>(pair) >> shift]++] = pair;
     }
   });
 }
@@ -125,7 +129,10 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
 template <bool kBySecond>
 void PairSort::sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std::size_t others, Executor& executor) {
   const std::size_t wanted = std::clamp<std::size_t>(pairs.size() / kPairsPerBucket, 1, kMaxBuckets);
-  m_keyBits = std::min(static_cast<unsigned>(std::bit_width((keys - 1) / wanted)), kMaxDigitBits);
+  m_keyBits = static_cast<unsigned>(std::bit_width((keys - 1) / wanted));
+  // With a few buckets only, the pass into them would wait for its own counters: they are better than none where the
+  // pairs do not fit the cache, and no more than one digit of the key may be left to them.
+  if (pairs.size() > kPairsPerBucket) m_keyBits = std::min(m_keyBits, kMaxDigitBits);
   while (((keys - 1) >> m_keyBits) >= kMaxBuckets) ++m_keyBits;
   m_buckets = ((keys - 1) >> m_keyBits) + 1;
   scatter<kBySecond>(pairs.data(), other, pairs.size(), executor);
