@@ -25,7 +25,8 @@ struct FilterBits {
 /// `accept`, where given, says yes.
 /// Bad input: a span of the wrong length throws InvalidArgument when the filter is used.
 /// Threads:   `accept` is called for boxes that overlap only, in no particular order, and with a parallel executor from
-///            several threads at once.
+///            several threads at once. It may be asked about a pair more than once, and must not start work on the
+///            executor of the search.
 struct Filter {
   /// Of the set, or of the first of two.
   FilterBits first;

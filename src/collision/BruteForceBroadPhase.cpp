@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "ModelTable.h"
 #include "PairRules.h"
@@ -35,6 +36,7 @@ struct BruteForceBroadPhase::State {
   /// Gives the pairs of all rows that were added and not looked at yet.
   void complete();
 
+  void addPairs();
   void completeExhaustively();
 
   std::optional<Box> box;
@@ -58,16 +60,29 @@ void BruteForceBroadPhase::State::useMethod(Intersection* method) {
 void BruteForceBroadPhase::State::complete() {
   const std::size_t n = models.size();
   if (rowsDone != n) {
-    if (strategy == Strategy::Exhaustive) {
-      completeExhaustively();
-    } else {
-      search.addPairs(rowsDone, pairs, statistics);
+    const std::size_t pairsBefore = pairs.size();
+    const BroadPhaseStatistics statisticsBefore = statistics;
+    try {
+      addPairs();
+    } catch (...) {
+      // What a rule threw on leaves the list as it was, so that the next attempt reports no pair twice.
+      pairs.resize(pairsBefore);
+      statistics = statisticsBefore;
+      throw;
     }
     rowsDone = n;
   }
   statistics.models = n;
   statistics.pairs = pairs.size();
   statistics.testsOfAllPairs = n == 0 ? 0 : std::uint64_t{n} * (n - 1) / 2;
+}
+
+void BruteForceBroadPhase::State::addPairs() {
+  if (strategy == Strategy::Exhaustive) {
+    completeExhaustively();
+  } else {
+    search.addPairs(rowsDone, pairs, statistics);
+  }
 }
 
 void BruteForceBroadPhase::State::completeExhaustively() {
@@ -88,11 +103,13 @@ BruteForceBroadPhase::~BruteForceBroadPhase() = default;
 void BruteForceBroadPhase::init() { reinit(); }
 
 void BruteForceBroadPhase::reinit() {
-  m_state->region.reset();
-  if (!m_state->box) return;
-  checkRegion(*m_state->box);
-  m_state->region = std::make_unique<BoxModel>("region", *m_state->box);
-  m_state->region->computeBoundingTree(0);
+  std::unique_ptr<BoxModel> region;
+  if (m_state->box) {
+    checkRegion(*m_state->box);
+    region = std::make_unique<BoxModel>("region", *m_state->box);
+    region->computeBoundingTree(0);
+  }
+  m_state->region = std::move(region);
 }
 
 void BruteForceBroadPhase::beginBroadPhase() {

@@ -5,6 +5,21 @@
 
 namespace allpairs::collision {
 
+void CollisionPipeline::setIntersectionMethod(Intersection* method) {
+  m_method = method;
+  m_initialised = false;
+}
+
+void CollisionPipeline::setBroadPhase(BroadPhaseDetection* broadPhase) {
+  m_broadPhase = broadPhase;
+  m_initialised = false;
+}
+
+void CollisionPipeline::setNarrowPhase(NarrowPhaseDetection* narrowPhase) {
+  m_narrowPhase = narrowPhase;
+  m_initialised = false;
+}
+
 void CollisionPipeline::setDepth(int depth) {
   if (depth < 0) throw InvalidArgument("bounding trees of negative depth");
   m_depth = depth;
@@ -16,6 +31,11 @@ void CollisionPipeline::init() {
   m_broadPhase->setIntersectionMethod(m_method);
   if (m_narrowPhase != nullptr) m_narrowPhase->setIntersectionMethod(m_method);
   m_broadPhase->init();
+  m_initialised = true;
+}
+
+void CollisionPipeline::initOnce() {
+  if (!m_initialised || m_broadPhase->getIntersectionMethod() != m_method) init();
 }
 
 void CollisionPipeline::reset() {
@@ -25,6 +45,8 @@ void CollisionPipeline::reset() {
 }
 
 void CollisionPipeline::computeBoundingTrees(std::span<CollisionModel* const> models, double dt) {
+  initOnce();
+  m_active.clear();
   if (m_narrowPhase != nullptr) m_narrowPhase->setTimeStep(dt);
   const bool deep =
       m_broadPhase->needsDeepBoundingTree() || (m_narrowPhase != nullptr && m_narrowPhase->needsDeepBoundingTree());
@@ -44,6 +66,7 @@ void CollisionPipeline::computeBoundingTree(CollisionModel& model, double dt, in
 }
 
 void CollisionPipeline::detect() {
+  initOnce();
   m_broadPhase->beginBroadPhase();
   m_broadPhase->addCollisionModels(m_active);
   m_broadPhase->endBroadPhase();
@@ -54,7 +77,7 @@ void CollisionPipeline::detect() {
 }
 
 const std::vector<CollisionModelPair>& CollisionPipeline::step(std::span<CollisionModel* const> models, double dt) {
-  if (m_method == nullptr || m_broadPhase == nullptr || m_broadPhase->getIntersectionMethod() != m_method) init();
+  initOnce();
   reset();
   computeBoundingTrees(models, dt);
   detect();

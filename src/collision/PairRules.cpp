@@ -31,11 +31,12 @@ bool onlyComparesBoxes(const ElementIntersector& intersector) {
 }  // namespace
 
 void PairRules::setMethod(Intersection* method) {
+  const double distance = method->maximumDistance();
+  if (std::isnan(distance)) throw InvalidArgument("the intersection method's maximum distance is NaN");
   m_method = method;
   m_revision = method->revision();
-  m_maximumDistance = method->maximumDistance();
+  m_maximumDistance = distance;
   m_addsContactDistances = method->addsContactDistances();
-  if (std::isnan(m_maximumDistance)) throw InvalidArgument("the intersection method's maximum distance is NaN");
   m_methodIsOurs = isLibraryMethod(*method);
   m_types = 0;
 }
@@ -59,7 +60,7 @@ std::optional<CollisionModelPair> PairRules::ask(std::size_t newer, std::size_t 
   const std::size_t first = link.swap ? older : newer;
   const std::size_t second = link.swap ? newer : older;
   const CollisionModelPair pair{m_models.row(first).model, m_models.row(second).model};
-  if (link.kind == Kind::Boxes) {
+  if (link.kind == Kind::Boxes && !areOneModel(newer, older)) {
     if (!boxesAreNear && !this->boxesAreNear(first, second)) return std::nullopt;
     return pair;
   }

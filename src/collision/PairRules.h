@@ -51,6 +51,13 @@ class PairRules {
            m_models.letsCollide(b, a) && (boxesAreNear || this->boxesAreNear(newer, older));
   }
 
+  /// Whether two rows are the same model, added twice. Its root is then asked about itself, which takes its intersector.
+  [[nodiscard]] bool areOneModel(std::size_t newer, std::size_t older) const {
+    const ModelRow& a = m_models.row(newer);
+    const ModelRow& b = m_models.row(older);
+    return a.owner == b.owner && a.model->getLast() == b.model->getLast();
+  }
+
   /// The pair to report for two rows of the table, if there is one. `boxesAreNear`: a search has tested the boxes.
   [[nodiscard]] std::optional<CollisionModelPair> ask(std::size_t newer, std::size_t older, bool boxesAreNear);
 

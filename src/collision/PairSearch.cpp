@@ -71,6 +71,7 @@ void PairSearch::askPlain(std::span<const Pair> found, const Candidates& offsets
   for (const Pair& pair : found) {
     const std::size_t newer = pair.second + offsets.secondOffset;
     const std::size_t older = pair.first + offsets.firstOffset;
+    if (m_rules.areOneModel(newer, older) && !m_rules.ask(newer, older, decided)) continue;
     if (!m_rules.askPlain(newer, older, decided)) continue;
     pairs.emplace_back(m_models.row(newer).model, m_models.row(older).model);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "Sampling.h"
+
 namespace allpairs::engine {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr float kLongFactor = 3.0F;
 /// Sample widths beyond this many times the middle four fifths are taken for outliers.
 constexpr float kOutlierFactor = 64.0F;
 
-/// Centres and longest sides of some boxes, evenly spread over the set.
+/// Centres and longest sides of some boxes.
 struct Sample {
   std::size_t size = 0;
   std::array<std::array<float, kMostSamples>, 3> centres;
@@ -37,15 +39,6 @@ struct Sample {
 /// About a sixteenth of the boxes, so that sampling costs nothing to speak of.
 std::size_t sampleSize(std::size_t boxes) {
   return std::min(boxes, std::clamp<std::size_t>(boxes / 16, 32, kMostSamples));
-}
-
-void drawSample(const LaneReader& reader, Sample& sample) {
-  const std::size_t count = sampleSize(reader.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = i * reader.size() / count;
-    static_cast<void>(reader.read(
-        index, index + 1, [&](std::size_t, const LaneBox& box) { sample.take(box); }, [](std::size_t) {}));
-  }
 }
 
 struct Range {
@@ -74,7 +67,7 @@ Range rangeOf(std::span<float> values) {
 
 CurveGrid CurveGrid::fit(const LaneReader& reader) {
   Sample sample;
-  drawSample(reader, sample);
+  sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample.take(box); });
   CurveGrid grid;
   if (sample.size == 0) return grid;
   float width = 0.0F;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "Lanes.h"
@@ -44,9 +45,10 @@ struct JoinScratch {
 
     LaneTile& nextTile() {
       if (tileCount == tiles.size()) {
+        sizes.resize(tiles.size() + 1);
         // Not make_unique, which would write all of it first.
-        tiles.emplace_back(new LaneTile);
-        sizes.push_back(0);
+        std::unique_ptr<LaneTile> tile(new LaneTile);
+        tiles.push_back(std::move(tile));
       }
       return *tiles[tileCount++];
     }

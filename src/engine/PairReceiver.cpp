@@ -11,12 +11,14 @@ namespace {
 /// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
 constexpr std::size_t kHitCapacity = 4096;
 
-[[noreturn]] void throwTooMany(std::uint64_t count, std::uint64_t limit) {
-  throw LimitExceeded(count, "more than " + std::to_string(limit) + " pairs, the limit that was set; " +
+}  // namespace
+
+void checkLimit(const PairRules& rules, std::uint64_t count) {
+  if (rules.countOnly || count <= rules.maxPairs) return;
+  if (!rules.limitIsCallers) throw Overfull();
+  throw LimitExceeded(count, "more than " + std::to_string(rules.maxPairs) + " pairs, the limit that was set; " +
                                  std::to_string(count) + " had been found");
 }
-
-}  // namespace
 
 void PairReceiver::start(const PairRules& rules) {
   constexpr std::size_t kStride = kHitCapacity + Hits::kSlack;
@@ -44,11 +46,8 @@ void PairReceiver::receive(Hits& hits) {
   hits.size = 0;
   if (m_rules->firstRow != 0 || m_rules->ascendingOnly || m_rules->test->needed()) selectTested(begin, m_size);
   m_count += m_size - begin;
-  if (m_rules->countOnly) {
-    m_size = begin;
-  } else if (m_count > m_rules->maxPairs) {
-    throwTooMany(m_count, m_rules->maxPairs);
-  }
+  if (m_rules->countOnly) m_size = begin;
+  checkLimit(*m_rules, m_count);
   if (added != nullptr) added(context, *this);
 }
 

@@ -14,12 +14,18 @@
 
 namespace allpairs::engine {
 
+/// More pairs than the search has set itself as a limit. Not an error: the search catches it.
+struct Overfull {};
+
 /// How hits become pairs, the same for all tasks of a search.
 struct PairRules {
   const Kernels* kernels = nullptr;
   const PairTest* test = nullptr;
   PairSide side = PairSide::RowFirst;
   std::uint64_t maxPairs = 0;
+
+  /// Whether more pairs than that are the caller's to hear of; otherwise they are an Overfull for the search itself.
+  bool limitIsCallers = true;
   bool countOnly = false;
 
   /// Rows are numbered from here; more than 0 only where a part of a set is searched.
@@ -28,6 +34,9 @@ struct PairRules {
   /// Keeps pairs with first < second only: where part of a set meets the whole of it.
   bool ascendingOnly = false;
 };
+
+/// Throws LimitExceeded or Overfull where there are more pairs than the rules allow.
+void checkLimit(const PairRules& rules, std::uint64_t count);
 
 /// Receives the hits of a task, turns them into pairs, tests what is left to test, and keeps or counts them.
 class PairReceiver {

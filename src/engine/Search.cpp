@@ -7,12 +7,19 @@
 
 #include "BlockReader.h"
 #include "CheckOptions.h"
+#include "Sampling.h"
 
 namespace allpairs::engine {
 namespace {
 
 /// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0003).
 constexpr double kFlatPairs = 320.0 * 320.0;
+
+/// So few boxes against any number are tested one by one: ordering the others would cost more.
+constexpr std::size_t kFewRows = 32;
+
+/// Beyond this many boxes a sample is not trusted to say that all pairs had better be tested.
+constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
 /// Tasks are cut to at least this many tests of a row, or leaf blocks, so that starting one costs nothing to speak of.
 constexpr std::size_t kMinRowTests = std::size_t{1} << 17;
@@ -25,11 +32,7 @@ bool overlapsMuch(const LaneReader& reader) {
   constexpr std::size_t kSample = 24;
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
-  for (std::size_t i = 0; i < kSample; ++i) {
-    const std::size_t index = i * reader.size() / kSample;
-    static_cast<void>(reader.read(
-        index, index + 1, [&](std::size_t, const LaneBox& box) { boxes[size++] = box; }, [](std::size_t) {}));
-  }
+  sampleBoxes(reader, kSample, [&](const LaneBox& box) { boxes[size++] = box; });
   std::size_t hits = 0;
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
@@ -76,7 +79,9 @@ bool readList(const LaneReader& reader, const Kernels& kernels, Buffer<LaneTile>
 bool Search::prefersFlat(const Sets& sets, const OverlapOptions& options) {
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
   if (static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs) return true;
-  return sets.one && options.order != Order::Unordered && overlapsMuch(LaneReader(sets.first, options));
+  if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return true;
+  return sets.one && options.order != Order::Unordered && sets.first.size() <= kMostOverlapping &&
+         overlapsMuch(LaneReader(sets.first, options));
 }
 
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
@@ -189,6 +194,8 @@ void Search::runAll(const Plan& plan) {
     segment.end = worker.receiver.size();
   });
   collect();
+  // Each worker has looked at its own pairs; here are all of them.
+  checkLimit(plan.rules, m_statistics.pairs);
 }
 
 void Search::collect() {

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "Search.h"
-#include "allpairs/Error.h"
 
 namespace allpairs::engine {
 namespace {
@@ -101,6 +100,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
   plan.rules = {m_kernels, &test};
   plan.rules.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.rules.maxPairs = end - begin == 1 ? kNoLimit : kRangePairs;
+  plan.rules.limitIsCallers = false;
   plan.rules.firstRow = static_cast<std::uint32_t>(begin);
   plan.rules.ascendingOnly = sets.one;
   const bool nothing = m_firstHierarchy.hierarchy().depth == 0 || m_secondHierarchy.hierarchy().depth == 0;
@@ -108,7 +108,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
   m_statistics = {};
   try {
     runAll(plan);
-  } catch (const LimitExceeded&) {
+  } catch (const Overfull&) {
     return false;  // More than may be held at a time: the caller halves the range.
   }
   join(plan);

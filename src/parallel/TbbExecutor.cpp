@@ -7,10 +7,21 @@
 #include <tbb/task_arena.h>
 
 #include <optional>
+#include <string>
 
 #include "TaskFence.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::parallel {
+namespace {
+
+int checkedThreads(std::size_t threads) {
+  constexpr std::size_t kMost = 65535;
+  if (threads > kMost) throw InvalidArgument(std::to_string(threads) + " threads; at most 65535 can be asked for");
+  return threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads);
+}
+
+}  // namespace
 
 struct TbbExecutor::Arena {
   explicit Arena(int threads) : tasks(threads) {
@@ -24,8 +35,7 @@ struct TbbExecutor::Arena {
   tbb::task_arena tasks;
 };
 
-TbbExecutor::TbbExecutor(std::size_t threads)
-    : m_arena(std::make_unique<Arena>(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads))) {}
+TbbExecutor::TbbExecutor(std::size_t threads) : m_arena(std::make_unique<Arena>(checkedThreads(threads))) {}
 
 TbbExecutor::~TbbExecutor() = default;
 

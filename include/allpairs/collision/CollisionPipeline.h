@@ -17,16 +17,17 @@ class CollisionPipeline {
   /// How many levels deep bounding trees are made, if anybody needs them.
   static constexpr int kDefaultDepth = 6;
 
-  void setIntersectionMethod(Intersection* method) { m_method = method; }
-  void setBroadPhase(BroadPhaseDetection* broadPhase) { m_broadPhase = broadPhase; }
+  void setIntersectionMethod(Intersection* method);
+  void setBroadPhase(BroadPhaseDetection* broadPhase);
 
   /// Null, the default, leaves the narrow phase out.
-  void setNarrowPhase(NarrowPhaseDetection* narrowPhase) { m_narrowPhase = narrowPhase; }
+  void setNarrowPhase(NarrowPhaseDetection* narrowPhase);
 
   /// Bad input: a negative depth throws InvalidArgument.
   void setDepth(int depth);
 
-  /// Gives both phases the method and has the broad phase read its settings.
+  /// Gives both phases the method and has the broad phase read its settings. The first of the calls below does it where
+  /// it has not been done since the last of the calls above.
   ///
   /// Bad input: a missing method or broad phase throws InvalidArgument.
   void init();
@@ -46,11 +47,13 @@ class CollisionPipeline {
 
  private:
   void computeBoundingTree(CollisionModel& model, double dt, int depth) const;
+  void initOnce();
 
   Intersection* m_method = nullptr;
   BroadPhaseDetection* m_broadPhase = nullptr;
   NarrowPhaseDetection* m_narrowPhase = nullptr;
   int m_depth = kDefaultDepth;
+  bool m_initialised = false;
   std::vector<CollisionModel*> m_active;
 };
 
