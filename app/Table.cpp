@@ -39,7 +39,7 @@ std::string pairLines(const scene::ResultView& result) {
 }
 
 std::string testLines(const scene::DetectionStatistics& statistics) {
-  std::string text = fmt::format("tests    {} of boxes", grouped(statistics.testsMade - statistics.candidates));
+  std::string text = fmt::format("tests    {} of boxes", grouped(statistics.testsMade));
   if (statistics.candidates != 0) text += fmt::format(", {} of flags and groups", grouped(statistics.candidates));
   text += fmt::format("; the double loop makes {}\n", grouped(statistics.testsOfAllPairs));
   if (statistics.verified) text += "verify   the exhaustive strategy gives the same pairs in the same order\n";

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSearchSlack = 0x1p-48;
 
 void addTests(const OverlapStatistics& search, BroadPhaseStatistics& statistics) {
-  statistics.testsMade += search.boxTests + search.groupTests + search.exactTests;
+  statistics.testsMade += search.boxTests + search.groupTests;
 }
 
 }  // namespace

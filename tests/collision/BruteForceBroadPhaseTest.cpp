@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The component from outside: steps, region, strategies, statistics, errors.
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "Fixture.h"
 #include "SceneWorld.h"
@@ -254,6 +256,33 @@ TEST_F(Component, ManyModelsOfManyGroupsAreFoundAsTheDoubleLoopFindsThem) {
   }
   const Numbers pairs = detect();
   EXPECT_GT(pairs.size(), 1000U);
+}
+
+/// Refuses to answer the first time that it is asked about another.
+class ReluctantModel : public BoxModel {
+ public:
+  using BoxModel::BoxModel;
+  bool canCollideWith(CollisionModel* other) override {
+    if (other != this && !std::exchange(m_asked, true)) throw std::runtime_error("not now");
+    return BoxModel::canCollideWith(other);
+  }
+
+ private:
+  bool m_asked = false;
+};
+
+TEST_F(Component, WhatARuleThrowsOnLeavesNoPairTwice) {
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive}) {
+    m_models.clear();
+    addTouching(2);
+    ReluctantModel reluctant("reluctant", unitBoxAt(0.0));
+    reluctant.setOwner(&reluctant);
+    addAgain(reluctant);
+    m_phase.setStrategy(strategy);
+    m_phase.beginBroadPhase();
+    EXPECT_THROW(m_phase.addCollisionModels(m_models), std::runtime_error);
+    EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
+  }
 }
 
 }  // namespace

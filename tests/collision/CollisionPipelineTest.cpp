@@ -100,6 +100,19 @@ TEST_F(Pipeline, TheNarrowPhaseIsGivenThePairsOfTheBroadPhase) {
   EXPECT_EQ(narrow.getElementPairs()[0].second.model, m_models[0]);
 }
 
+TEST_F(Pipeline, ARegionCountsAlsoIfThePhaseHadItsMethodAlready) {
+  m_phase.setIntersectionMethod(&m_method);
+  m_phase.setBox(Box{{100, 100, 100}, {101, 101, 101}});
+  EXPECT_EQ(numbers(m_pipeline.step(m_models)), Numbers{});
+}
+
+TEST_F(Pipeline, ANarrowPhaseMayBeSetAfterAStep) {
+  static_cast<void>(m_pipeline.step(m_models));
+  ElementNarrowPhase narrow;
+  m_pipeline.setNarrowPhase(&narrow);
+  EXPECT_EQ(numbers(m_pipeline.step(m_models)), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
+}
+
 TEST_F(Pipeline, AMissingMethodOrBroadPhaseIsAnError) {
   CollisionPipeline pipeline;
   EXPECT_THROW(pipeline.step(m_models), InvalidArgument);

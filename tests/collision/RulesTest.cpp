@@ -256,6 +256,14 @@ TEST_F(Rules, ANearlyFlatPatchCannotTouchItselfWithDiscreteIntersection) {
   EXPECT_EQ(detect(discrete), (Numbers{{0, 0}}));
 }
 
+TEST_F(Rules, AFlatPatchThatIsAddedTwiceCannotTouchItself) {
+  m_others.push_back(patch(0.0));
+  m_models = {m_others.back().get(), m_others.back().get()};
+  DiscreteIntersection discrete;
+  EXPECT_EQ(detect(discrete), Numbers{});
+  EXPECT_EQ(detect(), (Numbers{{0, 0}, {0, 0}, {0, 0}}));
+}
+
 /// One element with a cone of the given half-angle.
 class ConeModel : public UserModel {
  public:

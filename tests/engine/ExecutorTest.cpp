@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
@@ -67,6 +68,21 @@ TEST(Executor, PassesOnWhatAFilterThrows) {
   options.filter.accept = nullptr;
   search.setOptions(options);
   EXPECT_EQ(search.find(boxes).size(), overlaps(boxes).size());
+}
+
+TEST(Executor, ALimitHoldsForAllThreadsTogether) {
+  const std::vector<BoxF> boxes = test::randomBoxes(60000, 36);
+  BackwardExecutor seven;
+  parallel::TbbExecutor eight(8);
+  OverlapOptions options;
+  const std::size_t pairs = overlaps(boxes, options).size();
+  for (Executor* executor : std::initializer_list<Executor*>{&seven, &eight}) {
+    options.executor = executor;
+    options.maxPairs = pairs - 1;
+    EXPECT_THROW(static_cast<void>(overlaps(boxes, options)), LimitExceeded);
+    options.maxPairs = pairs;
+    EXPECT_EQ(overlaps(boxes, options).size(), pairs);
+  }
 }
 
 TEST(TbbExecutor, RunsEachTaskOnce) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -287,6 +288,55 @@ TEST(Overlaps, ExhaustiveMakesEveryTestAndCountsThem) {
   const std::vector<BoxF> others = test::randomBoxes(70, 4);
   static_cast<void>(search.findBetween(boxes, others));
   EXPECT_EQ(search.statistics().boxTests, 70000U);
+}
+
+/// Every `period`-th box is another one, where a sample at equal distances would find nothing else.
+std::vector<BoxF> periodicBoxes(std::size_t n, std::size_t period, const BoxF& other) {
+  std::vector<BoxF> boxes = test::randomBoxes(n, 51);
+  for (std::size_t i = 0; i < n; i += period) boxes[i] = other;
+  return boxes;
+}
+
+std::uint64_t testsFor(const std::vector<BoxF>& boxes, const OverlapOptions& options) {
+  Overlaps search(options);
+  static_cast<void>(search.count(boxes));
+  return search.statistics().boxTests + search.statistics().groupTests;
+}
+
+TEST(Overlaps, PeriodicInputDoesNotLookLikeSomethingElse) {
+  constexpr std::size_t kBoxes = std::size_t{1} << 14;
+  const BoxF large{{0, 0, 0}, {30, 30, 30}};
+  const BoxF none{{1, 1, 1}, {0, 0, 0}};
+  OverlapOptions ordered;
+  EXPECT_LT(testsFor(periodicBoxes(kBoxes, kBoxes / 24, large), ordered), kBoxes * 1000);
+  OverlapOptions blocked;
+  blocked.strategy = Strategy::Blocked;
+  EXPECT_LT(testsFor(periodicBoxes(kBoxes, kBoxes / 256, none), blocked), kBoxes * 300);
+}
+
+TEST(Overlaps, NoInputCostsMuchMoreThanAllTests) {
+  constexpr std::size_t kBoxes = 4000;
+  const auto sheet = [](std::size_t axis) {
+    std::vector<BoxF> boxes = test::randomBoxes(kBoxes, 52);
+    for (BoxF& box : boxes) box.min[axis] = box.max[axis] = 1.0F;
+    return boxes;
+  };
+  std::vector<BoxF> scales = test::randomBoxes(kBoxes, 53);
+  for (std::size_t i = 0; i < kBoxes; ++i) {
+    const float scale = std::pow(10.0F, static_cast<float>(i % 61) - 30.0F);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      scales[i].min[axis] *= scale;
+      scales[i].max[axis] *= scale;
+    }
+  }
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const std::vector<BoxF> everywhere(kBoxes, {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}});
+  const std::vector<BoxF> equal(kBoxes, {{0, 0, 0}, {1, 1, 1}});
+  OverlapOptions blocked;
+  blocked.strategy = Strategy::Blocked;
+  for (const std::vector<BoxF>& boxes : {sheet(0), sheet(2), scales, everywhere, equal}) {
+    EXPECT_LT(testsFor(boxes, blocked), kBoxes * (kBoxes - 1));
+  }
 }
 
 TEST(Overlaps, BlockedMakesFarFewerTests) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
 
@@ -99,6 +100,15 @@ TEST_P(Stream, HoldsAnExplosionOfPairsInRanges) {
   if (GetParam().order != Order::Unordered) {
     EXPECT_TRUE(ordered);
   }
+}
+
+TEST_P(Stream, EndsWithALimitThatTheFilterPasses) {
+  const std::vector<BoxF> boxes = test::randomBoxes(5000, 26);
+  OverlapOptions with = options();
+  with.filter.accept = [](std::uint32_t, std::uint32_t) -> bool { throw LimitExceeded(1, "of the filter's own"); };
+  EXPECT_THROW(streamOverlaps(
+                   boxes, [](std::span<const Pair>) {}, with),
+               LimitExceeded);
 }
 
 TEST_P(Stream, EndsWithWhatTheVisitorThrows) {

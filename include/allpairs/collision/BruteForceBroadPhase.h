@@ -19,7 +19,7 @@ struct BroadPhaseStatistics {
   std::uint64_t models = 0;           ///< Models that took part: not null, not empty, not outside of the region.
   std::uint64_t pairs = 0;            ///< Pairs found, self pairs included.
   std::uint64_t candidates = 0;       ///< Pairs of models whose rules were asked.
-  std::uint64_t testsMade = 0;        ///< Tests of two boxes, or of the bounds of two groups, or of two models.
+  std::uint64_t testsMade = 0;        ///< Tests of two boxes, or of the bounds of two groups of them.
   std::uint64_t testsOfAllPairs = 0;  ///< What the double loop makes: n(n-1)/2.
 };
 
