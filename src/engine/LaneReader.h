@@ -17,7 +17,7 @@ namespace allpairs::engine {
 
 /// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN. No branches.
 [[nodiscard]] inline float roundDown(double value) noexcept {
-  constexpr double kMax = kLaneMax;
+  constexpr auto kMax = static_cast<double>(kLaneMax);
   const double above = value > -kMax ? value : -kMax;
   const double inside = above < kMax ? above : kMax;
   const auto nearest = static_cast<float>(inside);
