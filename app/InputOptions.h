@@ -3,7 +3,7 @@
 
 #include "Inputs.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
 }
 

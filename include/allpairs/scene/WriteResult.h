@@ -36,7 +36,7 @@ struct DetectionStatistics {
   double distance = 0.0;              ///< The margin between boxes, or the alarm distance.
   std::uint64_t testsOfAllPairs = 0;  ///< How many tests a double loop over the models makes.
   std::uint64_t testsMade = 0;        ///< How many tests, of two boxes or of the bounds of two groups, were made.
-  std::uint64_t candidates = 0;  ///< For how many pairs of models flags and groups were asked, after their boxes.
+  std::uint64_t candidates = 0;       ///< For how many pairs of models flags and groups were asked, after their boxes.
   double readSeconds = 0.0;
   double detectSeconds = 0.0;
   bool verified = false;  ///< Whether the exhaustive strategy was run too, and agreed.
