@@ -16,6 +16,7 @@
 #include "InputOptions.h"
 #include "Inputs.h"
 #include "Output.h"
+#include "OutputOption.h"
 #include "Records.h"
 #include "Table.h"
 #include "Timer.h"
@@ -66,7 +67,7 @@ std::size_t threadsOf(const std::string& text) {
 
 std::string formatOf(const DetectSettings& settings) {
   if (!settings.format.empty()) return settings.format;
-  const std::string extension = std::filesystem::path(settings.output).extension().string();
+  const std::string extension = lowerExtension(settings.output);
   const bool isKnown = extension == ".csv" || extension == ".json" || extension == ".npy";
   return isKnown ? extension.substr(1) : "table";
 }
@@ -174,8 +175,7 @@ void addDetect(CLI::App& program) {
   command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
   addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"},
             "How to write the result: table, csv, json or npy; by default as FILE is called, else a table");
-  command->add_option("-o,--output", settings->output, "Write to FILE, which appears only when it is complete")
-      ->type_name("FILE");
+  addOutputOption(*command, settings->output);
   command->callback([settings, margin, box] {
     settings->format = formatOf(*settings);
     runDetect(*settings, detectionOptions(*settings, margin->count() != 0, box->count() != 0));
