@@ -118,11 +118,24 @@ Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, con
   return outcome;
 }
 
-Outcome detect(scene::Scene& scene, const DetectSettings&, const DetectionOptions& options) {
+/// Says on standard error that the result is not of the whole input.
+void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
+  const auto count = std::count_if(scene.remarks.begin(), scene.remarks.end(),
+                                   [](const scene::Remark& remark) { return remark.isPartial; });
+  if (count == 0) return;
+  const std::string inputs = printable(fmt::format("{}", fmt::join(input.paths, " ")));
+  fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
+             counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");
+}
+
+Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
+  warnOfPart(scene, settings.input);
   Outcome outcome{.detection = detectScene(scene, options)};
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
   outcome.notes.remarkCount = scene.remarks.size();
+  outcome.notes.isPartial = settings.input.partial;
+  outcome.result.ignored = scene.remarks;
   for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
   outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
