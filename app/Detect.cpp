@@ -16,6 +16,7 @@
 #include "InputOptions.h"
 #include "Inputs.h"
 #include "Output.h"
+#include "OutputOption.h"
 #include "Records.h"
 #include "Table.h"
 #include "Timer.h"
@@ -66,7 +67,7 @@ std::size_t threadsOf(const std::string& text) {
 
 std::string formatOf(const DetectSettings& settings) {
   if (!settings.format.empty()) return settings.format;
-  const std::string extension = std::filesystem::path(settings.output).extension().string();
+  const std::string extension = lowerExtension(settings.output);
   const bool isKnown = extension == ".csv" || extension == ".json" || extension == ".npy";
   return isKnown ? extension.substr(1) : "table";
 }
@@ -117,11 +118,24 @@ Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, con
   return outcome;
 }
 
-Outcome detect(scene::Scene& scene, const DetectSettings&, const DetectionOptions& options) {
+/// Says on standard error that the result is not of the whole input.
+void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
+  const auto count = std::count_if(scene.remarks.begin(), scene.remarks.end(),
+                                   [](const scene::Remark& remark) { return remark.isPartial; });
+  if (count == 0) return;
+  const std::string inputs = printable(fmt::format("{}", fmt::join(input.paths, " ")));
+  fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
+             counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");
+}
+
+Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
+  warnOfPart(scene, settings.input);
   Outcome outcome{.detection = detectScene(scene, options)};
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
   outcome.notes.remarkCount = scene.remarks.size();
+  outcome.notes.isPartial = settings.input.partial;
+  outcome.result.ignored = scene.remarks;
   for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
   outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
@@ -174,8 +188,7 @@ void addDetect(CLI::App& program) {
   command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
   addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"},
             "How to write the result: table, csv, json or npy; by default as FILE is called, else a table");
-  command->add_option("-o,--output", settings->output, "Write to FILE, which appears only when it is complete")
-      ->type_name("FILE");
+  addOutputOption(*command, settings->output);
   command->callback([settings, margin, box] {
     settings->format = formatOf(*settings);
     runDetect(*settings, detectionOptions(*settings, margin->count() != 0, box->count() != 0));

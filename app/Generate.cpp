@@ -15,6 +15,7 @@
 #include "Commands.h"
 #include "ExitStatus.h"
 #include "Output.h"
+#include "OutputOption.h"
 #include "SceneArguments.h"
 
 namespace allpairs::app {
@@ -62,7 +63,15 @@ void writeRows(const std::vector<float>& rows, Output& output) {
   output.write(bytes);
 }
 
+/// A name that promises another format would be a lie.
+void checkExtension(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension.empty() || extension == ".npy") return;
+  throw UsageError("-o: '" + path + "': boxes are written as a NumPy array, whose files end in .npy");
+}
+
 void runGenerate(const GenerateSettings& settings) {
+  checkExtension(settings.output);
   const generate::SceneRequest request = sceneRequest(settings.scene);
   Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
   if (output.isTerminal()) {
@@ -80,8 +89,7 @@ void addGenerate(CLI::App& program) {
   command->footer(sceneList() + "\n\n" + kExamples);
   command->add_option("SCENE", settings->scene.scene, "Which boxes to make; see below")->required()->type_name("");
   addSceneOptions(*command, settings->scene);
-  command->add_option("-o,--output", settings->output, "Write to FILE, which appears only when it is complete")
-      ->type_name("FILE");
+  addOutputOption(*command, settings->output);
   command->callback([settings] { runGenerate(*settings); });
 }
 

@@ -45,8 +45,8 @@ std::string flagsText(const scene::ModelRecord& model) {
 
 Row rowOf(std::size_t index, const scene::ModelRecord& model) {
   const std::string groups = model.groups.empty() ? "-" : fmt::format("{}", fmt::join(model.groups, " "));
-  return {std::to_string(index), model.name, model.type,        grouped(model.elements),
-          flagsText(model),      groups,     boxText(model.box)};
+  return {std::to_string(index), printable(model.name), model.type, grouped(model.elements), flagsText(model), groups,
+          boxText(model.box)};
 }
 
 std::string tableOf(std::size_t count, const std::function<scene::ModelRecord(std::size_t)>& model) {
@@ -73,7 +73,10 @@ std::string tableOf(std::size_t count, const std::function<scene::ModelRecord(st
 std::string remarkText(const scene::Remark& remark) {
   std::string place = remark.file.string();
   if (remark.line != 0) place += fmt::format(":{}", remark.line);
-  return fmt::format("  {}{}{}: {}\n", place, place.empty() ? "" : ": ", remark.subject, remark.reason);
+  if (!place.empty()) place += ": ";
+  const bool repeats = remark.subject == remark.file.filename();  // a file that was left out as a whole
+  const std::string subject = repeats ? "" : remark.subject + ": ";
+  return fmt::format("  {}\n", printable(place + subject + remark.reason));
 }
 
 std::string describe(const scene::BoxArray& boxes) {

@@ -10,7 +10,9 @@ namespace allpairs::app {
 /// Where a command's result goes: standard output, or a file that appears only when it is complete.
 ///
 /// A file is written beside its final place, under another name, and renamed by commit(). Without commit() nothing is
-/// left behind. A path that is no regular file, such as a pipe or a device, is written directly.
+/// left behind, nor by a signal that ends the program: where the system has files without a name, it gets one only
+/// when it is complete. A path that is no regular file, such as a pipe or a device, is written directly, and so is one
+/// that means a descriptor of the program, such as /dev/stdout.
 /// Bad input: whatever can't be opened or written throws FileError; a pipe that nobody reads throws ClosedPipe.
 class Output {
  public:
@@ -26,11 +28,15 @@ class Output {
   void commit();
 
  private:
+  void openTarget();
   void openBeside();
+  void openNamed(const std::filesystem::path& place);
+  void giveName();
   [[noreturn]] void fail(const char* action) const;
 
-  std::filesystem::path m_target;  ///< Empty for standard output.
-  std::filesystem::path m_temporary;
+  std::filesystem::path m_target;     ///< Empty for standard output.
+  std::filesystem::path m_temporary;  ///< Where the file is until it is complete; empty while it has no name.
+  bool m_isNameless = false;
   int m_descriptor = -1;
 };
 

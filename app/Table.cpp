@@ -26,8 +26,8 @@ std::string pairLines(const scene::ResultView& result) {
   std::vector<std::pair<std::string, std::string>> names;
   std::size_t width = 0;
   for (const Pair& pair : result.pairs.first(shown)) {
-    names.emplace_back(result.model(result.swapped ? pair.second : pair.first).name,
-                       result.model(result.swapped ? pair.first : pair.second).name);
+    names.emplace_back(printable(result.model(result.swapped ? pair.second : pair.first).name),
+                       printable(result.model(result.swapped ? pair.first : pair.second).name));
     width = std::max(width, std::min(names.back().first.size(), kNameWidth));
   }
   std::string text;
@@ -54,8 +54,9 @@ void writeTable(const scene::ResultView& result, const TableNotes& notes, scene:
                                  notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
   text += fmt::format("method   {}\n", notes.method);
   if (notes.remarkCount != 0) {
-    text += fmt::format("ignored  {}; 'allpairs info' lists them\n",
-                        counted(notes.remarkCount, "part of the input", "parts of the input"));
+    text += fmt::format("ignored  {}; 'allpairs info{}' lists them\n",
+                        counted(notes.remarkCount, "part of the input", "parts of the input"),
+                        notes.isPartial ? " --partial" : "");
   }
   text += fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
   text += pairLines(result) + testLines(statistics);

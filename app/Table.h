@@ -13,6 +13,7 @@ struct TableNotes {
   std::string method{};         ///< How models are tested, in words.
   std::size_t simulated = 0;    ///< How many models are.
   std::size_t remarkCount = 0;  ///< How much of the input was left out.
+  bool isPartial = false;       ///< Whether --partial was given, which info needs then too.
 };
 
 /// Writes a result for people: what was tested, the first pairs and how many more there are, what it cost.

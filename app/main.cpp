@@ -13,6 +13,7 @@
 #include "Commands.h"
 #include "ExitStatus.h"
 #include "Output.h"
+#include "SignalCleanup.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 
 namespace {
@@ -90,6 +91,8 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
 
 int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), so that temporaries are taken away
+  std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not grow
+  allpairs::app::installSignalCleanup();
   CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
   program.set_version_flag("--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
   program.require_subcommand(1);

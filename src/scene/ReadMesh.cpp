@@ -96,6 +96,13 @@ std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Re
   return meshes;
 }
 
+/// What an error says after its file and line, which a remark says on its own.
+std::string withoutPlace(const FileError& error) {
+  const std::string_view text = error.what();
+  const std::size_t end = text.find(": ", error.path().string().size());
+  return std::string(end == std::string_view::npos ? text : text.substr(end + 2));
+}
+
 /// Reads the objects of one file behind what the scene has.
 void readInto(Scene& scene, UniqueNames& names, const fs::path& path) {
   ObjectModels models(scene, names);
@@ -132,7 +139,11 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
       readInto(scene, names, meshes[i]);
     } catch (const FileError& problem) {
       if (!options.partial) throw;
-      scene.remarks.push_back({.file = meshes[i], .subject = meshes[i].filename().string(), .reason = problem.what()});
+      scene.remarks.push_back({.file = meshes[i],
+                               .line = problem.line(),
+                               .subject = meshes[i].filename().string(),
+                               .reason = withoutPlace(problem),
+                               .isPartial = true});
     }
   }
   return scene;

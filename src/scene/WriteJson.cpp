@@ -52,6 +52,17 @@ void writePairs(const ResultView& result, TextBuffer& out) {
   out.append("],\n");
 }
 
+void writeIgnored(const ResultView& result, TextBuffer& out) {
+  out.append("\"ignored\": [");
+  for (std::size_t i = 0; i < result.ignored.size(); ++i) {
+    const Remark& remark = result.ignored[i];
+    out.append(i == 0 ? "\n  " : ",\n  ");
+    out.format(R"({{"file": {}, "line": {}, )", quoted(remark.file.string()), remark.line);
+    out.format(R"("subject": {}, "reason": {}}})", quoted(remark.subject), quoted(remark.reason));
+  }
+  out.append("],\n");
+}
+
 void writeStatistics(const ResultView& result, TextBuffer& out) {
   const DetectionStatistics& statistics = result.statistics;
   out.format(R"("statistics": {{"models": {}, "pairs": {}, "distance": {}, )", result.modelCount, result.pairs.size(),
@@ -70,6 +81,7 @@ void writeJson(const ResultView& result, ByteSink sink) {
   TextBuffer out(sink);
   writeModels(result, out);
   writePairs(result, out);
+  writeIgnored(result, out);
   writeStatistics(result, out);
   out.flush();
 }

@@ -46,6 +46,12 @@ TEST(Generate, OfMoreBoxesThanAnIndexCanNumberIsWrongUsage) {
   expectFailure(runProgram({"generate", "uniform", "-n", "4294967296", "-o", "/dev/null"}), 2, "4294967295");
 }
 
+TEST(Generate, UnderANameThatPromisesAnotherFormatIsWrongUsage) {
+  const TempFolder folder;
+  expectFailure(runProgram({"generate", "uniform", "-o", folder.path() / "x.csv"}), 2, "x.csv': boxes are written as");
+  expectSuccess(runProgram({"generate", "uniform", "-o", folder.path() / "x.NPY"}));
+}
+
 TEST(Generate, ThatCannotWriteLeavesNoFile) {
   const TempFolder folder;
   const std::filesystem::path file = folder.path() / "missing" / "boxes.npy";

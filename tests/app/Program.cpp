@@ -7,6 +7,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "support/TempFolder.h"
 
@@ -31,14 +32,10 @@ void redirectOutput(StandardOutput output, const char* path) {
   }
 }
 
-}  // namespace
-
-ProgramRun runProgram(const std::vector<std::string>& arguments, StandardOutput output) {
+ProgramRun run(std::vector<std::string> words, StandardOutput output) {
   const TempFolder folder;
   const std::string outPath = folder.path() / "out";
   const std::string errPath = folder.path() / "err";
-  std::vector<std::string> words{ALLPAIRS_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -54,6 +51,18 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, StandardOutput 
   int status = 0;
   if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for the program");
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(outPath), readBytes(errPath)};
+}
+
+}  // namespace
+
+ProgramRun runProgram(const std::vector<std::string>& arguments, StandardOutput output) {
+  std::vector<std::string> words{ALLPAIRS_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run(std::move(words), output);
+}
+
+ProgramRun runScript(const std::string& script) {
+  return run({"/bin/sh", "-c", script, ALLPAIRS_PROGRAM}, StandardOutput::Captured);
 }
 
 }  // namespace allpairs::test

@@ -20,4 +20,7 @@ enum class StandardOutput { Captured, FullDevice, ClosedPipe, Closed };
 [[nodiscard]] ProgramRun runProgram(const std::vector<std::string>& arguments,
                                     StandardOutput output = StandardOutput::Captured);
 
+/// Runs a script of the shell, in which "$0" is the program.
+[[nodiscard]] ProgramRun runScript(const std::string& script);
+
 }  // namespace allpairs::test

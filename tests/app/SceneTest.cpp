@@ -74,6 +74,37 @@ TEST(DetectScene, AMalformedSceneIsNamedWithItsLine) {
   expectFailure(runProgram({"detect", scene}), 3, scene + ":");
 }
 
+TEST(DetectScene, APartialResultIsNotSilent) {
+  const TempFolder folder;
+  const std::string scene = folder.write("two.scn", R"(<Node name="root">
+<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="-1"/></Node></Node>)");
+  const std::string warning =
+      "allpairs: warning: " + scene + ": 1 model left out; 'allpairs info --partial " + scene + "' lists it\n";
+  const ProgramRun run = runProgram({"detect", "--partial", scene, "--format", "json"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, warning);
+  const Json ignored = Json::parse(run.out)["ignored"];
+  ASSERT_EQ(ignored.size(), 1U);
+  EXPECT_EQ(ignored[0]["file"], scene);
+  EXPECT_EQ(ignored[0]["line"], 3);
+  EXPECT_EQ(ignored[0]["subject"], "/B/s");
+  const ProgramRun table = runProgram({"detect", "--partial", scene});
+  EXPECT_EQ(table.err, warning);
+  EXPECT_NE(table.out.find("'allpairs info --partial' lists them"), std::string::npos) << table.out;
+}
+
+TEST(DetectScene, AMeshThatIsLeftOutIsNamedOnce) {
+  const TempFolder folder;
+  folder.write("a.obj", "o wheel\x1b[31m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string bad = folder.write("bad.obj", "v 0 0\n");
+  const ProgramRun run = runProgram({"info", "--partial", folder.path()});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.out.find("\n  " + bad + ":1: "), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("bad.obj"), run.out.rfind("bad.obj")) << run.out;
+  EXPECT_NE(run.out.find("wheel\\x1b[31m"), std::string::npos) << run.out;
+}
+
 TEST(Demo, ShowsATableOfEveryPairWithoutAComplaint) {
   const std::string scene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
   const ProgramRun run = runProgram({"detect", scene, "--verify"});

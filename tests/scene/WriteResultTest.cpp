@@ -55,10 +55,18 @@ TEST(WriteJson, IsValidAndReadsBackTheSame) {
   EXPECT_EQ(json["statistics"]["pairs"], 3);
 }
 
+TEST(WriteJson, SaysWhatWasIgnored) {
+  const std::vector<scene::Remark> remarks{{.file = "a.scn", .line = 3, .subject = "/s", .reason = "\"why\""}};
+  const auto json = nlohmann::json::parse(written(scene::writeJson, scene::ResultView{.ignored = remarks}));
+  EXPECT_EQ(json["ignored"],
+            nlohmann::json::parse(R"([{"file": "a.scn", "line": 3, "subject": "/s", "reason": "\"why\""}])"));
+}
+
 TEST(WriteJson, OfNothingIsValid) {
   const auto json = nlohmann::json::parse(written(scene::writeJson, scene::ResultView{}));
   EXPECT_TRUE(json["models"].empty());
   EXPECT_TRUE(json["pairs"].empty());
+  EXPECT_EQ(json["ignored"], nlohmann::json::array());
 }
 
 TEST(WriteJson, SwappedPairsAreWrittenSecondFirst) {

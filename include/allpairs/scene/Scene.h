@@ -21,6 +21,7 @@ struct Remark {
   std::string
       subject{};  ///< What was left out, by the name that the user knows: a path in the scene, an object's name.
   std::string reason{};
+  bool isPartial = false;  ///< It is missing among the models: what would be an error without ReadOptions::partial.
 };
 
 /// One thing that models belong to: a node of a scene, an object of a mesh file. Models of one owner are one body.

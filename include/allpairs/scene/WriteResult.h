@@ -12,6 +12,7 @@
 #include "allpairs/Box.h"
 #include "allpairs/FunctionRef.h"
 #include "allpairs/Pair.h"
+#include "allpairs/scene/Scene.h"
 
 namespace allpairs::scene {
 
@@ -42,19 +43,20 @@ struct DetectionStatistics {
   bool verified = false;  ///< Whether the exhaustive strategy was run too, and agreed.
 };
 
-/// Models, pairs of them by index, and how they were found. The pairs are borrowed.
+/// Models, pairs of them by index, and how they were found. Pairs and remarks are borrowed.
 struct ResultView {
   std::size_t modelCount = 0;
   std::function<ModelRecord(std::size_t)> model{};
   std::span<const Pair> pairs{};
-  bool swapped = false;  ///< Write each pair's second before its first.
+  std::span<const Remark> ignored{};  ///< What of the input was left out.
+  bool swapped = false;               ///< Write each pair's second before its first.
   DetectionStatistics statistics{};
 };
 
 /// Takes a result's bytes, some at a time.
 using ByteSink = FunctionRef<void(std::string_view)>;
 
-/// Writes {"models": [...], "pairs": [[i, j], ...], "statistics": {...}}.
+/// Writes {"models": [...], "pairs": [[i, j], ...], "ignored": [...], "statistics": {...}}.
 ///
 /// A number is written with as many digits as it takes to read the same number again. JSON has no infinities: they are
 /// the texts "inf" and "-inf".

@@ -94,7 +94,7 @@ void addModels(sofa::SceneDescription& description, bool partial, Scene& scene) 
       scene.models.back()->setOwner(scene.owners[model.owner].get());
     } catch (const Error& problem) {  // What only the model itself checks: a negative radius, say.
       if (!partial) throw FileError(model.file, problem.what(), model.line);
-      scene.remarks.push_back({model.file, model.line, model.path, problem.what()});
+      scene.remarks.push_back({model.file, model.line, model.path, problem.what(), true});
     }
   }
 }
@@ -125,7 +125,7 @@ Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& option
   for (auto& owner : description.owners) scene.owners.push_back(std::make_unique<Owner>(Owner{std::move(owner)}));
   for (auto& ignored : description.ignored)
     scene.remarks.push_back(
-        {std::move(ignored.file), ignored.line, std::move(ignored.subject), std::move(ignored.reason)});
+        {std::move(ignored.file), ignored.line, std::move(ignored.subject), std::move(ignored.reason), true});
   addModels(description, options.partial, scene);
   return scene;
 }

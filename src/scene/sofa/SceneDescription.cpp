@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/sofa/Evaluation.h"
@@ -40,6 +42,14 @@ std::optional<RegionDescription> describeRegion(Evaluation& evaluation, const Co
   if (corners.empty()) return std::nullopt;
   if (corners.size() != 2) throw Unplaceable(*broadPhase, "a box has two corners");
   if (corners[0] == Vec3{} && corners[1] == Vec3{}) return std::nullopt;  // What SOFA writes for no box.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double min = corners[0][axis];
+    const double max = corners[1][axis];
+    if (min < max) continue;
+    throw Unplaceable(*broadPhase,
+                      fmt::format("a region's min must be less than its max on every axis; in {} they are {} and {}",
+                                  "xyz"[axis], min, max));
+  }
   return RegionDescription{corners[0], corners[1]};
 }
 

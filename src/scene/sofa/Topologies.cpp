@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,7 +63,7 @@ std::array<std::size_t, 3> toCounts(const Component& grid, const Vec3& numbers) 
   double product = 1;
   for (const double n : numbers) product *= std::max(1.0, n);
   if (!(product <= static_cast<double>(kMaxPoints)))
-    throw Unplaceable(grid, "a grid of " + std::to_string(product) + " points is more than this reader makes");
+    throw Unplaceable(grid, fmt::format("a grid of {} points is more than this reader makes", product));
   return {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1]),
           static_cast<std::size_t>(numbers[2])};
 }

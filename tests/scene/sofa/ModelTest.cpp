@@ -243,5 +243,13 @@ TEST_F(SofaModel, TheBroadPhaseMayHaveARegion) {
   EXPECT_THAT(complaintIn("<BruteForceDetection box='1 2 3'/>"), HasSubstr("two corners"));
 }
 
+TEST_F(SofaModel, ARegionThatIsNoBoxIsNamedWithItsLine) {
+  EXPECT_FALSE(readIn("<BruteForceDetection box='0 0 0 0 0 0'/>").region) << "what SOFA writes for none";
+  const auto complaint = complaintIn("<BruteForceDetection box='0 0 1e-9 1 1 1e-10'/>");
+  EXPECT_THAT(complaint, HasSubstr("in z they are 1e-09 and 1e-10"));
+  EXPECT_THAT(complaint, HasSubstr(".scn:"));
+  EXPECT_THAT(complaintIn("<BruteForceDetection box='0 2 0 1 2 1'/>"), HasSubstr("in y they are 2 and 2"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

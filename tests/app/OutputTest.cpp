@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "Expect.h"
+#include "support/Boxes.h"
+#include "support/Npy.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+/// Two boxes that touch, in a file of a folder.
+std::string twoBoxes(const TempFolder& folder) {
+  return folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(1, 1, 1)}));
+}
+
+TEST(OutputFile, IsNotLeftInPartsByASignal) {
+  for (const char* signal : {"TERM", "HUP"}) {
+    const TempFolder folder;
+    const ProgramRun run = runScript("\"$0\" generate uniform -n 20000000 -o '" + (folder.path() / "x.npy").string() +
+                                     "' & sleep 0.1; kill -" + signal + " $!; wait $!");
+    EXPECT_GT(run.status, 128) << "a shell's word for a signal";
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  }
+}
+
+TEST(OutputFile, ThatMayNotGrowIsAnErrorAndNotLeft) {
+  const TempFolder folder;
+  const std::string file = folder.path() / "x.npy";
+  const ProgramRun run = runScript("ulimit -f 16; \"$0\" generate uniform -n 9999 -o '" + file + "'");
+  expectFailure(run, 3, file + ": cannot be written");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(OutputFile, ReplacesOneThatIsThere) {
+  const TempFolder folder;
+  const std::string boxes = twoBoxes(folder);
+  const std::string target = folder.write("pairs.csv", "before");
+  expectSuccess(runProgram({"detect", boxes, "-o", target}));
+  EXPECT_EQ(readBytes(target), "first,second\n1,0\n");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+}
+
+TEST(OutputFile, ThatMeansADescriptorIsWrittenThere) {
+  const TempFolder folder;
+  const std::string boxes = twoBoxes(folder);
+  for (const char* name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    const ProgramRun run =
+        runScript("echo before; \"$0\" detect '" + boxes + "' --format csv -o " + name + "; echo after");
+    EXPECT_EQ(run.out, "before\nfirst,second\n1,0\nafter\n") << name;
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+TEST(OutputFile, IsOfTheFormatThatItsExtensionSaysInAnyCase) {
+  const TempFolder folder;
+  const std::string target = folder.path() / "pairs.CSV";
+  expectSuccess(runProgram({"detect", twoBoxes(folder), "-o", target}));
+  EXPECT_EQ(readBytes(target), "first,second\n1,0\n");
+}
+
+TEST(OutputFile, WithoutANameIsWrongUsage) {
+  const TempFolder folder;
+  expectFailure(runProgram({"detect", twoBoxes(folder), "-o", ""}), 2, "the name of a file is needed");
+  expectFailure(runProgram({"generate", "uniform", "-o", ""}), 2, "the name of a file is needed");
+}
+
+TEST(OutputFile, ThatMayNotBeWrittenIsNotReplaced) {
+  if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write every file: a read-only one is not tried";
+  const TempFolder folder;
+  const std::string boxes = twoBoxes(folder);
+  const std::string target = folder.write("pairs.csv", "before");
+  std::filesystem::permissions(target, std::filesystem::perms::owner_read);
+  expectFailure(runProgram({"detect", boxes, "-o", target}), 3, target + ": cannot be replaced");
+  EXPECT_EQ(readBytes(target), "before");
+}
+
+}  // namespace
+}  // namespace allpairs::test
