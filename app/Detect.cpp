@@ -142,13 +142,13 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   return outcome;
 }
 
-void addChoice(CLI::App& command, const std::string& name, std::string& value, std::vector<std::string> choices,
-               const std::string& description) {
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
+                       std::vector<std::string> choices) {
   const auto check = [name, choices](const std::string& text) {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
     return fmt::format("'{}' is none of {}", text, fmt::join(choices, ", "));
   };
-  command.add_option(name, value, description)->type_name("WORD")->check(check);
+  return command.add_option(name, value)->type_name("WORD")->check(check);
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
@@ -181,13 +181,13 @@ void addDetect(CLI::App& program) {
                             ->type_name("D");
   CLI::Option* box = command->add_option("--box", settings->box, "Leave out models that do not touch this region")
                          ->type_name("x0,y0,z0,x1,y1,z1");
-  addChoice(*command, "--strategy", settings->strategy, {"auto", "exhaustive", "blocked"},
-            "How to search: auto, the default, exhaustive or blocked; all give the same pairs");
+  addChoice(*command, "--strategy", settings->strategy, {"auto", "exhaustive", "blocked"})
+      ->description("How to search: auto, the default, exhaustive or blocked; all give the same pairs");
   command->add_option("--threads", settings->threads, "How many threads may work; 0, the default: one per core")
       ->type_name("N");
   command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
-  addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"},
-            "How to write the result: table, csv, json or npy; by default as FILE is called, else a table");
+  addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"})
+      ->description("How to write the result: table, csv, json or npy; by default as FILE is called, else a table");
   addOutputOption(*command, settings->output);
   command->callback([settings, margin, box] {
     settings->format = formatOf(*settings);

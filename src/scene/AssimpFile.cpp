@@ -85,7 +85,7 @@ class NodeReader {
 
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
   std::string nameOf(const aiNode& node) const {
-    const std::string name = node.mName.C_Str();
+    std::string name = node.mName.C_Str();
     if (!isMadeUp(name)) return name;
     std::string meshName = m_scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
     if (node.mNumMeshes > 1 && meshName.ends_with("-0")) meshName.resize(meshName.size() - 2);
