@@ -169,6 +169,11 @@ BenchRecord measureBoxes(const Boxes& boxes, const BenchSettings& settings, Exec
 
 void runBench(const BenchSettings& settings) {
   if (settings.threads == 0) throw UsageError("--threads: at least 1");
+  const auto sets = instructionSets();
+  const std::string& wanted = settings.instructionSet;
+  if (!wanted.empty() && std::find(sets.begin(), sets.end(), wanted) == sets.end()) {
+    throw UsageError("--instruction-set: '" + wanted + "' is none that this processor has");
+  }
   const Boxes boxes = load(settings);
   std::optional<parallel::TbbExecutor> executor;
   if (settings.threads > 1) executor.emplace(settings.threads);

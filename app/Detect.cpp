@@ -61,7 +61,8 @@ Strategy strategyOf(const std::string& name) {
 std::size_t threadsOf(const std::string& text) {
   constexpr std::size_t kMostDigits = 4;
   const bool isCount = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  if (!isCount || text.size() > kMostDigits) throw UsageError("--threads: '" + text + "' is not a number of threads");
+  if (!isCount || text.size() > kMostDigits)
+    throw UsageError("--threads: '" + text + "' is not a number of threads from 0 to 9999");
   return static_cast<std::size_t>(std::stoul(text));
 }
 

@@ -20,6 +20,7 @@ void requireFile(const std::filesystem::path& path) {
   if (status.type() == std::filesystem::file_type::not_found) throw FileError(path, "no such file or folder");
   if (problem) throw FileError(path, problem.message());
   if (std::filesystem::is_directory(status)) throw FileError(path, "is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw FileError(path, "is not a regular file");  // a pipe would wait
   errno = 0;
   if (!std::ifstream(path, std::ios::binary)) throw FileError(path, "cannot be opened: " + lastProblem());
 }

@@ -85,11 +85,13 @@ std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Re
   for (fs::path& entry : entries) {
     std::error_code ignored;
     const bool isFolder = fs::is_directory(entry, ignored);
-    if (!isFolder && isMeshFile(entry)) {
+    const bool isSpecial = fs::exists(entry, ignored) && !isFolder && !fs::is_regular_file(entry, ignored);
+    if (!isFolder && !isSpecial && isMeshFile(entry)) {
       meshes.push_back(std::move(entry));
     } else {
-      const char* reason =
-          isFolder ? "is a folder; folders within a folder are not searched" : "is no mesh file by its extension";
+      const char* reason = isFolder    ? "is a folder; folders within a folder are not searched"
+                           : isSpecial ? "is not a regular file"
+                                       : "is no mesh file by its extension";
       remarks.push_back({.file = entry, .subject = entry.filename().string(), .reason = reason});
     }
   }

@@ -90,5 +90,9 @@ TEST(Bench, WithAnUnknownInstructionSetSaysSo) {
   EXPECT_NE(run.err.find("ABACUS"), std::string::npos) << run.err;
 }
 
+TEST(Bench, OnAnUnknownInstructionSetIsWrongUsage) {
+  expectFailure(runProgram({"bench", "uniform", "--instruction-set", "FOO"}), 2, "'FOO' is none");
+}
+
 }  // namespace
 }  // namespace allpairs::test

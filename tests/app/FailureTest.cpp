@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <limits>
 
@@ -34,6 +35,7 @@ TEST(WrongUsage, IsOneLineAndStatusTwo) {
   expectFailure(runProgram({"detect", path, "--margin", "-inf"}), kWrongUsage, "--margin: '-inf'");
   expectFailure(runProgram({"detect", path, "--threads", "-1"}), kWrongUsage, "--threads");
   expectFailure(runProgram({"detect", path, "--threads", "many"}), kWrongUsage, "--threads: 'many'");
+  expectFailure(runProgram({"detect", path, "--threads", "100000"}), kWrongUsage, "from 0 to 9999");
   expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1"}), kWrongUsage, "has 5 numbers");
   expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1,1,"}), kWrongUsage, "is not a number");
   expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1,1,2"}), kWrongUsage, "has 7 numbers");
@@ -61,6 +63,17 @@ TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {
     expectFailure(runProgram({command, text}), kBadInput, text + ": ");
     expectFailure(runProgram({command, folder.path() / "empty"}), kBadInput, "is a folder without mesh files");
   }
+}
+
+TEST(BadInput, APipeIsRefusedAndNotWaitedFor) {
+  const TempFolder folder;
+  const std::string pipe = folder.path() / "pipe.obj";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expectFailure(runProgram({"info", pipe}), kBadInput, pipe + ": is not a regular file");
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramRun run = runProgram({"info", folder.path()});
+  expectSuccess(run);
+  EXPECT_NE(run.out.find(pipe + ": is not a regular file"), std::string::npos) << run.out;
 }
 
 TEST(OutputFile, AppearsWholeAndUnderItsName) {
