@@ -71,7 +71,7 @@ class PlyBody {
   template <class T>
   T take() {
     if (m_text.size() < sizeof(T)) fail("ends before all that its header announces");
-    std::array<char, sizeof(T)> bytes;
+    std::array<char, sizeof(T)> bytes{};
     std::memcpy(bytes.data(), m_text.data(), sizeof(T));
     m_text.remove_prefix(sizeof(T));
     const bool isLittle = m_encoding == PlyEncoding::LittleEndian;
