@@ -92,6 +92,12 @@ class BoxSet {
   struct Corners {
     CornerView<T> min;
     CornerView<T> max;
+
+    /// Whether the boxes lie as rows of 6, one after the other.
+    [[nodiscard]] bool isPacked() const noexcept {
+      return min.boxStride == 6 && max.boxStride == 6 && min.axisStride == 1 && max.axisStride == 1 &&
+             max.data == min.data + 3;
+    }
   };
   [[nodiscard]] const Corners<float>& float32() const noexcept { return m_float32; }
   [[nodiscard]] const Corners<double>& float64() const noexcept { return m_float64; }

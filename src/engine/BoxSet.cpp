@@ -56,16 +56,9 @@ bool anyNan(const T* values, std::size_t count) {
   return nans != 0;
 }
 
-/// Whether the boxes lie as rows of 6, one after the other.
-template <class T>
-bool isPacked(const BoxSet::Corners<T>& corners) {
-  return corners.min.boxStride == 6 && corners.max.boxStride == 6 && corners.min.axisStride == 1 &&
-         corners.max.axisStride == 1 && corners.max.data == corners.min.data + 3;
-}
-
 template <class T>
 void checkNoNan(std::size_t size, const BoxSet::Corners<T>& corners, const BoxSet& set) {
-  if (isPacked(corners) && !anyNan(corners.min.data, 6 * size)) return;
+  if (corners.isPacked() && !anyNan(corners.min.data, 6 * size)) return;
   const auto count = static_cast<std::ptrdiff_t>(size);
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     if (hasNanAt(corners.min, i) || hasNanAt(corners.max, i)) {

@@ -74,10 +74,10 @@ class LaneReader {
 
   /// Where the boxes lie as rows of six that need no more than to be rounded: no margins, no region; else null.
   [[nodiscard]] const float* plainFloat32() const noexcept {
-    return isPlain() && !m_boxes->isFloat64() && isPacked(m_boxes->float32()) ? m_boxes->float32().min.data : nullptr;
+    return isPlain() && !m_boxes->isFloat64() && m_boxes->float32().isPacked() ? m_boxes->float32().min.data : nullptr;
   }
   [[nodiscard]] const double* plainFloat64() const noexcept {
-    return isPlain() && m_boxes->isFloat64() && isPacked(m_boxes->float64()) ? m_boxes->float64().min.data : nullptr;
+    return isPlain() && m_boxes->isFloat64() && m_boxes->float64().isPacked() ? m_boxes->float64().min.data : nullptr;
   }
 
   /// Asks for the memory of box i ahead of its use.
@@ -164,12 +164,6 @@ class LaneReader {
 
   [[nodiscard]] bool isWidened() const noexcept { return m_distance != 0.0 || m_boxes->hasMargins(); }
   [[nodiscard]] bool isPlain() const noexcept { return !isWidened() && !m_region; }
-
-  template <class T>
-  [[nodiscard]] static bool isPacked(const BoxSet::Corners<T>& corners) noexcept {
-    return corners.min.boxStride == 6 && corners.max.boxStride == 6 && corners.min.axisStride == 1 &&
-           corners.max.axisStride == 1 && corners.max.data == corners.min.data + 3;
-  }
 
   [[nodiscard]] bool touchesRegion(std::size_t i) const noexcept {
     return overlap((*m_boxes)[i], *m_region, m_distance + m_boxes->margin(i));

@@ -24,12 +24,13 @@ void insertionSort(const std::uint64_t* from, std::uint64_t* to, std::size_t siz
   }
 }
 
-}  // namespace
-
+/// How many bits a pass over `size` numbers should look at.
 unsigned digitBits(std::size_t size, unsigned bits, unsigned keyEnd) {
   const auto wanted = static_cast<unsigned>(std::bit_width(size)) - kBucketBits;
   return std::min(std::clamp(wanted, 2U, kMaxDigitBits), bits - keyEnd);
 }
+
+}  // namespace
 
 // Each level of recursion uses up bits of the key.
 // NOLINTNEXTLINE(misc-no-recursion)

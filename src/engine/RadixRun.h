@@ -12,7 +12,4 @@ namespace allpairs::engine {
 /// The lower `keyEnd` bits are not looked at: numbers that agree above them keep their order.
 void sortRun(std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned bits, unsigned keyEnd);
 
-/// How many bits a pass over `size` numbers should look at.
-[[nodiscard]] unsigned digitBits(std::size_t size, unsigned bits, unsigned keyEnd);
-
 }  // namespace allpairs::engine
