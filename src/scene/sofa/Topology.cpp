@@ -188,16 +188,15 @@ Vec3 Topology::position(std::size_t index) const {
 }
 
 void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points) {
-  const auto [nx, ny, nz] = points;
-  const auto at = [nx = nx, ny = ny](std::size_t x, std::size_t y, std::size_t z) {
-    return static_cast<Index>(nx * (ny * z + y) + x);
+  const auto at = [&points](std::size_t x, std::size_t y, std::size_t z) {
+    return static_cast<Index>(points[0] * (points[1] * z + y) + x);
   };
   auto& mesh = topology.given;
   const std::array<std::size_t, 3> steps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto forAll = [&](const std::array<std::size_t, 3>& less, auto&& visit) {
-    for (std::size_t z = 0; z + less[2] < nz; ++z)
-      for (std::size_t y = 0; y + less[1] < ny; ++y)
-        for (std::size_t x = 0; x + less[0] < nx; ++x) visit(x, y, z);
+    for (std::size_t z = 0; z + less[2] < points[2]; ++z)
+      for (std::size_t y = 0; y + less[1] < points[1]; ++y)
+        for (std::size_t x = 0; x + less[0] < points[0]; ++x) visit(x, y, z);
   };
   const auto addQuads = [&](const auto& u, const auto& v) {
     forAll({u[0] + v[0], u[1] + v[1], u[2] + v[2]}, [&](std::size_t x, std::size_t y, std::size_t z) {
