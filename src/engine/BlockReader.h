@@ -38,7 +38,7 @@ class BlockReader {
   [[nodiscard]] RowBlockResult readRun(std::size_t begin, LaneBlock& block) const {
     static constexpr std::array<std::int32_t, kFanOut> kOffsets{0,  6,  12, 18, 24, 30, 36, 42,
                                                                 48, 54, 60, 66, 72, 78, 84, 90};
-    return m_float32 != nullptr ? m_kernels->readFloat32(m_float32 + 6 * begin, kOffsets.data(), block)
+    return m_float32 != nullptr ? m_kernels->readRun32(m_float32 + 6 * begin, block)
                                 : m_kernels->readFloat64(m_float64 + 6 * begin, kOffsets.data(), block);
   }
 

@@ -2,6 +2,7 @@
 #include "CurveGrid.h"
 
 #include <algorithm>
+#include <bit>
 #include <span>
 
 #include "Sampling.h"
@@ -41,6 +42,11 @@ std::size_t sampleSize(std::size_t boxes) {
   return std::min(boxes, std::clamp<std::size_t>(boxes / 16, 32, kMostSamples));
 }
 
+/// As many cells as boxes, and then four times as many along each axis, for sets that are crowded in places.
+unsigned bitsFor(std::size_t boxes) {
+  return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 2, CurveGrid::kMaxBitsPerAxis);
+}
+
 struct Range {
   float least;
   float width;
@@ -76,8 +82,9 @@ CurveGrid CurveGrid::fit(const LaneReader& reader) {
     grid.origin[axis] = range.least;
     width = std::max(width, range.width);
   }
-  constexpr auto kCells = static_cast<float>(1U << kBitsPerAxis);
-  if (width > 0.0F) grid.scale = std::min(kCells / width, kLaneMax);
+  grid.bitsPerAxis = bitsFor(reader.size());
+  const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
+  if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
   grid.largeExtent = kLargeFactor * nth({sample.extents.data(), sample.size}, sample.size / 2);
   return grid;
 }

@@ -12,14 +12,12 @@ namespace allpairs::engine {
 /// The grid that gives a box its place along the curve: cubic cells, since cells stretched to the extent of each axis
 /// would make blocks of a flat scene wide and flat too.
 ///
-/// The key is a class, for boxes much larger than most, above the Morton code of the cell of the box's centre. Large
-/// boxes so come to lie with their like and do not blow up the bounds of blocks of small ones.
-/// Reference: G. M. Morton, "A computer oriented geodetic data base", IBM, 1966.
+/// The key is a class, for boxes much larger than most, above the place along Hilbert's curve of the cell of the box's
+/// centre. Large boxes so come to lie with their like and do not blow up the bounds of blocks of small ones.
 struct CurveGrid {
-  static constexpr unsigned kBitsPerAxis = 9;
-  static constexpr unsigned kClassBits = 3;
-  static constexpr unsigned kKeyBits = 3 * kBitsPerAxis + kClassBits;
+  static constexpr unsigned kMaxBitsPerAxis = 9;
 
+  unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells for each box: more would only make keys longer to sort.
   std::array<float, 3> origin{};
   float scale = 0.0F;        ///< Cells per unit of length.
   float largeExtent = 0.0F;  ///< Boxes longer than this are of a class of their own.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "BlockReader.h"
@@ -14,13 +15,12 @@ namespace {
 
 /// Keys are above the index.
 constexpr unsigned kIndexBits = 32;
-constexpr unsigned kTopBits = kIndexBits + CurveGrid::kKeyBits;
-
 /// A first pass into this many buckets leaves runs that fit the second-level cache up to some hundred million boxes.
 constexpr unsigned kTopDigitBits = 11;
 
-/// Sets below this size are sorted as one run.
-constexpr std::size_t kTopSize = std::size_t{1} << 14;
+/// Sets up to this size are sorted as one run: there and back they fill a second-level cache. Threads share smaller ones.
+constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
+constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
 
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 14;
@@ -47,6 +47,7 @@ class KeyWriter {
       exact &= read.exact;
       m_kernels.curveKeys(m_block, m_grid, keys.data());
       for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+        m_allKeys |= keys[lane];
         *m_out = (std::uint64_t{keys[lane]} << kIndexBits) | (begin + lane);
         m_out += 1U - ((read.emptyLanes >> lane) & 1U);
       }
@@ -60,11 +61,17 @@ class KeyWriter {
     return static_cast<std::size_t>(m_out - m_begin);
   }
 
+  /// Every bit that is set in a key so far.
+  [[nodiscard]] KeyedBox allKeys() const noexcept { return std::uint64_t{m_allKeys} << kIndexBits; }
+
  private:
   void write() {
     std::array<std::uint32_t, kFanOut> keys;
     m_kernels.curveKeys(m_block, m_grid, keys.data());
-    for (std::size_t i = 0; i < m_fill; ++i) *m_out++ = (std::uint64_t{keys[i]} << kIndexBits) | m_index[i];
+    for (std::size_t i = 0; i < m_fill; ++i) {
+      m_allKeys |= keys[i];
+      *m_out++ = (std::uint64_t{keys[i]} << kIndexBits) | m_index[i];
+    }
     m_fill = 0;
   }
 
@@ -75,6 +82,7 @@ class KeyWriter {
   LaneBlock m_block;
   std::array<std::uint32_t, kFanOut> m_index{};
   std::size_t m_fill = 0;
+  std::uint32_t m_allKeys = 0;
 };
 
 }  // namespace
@@ -103,6 +111,7 @@ OrderedBoxes CurveOrder::readKeys(const LaneReader& reader, const Kernels& kerne
     chunk.exact &= reader.read(
         begin, chunk.end, [&](std::size_t i, const LaneBox& box) { writer.take(i, box); }, [](std::size_t) {});
     chunk.used = writer.finish();
+    chunk.allKeys = writer.allKeys();
   });
   OrderedBoxes result;
   std::size_t used = 0;
@@ -116,18 +125,25 @@ OrderedBoxes CurveOrder::readKeys(const LaneReader& reader, const Kernels& kerne
   return result;
 }
 
+/// How many of the low bits of a number can differ.
+unsigned CurveOrder::usedBits() const {
+  KeyedBox all = 0;
+  for (std::size_t c = 0; c < m_chunkCount; ++c) all |= m_chunks[c].allKeys;
+  return std::max(kIndexBits, static_cast<unsigned>(std::bit_width(all)));
+}
+
 /// The first pass over a large set, in parallel, and then its buckets.
-void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, Executor& executor) {
-  constexpr unsigned kShift = kTopBits - kTopDigitBits;
-  constexpr std::size_t kBuckets = std::size_t{1} << kTopDigitBits;
+void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigned bits, Executor& executor) {
+  const unsigned shift = std::max(kIndexBits, bits - std::min(bits, kTopDigitBits));
+  const std::size_t buckets = std::size_t{1} << (bits - shift);
   executor.run(cut(size, executor), [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];
-    chunk.places.assign(kBuckets, 0);
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) ++chunk.places[from[i] >> kShift];
+    chunk.places.assign(buckets, 0);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) ++chunk.places[from[i] >> shift];
   });
   std::uint32_t place = 0;
-  m_bucketEnds.assign(kBuckets + 1, 0);
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+  m_bucketEnds.assign(buckets + 1, 0);
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
     for (std::size_t c = 0; c < m_chunkCount; ++c) {
       place += std::exchange(m_chunks[c].places[bucket], place);
     }
@@ -135,14 +151,14 @@ void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, Executo
   }
   executor.run(m_chunkCount, [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) to[chunk.places[from[i] >> kShift]++] = from[i];
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) to[chunk.places[from[i] >> shift]++] = from[i];
   });
-  const std::size_t tasks = executor.concurrency() == 1 ? 1 : kBuckets / 8;
+  const std::size_t tasks = executor.concurrency() == 1 ? 1 : std::max<std::size_t>(1, buckets / 8);
   executor.run(tasks, [&](std::size_t task) {
-    for (std::size_t b = kBuckets * task / tasks; b < kBuckets * (task + 1) / tasks; ++b) {
+    for (std::size_t b = buckets * task / tasks; b < buckets * (task + 1) / tasks; ++b) {
       const std::size_t begin = m_bucketEnds[b];
       const std::size_t length = m_bucketEnds[b + 1] - begin;
-      sortRun(to + begin, from + begin, length, kShift, kIndexBits);
+      sortRun(to + begin, from + begin, length, shift, kIndexBits);
     }
   });
 }
@@ -151,13 +167,14 @@ OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spar
                               Executor& executor) {
   m_boxes.require(reader.size());
   KeyedBox* boxes = m_boxes.data();
-  const bool large = reader.size() >= kTopSize;
+  const bool large = reader.size() > (executor.concurrency() == 1 ? kMostInOneRun : kMostForOneThread);
   // The result must end in our own memory: two moves of a large set bring it home, one of a small set does.
   OrderedBoxes result = readKeys(reader, kernels, large ? boxes : spare.data(), executor);
+  const unsigned bits = usedBits();
   if (large) {
-    sortTop(boxes, spare.data(), result.boxes.size(), executor);
+    sortTop(boxes, spare.data(), result.boxes.size(), bits, executor);
   } else {
-    sortRun(spare.data(), boxes, result.boxes.size(), kTopBits, kIndexBits);
+    sortRun(spare.data(), boxes, result.boxes.size(), bits, kIndexBits);
   }
   result.boxes = {boxes, result.boxes.size()};
   return result;

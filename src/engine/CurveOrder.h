@@ -26,8 +26,7 @@ struct OrderedBoxes {
 
 /// Sorts boxes along a space-filling curve, by key and then by index.
 ///
-/// A radix sort from the top: each pass cuts a run into buckets of a few boxes, as far as its keys can tell them apart,
-/// so that crowded places are resolved as deeply as they need and others are not. Runs soon fit the caches.
+/// A radix sort. A set that fits no cache, or that several threads share, is first cut into runs by the highest bits.
 /// Cost:    8 bytes a box, and 8 more of `spare` memory while it sorts.
 /// Threads: parallel over the executor; the order does not depend on it.
 class CurveOrder {
@@ -41,12 +40,14 @@ class CurveOrder {
     std::size_t end = 0;
     std::size_t used = 0;
     bool exact = true;
+    KeyedBox allKeys = 0;               ///< Every bit that is set in a key.
     std::vector<std::uint32_t> places;  ///< By bucket: where its next box goes.
   };
 
   std::size_t cut(std::size_t size, Executor& executor);
   OrderedBoxes readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed, Executor& executor);
-  void sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, Executor& executor);
+  void sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigned bits, Executor& executor);
+  [[nodiscard]] unsigned usedBits() const;
 
   std::vector<Chunk> m_chunks;
   std::size_t m_chunkCount = 0;

@@ -20,6 +20,9 @@ namespace {  // Each file that compiles the kernels has its own.
 /// Up to this many columns a branch around vectors without hits costs more than it saves.
 constexpr std::size_t kDenseColumns = 512;
 
+/// A row is dense if one of so many columns is a hit.
+constexpr std::size_t kDenseRow = 3;
+
 /// One row against the columns [begin, end), tile by tile.
 template <Density kDensity, class Taker>
 HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end, Hits& hits) {
@@ -37,13 +40,66 @@ HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t
   }
 }
 
+/// Takes the hits of one row as pairs, to where they stay.
+struct PairWriter {
+  std::uint32_t* to;
+  hn::Vec<IdTag> rowIds;
+  bool rowSecond;
+  std::size_t size = 0;
+
+  HWY_INLINE void take(FloatMask mask, const std::uint32_t* ids) {
+    const IdTag d;
+    auto partners = hn::LoadU(d, ids);
+    if (!hn::AllTrue(FloatTag(), mask)) partners = hn::Compress(partners, hn::RebindMask(d, mask));
+    if (rowSecond) {
+      hn::StoreInterleaved2(partners, rowIds, d, to + 2 * size);
+    } else {
+      hn::StoreInterleaved2(rowIds, partners, d, to + 2 * size);
+    }
+    size += hn::CountTrue(FloatTag(), mask);
+  }
+};
+
+/// One row whose pairs are expected to be many; returns how many there are.
+HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end,
+                                Hits& hits) {
+  constexpr std::size_t kTile = LaneTile::kCapacity;
+  const Query q = spread(search.rows.get(row));
+  Pair* pairs = hits.roomForPairs(hits.receiver, hits, end - begin);
+  PairWriter writer{reinterpret_cast<std::uint32_t*>(pairs), hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
+  while (begin < end) {
+    const std::size_t first = begin / kTile * kTile;
+    const std::size_t stop = std::min(end, first + kTile);
+    takeRow<Density::Dense>(q, search.columns.tileOf(begin), begin - first, stop - first, writer);
+    begin = stop;
+  }
+  hits.takePairs(hits.receiver, writer.size);
+  return writer.size;
+}
+
+/// Rows of which most columns are hits: their pairs are written at once. Returns where rows are no longer like that.
+std::size_t writeRows(const FlatSearch& search, std::size_t row, Hits& hits) {
+  for (bool dense = true; dense && row < search.rowEnd; ++row) {
+    const std::size_t begin = search.tested == Columns::Following ? row + 1 : 0;
+    const std::size_t end = search.tested == Columns::Preceding ? row : search.columns.size;
+    dense = begin < end && kDenseRow * writeRow(search, row, begin, end, hits) > end - begin;
+    hits.boxTests += end - std::min(begin, end);
+  }
+  return row;
+}
+
 template <Density kDensity, class Taker>
 void searchRows(const FlatSearch& search, Hits& hits) {
   for (std::size_t row = search.rowBegin; row < search.rowEnd; ++row) {
     const std::size_t begin = search.tested == Columns::Following ? row + 1 : 0;
     const std::size_t end = search.tested == Columns::Preceding ? row : search.columns.size;
+    const std::size_t size = hits.size;
     searchRow<kDensity, Taker>(search, row, begin, end, hits);
     hits.boxTests += end - std::min(begin, end);
+    if (hits.roomForPairs != nullptr && hits.size > size + kDenseColumns / kDenseRow &&
+        kDenseRow * (hits.size - size) > end - begin) {
+      row = writeRows(search, row + 1, hits) - 1;
+    }
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "allpairs/FunctionRef.h"
+#include "allpairs/Pair.h"
 
 namespace allpairs::engine {
 
@@ -36,6 +36,12 @@ struct Hits {
   /// Takes what is stored; must leave size at 0.
   void (*flush)(void* receiver, Hits& hits) = nullptr;
   void* receiver = nullptr;
+
+  /// If set, returns where that many pairs may be written at once, which is cheaper where there are many; what is stored
+  /// is taken first. takePairs() says how many there were. Pairs are of the sides that `rowSecond` says.
+  Pair* (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
+  void (*takePairs)(void* receiver, std::size_t count) = nullptr;
+  bool rowSecond = false;
 
   /// Makes room for `more` hits, which must not be more than the capacity.
   void require(std::size_t more) {

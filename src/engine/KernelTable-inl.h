@@ -25,7 +25,10 @@ const Kernels* kernelTable() {
                              &join,
                              &boundBlocks,
                              &writePairs,
+                             &exchangeNeighbours,
                              &curveKeys,
+                             &readRun32,
+                             &readTile32,
                              &readFloat32,
                              &readFloat64};
   return &table;

@@ -32,8 +32,15 @@ struct Kernels {
   /// Turns hits into pairs.
   void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
 
+  /// Brings pairs that lie a few places from where they belong nearer to it; others may stay where they are.
+  void (*exchangeNeighbours)(Pair* pairs, std::size_t size, bool bySecond);
+
   /// The keys of the sixteen boxes of a block.
   void (*curveKeys)(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys);
+
+  /// Reads sixteen boxes, or the first boxes of a tile, from rows that follow each other.
+  RowBlockResult (*readRun32)(const float* rows, LaneBlock& block);
+  bool (*readTile32)(const float* rows, std::size_t size, std::uint32_t firstId, LaneTile& tile);
 
   /// Reads sixteen boxes, those that start `offsets` values after `rows`, as lanes that are no smaller.
   RowBlockResult (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);

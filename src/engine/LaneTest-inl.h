@@ -45,14 +45,25 @@ HWY_INLINE FloatMask meets(FloatVector queryMin, FloatVector queryMax, FloatVect
   return hn::Le(hn::Max(queryMin, min), hn::Min(queryMax, max));
 }
 
+/// The lanes that meet on this axis too.
+HWY_INLINE FloatMask meetsAlso(FloatMask also, FloatVector queryMin, FloatVector queryMax, FloatVector min,
+                               FloatVector max) {
+#if HWY_TARGET <= HWY_AVX3
+  // A comparison under a mask: the conjunction costs nothing.
+  return FloatMask{
+      _mm512_mask_cmp_ps_mask(also.raw, hn::Max(queryMin, min).raw, hn::Min(queryMax, max).raw, _CMP_LE_OQ)};
+#else
+  return hn::And(also, meets(queryMin, queryMax, min, max));
+#endif
+}
+
 /// The lanes of six rows, each at its own pointer plus `i`, that overlap the query.
 template <class Rows>
 HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t i) {
   const FloatTag d;
   const FloatMask x = meets(q.minX, q.maxX, hn::LoadU(d, &bound[0][i]), hn::LoadU(d, &bound[3][i]));
-  const FloatMask y = meets(q.minY, q.maxY, hn::LoadU(d, &bound[1][i]), hn::LoadU(d, &bound[4][i]));
-  const FloatMask z = meets(q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
-  return hn::And(hn::And(x, y), z);
+  const FloatMask xy = meetsAlso(x, q.minY, q.maxY, hn::LoadU(d, &bound[1][i]), hn::LoadU(d, &bound[4][i]));
+  return meetsAlso(xy, q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
 }
 
 /// Stores the selected ids at `to` and returns how many there are; writes a whole vector.

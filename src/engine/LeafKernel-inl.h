@@ -48,9 +48,8 @@ struct LeafVectors {
     const FloatTag d;
     const auto spread = [&](std::size_t row) HWY_ATTR { return hn::Set(d, block.bound[row][lane]); };
     const FloatMask x = meets(spread(0), spread(3), bound[0][v], bound[3][v]);
-    const FloatMask y = meets(spread(1), spread(4), bound[1][v], bound[4][v]);
-    const FloatMask z = meets(spread(2), spread(5), bound[2][v], bound[5][v]);
-    return hn::And(hn::And(x, y), z);
+    const FloatMask xy = meetsAlso(x, spread(1), spread(4), bound[1][v], bound[4][v]);
+    return meetsAlso(xy, spread(2), spread(5), bound[2][v], bound[5][v]);
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "PairReceiver.h"
 
+#include <algorithm>
 #include <string>
 
 #include "allpairs/Error.h"
@@ -31,24 +32,53 @@ void PairReceiver::start(const PairRules& rules) {
   m_hits.countOnly = rules.countOnly && !rules.test->needed() && !rules.ascendingOnly;
   m_hits.receiver = this;
   m_hits.flush = [](void* self, Hits& hits) { static_cast<PairReceiver*>(self)->receive(hits); };
+  if (!isSelective() && !rules.countOnly && rules.side != PairSide::SmallerFirst) {
+    m_hits.rowSecond = rules.side == PairSide::RowSecond;
+    m_hits.takePairs = [](void* self, std::size_t count) { static_cast<PairReceiver*>(self)->take(count); };
+    m_hits.roomForPairs = [](void* self, Hits& hits, std::size_t most) {
+      return static_cast<PairReceiver*>(self)->roomFor(hits, most);
+    };
+  }
   m_size = 0;
   m_count = 0;
   m_exactTests = 0;
-  added = nullptr;
+  m_added = nullptr;
+}
+
+void PairReceiver::whenAdded(void (*added)(void* context, PairReceiver& receiver), void* context) {
+  m_added = added;
+  m_context = context;
+  m_hits.roomForPairs = nullptr;
+}
+
+bool PairReceiver::isSelective() const noexcept {
+  return m_rules->firstRow != 0 || m_rules->ascendingOnly || m_rules->test->needed();
+}
+
+Pair* PairReceiver::roomFor(Hits& hits, std::size_t most) {
+  receive(hits);
+  m_pairs.grow(std::max(m_rules->likelyPairs, m_size + most + Hits::kSlack));
+  return m_pairs.data() + m_size;
+}
+
+void PairReceiver::take(std::size_t count) {
+  m_size += count;
+  m_count += count;
+  checkLimit(*m_rules, m_count);
 }
 
 void PairReceiver::receive(Hits& hits) {
   if (hits.size == 0) return;
   const std::size_t begin = m_size;
-  m_pairs.grow(begin + hits.size + Hits::kSlack);
+  m_pairs.grow(std::max(m_rules->likelyPairs, begin + hits.size + Hits::kSlack));
   m_rules->kernels->writePairs(hits, m_rules->side, m_pairs.data() + begin);
   m_size += hits.size;
   hits.size = 0;
-  if (m_rules->firstRow != 0 || m_rules->ascendingOnly || m_rules->test->needed()) selectTested(begin, m_size);
+  if (isSelective()) selectTested(begin, m_size);
   m_count += m_size - begin;
   if (m_rules->countOnly) m_size = begin;
   checkLimit(*m_rules, m_count);
-  if (added != nullptr) added(context, *this);
+  if (m_added != nullptr) m_added(m_context, *this);
 }
 
 void PairReceiver::selectTested(std::size_t begin, std::size_t end) {

@@ -24,6 +24,9 @@ struct PairRules {
   PairSide side = PairSide::RowFirst;
   std::uint64_t maxPairs = 0;
 
+  /// Room for this many pairs is made at first: address space, of which only what is used takes memory.
+  std::size_t likelyPairs = 0;
+
   /// Whether more pairs than that are the caller's to hear of; otherwise they are an Overfull for the search itself.
   bool limitIsCallers = true;
   bool countOnly = false;
@@ -62,11 +65,13 @@ class PairReceiver {
     m_size -= count;
   }
 
-  /// If set, called whenever pairs have been added; it may drop them.
-  void (*added)(void* context, PairReceiver& receiver) = nullptr;
-  void* context = nullptr;
+  /// Has a function called whenever pairs have been added; it may drop them.
+  void whenAdded(void (*added)(void* context, PairReceiver& receiver), void* context);
 
  private:
+  [[nodiscard]] bool isSelective() const noexcept;
+  Pair* roomFor(Hits& hits, std::size_t most);
+  void take(std::size_t count);
   void receive(Hits& hits);
   void selectTested(std::size_t begin, std::size_t end);
 
@@ -77,6 +82,8 @@ class PairReceiver {
   std::size_t m_size = 0;
   std::uint64_t m_count = 0;
   std::uint64_t m_exactTests = 0;
+  void (*m_added)(void* context, PairReceiver& receiver) = nullptr;
+  void* m_context = nullptr;
 };
 
 }  // namespace allpairs::engine

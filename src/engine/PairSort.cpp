@@ -10,9 +10,19 @@
 namespace allpairs::engine {
 namespace {
 
-/// Pairs that a bucket should hold, so that sorting it stays in the second-level cache.
-constexpr std::size_t kPairsPerBucket = 32768;
+/// Pairs that a bucket should hold, so that sorting it stays in the first-level cache.
+constexpr std::size_t kPairsPerBucket = 4096;
 constexpr std::size_t kMaxBuckets = 2048;
+
+/// With fewer buckets, neighbouring pairs would often go to the same one and wait for its counter.
+constexpr std::size_t kMinBuckets = 256;
+
+/// Up to this many indices there are counters for all of them in the second-level cache, if they are worth clearing.
+constexpr std::size_t kMostCounters = std::size_t{1} << 17;
+constexpr std::size_t kCountersPerPair = 8;
+
+/// Up to about so many pairs of a key are put in order by insertion.
+constexpr std::size_t kFewPairs = 12;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
 /// Bits of a digit, and so how many keys share a bucket at most.
@@ -44,14 +54,19 @@ Digits digitsFor(unsigned bits) {
   return digits;
 }
 
+/// Turns counts into where each digit begins.
+void placesOf(std::uint32_t* counts, std::size_t size) {
+  std::uint32_t place = 0;
+  for (std::size_t digit = 0; digit < size; ++digit) place += std::exchange(counts[digit], place);
+}
+
 template <bool kSecond>
 void countDigits(const Pair* pairs, std::size_t size, const Digits& digits, std::array<Places, kMaxPasses>& places) {
   for (unsigned pass = 0; pass < digits.passes; ++pass) {
     std::fill_n(places[pass].begin(), std::size_t{digits.mask} + 1, 0U);
     const unsigned shift = pass * digits.bits;
     for (std::size_t i = 0; i < size; ++i) ++places[pass][(indexOf<kSecond>(pairs[i]) >> shift) & digits.mask];
-    std::uint32_t place = 0;
-    for (std::size_t digit = 0; digit <= digits.mask; ++digit) place += std::exchange(places[pass][digit], place);
+    placesOf(places[pass].data(), std::size_t{digits.mask} + 1);
   }
 }
 
@@ -73,15 +88,50 @@ std::pair<Pair*, Pair*> sortByDigits(Pair* from, Pair* to, std::size_t size, con
   return {from, to};
 }
 
+/// The two indices as one number that compares as the pair does in the order.
+template <bool kBySecond>
+std::uint64_t rankOf(Pair pair) {
+  return std::uint64_t{indexOf<kBySecond>(pair)} << 32U | indexOf<!kBySecond>(pair);
+}
+
+/// Pairs of which few lie far from their place.
+template <bool kBySecond>
+void sortByInsertion(Pair* pairs, std::size_t size) {
+  for (std::size_t i = 1; i < size; ++i) {
+    const Pair pair = pairs[i];
+    const std::uint64_t rank = rankOf<kBySecond>(pair);
+    std::size_t hole = i;
+    for (; hole > 0 && rankOf<kBySecond>(pairs[hole - 1]) > rank; --hole) pairs[hole] = pairs[hole - 1];
+    pairs[hole] = pair;
+  }
+}
+
+/// Sorts a bucket in which a key has a few pairs: each goes to its key's, in any order, and is then put in its place.
+template <bool kBySecond>
+void sortByKeys(const Kernels& kernels, const Pair* from, Pair* to, std::size_t size, unsigned keyBits) {
+  Places places;
+  const std::uint32_t mask = (1U << keyBits) - 1;
+  std::fill_n(places.begin(), std::size_t{mask} + 1, 0U);
+  for (std::size_t i = 0; i < size; ++i) ++places[indexOf<kBySecond>(from[i]) & mask];
+  placesOf(places.data(), std::size_t{mask} + 1);
+  for (std::size_t i = 0; i < size; ++i) to[places[indexOf<kBySecond>(from[i]) & mask]++] = from[i];
+  kernels.exchangeNeighbours(to, size, kBySecond);
+  sortByInsertion<kBySecond>(to, size);
+}
+
 /// Sorts the pairs of one bucket from `from` into `to`; `from` is lost. Keys of a bucket differ in their low bits only.
 template <bool kBySecond>
-void sortBucket(Pair* from, Pair* to, std::size_t size, unsigned keyBits, unsigned otherBits) {
+void sortBucket(const Kernels& kernels, Pair* from, Pair* to, std::size_t size, unsigned keyBits, unsigned otherBits) {
   if (size > std::numeric_limits<std::uint32_t>::max()) {
     std::copy_n(from, size, to);
     std::sort(to, to + size, [](Pair a, Pair b) {
       return std::pair(indexOf<kBySecond>(a), indexOf<!kBySecond>(a)) <
              std::pair(indexOf<kBySecond>(b), indexOf<!kBySecond>(b));
     });
+    return;
+  }
+  if (keyBits <= kMaxDigitBits && size < (kFewPairs << keyBits)) {
+    sortByKeys<kBySecond>(kernels, from, to, size, keyBits);
     return;
   }
   const auto byOther = sortByDigits<!kBySecond>(from, to, size, digitsFor(otherBits));
@@ -105,7 +155,8 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
     m_places[c].assign(m_buckets, 0);
     std::size_t* counts = m_places[c].data();
     const unsigned shift = m_keyBits;
-    for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
+    const std::size_t end = size * (c + 1) / chunks;
+    for (std::size_t i = size * c / chunks; i < end; ++i) {
       ++counts[indexOf<kBySecond>(from[i]) >> shift];
     }
   });
@@ -119,27 +170,51 @@ void PairSort::scatter(const Pair* from, Pair* to, std::size_t size, Executor& e
   executor.run(chunks, [&](std::size_t c) {
     std::size_t* places = m_places[c].data();
     const unsigned shift = m_keyBits;
-    for (std::size_t i = size * c / chunks; i < size * (c + 1) / chunks; ++i) {
+    const std::size_t end = size * (c + 1) / chunks;
+    for (std::size_t i = size * c / chunks; i < end; ++i) {
       const Pair pair = from[i];
       to[places[indexOf<kBySecond>(pair) >> shift]++] = pair;
     }
   });
 }
 
+/// Two passes, each with a counter for every index.
 template <bool kBySecond>
-void PairSort::sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std::size_t others, Executor& executor) {
-  const std::size_t wanted = std::clamp<std::size_t>(pairs.size() / kPairsPerBucket, 1, kMaxBuckets);
+void PairSort::sortWhole(std::span<Pair> pairs, Pair* other, std::size_t keys, std::size_t others) {
+  m_counters.require(keys + others);
+  std::uint32_t* const byKey = m_counters.data();
+  std::uint32_t* const byOther = byKey + keys;
+  std::fill_n(byKey, keys + others, 0U);
+  for (const Pair pair : pairs) {
+    ++byKey[indexOf<kBySecond>(pair)];
+    ++byOther[indexOf<!kBySecond>(pair)];
+  }
+  placesOf(byKey, keys);
+  placesOf(byOther, others);
+  for (const Pair pair : pairs) other[byOther[indexOf<!kBySecond>(pair)]++] = pair;
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[byKey[indexOf<kBySecond>(other[i])]++] = other[i];
+}
+
+template <bool kBySecond>
+void PairSort::sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std::size_t others, const Kernels& kernels,
+                      Executor& executor) {
+  const bool worthCounters = keys + others <= kMostCounters && pairs.size() >= (keys + others) / kCountersPerPair &&
+                             pairs.size() <= std::numeric_limits<std::uint32_t>::max();
+  if (worthCounters && executor.concurrency() == 1) {
+    sortWhole<kBySecond>(pairs, other, keys, others);
+    return;
+  }
+  std::size_t wanted = 1;
+  if (pairs.size() > kPairsPerBucket) wanted = std::clamp(pairs.size() / kPairsPerBucket, kMinBuckets, kMaxBuckets);
   m_keyBits = static_cast<unsigned>(std::bit_width((keys - 1) / wanted));
-  // With a few buckets only, the pass into them would wait for its own counters: they are better than none where the
-  // pairs do not fit the cache, and no more than one digit of the key may be left to them.
-  if (pairs.size() > kPairsPerBucket) m_keyBits = std::min(m_keyBits, kMaxDigitBits);
   while (((keys - 1) >> m_keyBits) >= kMaxBuckets) ++m_keyBits;
   m_buckets = ((keys - 1) >> m_keyBits) + 1;
   scatter<kBySecond>(pairs.data(), other, pairs.size(), executor);
   const auto otherBits = static_cast<unsigned>(std::bit_width(others - 1));
   executor.run(m_buckets, [&](std::size_t b) {
     const std::size_t begin = m_bucketBegin[b];
-    sortBucket<kBySecond>(other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin, m_keyBits, otherBits);
+    sortBucket<kBySecond>(kernels, other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin, m_keyBits,
+                          otherBits);
   });
 }
 
@@ -151,9 +226,9 @@ void PairSort::sort(std::span<Pair> pairs, const Task& task, Executor& executor)
     other = m_own.data();
   }
   if (task.order == Order::ByFirst) {
-    sortBy<false>(pairs, other, task.firsts, task.seconds, executor);
+    sortBy<false>(pairs, other, task.firsts, task.seconds, *task.kernels, executor);
   } else {
-    sortBy<true>(pairs, other, task.seconds, task.firsts, executor);
+    sortBy<true>(pairs, other, task.seconds, task.firsts, *task.kernels, executor);
   }
 }
 

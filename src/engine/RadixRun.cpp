@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace allpairs::engine {
 namespace {
@@ -14,6 +15,66 @@ constexpr std::size_t kShortRun = 24;
 /// Numbers that a bucket should hold: an eighth of a run's length in buckets.
 constexpr unsigned kBucketBits = 3;
 constexpr unsigned kMaxDigitBits = 10;
+
+/// From this length on the counters of three or four passes are worth their while.
+constexpr std::size_t kLongRun = 1536;
+
+/// Digits of this many bits for runs of this length: fewer passes, more counters.
+constexpr unsigned kLongDigitBits = 11;
+constexpr std::size_t kVeryLongRun = 8192;
+
+using Places = std::array<std::uint32_t, std::size_t{1} << kLongDigitBits>;
+
+/// Digits of a key, from the lowest up, all of the same length.
+struct Digits {
+  static constexpr unsigned kMaxPasses = 4;
+
+  unsigned begin;
+  unsigned bits;
+  unsigned passes;
+
+  Digits(unsigned keyBegin, unsigned keyEnd, std::size_t size) : begin(keyBegin) {
+    const unsigned most = size < kVeryLongRun ? kMaxDigitBits : kLongDigitBits;
+    passes = (keyEnd - keyBegin + most - 1) / most;
+    bits = (keyEnd - keyBegin + passes - 1) / passes;
+  }
+
+  [[nodiscard]] std::size_t of(std::uint64_t value, unsigned pass) const {
+    return (value >> (begin + pass * bits)) & ((std::uint64_t{1} << bits) - 1);
+  }
+};
+
+/// Where each digit's numbers go, for all passes at once.
+void countDigits(const std::uint64_t* values, std::size_t size, const Digits& digits,
+                 std::array<Places, Digits::kMaxPasses>& places) {
+  const std::size_t counters = std::size_t{1} << digits.bits;
+  for (unsigned pass = 0; pass < digits.passes; ++pass) std::fill_n(places[pass].begin(), counters, 0U);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (unsigned pass = 0; pass < digits.passes; ++pass) ++places[pass][digits.of(values[i], pass)];
+  }
+}
+
+/// Moves the numbers by one digit; returns whether there was more than one to tell them apart by.
+bool moveByDigit(const std::uint64_t* from, std::uint64_t* to, std::size_t size, const Digits& digits, unsigned pass,
+                 Places& places) {
+  if (places[digits.of(from[0], pass)] == size) return false;
+  std::uint32_t place = 0;
+  for (std::size_t digit = 0; digit < std::size_t{1} << digits.bits; ++digit) {
+    place += std::exchange(places[digit], place);
+  }
+  for (std::size_t i = 0; i < size; ++i) to[places[digits.of(from[i], pass)]++] = from[i];
+  return true;
+}
+
+void sortByDigits(std::uint64_t* from, std::uint64_t* to, std::size_t size, const Digits& digits) {
+  std::array<Places, Digits::kMaxPasses> places;
+  countDigits(from, size, digits, places);
+  std::uint64_t* home = to;
+  for (unsigned pass = 0; pass < digits.passes; ++pass) {
+    if (moveByDigit(from, to, size, digits, pass, places[pass])) std::swap(from, to);
+  }
+  if (from != home) std::copy_n(from, size, home);
+}
 
 void insertionSort(const std::uint64_t* from, std::uint64_t* to, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
@@ -41,6 +102,10 @@ void sortRun(std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned 
   }
   if (bits <= keyEnd) {
     std::copy_n(from, size, to);
+    return;
+  }
+  if (size >= kLongRun && bits - keyEnd <= Digits::kMaxPasses * kMaxDigitBits) {
+    sortByDigits(from, to, size, Digits(keyEnd, bits, size));
     return;
   }
   const unsigned digit = digitBits(size, bits, keyEnd);

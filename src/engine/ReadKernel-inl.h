@@ -8,7 +8,9 @@
 #define ALLPAIRS_READ_KERNEL_INL_H
 #endif
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,18 +24,113 @@ namespace {  // Each file that compiles the kernels has its own.
 using DoubleTag = hn::CappedTag<double, kFanOut>;
 using HalfFloatTag = hn::Rebind<float, DoubleTag>;
 
+/// Keeps values within the finite ones; `same` stays true if that changed nothing.
+HWY_INLINE FloatVector finite(FloatVector value, bool& same) {
+  const FloatTag d;
+  const auto inside = hn::Max(hn::Set(d, -kLaneMax), hn::Min(value, hn::Set(d, kLaneMax)));
+  same = same && hn::AllTrue(d, hn::Eq(inside, value));
+  return inside;
+}
+
 /// float32 as it is, kept within the finite ones; returns whether that changed nothing.
 HWY_INLINE bool readColumn(const float* column, const std::int32_t* offsets, float* to) {
   const FloatTag d;
   const hn::RebindToSigned<FloatTag> di;
   bool same = true;
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const auto value = hn::GatherIndex(d, column, hn::LoadU(di, offsets + i));
-    const auto inside = hn::Max(hn::Set(d, -kLaneMax), hn::Min(value, hn::Set(d, kLaneMax)));
-    same = same && hn::AllTrue(d, hn::Eq(inside, value));
-    hn::Store(inside, d, to + i);
+    hn::Store(finite(hn::GatherIndex(d, column, hn::LoadU(di, offsets + i)), same), d, to + i);
   }
   return same;
+}
+
+/// The lanes of a mask as bits.
+template <class D, class M>
+HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
+  if (hn::AllFalse(d, mask)) return 0;
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(d, mask, bytes.data());
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
+
+/// Which of sixteen boxes are empty, as bits.
+template <class Rows>
+HWY_INLINE std::uint32_t emptyLanes(const Rows& bound, std::size_t at) {
+  const FloatTag d;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const auto inverted = [&](std::size_t axis) HWY_ATTR {
+      return hn::Gt(hn::Load(d, &bound[axis][at + i]), hn::Load(d, &bound[axis + 3][at + i]));
+    };
+    bits |= bitsOf(d, hn::Or(hn::Or(inverted(0), inverted(1)), inverted(2))) << i;
+  }
+  return bits;
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+/// One box from its row of six.
+template <class Rows>
+HWY_INLINE bool readRows(const float* rows, Rows& bound, std::size_t at) {
+  const FloatTag d;
+  bool same = true;
+  for (std::size_t row = 0; row < 6; ++row) hn::StoreU(finite(hn::LoadU(d, rows + row), same), d, &bound[row][at]);
+  return same;
+}
+
+#else
+
+/// As many boxes as a vector has lanes, from rows of six that follow each other; returns whether they are finite.
+template <class Rows>
+HWY_INLINE bool readRows(const float* rows, Rows& bound, std::size_t at) {
+  const FloatTag d;
+  // Three values make a corner; corners alternate between minimum and maximum.
+  FloatVector corners[2][3];
+  for (std::size_t half = 0; half < 2; ++half) {
+    hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d) * half, corners[half][0], corners[half][1], corners[half][2]);
+  }
+  bool same = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto min = hn::ConcatEven(d, corners[1][axis], corners[0][axis]);
+    const auto max = hn::ConcatOdd(d, corners[1][axis], corners[0][axis]);
+    hn::Store(finite(min, same), d, &bound[axis][at]);
+    hn::Store(finite(max, same), d, &bound[axis + 3][at]);
+  }
+  return same;
+}
+
+#endif
+
+/// Sixteen boxes from rows that follow each other.
+template <class Rows>
+HWY_INLINE RowBlockResult readRun(const float* rows, Rows& bound, std::size_t at) {
+  RowBlockResult result;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) {
+    result.exact &= readRows(rows + 6 * i, bound, at + i);
+  }
+  result.emptyLanes = emptyLanes(bound, at);
+  return result;
+}
+
+RowBlockResult readRun32(const float* rows, LaneBlock& block) { return readRun(rows, block.bound, 0); }
+
+/// A whole tile, or the beginning of one; boxes that are empty become lanes that never overlap.
+bool readTile32(const float* rows, std::size_t size, std::uint32_t firstId, LaneTile& tile) {
+  bool exact = true;
+  std::array<float, 6 * kFanOut> rest{};
+  for (std::size_t i = 0; i < size; i += kFanOut) {
+    const float* from = rows + 6 * i;
+    if (size - i < kFanOut) from = std::copy_n(from, 6 * (size - i), rest.data()) - 6 * (size - i);
+    const RowBlockResult read = readRun(from, tile.bound, i);
+    exact = exact && read.exact;
+    for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(IdTag())) {
+      hn::Store(hn::Iota(IdTag(), firstId + static_cast<std::uint32_t>(i + lane)), IdTag(), &tile.id[i + lane]);
+    }
+    for (std::uint32_t empty = read.emptyLanes; empty != 0; empty &= empty - 1) {
+      const std::size_t lane = i + static_cast<std::size_t>(std::countr_zero(empty));
+      tile.set(lane, kNeverLanes, tile.id[lane]);
+    }
+  }
+  return exact;
 }
 
 /// The next float32 below where `further` says so. Zero never has to go down: see roundDown().
@@ -61,32 +158,10 @@ HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
   return down;
 }
 
-/// The lanes of a mask as bits.
-template <class D, class M>
-HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
-  if (hn::AllFalse(d, mask)) return 0;
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(d, mask, bytes.data());
-  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
-}
-
-/// Lanes whose box is empty, as bits.
-HWY_INLINE std::uint32_t emptyLanes(const LaneBlock& block) {
-  const FloatTag d;
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const auto inverted = [&](std::size_t axis) HWY_ATTR {
-      return hn::Gt(hn::Load(d, &block.bound[axis][i]), hn::Load(d, &block.bound[axis + 3][i]));
-    };
-    bits |= bitsOf(d, hn::Or(hn::Or(inverted(0), inverted(1)), inverted(2))) << i;
-  }
-  return bits;
-}
-
 RowBlockResult readFloat32(const float* rows, const std::int32_t* offsets, LaneBlock& block) {
   bool exact = true;
   for (std::size_t row = 0; row < 6; ++row) exact &= readColumn(rows + row, offsets, block.bound[row].data());
-  return {exact, emptyLanes(block)};
+  return {exact, emptyLanes(block.bound, 0)};
 }
 
 /// Whether a box is empty is asked in double: rounded outward, it may not be.

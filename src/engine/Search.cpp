@@ -13,10 +13,14 @@ namespace allpairs::engine {
 namespace {
 
 /// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0003).
-constexpr double kFlatPairs = 320.0 * 320.0;
+constexpr double kFlatPairs = 256.0 * 256.0;
 
 /// So few boxes against any number are tested one by one: ordering the others would cost more.
 constexpr std::size_t kFewRows = 32;
+
+/// Pairs of a box in a scene as most are, and the most that room is made for before any has been found.
+constexpr std::size_t kLikelyPairs = 4;
+constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
 
 /// Beyond this many boxes a sample is not trusted to say that all pairs had better be tested.
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
@@ -26,9 +30,13 @@ constexpr std::size_t kMinRowTests = std::size_t{1} << 17;
 constexpr std::size_t kMinLeafBlocks = 64;
 constexpr std::size_t kMaxTasks = 512;
 
-/// Whether about a tenth of all pairs overlap, by a few of them. Then there is little to leave out, and the exhaustive
-/// search finds its pairs in order.
-bool overlapsMuch(const LaneReader& reader) {
+/// From this share of all pairs on there is so little to leave out that the exhaustive search is faster; it finds its
+/// pairs in order, and so needs less to be.
+constexpr double kMuchUnordered = 0.4;
+constexpr double kMuchOrdered = 0.1;
+
+/// Whether about that share of all pairs overlaps, by a few of them.
+bool overlapsMuch(const LaneReader& reader, double share) {
   constexpr std::size_t kSample = 24;
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
@@ -37,7 +45,7 @@ bool overlapsMuch(const LaneReader& reader) {
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
   }
-  return hits * 10 > kSample * (kSample - 1) / 2;
+  return static_cast<double>(hits) > share * (kSample * (kSample - 1) / 2);
 }
 
 /// Reads whole blocks of a tile's boxes by a kernel; returns where it stopped.
@@ -61,11 +69,16 @@ std::size_t readBlocks(const BlockReader& reader, std::size_t begin, std::size_t
 bool readList(const LaneReader& reader, const Kernels& kernels, Buffer<LaneTile>& buffer, LaneList& list) {
   buffer.require(LaneList::tilesFor(reader.size()));
   list = {buffer.data(), reader.size()};
+  const float* rows = reader.plainFloat32();
   const BlockReader blocks(reader, kernels);
   bool exact = true;
   for (std::size_t begin = 0; begin < reader.size(); begin += LaneTile::kCapacity) {
     LaneTile& tile = list.tileOf(begin);
     const std::size_t end = std::min(reader.size(), begin + LaneTile::kCapacity);
+    if (rows != nullptr) {
+      exact &= kernels.readTile32(rows + 6 * begin, end - begin, static_cast<std::uint32_t>(begin), tile);
+      continue;
+    }
     const std::size_t rest = blocks.isUsable() ? readBlocks(blocks, begin, end, tile, exact) : begin;
     exact &= reader.read(
         rest, end, [&](std::size_t i, const LaneBox& box) { tile.set(i - begin, box, static_cast<std::uint32_t>(i)); },
@@ -80,8 +93,9 @@ bool Search::prefersFlat(const Sets& sets, const OverlapOptions& options) {
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
   if (static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs) return true;
   if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return true;
-  return sets.one && options.order != Order::Unordered && sets.first.size() <= kMostOverlapping &&
-         overlapsMuch(LaneReader(sets.first, options));
+  return sets.one && sets.first.size() <= kMostOverlapping &&
+         overlapsMuch(LaneReader(sets.first, options),
+                      options.order == Order::Unordered ? kMuchUnordered : kMuchOrdered);
 }
 
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
@@ -98,6 +112,7 @@ Search::Plan Search::plan(const Sets& sets, const OverlapOptions& options, PairT
   plan.rules.kernels = m_kernels;
   plan.rules.test = &test;
   plan.rules.maxPairs = options.maxPairs;
+  plan.rules.likelyPairs = std::min({kLikelyPairs * sets.first.size(), kMostLikelyPairs, options.maxPairs});
   plan.blocked = !prefersFlat(sets, options);
   if (plan.blocked) {
     planBlocked(sets, options, test, plan);
@@ -240,7 +255,8 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
 
 void Search::sortPairs(const Sets& sets, Order order) {
   // The hierarchy has done its work: its memory is where the sort moves pairs to and fro.
-  m_sort.sort(m_pairs, {sets.first.size(), sets.second.size(), order, m_firstHierarchy.takeMemory()}, *m_executor);
+  m_sort.sort(m_pairs, {sets.first.size(), sets.second.size(), order, m_kernels, m_firstHierarchy.takeMemory()},
+              *m_executor);
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {

@@ -54,8 +54,8 @@ void Search::streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visi
   startWorkers(1, plan.rules);
   Worker& worker = *m_workers[0];
   Batcher batcher{batchSize, visitor};
-  worker.receiver.context = &batcher;
-  worker.receiver.added = [](void* context, PairReceiver& receiver) { static_cast<Batcher*>(context)->take(receiver); };
+  worker.receiver.whenAdded(
+      [](void* context, PairReceiver& receiver) { static_cast<Batcher*>(context)->take(receiver); }, &batcher);
   runPart(plan, 0, plan.units, worker);
   worker.receiver.finish();
   handOver({worker.receiver.pairs().data(), worker.receiver.size()}, batchSize, visitor);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "LaneReader.h"
-#include "PairSort.h"
 
 namespace allpairs::engine {
 namespace {
@@ -52,29 +51,6 @@ TEST(LaneRounding, ANanBecomesTheWidestBound) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(roundDown(nan), -kLaneMax);
   EXPECT_EQ(roundUp(nan), kLaneMax);
-}
-
-TEST(PairSort, SortsSparseAndDensePairsByEitherIndex) {
-  std::mt19937 generator(3);
-  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{50}, std::size_t{200000}}) {
-    for (const std::uint32_t keys : {1U, 40U, 5000U, 3000000U}) {
-      std::vector<Pair> expected(size);
-      for (Pair& pair : expected) {
-        pair = {static_cast<std::uint32_t>(generator() % keys), static_cast<std::uint32_t>(generator() % keys)};
-      }
-      for (const Order order : {Order::ByFirst, Order::BySecond}) {
-        std::vector<Pair> pairs = expected;
-        std::vector<Pair> spare(generator() % 2 == 0 ? size : 0);
-        SerialExecutor serial;
-        PairSort().sort(pairs, {keys, keys, order, spare}, serial);
-        std::vector<Pair> sorted = expected;
-        std::sort(sorted.begin(), sorted.end(), [&](Pair a, Pair b) {
-          return order == Order::ByFirst ? a < b : Pair{a.second, a.first} < Pair{b.second, b.first};
-        });
-        ASSERT_TRUE(sorted == pairs) << size << ' ' << keys;
-      }
-    }
-  }
 }
 
 }  // namespace
