@@ -76,12 +76,15 @@ CurveGrid CurveGrid::fit(const LaneReader& reader) {
   sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample.take(box); });
   CurveGrid grid;
   if (sample.size == 0) return grid;
-  float width = 0.0F;
+  std::array<float, 3> widths;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Range range = rangeOf({sample.centres[axis].data(), sample.size});
     grid.origin[axis] = range.least;
-    width = std::max(width, range.width);
+    widths[axis] = range.width;
   }
+  std::stable_sort(grid.axes.begin(), grid.axes.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return widths[a] < widths[b]; });
+  const float width = widths[grid.axes[2]];
   grid.bitsPerAxis = bitsFor(reader.size());
   const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
   if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);

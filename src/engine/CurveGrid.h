@@ -18,6 +18,10 @@ struct CurveGrid {
   static constexpr unsigned kMaxBitsPerAxis = 9;
 
   unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells for each box: more would only make keys longer to sort.
+  /// The axes in the order in which the curve takes them: the one that the boxes are least spread along first, since the
+  /// curve crosses its middle only once; flat scenes lie on one side of it.
+  std::array<std::uint32_t, 3> axes{0, 1, 2};
+
   std::array<float, 3> origin{};
   float scale = 0.0F;        ///< Cells per unit of length.
   float largeExtent = 0.0F;  ///< Boxes longer than this are of a class of their own.

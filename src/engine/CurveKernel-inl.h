@@ -81,9 +81,9 @@ void curveKeys(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* key
   const IdTag di;
   bool anyLarge = false;
   for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(d)) {
-    auto x = cells(block, lane, 0, grid);
-    auto y = cells(block, lane, 1, grid);
-    auto z = cells(block, lane, 2, grid);
+    auto x = cells(block, lane, grid.axes[0], grid);
+    auto y = cells(block, lane, grid.axes[1], grid);
+    auto z = cells(block, lane, grid.axes[2], grid);
     turnCells(x, y, z, grid.bitsPerAxis);
     const auto xy = hn::Or(hn::ShiftLeft<2>(spreadBits(x)), hn::ShiftLeft<1>(spreadBits(y)));
     hn::StoreU(hn::Or(xy, spreadBits(z)), di, keys + lane);

@@ -101,6 +101,7 @@ std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
 OrderedBoxes CurveOrder::readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed,
                                   Executor& executor) {
   const CurveGrid grid = CurveGrid::fit(reader);
+  m_classShift = kIndexBits + 3 * grid.bitsPerAxis;
   const BlockReader blocks(reader, kernels);
   executor.run(cut(reader.size(), executor), [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];
@@ -177,6 +178,9 @@ OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spar
     sortRun(spare.data(), boxes, result.boxes.size(), bits, kIndexBits);
   }
   result.boxes = {boxes, result.boxes.size()};
+  const auto isUsual = [this](KeyedBox box) { return box >> m_classShift == 0; };
+  result.firstLarge = static_cast<std::size_t>(std::partition_point(result.boxes.begin(), result.boxes.end(), isUsual) -
+                                               result.boxes.begin());
   return result;
 }
 

@@ -22,6 +22,7 @@ using KeyedBox = std::uint64_t;
 struct OrderedBoxes {
   std::span<const KeyedBox> boxes;  ///< Those that may overlap something.
   bool exact = true;                ///< Whether their lanes are exactly the boxes.
+  std::size_t firstLarge = 0;       ///< Boxes from this place on are of a class of larger ones.
 };
 
 /// Sorts boxes along a space-filling curve, by key and then by index.
@@ -51,6 +52,7 @@ class CurveOrder {
 
   std::vector<Chunk> m_chunks;
   std::size_t m_chunkCount = 0;
+  unsigned m_classShift = 0;  ///< Where the class of a keyed box begins.
   std::vector<std::uint32_t> m_bucketEnds;
   Buffer<KeyedBox> m_boxes;
 };

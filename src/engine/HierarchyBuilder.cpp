@@ -48,6 +48,7 @@ void HierarchyBuilder::build(const LaneReader& reader, const Kernels& kernels, E
   auto* spare = reinterpret_cast<KeyedBox*>(m_blocks.data());
   const OrderedBoxes order = m_order.sort(reader, {spare, reader.size()}, kernels, executor);
   m_exact = order.exact;
+  m_firstLarge = order.firstLarge;
   m_hierarchy = {};
   if (order.boxes.empty()) return;
   gather(reader, kernels, order.boxes, executor);

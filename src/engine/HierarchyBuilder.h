@@ -26,6 +26,9 @@ class HierarchyBuilder {
 
   [[nodiscard]] const Hierarchy& hierarchy() const noexcept { return m_hierarchy; }
 
+  /// Boxes from this place on are larger than most.
+  [[nodiscard]] std::size_t firstLarge() const noexcept { return m_firstLarge; }
+
   /// Whether the lanes of all boxes are exactly the boxes.
   [[nodiscard]] bool exact() const noexcept { return m_exact; }
 
@@ -46,6 +49,7 @@ class HierarchyBuilder {
   Buffer<std::uint32_t> m_ids;
   Hierarchy m_hierarchy;
   std::size_t m_usedBlocks = 0;
+  std::size_t m_firstLarge = 0;
   bool m_exact = true;
 };
 

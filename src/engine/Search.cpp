@@ -8,6 +8,7 @@
 #include "BlockReader.h"
 #include "CheckOptions.h"
 #include "Sampling.h"
+#include "TaskCut.h"
 
 namespace allpairs::engine {
 namespace {
@@ -24,11 +25,6 @@ constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
 
 /// Beyond this many boxes a sample is not trusted to say that all pairs had better be tested.
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
-
-/// Tasks are cut to at least this many tests of a row, or leaf blocks, so that starting one costs nothing to speak of.
-constexpr std::size_t kMinRowTests = std::size_t{1} << 17;
-constexpr std::size_t kMinLeafBlocks = 64;
-constexpr std::size_t kMaxTasks = 512;
 
 /// From this share of all pairs on there is so little to leave out that the exhaustive search is faster; it finds its
 /// pairs in order, and so needs less to be.
@@ -152,6 +148,7 @@ void Search::planBlocked(const Sets& sets, const OverlapOptions& options, PairTe
   const bool nothing =
       m_firstHierarchy.hierarchy().depth == 0 || (!sets.one && m_secondHierarchy.hierarchy().depth == 0);
   plan.units = nothing ? 0 : m_firstHierarchy.hierarchy().level[0].blockCount();
+  plan.firstLarge = m_firstHierarchy.firstLarge() / kFanOut;
 }
 
 void Search::runPart(const Plan& plan, std::size_t begin, std::size_t end, Worker& worker) {
@@ -190,9 +187,9 @@ std::size_t Search::claimWorker() {
 void Search::runAll(const Plan& plan) {
   const std::size_t threads = m_executor->concurrency();
   startWorkers(threads, plan.rules);
-  const std::size_t perTask =
-      plan.blocked ? kMinLeafBlocks : 1 + kMinRowTests / std::max<std::size_t>(1, plan.flat.columns.size);
-  const std::size_t tasks = threads == 1 ? 1 : std::clamp<std::size_t>(plan.units / perTask, 1, kMaxTasks);
+  const TaskCut cut = plan.blocked ? TaskCut::ofLeaves(plan.units, plan.firstLarge, threads)
+                                   : TaskCut::ofRows(plan.units, plan.flat.columns.size, threads);
+  const std::size_t tasks = cut.tasks();
   m_segments.resize(tasks);
   m_executor->run(tasks, [&](std::size_t task) {
     const std::size_t index = claimWorker();
@@ -204,7 +201,7 @@ void Search::runAll(const Plan& plan) {
     Segment& segment = m_segments[task];
     segment.worker = index;
     segment.begin = worker.receiver.size();
-    runPart(plan, plan.units * task / tasks, plan.units * (task + 1) / tasks, worker);
+    runPart(plan, cut.begin(task), cut.begin(task + 1), worker);
     worker.receiver.finish();
     segment.end = worker.receiver.size();
   });

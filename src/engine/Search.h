@@ -56,7 +56,8 @@ class Search {
     bool blocked = false;
     bool withItself = true;
     FlatSearch flat;
-    std::size_t units = 0;  ///< Rows, or leaf blocks: what tasks are cut from.
+    std::size_t units = 0;
+    std::size_t firstLarge = 0;  ///< Rows, or leaf blocks: what tasks are cut from.
     PairRules rules;
   };
 
