@@ -210,15 +210,17 @@ def _external(table):
         for r in (r for r in cell.values() if r.external):
             ours = cell.get(OURS)
             same = "" if not ours or not r.hash else ("yes" if r.hash == ours.hash else "**no**")
-            ratio = _ratio(r, ours) if ours else ""
-            rows.append([f"{scene} {number_text(boxes)}", r.name, time_text(r.cpu_ms), r.pairs, same, ratio])
+            ours_ms = r.ours_ms or (ours.cpu_ms if ours else 0)
+            ratio = f"{r.cpu_ms / ours_ms:.1f}x" if ours_ms else ""
+            rows.append([f"{scene} {number_text(boxes)}", r.name, r.setting, time_text(r.cpu_ms), r.pairs, same, ratio])
     if not rows:
         return ""
     text = (
         "## Programs that are not packaged\n\nMeasured by hand on boxes that `allpairs generate` made, and noted in "
-        "[benchmarks-external.csv](benchmarks-external.csv), which says how.\n\n"
+        "[benchmarks-external.csv](benchmarks-external.csv), which says how; the "
+        "ratio is to our time in the same run where it is noted there.\n\n"
     )
-    return text + _grid(["boxes", "program", "time", "pairs", "same pairs", "ratio"], rows)
+    return text + _grid(["boxes", "program", "setting", "time", "pairs", "same pairs", "ratio"], rows)
 
 
 def _settings(table):

@@ -31,6 +31,7 @@ class Record:
     mistake: str
     provenance: dict
     external: bool = False
+    ours_ms: float = 0.0  # Of a program measured aside: our time in that run, or 0.
 
     @property
     def is_peer(self):
@@ -47,7 +48,7 @@ def read_results(path):
 
 
 def read_external(path):
-    """Records of other programs: name,scene,n,ms,pairs,hash; lines that begin with # are comments."""
+    """Records of other programs: name,scene,n,ms,pairs,hash and perhaps setting,allpairs_ms; # begins a comment."""
     with open(path, newline="", encoding="utf-8") as file:
         lines = [line for line in file if not line.startswith("#")]
     return [_external_record(row) for row in csv.DictReader(lines)]
@@ -77,7 +78,7 @@ def _external_record(row):
     time = float(row["ms"])
     return Record(
         name=row["name"],
-        setting="",
+        setting=row.get("setting") or "",
         part="contest",
         scene=row["scene"],
         boxes=int(row["n"]),
@@ -92,6 +93,7 @@ def _external_record(row):
         mistake="",
         provenance={},
         external=True,
+        ours_ms=float(row.get("allpairs_ms") or 0),
     )
 
 
