@@ -18,6 +18,7 @@ using namespace allpairs;
 struct Arguments {
   bool quick = false;
   std::vector<std::string> scenes;
+  std::vector<std::string> parts;
   std::size_t mostBoxes = std::numeric_limits<std::size_t>::max();
   double secondsEach = 0.0;
   std::string output = "benchmarks.csv";
@@ -26,6 +27,8 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--quick", a.quick, "A few scenes of up to 10,000 boxes: under a minute");
+  app.add_option("--part", a.parts, "Only these parts (repeatable)")
+      ->check(CLI::IsMember({"contest", "threads", "kernel"}));
   app.add_option("--scene", a.scenes, "Only these scenes (repeatable)");
   app.add_option("--most-boxes", a.mostBoxes, "Leave out scenes of more boxes than this");
   app.add_option("--peer", a.run.peers, "Only these peers, by name (repeatable); 'none' for ours alone");
@@ -36,7 +39,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "Where the records go, as CSV")->capture_default_str();
 }
 
-void keepOnly(std::vector<bench::Cell>& cells, const Arguments& a) {
+void keepOnly(std::vector<bench::Cell>& cells, const char* part, const Arguments& a) {
+  if (!a.parts.empty() && std::find(a.parts.begin(), a.parts.end(), part) == a.parts.end()) cells.clear();
   std::erase_if(cells, [&](const bench::Cell& cell) {
     const bool named = a.scenes.empty() || std::find(a.scenes.begin(), a.scenes.end(), cell.scene) != a.scenes.end();
     return !named || cell.boxes > a.mostBoxes;
@@ -46,9 +50,9 @@ void keepOnly(std::vector<bench::Cell>& cells, const Arguments& a) {
 void choosePlan(Arguments& a) {
   a.run.plan = a.quick ? bench::quickPlan() : bench::fullPlan();
   if (a.secondsEach > 0.0) a.run.plan.effort.seconds = a.secondsEach;
-  keepOnly(a.run.plan.cells, a);
-  keepOnly(a.run.plan.threadCells, a);
-  keepOnly(a.run.plan.kernelCells, a);
+  keepOnly(a.run.plan.cells, "contest", a);
+  keepOnly(a.run.plan.threadCells, "threads", a);
+  keepOnly(a.run.plan.kernelCells, "kernel", a);
 }
 
 /// 1, 2, 4, ... and as many as the machine has.

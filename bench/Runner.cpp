@@ -46,6 +46,7 @@ Runner::Runner(RunOptions options, Results& results)
 
 std::size_t Runner::run() {
   for (const Cell& cell : m_options.plan.cells) runCell(cell);
+  m_peers.clear();  // While it lives, Embree holds the threads of the whole process to those that it was given.
   for (const Cell& cell : m_options.plan.threadCells) runThreads(cell);
   for (const Cell& cell : m_options.plan.kernelCells) runKernel(cell);
   return m_mistakes;
