@@ -15,12 +15,19 @@ namespace {
 
 /// Keys are above the index.
 constexpr unsigned kIndexBits = 32;
-/// A first pass into this many buckets leaves runs that fit the second-level cache up to some hundred million boxes.
-constexpr unsigned kTopDigitBits = 11;
+/// A first pass into so many buckets leaves runs of a few thousand boxes, or what fits the second-level cache up to some
+/// hundred million boxes.
+unsigned topDigitBits(std::size_t boxes) {
+  constexpr unsigned kRunBits = 12;
+  return std::clamp(static_cast<unsigned>(std::bit_width(boxes)), kRunBits + 4, kRunBits + 11) - kRunBits;
+}
 
 /// Sets up to this size are sorted as one run: there and back they fill a second-level cache. Threads share smaller ones.
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
 constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
+
+/// Buckets that a task sorts, one after the other.
+constexpr std::size_t kBucketsPerTask = 2;
 
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 14;
@@ -135,7 +142,7 @@ unsigned CurveOrder::usedBits() const {
 
 /// The first pass over a large set, in parallel, and then its buckets.
 void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigned bits, Executor& executor) {
-  const unsigned shift = std::max(kIndexBits, bits - std::min(bits, kTopDigitBits));
+  const unsigned shift = std::max(kIndexBits, bits - std::min(bits, topDigitBits(size)));
   const std::size_t buckets = std::size_t{1} << (bits - shift);
   executor.run(cut(size, executor), [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];
@@ -154,7 +161,7 @@ void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigne
     Chunk& chunk = m_chunks[c];
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) to[chunk.places[from[i] >> shift]++] = from[i];
   });
-  const std::size_t tasks = executor.concurrency() == 1 ? 1 : std::max<std::size_t>(1, buckets / 8);
+  const std::size_t tasks = executor.concurrency() == 1 ? 1 : std::max<std::size_t>(1, buckets / kBucketsPerTask);
   executor.run(tasks, [&](std::size_t task) {
     for (std::size_t b = buckets * task / tasks; b < buckets * (task + 1) / tasks; ++b) {
       const std::size_t begin = m_bucketEnds[b];
