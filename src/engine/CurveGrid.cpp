@@ -82,8 +82,10 @@ CurveGrid CurveGrid::fit(const LaneReader& reader) {
     grid.origin[axis] = range.least;
     widths[axis] = range.width;
   }
-  std::stable_sort(grid.axes.begin(), grid.axes.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return widths[a] < widths[b]; });
+  const auto isNarrower = [&](std::uint32_t a, std::uint32_t b) {
+    return widths[a] < widths[b] || (widths[a] == widths[b] && a < b);
+  };
+  std::sort(grid.axes.begin(), grid.axes.end(), isNarrower);
   const float width = widths[grid.axes[2]];
   grid.bitsPerAxis = bitsFor(reader.size());
   const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
