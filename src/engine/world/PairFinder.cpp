@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 namespace allpairs::engine {
 namespace {
@@ -49,6 +50,16 @@ void PairFinder::start(Finder& finder) {
   finder.hits.capacity = kHitCapacity;
 }
 
+/// Doubles what a join had to enlarge: kernels ask for just what they need, which would creep up for many steps.
+void PairFinder::roundUpScratch(Finder& finder) {
+  for (std::size_t level = 0; level < kMaxLevels; ++level) {
+    Buffer<std::uint32_t>& partners = finder.scratch.level[level].partners;
+    if (partners.capacity() == finder.scratchCapacity[level]) continue;
+    partners.require(2 * partners.capacity());
+    finder.scratchCapacity[level] = partners.capacity();
+  }
+}
+
 std::size_t PairFinder::claim() {
   for (;;) {
     for (std::size_t i = 0; i < m_finders.size(); ++i) {
@@ -90,6 +101,7 @@ PairFinder::Counts PairFinder::run(const Job& job, const Kernels& kernels, Execu
   for (const std::unique_ptr<Finder>& finder : m_finders) {
     counts.boxTests += std::exchange(finder->hits.boxTests, 0);
     counts.groupTests += std::exchange(finder->hits.groupTests, 0);
+    roundUpScratch(*finder);
   }
   return counts;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,7 @@ class PairFinder {
   struct Finder {
     std::atomic_flag busy;
     JoinScratch scratch;
+    std::array<std::size_t, kMaxLevels> scratchCapacity{};
     Buffer<std::uint32_t> memory;
     Buffer<Pair> pairs;
     Hits hits;
@@ -53,6 +55,7 @@ class PairFinder {
 
   std::size_t claim();
   static void start(Finder& finder);
+  static void roundUpScratch(Finder& finder);
 
   std::vector<std::unique_ptr<Finder>> m_finders;
 };

@@ -65,6 +65,8 @@ void PairHistory::gatherFresh(Executor& executor) {
   PairSort::Task task;
   task.firsts = m_idBound;
   task.seconds = m_idBound;
+  // The old pairs have been split up: their memory is where the sort moves pairs to and fro.
+  task.spare = {m_pairs.data(), m_pairs.capacity()};
   m_sort.sort({m_began.data(), size}, task, executor);
 }
 
