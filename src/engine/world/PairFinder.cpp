@@ -15,6 +15,9 @@ constexpr std::size_t kHitCapacity = 4096;
 constexpr std::size_t kMinLeafBlocks = 64;
 constexpr std::size_t kMaxTasks = 512;
 
+/// Room for the partners of a node that few nodes exceed.
+constexpr std::size_t kLeastPartners = 4096;
+
 /// What a full buffer of hits is handed to.
 struct Receiver {
   const Kernels& kernels;
@@ -55,7 +58,7 @@ void PairFinder::roundUpScratch(Finder& finder) {
   for (std::size_t level = 0; level < kMaxLevels; ++level) {
     Buffer<std::uint32_t>& partners = finder.scratch.level[level].partners;
     if (partners.capacity() == finder.scratchCapacity[level]) continue;
-    partners.require(2 * partners.capacity());
+    partners.require(std::max(kLeastPartners, 2 * partners.capacity()));
     finder.scratchCapacity[level] = partners.capacity();
   }
 }
