@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// If one id in so many is in a list, going through all of them is faster than through the list.
+constexpr std::size_t kShareOfIds = 16;
+
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {
   throw InvalidBox(
       index, "there is no box with the id " + std::to_string(id) + ", entry " + std::to_string(index) + " of the ids");
@@ -109,7 +112,7 @@ void BoxStore::add(const BoxSet& boxes, std::span<const BoxProperties> propertie
     m_flags[id] |= kLive;
     assign(id, at(properties, i));
     write(id, boxes[i]);
-    note(id);
+    noteResettled(id);
   }
   m_size += boxes.size();
 }
@@ -198,7 +201,7 @@ void BoxStore::remove(std::span<const BoxId> ids) {
 }
 
 void BoxStore::removeOne(BoxId id) {
-  note(id);
+  noteResettled(id);
   writeEmpty(id);
   const bool stepped = (m_flags[id] & kStepped) != 0;
   if (isStatic(id)) --m_staticCount;
@@ -218,9 +221,11 @@ void BoxStore::setProperties(std::span<const BoxId> ids, std::span<const BoxProp
   checkProperties(properties, ids.size(), false);
   check(ids);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (isStatic(ids[i])) --m_staticCount;
+    const bool wasStatic = isStatic(ids[i]);
+    if (wasStatic) --m_staticCount;
     assign(ids[i], at(properties, i));
     note(ids[i]);
+    if (isStatic(ids[i]) != wasStatic) noteResettled(ids[i]);
   }
 }
 
@@ -263,15 +268,33 @@ const BoxSet& BoxStore::set() {
   return m_set;
 }
 
+void BoxStore::noteResettled(BoxId id) {
+  note(id);
+  if ((m_flags[id] & kResettled) == 0) m_resettled.push_back(id);
+  m_flags[id] |= kResettled;
+}
+
 void BoxStore::settle() noexcept {
-  for (const BoxId id : stale()) m_flags[id] &= static_cast<std::uint8_t>(~kStale);
+  constexpr auto kKept = static_cast<std::uint8_t>(~(kStale | kResettled));
+  if (m_staleCount * kShareOfIds > idBound()) {
+    for (std::uint8_t& flags : m_flags) flags &= kKept;
+  } else {
+    for (const BoxId id : stale()) m_flags[id] &= kKept;
+  }
   m_staleCount = 0;
+  m_resettled.clear();
 }
 
 void BoxStore::endStep() {
-  for (const BoxId id : touched()) {
-    m_flags[id] &= static_cast<std::uint8_t>(~kTouched);
-    if ((m_flags[id] & kLive) != 0) m_flags[id] |= kStepped;
+  static_assert(kStepped == kLive << 4U);
+  // All boxes that there are have been part of a step now.
+  const auto ended = [](std::uint8_t flags) {
+    return static_cast<std::uint8_t>((flags & ~kTouched) | ((flags & kLive) << 4U));
+  };
+  if (m_touchedCount * kShareOfIds > idBound()) {
+    for (std::uint8_t& flags : m_flags) flags = ended(flags);
+  } else {
+    for (const BoxId id : touched()) m_flags[id] = ended(m_flags[id]);
   }
   m_touchedCount = 0;
   m_free.insert(m_free.end(), m_removed.begin(), m_removed.end());

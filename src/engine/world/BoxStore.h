@@ -78,6 +78,9 @@ class BoxStore {
   /// Ids that changed since the last call of settle(), removed ones included, each once.
   [[nodiscard]] std::span<const BoxId> stale() const noexcept { return {m_stale.data(), m_staleCount}; }
 
+  /// Those of them that were added, removed, or have become static or dynamic, each once.
+  [[nodiscard]] std::span<const BoxId> resettled() const noexcept { return m_resettled; }
+
   /// Forgets what is stale.
   void settle() noexcept;
 
@@ -85,7 +88,8 @@ class BoxStore {
   void endStep();
 
  private:
-  static constexpr std::uint8_t kLeaving = 32;  ///< While a batch is checked: in it, to be removed.
+  static constexpr std::uint8_t kResettled = 64;  ///< May belong to another hierarchy than before.
+  static constexpr std::uint8_t kLeaving = 32;    ///< While a batch is checked: in it, to be removed.
 
   /// Lists the box as changed, once; the lists are as long as there are ids.
   void note(BoxId id) noexcept {
@@ -96,6 +100,7 @@ class BoxStore {
     m_staleCount += (flags & kStale) == 0 ? 1U : 0U;
     m_flags[id] = static_cast<std::uint8_t>(flags | kTouched | kStale);
   }
+  void noteResettled(BoxId id);
   template <class T>
   void copyRows(std::span<const BoxId> ids, const T* from, T* to);
   BoxId takeId();
@@ -120,6 +125,7 @@ class BoxStore {
   std::vector<BoxId> m_removed;  ///< Since the last step: not yet free.
   std::vector<BoxId> m_touched;  ///< One more than there are ids: written before it is known whether it counts.
   std::vector<BoxId> m_stale;
+  std::vector<BoxId> m_resettled;
   std::size_t m_touchedCount = 0;
   std::size_t m_staleCount = 0;
   BoxSet m_set;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kShareOfChange = 8;
 constexpr std::size_t kLeastRoom = 64;
 
-/// If one box in so many has moved, all blocks are read anew, without asking which.
+/// If one box in so many has moved, all blocks are read anew.
 constexpr std::size_t kShareOfMoved = 8;
 
 constexpr std::size_t kBlocksPerTask = 256;
@@ -41,22 +41,24 @@ bool KeptHierarchy::update(const BoxStore& store, const UpdateTools& tools) {
   return due;
 }
 
-/// Finds out what happened to the boxes that changed: moved, new here, or gone.
+/// Finds out what happened to the boxes that changed: new here, gone, or moved.
 void KeptHierarchy::sortOut(const BoxStore& store) {
   if (store.stale().empty()) return;
-  if (m_size == 0 && (m_ofStatic ? store.staticCount() == 0 : store.staticCount() == store.size())) return;
   if (m_places.size() < store.idBound()) m_places.resize(store.idBound(), kNowhere);
-  for (const BoxId id : store.stale()) {
+  for (const BoxId id : store.resettled()) {
     const bool here = m_places[id] != kNowhere;
-    if (belongs(store, id)) {
-      if (here) {
-        markBlock(m_places[id] / kFanOut);
-      } else {
-        m_fresh.push_back(id);
-      }
-    } else if (here) {
-      leave(id);
-    }
+    const bool belongsHere = belongs(store, id);
+    if (belongsHere && !here) m_fresh.push_back(id);
+    if (!belongsHere && here) leave(id);
+  }
+  if (m_size == 0) return;
+  // If many have moved, all blocks are read anew, without asking which.
+  if (store.stale().size() * kShareOfMoved > store.size()) {
+    m_dirtyBoxes = m_size;
+    return;
+  }
+  for (const BoxId id : store.stale()) {
+    if (m_places[id] != kNowhere) markBlock(m_places[id] / kFanOut);
   }
 }
 
@@ -154,7 +156,7 @@ void KeptHierarchy::append(std::span<const KeyedBox> order) {
 
 void KeptHierarchy::refit(const UpdateTools& tools) {
   if (m_dirtyBoxes == 0) return;
-  if (m_dirtyBoxes >= m_size / kShareOfMoved) {
+  if (m_dirtyBoxes * kShareOfMoved >= m_size) {
     refitAll(tools);
     return;
   }

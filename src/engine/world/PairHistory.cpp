@@ -90,17 +90,21 @@ void PairHistory::mergeFresh() {
 
 /// Moves the beginnings of the rows by what began and ended before them.
 void PairHistory::shiftRows() {
-  if (m_result.began.empty() && m_result.ended.empty()) return;
-  const Pair* began = m_result.began.data();
-  const Pair* ended = m_result.ended.data();
-  const Pair* const beganEnd = began + m_result.began.size();
-  const Pair* const endedEnd = ended + m_result.ended.size();
+  const std::size_t rows = m_rowBegin.size();
+  const std::span<const Pair> began = m_result.began;
+  const std::span<const Pair> ended = m_result.ended;
+  std::size_t b = 0;
+  std::size_t e = 0;
+  std::size_t row = 0;
   std::size_t shift = 0;  // Modulo 2^64: may be below 0 in between.
-  for (std::size_t row = 0; row < m_rowBegin.size(); ++row) {
-    m_rowBegin[row] += shift;
-    for (; began != beganEnd && began->first == row; ++began) ++shift;
-    for (; ended != endedEnd && ended->first == row; ++ended) --shift;
+  while (b < began.size() || e < ended.size()) {
+    const std::size_t stop =
+        std::min<std::size_t>(b < began.size() ? began[b].first : rows, e < ended.size() ? ended[e].first : rows);
+    for (; row <= stop; ++row) m_rowBegin[row] += shift;
+    for (; b < began.size() && began[b].first == stop; ++b) ++shift;
+    for (; e < ended.size() && ended[e].first == stop; ++e) --shift;
   }
+  for (; row < rows; ++row) m_rowBegin[row] += shift;
 }
 
 }  // namespace allpairs::engine

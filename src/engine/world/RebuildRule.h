@@ -35,7 +35,7 @@ class RebuildRule {
 
  private:
   /// What it costs to order a box anew, in tests of a pair of boxes (docs/decisions/0007).
-  static constexpr double kPrice = 24.0;
+  static constexpr double kPrice = 80.0;
 
   std::array<double, 2> m_rate{-1.0, -1.0};
   double m_loss = 0.0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "CurveGrid.h"
@@ -40,10 +41,11 @@ void TightOrder::sortAlong(std::span<Point> points, Point* spare) {
   }
   const float origin = low[axis];
   const float extent = high[axis] - origin;
-  if (!(extent > 0.0F)) return;
+  if (extent < std::numeric_limits<float>::min() * static_cast<float>(kSteps)) return;
+  // Rounded, the last one may come to just below kSteps, no further.
+  const float scale = static_cast<float>(kSteps - 1) / extent;
   const auto stepOf = [=](const Point& point) {
-    const float place = (point.centre[axis] - origin) / extent * static_cast<float>(kSteps - 1);
-    return static_cast<std::size_t>(static_cast<std::int32_t>(place));
+    return static_cast<std::size_t>(static_cast<std::int32_t>((point.centre[axis] - origin) * scale));
   };
   std::array<std::uint32_t, kSteps> next{};
   for (const Point& point : points) ++next[stepOf(point)];
