@@ -6,6 +6,7 @@
 #include <new>
 #include <vector>
 
+#include "AllocationCount.h"
 #include "Memory.h"
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
@@ -33,6 +34,9 @@ void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace allpairs {
+
+std::size_t test::allocationCount() { return allocations; }
+
 namespace {
 
 struct AllocationCase {

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace allpairs::test {
+
+/// How often operator new has been called in this program.
+[[nodiscard]] std::size_t allocationCount();
+
+}  // namespace allpairs::test

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Linked with AllocationTest.cpp, which counts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "AllocationCount.h"
+#include "Memory.h"
+#include "allpairs/World.h"
+#include "support/Boxes.h"
+
+namespace allpairs {
+namespace {
+
+/// Boxes that go to and fro, so that a steady state can be.
+std::vector<BoxF> swung(std::vector<BoxF> boxes, std::size_t frame) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const float by = 0.2F * std::sin(0.3F * static_cast<float>(frame) + static_cast<float>(i));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[i].min[axis] += by;
+      boxes[i].max[axis] += by;
+    }
+  }
+  return boxes;
+}
+
+class WorldAllocation : public ::testing::TestWithParam<std::size_t> {};
+
+INSTANTIATE_TEST_SUITE_P(OfSoManyMoving, WorldAllocation, ::testing::Values(5000, 200));
+
+TEST_P(WorldAllocation, StepsInASteadyStateAllocateNothing) {
+  const std::vector<BoxF> boxes = test::randomBoxes(5000, 41);
+  World world;
+  std::vector<BoxId> ids = world.add(boxes);
+  ids.resize(GetParam());
+  std::size_t before = 0;
+  std::size_t bufferBefore = 0;
+  for (std::size_t frame = 0; frame < 200; ++frame) {
+    const std::vector<BoxF> now =
+        swung({boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(ids.size())}, frame);
+    if (frame == 100) bufferBefore = engine::bufferAllocations();
+    before = test::allocationCount();
+    world.move(ids, now);
+    ASSERT_GT(world.step().pairs.size(), 1000U);
+    if (frame >= 100) {
+      ASSERT_EQ(test::allocationCount() - before, 0U) << "frame " << frame;
+    }
+  }
+  EXPECT_EQ(engine::bufferAllocations() - bufferBefore, 0U);
+}
+
+TEST(WorldAllocation, ComingAndGoingKeepsTheMemoryFlat) {
+  const std::vector<BoxF> boxes = test::randomBoxes(2000, 42);
+  World world;
+  std::vector<BoxId> ids = world.add(boxes);
+  static_cast<void>(world.step());
+  std::size_t bytes = 0;
+  for (std::size_t frame = 0; frame < 3000; ++frame) {
+    if (frame == 1000) bytes = engine::bufferBytes();
+    const std::size_t i = frame * 7 % ids.size();
+    world.remove(ids[i]);
+    ids[i] = world.add(test::toDouble(boxes[i]));
+    static_cast<void>(world.step());
+  }
+  EXPECT_EQ(engine::bufferBytes(), bytes);
+  EXPECT_LE(world.idBound(), 2001U);
+}
+
+}  // namespace
+}  // namespace allpairs

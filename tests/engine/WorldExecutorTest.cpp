@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Threads change nothing: the same lists, step by step, with one and with several.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "allpairs/World.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "support/Boxes.h"
+
+namespace allpairs {
+namespace {
+
+/// Some of the boxes, each a little way off.
+void moveSome(std::vector<BoxF>& boxes, std::size_t every, std::size_t frame, std::vector<BoxId>& ids) {
+  ids.clear();
+  for (std::size_t i = frame % every; i < boxes.size(); i += every) {
+    const float by = 0.05F * static_cast<float>((i * 7 + frame * 3) % 9) - 0.2F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[i].min[axis] += by;
+      boxes[i].max[axis] += by;
+    }
+    ids.push_back(static_cast<BoxId>(i));
+  }
+}
+
+class WorldThreads : public ::testing::TestWithParam<std::size_t> {};
+
+INSTANTIATE_TEST_SUITE_P(OneBoxInSoManyMoves, WorldThreads, ::testing::Values(1, 50));
+
+TEST_P(WorldThreads, SeveralThreadsGiveTheListsOfOne) {
+  parallel::TbbExecutor threads(4);
+  WorldOptions options;
+  World serial(options);
+  options.executor = &threads;
+  World many(options);
+  std::vector<BoxF> boxes = test::randomBoxes(20000, 11);
+  std::vector<BoxId> ids = serial.add(boxes);
+  ASSERT_EQ(many.add(boxes), ids);
+  for (std::size_t frame = 0; frame < 12; ++frame) {
+    const StepResult one = serial.step();
+    const StepResult several = many.step();
+    ASSERT_GT(one.began.size(), 0U);
+    ASSERT_EQ(test::toVector(several.pairs), test::toVector(one.pairs));
+    ASSERT_EQ(test::toVector(several.began), test::toVector(one.began));
+    ASSERT_EQ(test::toVector(several.persisted), test::toVector(one.persisted));
+    ASSERT_EQ(test::toVector(several.ended), test::toVector(one.ended));
+    ASSERT_EQ(many.statistics().rebuilds, serial.statistics().rebuilds);
+    moveSome(boxes, GetParam(), frame, ids);
+    std::vector<BoxF> moved;
+    for (const BoxId id : ids) moved.push_back(boxes[id]);
+    serial.move(ids, moved);
+    many.move(ids, moved);
+  }
+}
+
+TEST(WorldExecutor, SeveralThreadsGiveTheQueriesOfOne) {
+  parallel::TbbExecutor threads(4);
+  WorldOptions options;
+  World serial(options);
+  options.executor = &threads;
+  World many(options);
+  const std::vector<BoxF> boxes = test::randomBoxes(5000, 12);
+  const std::vector<BoxF> queries = test::randomBoxes(1000, 13);
+  static_cast<void>(serial.add(boxes));
+  static_cast<void>(many.add(boxes));
+  const ResultLists<BoxId> one = serial.findOverlapping(queries);
+  const ResultLists<BoxId> several = many.findOverlapping(queries);
+  ASSERT_GT(one.values.size(), 1000U);
+  EXPECT_EQ(std::vector(several.offsets.begin(), several.offsets.end()),
+            std::vector(one.offsets.begin(), one.offsets.end()));
+  EXPECT_EQ(std::vector(several.values.begin(), several.values.end()),
+            std::vector(one.values.begin(), one.values.end()));
+}
+
+}  // namespace
+}  // namespace allpairs

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/World.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+#include "support/Boxes.h"
+
+namespace allpairs {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using test::cube;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The index that an InvalidBox names, after a look at its message.
+template <class Call>
+std::size_t invalidBox(const Call& call, const std::string& text) {
+  try {
+    call();
+  } catch (const InvalidBox& error) {
+    EXPECT_THAT(error.what(), HasSubstr(text));
+    return error.index();
+  }
+  ADD_FAILURE() << "no InvalidBox was thrown";
+  return 99;
+}
+
+TEST(World, APairBeginsPersistsAndEnds) {
+  World world;
+  const BoxId a = world.add(cube(0, 0, 0));
+  const BoxId b = world.add(cube(5, 0, 0));
+  EXPECT_THAT(world.step().pairs, IsEmpty());
+
+  world.move(b, cube(1, 0, 0));  // They share a face.
+  StepResult result = world.step();
+  EXPECT_THAT(result.pairs, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(result.began, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(result.persisted, IsEmpty());
+
+  world.move(a, cube(0.5, 0, 0));
+  result = world.step();
+  EXPECT_THAT(result.persisted, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(result.began, IsEmpty());
+  EXPECT_THAT(result.ended, IsEmpty());
+
+  world.move(a, cube(-0.5, 0, 0));
+  result = world.step();
+  EXPECT_THAT(result.pairs, IsEmpty());
+  EXPECT_THAT(result.ended, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(world.result().ended, ElementsAre(Pair{a, b}));
+}
+
+TEST(World, AStepWithoutAnyChangeKeepsAllPairs) {
+  World world;
+  static_cast<void>(world.add(test::randomBoxes(500, 3)));
+  const std::vector<Pair> pairs = test::toVector(world.step().pairs);
+  ASSERT_GT(pairs.size(), 100U);
+  const StepResult result = world.step();
+  EXPECT_EQ(test::toVector(result.pairs), pairs);
+  EXPECT_EQ(test::toVector(result.persisted), pairs);
+  EXPECT_THAT(result.began, IsEmpty());
+  EXPECT_THAT(result.ended, IsEmpty());
+  EXPECT_EQ(world.statistics().boxTests, 0U);
+}
+
+TEST(World, AnIdIsUsedAgainOnlyAfterItsPairsHaveEnded) {
+  World world;
+  const BoxId a = world.add(cube(0, 0, 0));
+  const BoxId b = world.add(cube(0, 0, 0));
+  static_cast<void>(world.step());
+  world.remove(b);
+  EXPECT_FALSE(world.contains(b));
+  const BoxId c = world.add(cube(0, 0, 0));
+  EXPECT_NE(c, b);
+  const StepResult result = world.step();
+  EXPECT_THAT(result.ended, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(result.began, ElementsAre(Pair{a, c}));
+  EXPECT_EQ(world.add(cube(9, 9, 9)), b);
+}
+
+TEST(World, StaticBoxesMeetOnlyOthers) {
+  World world;
+  BoxProperties fixed;
+  fixed.isStatic = true;
+  const BoxId wall = world.add(cube(0, 0, 0), fixed);
+  const BoxId floor = world.add(cube(0, 0, 0), fixed);
+  const BoxId ball = world.add(cube(0, 0, 0));
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{wall, ball}, Pair{floor, ball}));
+  world.setProperties(wall, {});
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{wall, floor}, Pair{wall, ball}, Pair{floor, ball}));
+  world.setProperties(ball, fixed);
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{wall, floor}, Pair{wall, ball}));
+}
+
+TEST(World, ASweptBoxMeetsWhatIsOnItsWay) {
+  World world;
+  const BoxId wall = world.add(cube(5, 0, 0, 0.1));
+  const BoxId bullet = world.add(cube(0, 0, 0));
+  const std::vector<BoxId> ids{bullet};
+  world.moveSwept(ids, std::vector{cube(0, 0, 0)}, std::vector{cube(10, 0, 0)});
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{wall, bullet}));
+  const std::vector<double> velocity{2.0, 0.0, 0.0};
+  world.moveSwept(ids, std::vector{cube(0, 0, 0)}, velocity, 1.0);
+  EXPECT_THAT(world.step().ended, ElementsAre(Pair{wall, bullet}));
+  world.moveSwept(ids, std::vector{cube(0, 0, 0)}, velocity, 2.0);  // Ends where the wall begins.
+  EXPECT_THAT(world.step().began, ElementsAre(Pair{wall, bullet}));
+  EXPECT_EQ(world.box(bullet), (Box{{0, 0, 0}, {5, 1, 1}}));
+}
+
+TEST(World, AcceptIsAskedAgainAboutTouchedBoxes) {
+  bool accepts = true;
+  WorldOptions options;
+  options.accept = [&](BoxId, BoxId) { return accepts; };
+  World world(options);
+  const BoxId a = world.add(cube(0, 0, 0));
+  const BoxId b = world.add(cube(0, 0, 0));
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{a, b}));
+  accepts = false;
+  const std::vector<BoxId> touched{b};
+  world.touch(touched);
+  EXPECT_THAT(world.step().ended, ElementsAre(Pair{a, b}));
+}
+
+TEST(World, UnknownIdsAndNansAreNamedAndNothingIsDone) {
+  World world;
+  const BoxId a = world.add(cube(0, 0, 0));
+  const BoxId b = world.add(cube(3, 0, 0));
+  const std::vector<BoxId> unknown{a, b, 17};
+  const std::vector<BoxId> twice{b, a, b};
+  const std::vector<Box> boxes(3, cube(1, 1, 1));
+  EXPECT_EQ(invalidBox([&] { world.move(unknown, boxes); }, "17"), 2U);
+  EXPECT_EQ(invalidBox([&] { world.remove(unknown); }, "17"), 2U);
+  EXPECT_EQ(invalidBox([&] { world.remove(twice); }, "id 1"), 2U);
+  EXPECT_EQ(invalidBox([&] { world.touch(unknown); }, "17"), 2U);
+  EXPECT_EQ(invalidBox([&] { world.setProperties(17, {}); }, "17"), 0U);
+  EXPECT_EQ(invalidBox([&] { static_cast<void>(world.box(17)); }, "17"), 0U);
+  EXPECT_EQ(invalidBox([&] { world.move(b, Box{{0, kNan, 0}, {1, 1, 1}}); }, "id 1"), 0U);
+  EXPECT_EQ(invalidBox(
+                [&] {
+                  world.move(twice, std::vector{boxes[0], boxes[0], Box{{0, 0, 0}, {1, 1, kNan}}});
+                },
+                "2"),
+            2U);
+  BoxProperties bad;
+  bad.margin = kNan;
+  EXPECT_EQ(invalidBox([&] { world.setProperties(b, bad); }, "margin"), 0U);
+  EXPECT_EQ(world.size(), 2U);
+  EXPECT_EQ(world.box(a), cube(0, 0, 0));
+  EXPECT_EQ(world.box(b), cube(3, 0, 0));
+}
+
+TEST(World, ArgumentsThatMakeNoSenseAreRefused) {
+  World world;
+  const std::vector<BoxId> ids{world.add(cube(0, 0, 0))};
+  EXPECT_THROW(world.move(ids, std::vector<Box>(2)), InvalidArgument);
+  EXPECT_THROW(world.moveSwept(ids, std::vector<Box>(1), std::vector<Box>(2)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(world.findFirst(Ray{{kNan, 0, 0}, {1, 0, 0}})), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(world.findAll(Ray{{0, 0, 0}, {1, 0, 0}, -1.0})), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(world.findNearest({kNan, 0, 0}, 1)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(world.findOverlapping(Box{{kNan, 0, 0}, {1, 1, 1}})), InvalidBox);
+  WorldOptions options;
+  options.distance = kNan;
+  EXPECT_THROW(World{options}, InvalidArgument);
+  options = {};
+  options.instructionSet = "abacus";
+  EXPECT_THROW(World{options}, InvalidArgument);
+}
+
+TEST(World, QueriesSeeWhatHasChangedSinceTheLastStep) {
+  World world;
+  const BoxId a = world.add(cube(0, 0, 0));
+  EXPECT_THAT(world.findOverlapping(cube(1, 0, 0)), ElementsAre(a));
+  const BoxId b = world.add(cube(4, 0, 0));
+  EXPECT_THAT(world.findAll(Ray{{-1, 0.5, 0.5}, {2, 0, 0}}), ElementsAre(SweepHit{a, 0.5}, SweepHit{b, 2.5}));
+  EXPECT_EQ(world.findFirst(BoxSweep{cube(8, 0, 0), {-3, 0, 0}, 1.0}), (SweepHit{b, 1.0}));
+  world.remove(a);
+  EXPECT_THAT(world.findNearest({0, 0, 0}, 5), ElementsAre(Neighbor{b, 4.0}));
+  EXPECT_EQ(world.findFirst(Ray{{-1, 0.5, 0.5}, {0, 1, 0}}), SweepHit{});
+}
+
+TEST(World, PairsBetweenTwoWorldsAreThoseOfTwoSets) {
+  const std::vector<BoxF> mine = test::randomBoxes(700, 5);
+  const std::vector<BoxF> theirs = test::randomBoxes(300, 6);
+  World first;
+  World second;
+  static_cast<void>(first.add(mine));
+  BoxProperties fixed;
+  fixed.isStatic = true;
+  static_cast<void>(second.add(theirs, fixed));
+  EXPECT_EQ(test::toVector(first.findBetween(second)), overlapsBetween(mine, theirs));
+  EXPECT_THAT(first.step().ended, IsEmpty());
+}
+
+TEST(World, IsEmptyAfterClear) {
+  World world;
+  static_cast<void>(world.add(test::randomBoxes(200, 8)));
+  const std::vector<Pair> pairs = test::toVector(world.step().pairs);
+  world.clear();
+  EXPECT_EQ(world.size(), 0U);
+  EXPECT_EQ(test::toVector(world.step().ended), pairs);
+  EXPECT_THAT(world.step().pairs, IsEmpty());
+  EXPECT_THAT(world.findNearest({0, 0, 0}, 3), IsEmpty());
+}
+
+}  // namespace
+}  // namespace allpairs
