@@ -26,6 +26,10 @@ struct CurveGrid {
   float scale = 0.0F;        ///< Cells per unit of length.
   float largeExtent = 0.0F;  ///< Boxes longer than this are of a class of their own.
 
+  /// Where the class begins in a key, and how many of a key's low bits can differ.
+  [[nodiscard]] unsigned classShift() const noexcept { return 3 * bitsPerAxis; }
+  [[nodiscard]] unsigned keyBits() const noexcept { return classShift() + 3; }
+
   /// Fits a grid to a sample of the boxes.
   [[nodiscard]] static CurveGrid fit(const LaneReader& reader);
 

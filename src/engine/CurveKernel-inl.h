@@ -95,7 +95,7 @@ void curveKeys(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* key
     const LaneBox box = block.get(lane);
     const float longest =
         HWY_MAX(box.bound[3] - box.bound[0], HWY_MAX(box.bound[4] - box.bound[1], box.bound[5] - box.bound[2]));
-    if (longest > grid.largeExtent) keys[lane] |= grid.classOf(box) << (3 * grid.bitsPerAxis);
+    if (longest > grid.largeExtent) keys[lane] |= grid.classOf(box) << grid.classShift();
   }
 }
 

@@ -13,8 +13,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// Keys are above the index.
-constexpr unsigned kIndexBits = 32;
 /// A first pass into so many buckets leaves runs of a few thousand boxes, or what fits the second-level cache up to some
 /// hundred million boxes.
 unsigned topDigitBits(std::size_t boxes) {
@@ -108,7 +106,7 @@ std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
 OrderedBoxes CurveOrder::readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed,
                                   Executor& executor) {
   const CurveGrid grid = CurveGrid::fit(reader);
-  m_classShift = kIndexBits + 3 * grid.bitsPerAxis;
+  m_classShift = kIndexBits + grid.classShift();
   const BlockReader blocks(reader, kernels);
   executor.run(cut(reader.size(), executor), [&](std::size_t c) {
     Chunk& chunk = m_chunks[c];

@@ -99,7 +99,7 @@ void KeptHierarchy::rebuild(const BoxStore& store, const UpdateTools& tools) {
   m_grid = CurveGrid::fit(tools.reader);
   if (!m_fresh.empty()) {
     orderByCurve(m_fresh, tools);
-    m_tight.tighten({m_keyed.data(), m_fresh.size()}, tools.reader, tools.executor);
+    m_tight.tighten({m_keyed.data(), m_fresh.size()}, kIndexBits + m_grid.classShift(), tools.reader, tools.executor);
     append({m_keyed.data(), m_fresh.size()});
   }
   refitAll(tools);
@@ -113,7 +113,6 @@ void KeptHierarchy::placeFresh(const UpdateTools& tools) {
 
 /// Sorts boxes along the curve into m_keyed.
 void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& tools) {
-  constexpr unsigned kIndexBits = 32;
   m_keyed.require(ids.size() + ids.size() / kShareOfChange);
   m_spare.require(ids.size() + ids.size() / kShareOfChange);
   const std::size_t tasks = (ids.size() + kBlocksPerTask * kFanOut - 1) / (kBlocksPerTask * kFanOut);
@@ -136,7 +135,7 @@ void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& 
       }
     });
   });
-  sortRun(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits + CurveGrid::kKeyBits, kIndexBits);
+  sortRun(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits + m_grid.keyBits(), kIndexBits);
 }
 
 /// Gives boxes the next places.
