@@ -99,7 +99,8 @@ void KeptHierarchy::rebuild(const BoxStore& store, const UpdateTools& tools) {
   m_grid = CurveGrid::fit(tools.reader);
   if (!m_fresh.empty()) {
     orderByCurve(m_fresh, tools);
-    m_tight.tighten({m_keyed.data(), m_fresh.size()}, tools.reader, tools.executor);
+    const unsigned classShift = 32 + 3 * m_grid.bitsPerAxis;
+    m_tight.tighten({m_keyed.data(), m_fresh.size()}, classShift, tools.reader, tools.executor);
     append({m_keyed.data(), m_fresh.size()});
   }
   refitAll(tools);
@@ -136,7 +137,10 @@ void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& 
       }
     });
   });
-  sortRun(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits + CurveGrid::kKeyBits, kIndexBits);
+  KeyedBox all = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) all |= m_spare[i];
+  const unsigned bits = std::max(kIndexBits, static_cast<unsigned>(std::bit_width(all)));
+  sortRun(m_spare.data(), m_keyed.data(), ids.size(), bits, kIndexBits);
 }
 
 /// Gives boxes the next places.
@@ -171,7 +175,7 @@ void KeptHierarchy::refit(const UpdateTools& tools) {
     m_dirty[word] = 0;
   }
   m_inexactBlocks = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
-  m_levels.boundSome(m_blockList, tools.kernels);
+  m_levels.boundSome(m_blockList, tools.kernels, tools.executor);
 }
 
 void KeptHierarchy::refitAll(const UpdateTools& tools) {

@@ -55,7 +55,7 @@ void PairHistory::take(std::span<const Pair> found, std::size_t finder) {
   }
 }
 
-void PairHistory::gatherFresh(Executor& executor) {
+void PairHistory::gatherFresh(const Kernels& kernels, Executor& executor) {
   std::size_t size = 0;
   for (const Fresh& fresh : m_fresh) size += fresh.size;
   makeRoom(m_began, size);
@@ -65,6 +65,7 @@ void PairHistory::gatherFresh(Executor& executor) {
   PairSort::Task task;
   task.firsts = m_idBound;
   task.seconds = m_idBound;
+  task.kernels = &kernels;
   // The old pairs have been split up: their memory is where the sort moves pairs to and fro.
   task.spare = {m_pairs.data(), m_pairs.capacity()};
   m_sort.sort({m_began.data(), size}, task, executor);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernels.h"
 #include "Memory.h"
 #include "PairSort.h"
 #include "allpairs/Executor.h"
@@ -30,9 +31,9 @@ class PairHistory {
 
   /// Ends the step. A pair that was not found has ended if `lookedFor(pair)` says that it was looked for.
   template <class LookedFor>
-  void finish(const LookedFor& lookedFor, Executor& executor) {
+  void finish(const LookedFor& lookedFor, const Kernels& kernels, Executor& executor) {
     split(lookedFor);
-    gatherFresh(executor);
+    gatherFresh(kernels, executor);
     mergeFresh();
   }
 
@@ -69,7 +70,7 @@ class PairHistory {
     if (size + 1 > buffer.capacity()) buffer.require(size + size / 4 + 1);
   }
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
-  void gatherFresh(Executor& executor);
+  void gatherFresh(const Kernels& kernels, Executor& executor);
   void mergeFresh();
   void shiftRows();
 

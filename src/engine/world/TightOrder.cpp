@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "CurveGrid.h"
 #include "Lanes.h"
 
 namespace allpairs::engine {
@@ -20,8 +19,6 @@ constexpr std::size_t kParts = 4;
 
 /// Places along an axis that a cut tells apart.
 constexpr std::size_t kSteps = 256;
-
-constexpr unsigned kClassShift = 32 + 3 * CurveGrid::kBitsPerAxis;
 
 }  // namespace
 
@@ -67,7 +64,7 @@ void TightOrder::cut(std::span<Point> points, Point* spare) {
   }
 }
 
-void TightOrder::tighten(std::span<KeyedBox> boxes, const LaneReader& reader, Executor& executor) {
+void TightOrder::tighten(std::span<KeyedBox> boxes, unsigned classShift, const LaneReader& reader, Executor& executor) {
   m_points.require(boxes.size() + boxes.size() / 8 + 1);
   m_spare.require(boxes.size() + boxes.size() / 8 + 1);
   executor.run((boxes.size() + kRun - 1) / kRun, [&](std::size_t run) {
@@ -88,7 +85,7 @@ void TightOrder::tighten(std::span<KeyedBox> boxes, const LaneReader& reader, Ex
     // Boxes of one class stay together.
     for (std::size_t i = begin; i < end;) {
       std::size_t stop = i + 1;
-      while (stop < end && boxes[stop] >> kClassShift == boxes[i] >> kClassShift) ++stop;
+      while (stop < end && boxes[stop] >> classShift == boxes[i] >> classShift) ++stop;
       cut({m_points.data() + i, stop - i}, m_spare.data() + i);
       i = stop;
     }

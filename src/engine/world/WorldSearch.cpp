@@ -53,10 +53,11 @@ StepResult WorldSearch::step(BoxStore& store) {
   m_history.begin(store.idBound(), m_finder.prepare(executor()));
   if (m_statistics.joinedAll) {
     joinAll(store);
-    m_history.finish([](Pair) { return true; }, executor());
+    m_history.finish([](Pair) { return true; }, m_kernels, executor());
   } else {
     joinChanged(store);
-    m_history.finish([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); }, executor());
+    m_history.finish([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); }, m_kernels,
+                     executor());
   }
   store.endStep();
   return m_history.result();
@@ -138,6 +139,7 @@ std::span<const Pair> WorldSearch::findBetween(const BoxStore& store, WorldSearc
   PairSort::Task task;
   task.firsts = std::max<std::size_t>(1, store.idBound());
   task.seconds = std::max<std::size_t>(1, otherStore.idBound());
+  task.kernels = &m_kernels;
   m_betweenSort.sort({m_between.data(), size}, task, executor());
   return {m_between.data(), size};
 }
