@@ -202,6 +202,19 @@ TEST(World, PairsBetweenTwoWorldsAreThoseOfTwoSets) {
   EXPECT_THAT(first.step().ended, IsEmpty());
 }
 
+TEST(World, BoxesThatComeOneByOneMeetAllThatWereThere) {
+  World world;
+  std::vector<Pair> expected;
+  for (BoxId id = 0; id < 300; ++id) {
+    ASSERT_EQ(world.add(cube(0.01 * id, 0, 0)), id);
+    expected.clear();
+    for (BoxId earlier = id < 100 ? 0 : id - 100; earlier < id; ++earlier) {
+      if (0.01 * id <= 0.01 * earlier + 1.0) expected.push_back({earlier, id});
+    }
+    ASSERT_EQ(test::toVector(world.step().began), expected) << "box " << id;
+  }
+}
+
 TEST(World, IsEmptyAfterClear) {
   World world;
   static_cast<void>(world.add(test::randomBoxes(200, 8)));

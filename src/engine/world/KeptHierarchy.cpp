@@ -135,7 +135,10 @@ void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& 
       }
     });
   });
-  sortRun(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits + m_grid.keyBits(), kIndexBits);
+  KeyedBox all = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) all |= m_spare[i];
+  const unsigned bits = std::max(kIndexBits, static_cast<unsigned>(std::bit_width(all)));
+  sortRun(m_spare.data(), m_keyed.data(), ids.size(), bits, kIndexBits);
 }
 
 /// Gives boxes the next places.
@@ -170,7 +173,7 @@ void KeptHierarchy::refit(const UpdateTools& tools) {
     m_dirty[word] = 0;
   }
   m_inexactBlocks = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
-  m_levels.boundSome(m_blockList, tools.kernels);
+  m_levels.boundSome(m_blockList, tools.kernels, tools.executor);
 }
 
 void KeptHierarchy::refitAll(const UpdateTools& tools) {

@@ -31,6 +31,7 @@ void LevelStack::reset(std::size_t capacity) {
   m_clean.fill(0);
   m_places = 0;
   m_depth = 0;
+  m_boundedDepth = 0;
 }
 
 void LevelStack::resize(std::size_t places) {
@@ -52,6 +53,7 @@ std::size_t LevelStack::sizeOf(std::size_t level) const noexcept {
 }
 
 void LevelStack::boundAll(const Kernels& kernels, Executor& executor) {
+  m_boundedDepth = m_depth;
   std::size_t count = blockCount();
   for (std::size_t level = 0; level + 1 < m_depth; ++level) {
     const LaneBlock* blocks = m_levels[level].data();
@@ -63,7 +65,12 @@ void LevelStack::boundAll(const Kernels& kernels, Executor& executor) {
   }
 }
 
-void LevelStack::boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels) {
+void LevelStack::boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor) {
+  // A level that has just come bounds nothing yet, not even what hasn't changed.
+  if (m_boundedDepth != m_depth) {
+    boundAll(kernels, executor);
+    return;
+  }
   std::size_t count = blocks.size();
   for (std::size_t level = 0; level + 1 < m_depth; ++level) {
     std::size_t parents = 0;

@@ -35,7 +35,7 @@ class LevelStack {
   void boundAll(const Kernels& kernels, Executor& executor);
 
   /// Bounds some blocks anew, by ascending number, and what is above them. The list is lost.
-  void boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels);
+  void boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor);
 
   /// The hierarchy, with levels of one node added on top of it until there are `depth`; null depth where it is empty.
   [[nodiscard]] Hierarchy hierarchy(std::size_t depth);
@@ -51,6 +51,7 @@ class LevelStack {
   std::size_t m_places = 0;
   std::size_t m_capacity = 0;
   std::size_t m_depth = 0;
+  std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were bounded last.
   std::array<LaneBlock, kMaxLevels> m_tops;
 };
 

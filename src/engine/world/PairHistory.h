@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernels.h"
 #include "Memory.h"
 #include "PairSort.h"
 #include "allpairs/Executor.h"

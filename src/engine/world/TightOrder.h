@@ -22,7 +22,8 @@ namespace allpairs::engine {
 ///            R-tree packing", ICDE 1997, with the axis chosen anew for each.
 class TightOrder {
  public:
-  /// Orders the boxes anew within runs; keys stay sorted between the runs only. Their class begins at bit `classShift`.
+  /// Orders the boxes anew within runs, and those of a class, which keys hold from bit `classShift` on, among themselves.
+  /// The keys are lost.
   void tighten(std::span<KeyedBox> boxes, unsigned classShift, const LaneReader& reader, Executor& executor);
 
  private:

@@ -139,6 +139,7 @@ std::span<const Pair> WorldSearch::findBetween(const BoxStore& store, WorldSearc
   PairSort::Task task;
   task.firsts = std::max<std::size_t>(1, store.idBound());
   task.seconds = std::max<std::size_t>(1, otherStore.idBound());
+  task.kernels = &m_kernels;
   m_betweenSort.sort({m_between.data(), size}, task, executor());
   return {m_between.data(), size};
 }
