@@ -52,7 +52,7 @@ std::string csvOf(const TrackReport& report) {
   std::string text = "frame,pairs,began,ended,milliseconds\n";
   for (std::size_t i = 0; i < report.frames.size(); ++i) {
     const TrackedFrame& frame = report.frames[i];
-    text += fmt::format("{},{},{},{},{}\n", i, frame.pairs, frame.began, frame.ended, frame.milliseconds);
+    text += fmt::format("{},{},{},{},{:.6g}\n", i, frame.pairs, frame.began, frame.ended, frame.milliseconds);
   }
   return text;
 }
