@@ -37,7 +37,8 @@ struct ElementSettings {
   bool between = false;
 };
 
-constexpr const char* kExamples = R"(START and END are mesh files (.obj .ply .stl ...), or folders of them, with the same
+constexpr const char* kExamples =
+    R"(START and END are mesh files (.obj .ply .stl ...), or folders of them, with the same
 triangles: where the vertices are at the start and at the end of a step. Several
 meshes, such as a cloth and what it falls on, are given one after the other, each
 with its START and END; for one that does not move the two are the same file.
@@ -125,8 +126,8 @@ void describeMeshes(const elements::MeshTopology& topology, const std::vector<Me
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const elements::ElementCounts& from = topology.before(i);
     const elements::ElementCounts& to = topology.before(i + 1);
-    report.meshes.push_back({steps[i].start.name,
-                             {to.vertices - from.vertices, to.edges - from.edges, to.triangles - from.triangles}});
+    report.meshes.push_back(
+        {steps[i].start.name, {to.vertices - from.vertices, to.edges - from.edges, to.triangles - from.triangles}});
   }
 }
 
@@ -158,9 +159,8 @@ void runElements(const ElementSettings& settings) {
   const std::unique_ptr<Executor> executor = makeExecutor(threads, topology.counts().edges);
   const bool wantsLists = !settings.output.empty();
   if (executor && wantsLists) report.threads = executor->concurrency();  // counting runs on one
-  elements::ElementCandidates candidates(std::move(topology), {.margin = report.margin,
-                                                               .withinMeshes = !settings.between,
-                                                               .executor = executor.get()});
+  elements::ElementCandidates candidates(
+      std::move(topology), {.margin = report.margin, .withinMeshes = !settings.between, .executor = executor.get()});
   for (std::size_t i = 0; i < steps.size(); ++i) {
     candidates.setPositions(i, std::span<const double>(steps[i].start.positions), steps[i].endPositions);
   }

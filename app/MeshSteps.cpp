@@ -31,9 +31,9 @@ void checkSameMesh(const TriangleMesh& earlier, const std::string& earlierName, 
                    const std::filesystem::path& path) {
   const std::string name = "mesh '" + printable(later.name) + "'";
   if (earlier.positions.size() != later.positions.size()) {
-    throw FileError(path, fmt::format("{} has {} where {} has {}", name,
-                                      counted(later.positions.size() / 3, "vertex", "vertices"), earlierName,
-                                      grouped(earlier.positions.size() / 3)));
+    throw FileError(
+        path, fmt::format("{} has {} where {} has {}", name, counted(later.positions.size() / 3, "vertex", "vertices"),
+                          earlierName, grouped(earlier.positions.size() / 3)));
   }
   if (earlier.triangles.size() != later.triangles.size()) {
     throw FileError(path,

@@ -34,7 +34,6 @@ void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesy
 /// The meshes of two files that hold the start and the end of a step.
 ///
 /// Bad input: as of the two functions above.
-[[nodiscard]] std::vector<MeshStep> readMeshSteps(const std::filesystem::path& start,
-                                                  const std::filesystem::path& end);
+[[nodiscard]] std::vector<MeshStep> readMeshSteps(const std::filesystem::path& start, const std::filesystem::path& end);
 
 }  // namespace allpairs::app

@@ -39,7 +39,8 @@ struct TrackSettings {
   bool verify = false;
 };
 
-constexpr const char* kExamples = R"(FRAMES is a NumPy array (t, n, 6), float32 or float64: t frames of n boxes, minx miny
+constexpr const char* kExamples =
+    R"(FRAMES is a NumPy array (t, n, 6), float32 or float64: t frames of n boxes, minx miny
 minz maxx maxy maxz; or mesh files, one for each frame, whose boxes are those of the
 triangles, of which two that share a vertex are no pair.
 

@@ -35,16 +35,16 @@ std::string tableOf(const TrackReport& report) {
   const Totals totals = totalsOf(report.frames);
   const FrameTimes times = timesOf(report.frames);
   const double first = report.frames.empty() ? 0.0 : report.frames.front().milliseconds;
-  std::string text = fmt::format("frames   {} of {}\n", grouped(report.frames.size()),
-                                 counted(report.boxes, "box", "boxes"));
+  std::string text =
+      fmt::format("frames   {} of {}\n", grouped(report.frames.size()), counted(report.boxes, "box", "boxes"));
   text += fmt::format("margin   {}\n", report.margin);
   text += fmt::format("pairs    {} to {} a frame\n", grouped(totals.fewest), grouped(totals.most));
   text += fmt::format("began    {}\nended    {}\n", grouped(totals.began), grouped(totals.ended));
   if (report.verified) text += "verify   searching each frame anew gives the same pairs and changes\n";
   text += fmt::format("time     {:.4f} ms median, {:.4f} ms 99th percentile, {:.4f} ms worst (frame {})\n",
                       times.medianMs, times.percentile99Ms, times.worstMs, times.worstFrame);
-  text += fmt::format("first    {:.4f} ms; {} of the order since, on {}\n", first,
-                      counted(report.rebuilds, "rebuild"), counted(report.threads, "thread"));
+  text += fmt::format("first    {:.4f} ms; {} of the order since, on {}\n", first, counted(report.rebuilds, "rebuild"),
+                      counted(report.threads, "thread"));
   return text;
 }
 

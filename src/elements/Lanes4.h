@@ -35,13 +35,13 @@ template <class Mask>
 /// Whether any lane of a comparison says yes, or all do.
 template <class Mask>
 [[nodiscard]] inline bool anyLane(Mask mask) noexcept {
-  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(mask);
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2> >(mask);
   return (halves[0] | halves[1]) != 0;
 }
 
 template <class Mask>
 [[nodiscard]] inline bool allLanes(Mask mask) noexcept {
-  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(mask);
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2> >(mask);
   return (halves[0] & halves[1]) == ~std::uint64_t{0};
 }
 #endif

@@ -32,8 +32,8 @@ void checkLength(const NpyHeader& header, std::uint64_t itemSize, const InputFil
   const std::uint64_t frames = header.shape[0];
   const bool fits = frameBytes == 0 || frames <= file.remaining() / frameBytes;
   if (fits && frames * frameBytes == file.remaining()) return;
-  throw FileError(path, "holds " + std::to_string(file.remaining()) + " bytes of numbers, which is not what its shape " +
-                            shapeText(header.shape) + " needs");
+  throw FileError(path, "holds " + std::to_string(file.remaining()) +
+                            " bytes of numbers, which is not what its shape " + shapeText(header.shape) + " needs");
 }
 
 }  // namespace

@@ -119,7 +119,8 @@ TEST(ElementCandidates, WithoutOrderAndInParallelAreTheSame) {
     EXPECT_EQ(found, expected);
     EXPECT_EQ(ordered.count(kind), expected.size());
     std::vector<Pair> streamed;
-    ordered.stream(kind, [&](std::span<const Pair> batch) { streamed.insert(streamed.end(), batch.begin(), batch.end()); });
+    ordered.stream(kind,
+                   [&](std::span<const Pair> batch) { streamed.insert(streamed.end(), batch.begin(), batch.end()); });
     EXPECT_EQ(streamed, expected);
   }
 }

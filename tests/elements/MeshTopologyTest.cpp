@@ -42,8 +42,7 @@ TEST(MeshTopology, NumbersSeveralMeshesThrough) {
   EXPECT_EQ(topology.before(1), (ElementCounts{4, 3, 1}));
   EXPECT_EQ(topology.before(2), (ElementCounts{4, 3, 1}));
   EXPECT_EQ(topology.before(3), (ElementCounts{7, 6, 2}));
-  EXPECT_THAT(topology.edges(),
-              ElementsAre(Edge{0, 1}, Edge{0, 2}, Edge{1, 2}, Edge{4, 5}, Edge{4, 6}, Edge{5, 6}));
+  EXPECT_THAT(topology.edges(), ElementsAre(Edge{0, 1}, Edge{0, 2}, Edge{1, 2}, Edge{4, 5}, Edge{4, 6}, Edge{5, 6}));
   EXPECT_THAT(topology.triangles(), ElementsAre(Triangle{0, 1, 2}, Triangle{4, 5, 6}));
   EXPECT_THAT(topology.meshOfVertex(), ElementsAre(0U, 0U, 0U, 0U, 2U, 2U, 2U));
   EXPECT_THROW(static_cast<void>(topology.before(4)), InvalidArgument);
