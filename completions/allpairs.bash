@@ -3,24 +3,27 @@
 _allpairs() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local command=${COMP_WORDS[1]} words=''
-  local scenes='uniform clusters power-law city needles all-overlap mesh'
+  local scenes='uniform clusters power-law city needles all-overlap mesh' motions='brownian free-fall rotating-gravity'
   COMPREPLY=()
   case $previous in
     --strategy) words='auto exhaustive blocked' ;;
-    --format) words='table csv json npy' ;;
+    --format)
+      words='table csv json npy'
+      [[ $command != elements ]] || words='table json'
+      ;;
     --data)
       compopt -o filenames 2>/dev/null
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
       return
       ;;
-    --margin | --box | --threads | --boxes | -n | --seed | --repetitions | --instruction-set) return ;;
+    --margin | --box | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
   esac
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info generate bench --help -h --version' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements generate bench --help -h --version' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
@@ -29,7 +32,9 @@ _allpairs() {
         words='--margin --box --strategy --threads --verify --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
-      generate) words='--boxes -n --seed --sorted -o --output -h --help' ;;
+      track) words='--margin --threads --verify --format -o --output -h --help' ;;
+      elements) words='--margin --between --threads --format -o --output -h --help' ;;
+      generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;
       bench)
         words='--boxes -n --seed --sorted --threads --repetitions --unordered --count --strategy --instruction-set --json
           -h --help'
@@ -40,6 +45,7 @@ _allpairs() {
   fi
   compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen -f -- "$current")
+  [[ $command != generate ]] || scenes+=" $motions"
   if [[ $command == generate || $command == bench ]]; then
     mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$scenes" -- "$current")
   fi

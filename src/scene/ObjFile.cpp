@@ -137,6 +137,10 @@ class ObjReader {
       return object.triangles.empty() && object.lines.empty() && object.points.empty();
     });
     if (m_objects.empty() && !m_positions.empty()) return {allPoints()};
+    if (m_objects.size() == 1) {  // keeps the numbers of its vertices, by which others may refer to them
+      m_objects[0].positions = std::move(m_positions);
+      return std::move(m_objects);
+    }
     m_localIndex.assign(m_positions.size(), kUnused);
     for (MeshObject& object : m_objects) compact(object);
     return std::move(m_objects);
@@ -149,24 +153,27 @@ class ObjReader {
     return object;
   }
 
-  /// Gives the object its own positions, only those that it uses, in the order of their first use.
+  /// Gives the object its own positions, only those that it uses, in the order of the file.
   void compact(MeshObject& object) {
     std::vector<std::uint32_t> used;
-    const auto relocate = [&](std::uint32_t& index) {
-      std::uint32_t& local = m_localIndex[index];
-      if (local == kUnused) {
-        local = static_cast<std::uint32_t>(used.size());
-        used.push_back(index);
-      }
-      index = local;
-    };
-    for (auto& triangle : object.triangles) std::for_each(triangle.begin(), triangle.end(), relocate);
-    for (auto& line : object.lines) std::for_each(line.begin(), line.end(), relocate);
-    std::for_each(object.points.begin(), object.points.end(), relocate);
+    forEachIndex(object, [&](std::uint32_t& index) {
+      if (m_localIndex[index] == kUnused) used.push_back(index);
+      m_localIndex[index] = 0;
+    });
+    std::sort(used.begin(), used.end());
+    for (std::size_t i = 0; i < used.size(); ++i) m_localIndex[used[i]] = static_cast<std::uint32_t>(i);
+    forEachIndex(object, [&](std::uint32_t& index) { index = m_localIndex[index]; });
     for (const std::uint32_t index : used) {
       object.positions.push_back(m_positions[index]);
       m_localIndex[index] = kUnused;
     }
+  }
+
+  template <class Visit>
+  static void forEachIndex(MeshObject& object, const Visit& visit) {
+    for (auto& triangle : object.triangles) std::for_each(triangle.begin(), triangle.end(), visit);
+    for (auto& line : object.lines) std::for_each(line.begin(), line.end(), visit);
+    std::for_each(object.points.begin(), object.points.end(), visit);
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }

@@ -93,10 +93,16 @@ class PlyReader {
   std::vector<MeshObject> read() {
     for (const PlyElement& element : m_header.elements) {
       if (element.properties.empty()) continue;  // takes no room in the file, however many there are
-      for (std::uint64_t row = 0; row < element.count; ++row) readRow(element);
+      for (std::uint64_t row = 0; row < element.count; ++row) {
+        m_place = {&element, row};
+        readRow(element);
+      }
     }
-    if (m_highestIndex >= static_cast<double>(m_object.positions.size()))
-      m_body.fail("names a vertex that isn't there");
+    const std::size_t vertices = m_object.positions.size();
+    if (m_highest.index >= static_cast<double>(vertices)) {
+      m_body.fail(m_highest.place.text() + " names vertex " +
+                  std::to_string(static_cast<std::uint64_t>(m_highest.index)) + " of " + std::to_string(vertices));
+    }
     const bool hasElements = !m_object.triangles.empty() || !m_object.lines.empty();
     for (std::uint32_t i = 0; !hasElements && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
     return {std::move(m_object)};
@@ -126,14 +132,16 @@ class PlyReader {
 
   void addPosition(const Point& position) {
     for (const double coordinate : position) {
-      if (!std::isfinite(coordinate)) m_body.fail("a vertex has a coordinate that is missing or no finite number");
+      if (!std::isfinite(coordinate))
+        m_body.fail(m_place.text() + " has a coordinate that is missing or no finite number");
     }
     m_object.positions.push_back(position);
   }
 
   void readList(const PlyElement& element, const PlyProperty& property) {
     const double count = m_body.next(*property.countType);
-    if (!(count >= 0.0) || count != std::floor(count)) m_body.fail("a list has no proper length");
+    if (!(count >= 0.0) || count != std::floor(count))
+      m_body.fail(m_place.text() + " has a list without a proper length");
     const bool isFace = property.name == "vertex_indices" || property.name == "vertex_index";
     m_corners.clear();
     for (double i = 0; i < count; ++i) {
@@ -166,11 +174,28 @@ class PlyReader {
   /// The vertices may come after the faces; whether there are as many as named is asked at the end.
   std::uint32_t index(double value) {
     if (!(value >= 0.0) || value > std::numeric_limits<std::uint32_t>::max() || value != std::floor(value)) {
-      m_body.fail("a face or an edge has an index that names no vertex");
+      m_body.fail(m_place.text() + " has an index that names no vertex");
     }
-    m_highestIndex = std::max(m_highestIndex, value);
+    if (value > m_highest.index) m_highest = {value, m_place};
     return static_cast<std::uint32_t>(value);
   }
+
+  /// A row of an element of the header, counted from 0.
+  struct Place {
+    const PlyElement* element = nullptr;
+    std::uint64_t row = 0;
+
+    /// As errors call it: "face 7". A file may give elements any name; only known ones are repeated.
+    [[nodiscard]] std::string text() const {
+      const bool isKnown = element->name == "vertex" || element->name == "face" || element->name == "edge";
+      return (isKnown ? element->name : "element") + ' ' + std::to_string(row);
+    }
+  };
+
+  struct Highest {
+    double index = -1.0;
+    Place place;
+  };
 
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -178,7 +203,8 @@ class PlyReader {
   PlyBody m_body;
   MeshObject m_object;
   std::vector<std::uint32_t> m_corners;
-  double m_highestIndex = -1.0;
+  Place m_place;
+  Highest m_highest;
 };
 
 }  // namespace

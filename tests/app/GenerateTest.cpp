@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "Expect.h"
+#include "allpairs/generate/BoxMotions.h"
 #include "allpairs/generate/BoxScenes.h"
 #include "support/TempFolder.h"
 
@@ -36,6 +37,26 @@ TEST(Generate, WritesWhatDetectAndBenchRead) {
   const ProgramRun detected = runProgram({"detect", file, "--format", "csv"});
   expectSuccess(detected);
   EXPECT_EQ(std::count(detected.out.begin(), detected.out.end(), '\n'), 1 + 7 * 6 / 2);
+}
+
+TEST(Generate, WritesTheFramesOfAMotionAsANumpyArray) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "frames.npy").string();
+  expectSuccess(runProgram({"generate", "free-fall", "-n", "17", "--frames", "5", "--seed", "3", "-o", file}));
+  const std::string bytes = readBytes(file);
+  EXPECT_NE(bytes.find("{'descr': '<f4', 'fortran_order': False, 'shape': (5, 17, 6), }"), std::string::npos);
+  std::vector<float> expected;
+  generate::MotionFrames motion({"free-fall", 17, 3});
+  for (int frame = 0; frame < 5; ++frame) {
+    const auto rows = motion.next();
+    expected.insert(expected.end(), rows.begin(), rows.end());
+  }
+  EXPECT_EQ(numbersOf(bytes), expected);
+}
+
+TEST(Generate, OfFramesOfAtRestBoxesOrOfASortedMotionIsWrongUsage) {
+  expectFailure(runProgram({"generate", "uniform", "--frames", "3", "-o", "/dev/null"}), 2, "'uniform' do not move");
+  expectFailure(runProgram({"generate", "brownian", "--sorted", "-o", "/dev/null"}), 2, "--sorted");
 }
 
 TEST(Generate, OfAnUnknownSceneIsWrongUsage) {

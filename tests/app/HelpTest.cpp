@@ -46,7 +46,8 @@ TEST_P(Help, HasExamplesAndEveryOptionIsInTheManualAndInTheCompletion) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values(std::vector<std::string>{}, std::vector<std::string>{"detect"},
-                                         std::vector<std::string>{"info"}, std::vector<std::string>{"generate"},
+                                         std::vector<std::string>{"info"}, std::vector<std::string>{"track"},
+                                         std::vector<std::string>{"elements"}, std::vector<std::string>{"generate"},
                                          std::vector<std::string>{"bench"}));
 
 TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {

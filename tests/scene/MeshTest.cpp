@@ -5,6 +5,7 @@
 
 #include "Expect.h"
 #include "SceneText.h"
+#include "allpairs/collision/TriangleModel.h"
 #include "allpairs/scene/ReadInput.h"
 #include "support/TempFolder.h"
 
@@ -87,6 +88,18 @@ TEST(ObjMesh, GroupsAreObjectsWhereThereIsNoObject) {
             "a b TTriangleModel 2\nc TTriangleModel 1\n");
   EXPECT_EQ(namesOf(read("g.obj", vertices + "g a\nf 1 2 3\no x\ng b\nf 1 2 3\n")),
             "g.obj TTriangleModel 1\nx TTriangleModel 1\n");
+}
+
+TEST(ObjMesh, VerticesKeepTheirOrderAndTheirNumbersWhereThereIsOneObject) {
+  using Triangles = std::vector<collision::TriangleModel::Triangle>;
+  const auto trianglesOf = [](const scene::Scene& scene, std::size_t model) {
+    return dynamic_cast<const collision::TriangleModel&>(*scene.models.at(model)).triangles();
+  };
+  const std::string vertices = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_EQ(trianglesOf(read("one.obj", vertices + "f 4 2 3\n"), 0), (Triangles{{3, 1, 2}}));
+  const scene::Scene two = read("two.obj", vertices + "o a\nf 4 2 3\no b\nf 1 4 3\n");
+  EXPECT_EQ(trianglesOf(two, 0), (Triangles{{2, 0, 1}}));
+  EXPECT_EQ(trianglesOf(two, 1), (Triangles{{0, 2, 1}}));
 }
 
 TEST(ObjMesh, NothingButVerticesIsACloudOfPoints) {

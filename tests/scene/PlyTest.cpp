@@ -94,7 +94,9 @@ TEST(PlyMesh, ErrorsNameTheLine) {
         (void)read(ascii(std::string(kVertices) + "element face 1\nproperty list uchar int vertex_index\n",
                          "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 4\n"));
       },
-      "names a vertex that isn't there");
+      "face 0 names vertex 4 of 4");
+  expectFileError([] { (void)read(ascii(kVertices, "0 0 0\n1 nan 0\n0 1 0\n1 1 0\n")); },
+                  "mesh.ply:10: vertex 1 has a coordinate that is missing or no finite number");
 }
 
 }  // namespace
