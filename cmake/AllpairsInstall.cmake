@@ -10,6 +10,9 @@ foreach(component IN LISTS allpairs_components)
   if(component STREQUAL "allpairs")
     file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/allpairs/*.h")
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+  elseif(EXISTS "${PROJECT_SOURCE_DIR}/adapters/${component}/include")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/${component}/include/allpairs"
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   else()
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs/${component}"
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
@@ -28,6 +31,8 @@ function(allpairs_read_links component)
       list(APPEND needs ${CMAKE_MATCH_2})
     elseif(link STREQUAL "allpairs")
       list(APPEND needs allpairs)
+    elseif(link STREQUAL "fcl") # a target without a namespace, which our header refers to
+      list(APPEND packages fcl)
     elseif(link MATCHES "^([A-Za-z_]+)::" AND NOT BUILD_SHARED_LIBS)
       string(REGEX REPLACE "^hwy$" "HWY" package ${CMAKE_MATCH_1}) # found as HWY, named hwy::
       list(APPEND packages ${package})
