@@ -62,7 +62,8 @@ void consider(const ExactPart& outer, const Point& point, Deepest& deepest) {
   pose.translation() = point;
   const ::fcl::DistanceRequestd request(true);
   ::fcl::DistanceResultd result;
-  const double distance = ::fcl::distance(&outer.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result);
+  const double distance =
+      ::fcl::distance(&outer.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result);
   const bool isOnSurface = distance <= 0.0;
   if (deepest.found && distance <= deepest.depth) return;
   deepest = {.found = true,

@@ -12,7 +12,7 @@ namespace allpairs::exact {
 /// The shape of a collision model: all of its parts together.
 struct ExactBody {
   std::vector<std::unique_ptr<ExactPart>> parts;
-  bool isKnown = true;   ///< Whether the type of the model is one whose shape is known.
+  bool isKnown = true;  ///< Whether the type of the model is one whose shape is known.
   double extent = 0.0;  ///< The greatest, of the box around all parts.
 };
 

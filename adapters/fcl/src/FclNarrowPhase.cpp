@@ -23,13 +23,16 @@ class PairReport {
   PairReport(ExactPair& pair, std::size_t contactLimit) : m_pair(pair), m_limit(contactLimit) {}
 
   /// Whether parts that are at least so far apart change nothing that is reported.
-  [[nodiscard]] bool isBeyond(double distance) const { return !m_isFirst && distance > (isMet() ? 0.0 : m_best.distance); }
+  [[nodiscard]] bool isBeyond(double distance) const {
+    return !m_isFirst && distance > (isMet() ? 0.0 : m_best.distance);
+  }
 
   void add(Meeting meeting) {
     addContacts(meeting);
     m_hasVolume = m_hasVolume || meeting.hasVolume;
-    const bool isBetter = m_isFirst || rank(meeting) > rank(m_best) ||
-                          (rank(meeting) == rank(m_best) && (meeting.depth > m_best.depth || meeting.distance < m_best.distance));
+    const bool isBetter =
+        m_isFirst || rank(meeting) > rank(m_best) ||
+        (rank(meeting) == rank(m_best) && (meeting.depth > m_best.depth || meeting.distance < m_best.distance));
     m_anyMeets = m_anyMeets || meeting.surfacesMeet;
     m_anyIsDeep = m_anyIsDeep || meeting.isDeep;
     m_isFirst = false;
@@ -144,7 +147,8 @@ void FclNarrowPhase::beginNarrowPhase() {
 }
 
 void FclNarrowPhase::addCollisionPair(const collision::CollisionModelPair& pair) {
-  if (pair.first == nullptr || pair.second == nullptr) throw InvalidArgument("a pair for the narrow phase has no model");
+  if (pair.first == nullptr || pair.second == nullptr)
+    throw InvalidArgument("a pair for the narrow phase has no model");
   ExactPair result;
   result.first = pair.first->getLast();
   result.second = pair.second->getLast();

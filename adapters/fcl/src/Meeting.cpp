@@ -142,8 +142,8 @@ Meeting meet(const ExactPart& first, const ExactPart& second, double tolerance) 
 double boxDistance(const ExactPart& first, const ExactPart& second) {
   double squared = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gap = std::max({0.0, first.box().min[axis] - second.box().max[axis],
-                                 second.box().min[axis] - first.box().max[axis]});
+    const double gap =
+        std::max({0.0, first.box().min[axis] - second.box().max[axis], second.box().min[axis] - first.box().max[axis]});
     squared += gap * gap;
   }
   return std::max(0.0, std::sqrt(squared) - first.radius() - second.radius());
