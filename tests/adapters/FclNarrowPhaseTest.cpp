@@ -60,6 +60,7 @@ TEST(FclNarrowPhase, CubesThatShareAFaceTouchWithoutDepth) {
     EXPECT_EQ(pair.state, ExactState::Touching);
     EXPECT_THAT(pair.depth, depthOf(0.0));
     EXPECT_EQ(pair.distance, 0.0);
+    EXPECT_THAT(pair.normal, near(place[0] > 0.0 ? -1.0 : 1.0, 0.0, 0.0));
     for (const Vec3& point : pair.contactPoints) EXPECT_EQ(point[0], place[0] > 0.0 ? 1.0 : 0.0);
   }
 }

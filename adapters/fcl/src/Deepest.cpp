@@ -21,6 +21,16 @@ Box common(const Box& a, const Box& b) {
   return box;
 }
 
+/// The corners, the middles of the sides and the middle of all.
+void addPointsOf(const Polygon& polygon, std::vector<Point>& points) {
+  const auto corners = polygon.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    points.push_back(corners[i]);
+    points.push_back((corners[i] + corners[(i + 1) % corners.size()]) / 2.0);
+  }
+  points.push_back(polygon.middle());
+}
+
 /// The points worth asking, each once.
 std::vector<Point> samples(const ExactPart& outer, const ExactPart& inner, const std::vector<TrianglePair>& pairs) {
   std::vector<Point> points;
@@ -30,8 +40,7 @@ std::vector<Point> samples(const ExactPart& outer, const ExactPart& inner, const
     Polygon polygon(inner.triangles()[i]);
     polygon.cut(shared);
     if (polygon.empty()) continue;
-    points.insert(points.end(), polygon.corners().begin(), polygon.corners().end());
-    points.push_back(polygon.middle());
+    addPointsOf(polygon, points);
   }
   for (const TrianglePair& pair : pairs) {
     Polygon polygon(inner.triangles()[pair.first]);

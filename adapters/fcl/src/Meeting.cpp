@@ -24,6 +24,21 @@ Point directionOf(const Point& vector) {
   return length > 0.0 ? Point(vector / length) : Point(Point::Zero());
 }
 
+constexpr std::size_t kMostNormals = 32;  // each costs a pass over both parts
+
+/// From where to where a part reaches along a direction.
+std::pair<double, double> span(const ExactPart& part, const Point& direction) {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+  for (const Corners& corners : part.triangles()) {
+    for (const Point& corner : corners) {
+      min = std::min(min, direction.dot(corner));
+      max = std::max(max, direction.dot(corner));
+    }
+  }
+  return {min, max};
+}
+
 /// The triangles of the two parts that FCL finds to meet, in the order of their numbers.
 std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPart& second) {
   const ::fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
@@ -110,18 +125,35 @@ class Look {
     m_meeting.normal = directionOf(m_meeting.onSecond - m_meeting.onFirst);
   }
 
-  /// Surfaces that meet at a point have no direction between nearest points: the normal of a triangle that meets, or
-  /// the line between the middles.
+  /// Surfaces that only meet have no direction between nearest points: of the normals of the triangles that meet, the
+  /// one along which the two parts share least; else the line between their middles.
   void guessNormal() {
-    const Point apart = middleOf(m_first.box()) - middleOf(m_second.box());
-    Point normal = Point::Zero();
-    for (const TrianglePair& pair : m_pairs) {
-      const Corners& corners = m_second.triangles()[pair.second];
-      normal = directionOf((corners[1] - corners[0]).cross(corners[2] - corners[0]));
-      if (!normal.isZero()) break;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point& normal : normalsOfMeeting()) {
+      for (const Point& direction : {normal, Point(-normal)}) {
+        const double shared = span(m_second, direction).second - span(m_first, direction).first;
+        if (shared >= least - m_tolerance) continue;
+        least = shared;
+        m_meeting.normal = direction;
+      }
     }
-    if (normal.isZero()) normal = directionOf(apart);
-    m_meeting.normal = normal.dot(apart) < 0.0 ? Point(-normal) : normal;
+    if (m_meeting.normal.isZero()) m_meeting.normal = directionOf(middleOf(m_first.box()) - middleOf(m_second.box()));
+  }
+
+  [[nodiscard]] std::vector<Point> normalsOfMeeting() const {
+    std::vector<Point> normals;
+    const auto add = [&normals](const Corners& corners) {
+      const Point normal = directionOf((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+      if (!normal.isZero() && std::find(normals.begin(), normals.end(), normal) == normals.end()) {
+        normals.push_back(normal);
+      }
+    };
+    for (const TrianglePair& pair : m_pairs) {
+      if (normals.size() >= kMostNormals) break;
+      add(m_second.triangles()[pair.second]);
+      add(m_first.triangles()[pair.first]);
+    }
+    return normals;
   }
 
   const ExactPart& m_first;

@@ -75,8 +75,8 @@ struct ExactOptions {
 /// Geometry:  a mesh whose triangles close (each edge is shared by as many one way as the other, or by an even number
 ///            of them) is a solid, with holes where inner surfaces face inward; any other mesh is a surface without
 ///            volume. Where models stand now: contact distances and velocities play no part. The depth is that of the
-///            deepest of the vertices, of the middles of triangles and of their parts within the other's box: never
-///            more than the true one, and equal to it where a vertex or a flat face is deepest.
+///            deepest of the vertices, and of the middles of edges and triangles, of what lies in the other's box:
+///            never more than the true one, and equal to it where a vertex or a flat face is deepest.
 /// Bad input: a null model throws InvalidArgument; options that are negative or NaN too.
 /// Cost:      per pair, FCL's distance or collision of the two, and for a pair that meets a distance for each vertex
 ///            that lies in the other.
