@@ -107,8 +107,8 @@ class World {
 
   [[nodiscard]] const WorldStatistics& statistics() const noexcept;
 
-  /// All pairs of a box of this world and a box of `other` that overlap at this world's distance, ordered by
-  /// (first, second); first is an id here, second one there.
+  /// All pairs of a box of this world and a box of `other` that overlap at the mean of the distances of the two worlds,
+  /// ordered by (first, second); first is an id here, second one there.
   ///
   /// Filters apply as within a world, but static boxes meet each other; `accept` of this world is asked.
   [[nodiscard]] std::span<const Pair> findBetween(World& other);

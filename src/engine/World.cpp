@@ -8,11 +8,10 @@
 
 #include "CheckOptions.h"
 #include "allpairs/Error.h"
-#include "allpairs/Overlaps.h"
 #include "world/BoxStore.h"
-#include "world/PairHistory.h"
 #include "world/QueryTests.h"
 #include "world/WorldQueries.h"
+#include "world/WorldSearch.h"
 
 namespace allpairs {
 namespace {
@@ -41,22 +40,14 @@ void checkPoint(const std::array<double, 3>& point, std::size_t index) {
 }  // namespace
 
 struct World::State {
+  State(WorldOptions given, const engine::Kernels& kernels) : options(std::move(given)), search(options, kernels) {}
+
   WorldOptions options;
   engine::BoxStore store;
-  engine::PairHistory history;
+  engine::WorldSearch search;
   engine::WorldQueries queries;
-  WorldStatistics statistics;
-  SerialExecutor serial;
   std::vector<BoxSweep> sweeps;
   std::vector<Box> swept;
-  Overlaps search;
-
-  Executor& executor() { return options.executor != nullptr ? *options.executor : serial; }
-
-  bool keeps(BoxId a, BoxId b) const {
-    if (store.isStatic(a) && store.isStatic(b)) return false;
-    return engine::mayPair(store.filter(a), store.filter(b)) && (!options.accept || options.accept(a, b));
-  }
 
   engine::WorldQueries& lookAt() {
     queries.lookAt(store);
@@ -73,14 +64,13 @@ struct World::State {
   }
 };
 
-World::World(WorldOptions options) : m_state(std::make_unique<State>()) {
+World::World(WorldOptions options) {
   OverlapOptions checked;
   checked.distance = options.distance;
   checked.instructionSet = options.instructionSet;
   const BoxSet none;
   engine::checkOptions({none, none, true}, checked);
-  static_cast<void>(engine::chooseKernels(checked));
-  m_state->options = std::move(options);
+  m_state = std::make_unique<State>(std::move(options), engine::chooseKernels(checked));
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -167,40 +157,14 @@ BoxProperties World::properties(BoxId id) const {
   return m_state->store.properties(id);
 }
 
-StepResult World::step() {
-  State& state = *m_state;
-  OverlapOptions options;
-  options.distance = state.options.distance;
-  options.executor = state.options.executor;
-  options.instructionSet = state.options.instructionSet;
-  options.filter.accept = [&](BoxId a, BoxId b) { return state.keeps(a, b); };
-  options.order = Order::Unordered;
-  state.search.setOptions(options);
-  state.history.begin(state.store.idBound(), 1);
-  state.history.take(state.search.find(state.store.set()), 0);
-  state.history.finish([](Pair) { return true; }, state.executor());
-  state.statistics.changed = state.store.touched().size();
-  state.statistics.joinedAll = true;
-  state.store.settle();
-  state.store.endStep();
-  return state.history.result();
-}
-
-StepResult World::result() const noexcept { return m_state->history.result(); }
-const WorldStatistics& World::statistics() const noexcept { return m_state->statistics; }
+StepResult World::step() { return m_state->search.step(m_state->store); }
+StepResult World::result() const noexcept { return m_state->search.result(); }
+const WorldStatistics& World::statistics() const noexcept { return m_state->search.statistics(); }
 
 std::span<const Pair> World::findBetween(World& other) {
-  State& state = *m_state;
-  OverlapOptions options;
-  options.distance = state.options.distance;
-  options.executor = state.options.executor;
-  options.instructionSet = state.options.instructionSet;
-  options.filter.accept = [&](BoxId a, BoxId b) {
-    return engine::mayPair(state.store.filter(a), other.m_state->store.filter(b)) &&
-           (!state.options.accept || state.options.accept(a, b));
-  };
-  state.search.setOptions(options);
-  return state.search.findBetween(state.store.set(), other.m_state->store.set());
+  m_state->search.update(m_state->store);
+  other.m_state->search.update(other.m_state->store);
+  return m_state->search.findBetween(m_state->store, other.m_state->search, other.m_state->store);
 }
 
 std::span<const BoxId> World::findOverlapping(const Box& box, const QueryFilter& filter) {
