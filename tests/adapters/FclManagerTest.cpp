@@ -187,10 +187,10 @@ TYPED_TEST(FclManager, TellsApartManagersThatAreApart) {
   this->m_naive.registerObjects(objects);
   ourOther.registerObjects(others);
   naiveOther.registerObjects(others);
-  using Base = typename TestFixture::Base;
-  EXPECT_EQ(this->distance(this->m_ours, static_cast<Base*>(&ourOther)),
-            this->distance(this->m_naive, static_cast<Base*>(&naiveOther)));
-  EXPECT_TRUE(this->collisions(this->m_ours, static_cast<Base*>(&ourOther)).empty());
+  using Manager = typename TestFixture::Base;
+  EXPECT_EQ(this->distance(this->m_ours, static_cast<Manager*>(&ourOther)),
+            this->distance(this->m_naive, static_cast<Manager*>(&naiveOther)));
+  EXPECT_TRUE(this->collisions(this->m_ours, static_cast<Manager*>(&ourOther)).empty());
 }
 
 TYPED_TEST(FclManager, FollowsObjectsThatMoveComeAndGo) {
@@ -218,12 +218,12 @@ TYPED_TEST(FclManager, FollowsObjectsThatMoveComeAndGo) {
 
 TYPED_TEST(FclManager, StopsWhenTheCallbackSaysSo) {
   this->m_ours.registerObjects(this->addObjects(50, TypeParam(3)));
-  using Object = typename TestFixture::Object;
+  using Body = typename TestFixture::Object;
   int calls = 0;
-  const auto stopAtThree = [](Object*, Object*, void* data) { return ++*static_cast<int*>(data) == 3; };
+  const auto stopAtThree = [](Body*, Body*, void* data) { return ++*static_cast<int*>(data) == 3; };
   this->m_ours.collide(&calls, stopAtThree);
   EXPECT_EQ(calls, 3);
-  const auto stopAtFive = [](Object*, Object*, void* data, TypeParam&) { return ++*static_cast<int*>(data) == 5; };
+  const auto stopAtFive = [](Body*, Body*, void* data, TypeParam&) { return ++*static_cast<int*>(data) == 5; };
   calls = 0;
   this->m_ours.distance(&calls, stopAtFive);
   EXPECT_EQ(calls, 5);
