@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moving boxes, frame after frame: the world beside our one-shot search and the peers that update, on the same frames,
 // whose pairs are compared in each frame. Writes a line of CSV for each contender.
-//   moving_benchmark [--boxes N] [--frames N] [--peer-frames N] [--scene NAME] [--output FILE]
+//   moving_benchmark [--boxes N] [--frames N] [--peer-frames N] [--scene NAME] [--setting NAME] [--output FILE]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -27,6 +27,7 @@ struct Request {
   std::size_t frames = 200;
   std::size_t peerFrames = 20;
   std::string scene;
+  std::string setting;
   std::string output;
 };
 
@@ -68,6 +69,7 @@ std::vector<Entry> run(const Motion& motion, const Request& request, std::size_t
   std::vector<Entry> entries;
   for (std::vector<MovingContender> part : {ownContenders(), peerContenders()}) {
     for (MovingContender& contender : part) {
+      if (!request.setting.empty() && contender.setting != request.setting) continue;
       if (contender.own || request.peerFrames != 0) entries.push_back({contender, contender.make(), {}, {}, 0});
     }
   }
@@ -140,6 +142,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", request.frames, "How many frames ours are measured for");
   app.add_option("--peer-frames", request.peerFrames, "How many of them the peers are measured for");
   app.add_option("--scene", request.scene, "One scene only: straight, brownian, one-percent, slow");
+  app.add_option("--setting", request.setting, "One setting only, such as world");
   app.add_option("-o,--output", request.output, "A file of CSV for the records");
   try {
     app.parse(argc, argv);

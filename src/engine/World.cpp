@@ -50,7 +50,10 @@ struct World::State {
   std::vector<Box> swept;
 
   engine::WorldQueries& lookAt() {
-    queries.lookAt(store);
+    search.update(store);
+    queries.lookAt({&store,
+                    {search.dynamicBoxes().levels().hierarchy(), search.staticBoxes().levels().hierarchy()},
+                    &search.executor()});
     return queries;
   }
 

@@ -85,11 +85,12 @@ void BoxStore::reserve(std::size_t boxes) {
   }
   m_filters.reserve(boxes);
   m_flags.reserve(boxes);
-  m_touched.reserve(boxes);
-  m_stale.reserve(boxes);
 }
 
 void BoxStore::check(std::span<const BoxId> ids) const {
+  bool known = true;
+  for (const BoxId id : ids) known = known && contains(id);
+  if (known) return;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (!contains(ids[i])) throwUnknown(i, ids[i]);
   }
@@ -126,6 +127,8 @@ BoxId BoxStore::takeId() {
 void BoxStore::grow(std::size_t bound) {
   m_flags.resize(bound, 0);
   m_filters.resize(bound);
+  m_touched.resize(bound + 1);
+  m_stale.resize(bound + 1);
   if (!m_margins.empty()) m_margins.resize(bound, 0.0);
   if (m_isFloat64) {
     m_rows64.resize(6 * bound, 0.0);
@@ -160,7 +163,27 @@ void BoxStore::move(BoxId id, const Box& box) {
 void BoxStore::move(std::span<const BoxId> ids, const BoxSet& boxes) {
   checkLength(boxes.size(), "boxes", ids.size());
   check(ids);
-  for (std::size_t i = 0; i < ids.size(); ++i) write(ids[i], boxes[i]);
+  if (!m_isFloat64 && !boxes.isFloat64() && boxes.float32().isPacked()) {
+    copyRows(ids, boxes.float32().min.data, m_rows32.data());
+  } else if (m_isFloat64 && boxes.isFloat64() && boxes.float64().isPacked()) {
+    copyRows(ids, boxes.float64().min.data, m_rows64.data());
+  } else {
+    for (std::size_t i = 0; i < ids.size(); ++i) write(ids[i], boxes[i]);
+  }
+}
+
+/// Rows of six to rows of six, of the same kind.
+template <class T>
+void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
+  for (const BoxId id : ids) {
+    T* const row = to + std::size_t{6} * id;
+    // Not the bytes: 0 and -0 are the same bound.
+    bool changed = false;
+    for (std::size_t k = 0; k < 6; ++k) changed |= row[k] != from[k];
+    for (std::size_t k = 0; k < 6; ++k) row[k] = from[k];
+    from += 6;
+    if (changed) note(id);
+  }
 }
 
 void BoxStore::remove(std::span<const BoxId> ids) {
@@ -221,12 +244,6 @@ void BoxStore::assign(BoxId id, const BoxProperties& properties) {
   }
 }
 
-void BoxStore::note(BoxId id) {
-  if ((m_flags[id] & kTouched) == 0) m_touched.push_back(id);
-  if ((m_flags[id] & kStale) == 0) m_stale.push_back(id);
-  m_flags[id] |= kTouched | kStale;
-}
-
 Box BoxStore::box(BoxId id) const noexcept {
   const std::size_t row = std::size_t{6} * id;
   return m_isFloat64 ? readBounds(&m_rows64[row]) : readBounds(&m_rows32[row]);
@@ -247,16 +264,16 @@ const BoxSet& BoxStore::set() {
 }
 
 void BoxStore::settle() noexcept {
-  for (const BoxId id : m_stale) m_flags[id] &= static_cast<std::uint8_t>(~kStale);
-  m_stale.clear();
+  for (const BoxId id : stale()) m_flags[id] &= static_cast<std::uint8_t>(~kStale);
+  m_staleCount = 0;
 }
 
 void BoxStore::endStep() {
-  for (const BoxId id : m_touched) {
+  for (const BoxId id : touched()) {
     m_flags[id] &= static_cast<std::uint8_t>(~kTouched);
     if ((m_flags[id] & kLive) != 0) m_flags[id] |= kStepped;
   }
-  m_touched.clear();
+  m_touchedCount = 0;
   m_free.insert(m_free.end(), m_removed.begin(), m_removed.end());
   m_removed.clear();
 }

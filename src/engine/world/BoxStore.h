@@ -73,10 +73,10 @@ class BoxStore {
   [[nodiscard]] const BoxSet& set();
 
   /// Ids that were touched since the last step, removed ones included, each once.
-  [[nodiscard]] std::span<const BoxId> touched() const noexcept { return m_touched; }
+  [[nodiscard]] std::span<const BoxId> touched() const noexcept { return {m_touched.data(), m_touchedCount}; }
 
   /// Ids that changed since the last call of settle(), removed ones included, each once.
-  [[nodiscard]] std::span<const BoxId> stale() const noexcept { return m_stale; }
+  [[nodiscard]] std::span<const BoxId> stale() const noexcept { return {m_stale.data(), m_staleCount}; }
 
   /// Forgets what is stale.
   void settle() noexcept;
@@ -87,7 +87,17 @@ class BoxStore {
  private:
   static constexpr std::uint8_t kLeaving = 32;  ///< While a batch is checked: in it, to be removed.
 
-  void note(BoxId id);
+  /// Lists the box as changed, once; the lists are as long as there are ids.
+  void note(BoxId id) noexcept {
+    const std::uint8_t flags = m_flags[id];
+    m_touched[m_touchedCount] = id;
+    m_stale[m_staleCount] = id;
+    m_touchedCount += (flags & kTouched) == 0 ? 1U : 0U;
+    m_staleCount += (flags & kStale) == 0 ? 1U : 0U;
+    m_flags[id] = static_cast<std::uint8_t>(flags | kTouched | kStale);
+  }
+  template <class T>
+  void copyRows(std::span<const BoxId> ids, const T* from, T* to);
   BoxId takeId();
   void grow(std::size_t bound);
   void widenToDouble();
@@ -108,8 +118,10 @@ class BoxStore {
   std::vector<std::uint8_t> m_flags;
   std::vector<BoxId> m_free;
   std::vector<BoxId> m_removed;  ///< Since the last step: not yet free.
-  std::vector<BoxId> m_touched;
+  std::vector<BoxId> m_touched;  ///< One more than there are ids: written before it is known whether it counts.
   std::vector<BoxId> m_stale;
+  std::size_t m_touchedCount = 0;
+  std::size_t m_staleCount = 0;
   BoxSet m_set;
 };
 

@@ -18,16 +18,22 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, KeptHierarchy& from, c
     m_marked[place / 64] |= std::uint64_t{1} << (place % 64);
     ++count;
   }
-  m_levels.reset(std::max(m_levels.capacity(), count + count / 4));
-  m_levels.resize(count);
+  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (count + count / 4)));
+  m_levels.resize(0);
   std::size_t next = 0;
+  std::size_t sourceBlock = source.places();
   for (std::size_t word = 0; word < words; ++word) {
     for (std::uint64_t bits = std::exchange(m_marked[word], 0); bits != 0; bits &= bits - 1) {
       const std::size_t place = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+      if (place / kFanOut != std::exchange(sourceBlock, place / kFanOut)) {
+        next = m_levels.blockCount() * kFanOut;
+        m_levels.resize(next + kFanOut);
+      }
       m_levels.block(next / kFanOut).set(next % kFanOut, source.block(place / kFanOut).get(place % kFanOut));
       m_levels.id(next++) = source.id(place);
     }
   }
+  m_size = count;
   m_levels.boundAll(kernels, executor);
 }
 

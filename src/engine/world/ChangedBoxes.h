@@ -13,15 +13,22 @@
 namespace allpairs::engine {
 
 /// A hierarchy over those boxes of another one that have changed, in the same order.
+///
+/// Those of one block there are one block here, however few: filled up with others from afar, its bounds would touch as
+/// many boxes as all the blocks in between together.
 class ChangedBoxes {
  public:
   void gather(std::span<const BoxId> changed, KeptHierarchy& from, const Kernels& kernels, Executor& executor);
 
   [[nodiscard]] LevelStack& levels() noexcept { return m_levels; }
 
+  /// How many boxes it holds.
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+
  private:
   std::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
   LevelStack m_levels;
+  std::size_t m_size = 0;
 };
 
 }  // namespace allpairs::engine

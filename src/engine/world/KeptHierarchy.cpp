@@ -95,7 +95,11 @@ void KeptHierarchy::rebuild(const BoxStore& store, const UpdateTools& tools) {
   m_size = 0;
   m_rule.start();
   m_grid = CurveGrid::fit(tools.reader);
-  placeFresh(tools);
+  if (!m_fresh.empty()) {
+    orderByCurve(m_fresh, tools);
+    m_tight.tighten({m_keyed.data(), m_fresh.size()}, tools.reader, tools.executor);
+    append({m_keyed.data(), m_fresh.size()});
+  }
   refitAll(tools);
 }
 

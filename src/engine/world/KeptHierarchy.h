@@ -16,6 +16,7 @@
 #include "world/BoxStore.h"
 #include "world/LevelStack.h"
 #include "world/RebuildRule.h"
+#include "world/TightOrder.h"
 
 namespace allpairs::engine {
 
@@ -85,6 +86,7 @@ class KeptHierarchy {
   std::size_t m_dirtyBoxes = 0;
   std::vector<std::uint32_t> m_blockList;
   std::vector<BoxId> m_fresh;  ///< Boxes without a place.
+  TightOrder m_tight;
   Buffer<KeyedBox> m_keyed;
   Buffer<KeyedBox> m_spare;
 };

@@ -12,12 +12,15 @@ constexpr std::size_t kShortRow = 16;
 /// How many pairs ahead the memory of a row is asked for.
 constexpr std::size_t kPrefetchDistance = 16;
 
+/// Compares as the pair does.
+std::uint64_t keyOf(Pair pair) { return (std::uint64_t{pair.first} << 32U) | pair.second; }
+
 }  // namespace
 
 void PairHistory::begin(std::size_t idBound, std::size_t finders) {
   m_idBound = idBound;
   m_rowBegin.resize(std::max(m_rowBegin.size(), idBound + 1), m_result.pairs.size());
-  m_seen.require(m_result.pairs.size() + 1);
+  makeRoom(m_seen, m_result.pairs.size());
   std::fill_n(m_seen.data(), m_result.pairs.size(), std::uint8_t{0});
   if (m_fresh.size() < finders) m_fresh.resize(finders);
   for (Fresh& fresh : m_fresh) fresh.size = 0;
@@ -55,7 +58,7 @@ void PairHistory::take(std::span<const Pair> found, std::size_t finder) {
 void PairHistory::gatherFresh(Executor& executor) {
   std::size_t size = 0;
   for (const Fresh& fresh : m_fresh) size += fresh.size;
-  m_began.require(size + 1);
+  makeRoom(m_began, size);
   Pair* to = m_began.data();
   for (const Fresh& fresh : m_fresh) to = std::copy_n(fresh.pairs.data(), fresh.size, to);
   m_result.began = {m_began.data(), size};
@@ -65,23 +68,21 @@ void PairHistory::gatherFresh(Executor& executor) {
   m_sort.sort({m_began.data(), size}, task, executor);
 }
 
-/// Merges what persists with what began: stretches of the one between entries of the other.
+/// Merges what persists with what began.
 void PairHistory::mergeFresh() {
   shiftRows();
   const std::span<const Pair> persisted = m_result.persisted;
   const std::size_t size = persisted.size() + m_result.began.size();
-  m_pairs.require(size + 1);
+  makeRoom(m_pairs, size);
   Pair* to = m_pairs.data();
-  std::size_t next = 0;
+  const Pair* next = persisted.data();
+  const Pair* const end = next + persisted.size();
   for (const Pair& pair : m_result.began) {
-    std::size_t stop = next;
-    while (stop < persisted.size() && persisted[stop] < pair) ++stop;
-    to = std::copy(persisted.begin() + static_cast<std::ptrdiff_t>(next),
-                   persisted.begin() + static_cast<std::ptrdiff_t>(stop), to);
+    // Stretches are short: copied one by one they cost less than a call would.
+    while (next != end && keyOf(*next) < keyOf(pair)) *to++ = *next++;
     *to++ = pair;
-    next = stop;
   }
-  std::copy(persisted.begin() + static_cast<std::ptrdiff_t>(next), persisted.end(), to);
+  std::copy(next, end, to);
   m_result.pairs = {m_pairs.data(), size};
 }
 

@@ -48,8 +48,8 @@ class PairHistory {
   template <class LookedFor>
   void split(const LookedFor& lookedFor) {
     const std::span<const Pair> old = m_result.pairs;
-    m_persisted.require(old.size() + 1);
-    m_ended.require(old.size() + 1);
+    makeRoom(m_persisted, old.size());
+    makeRoom(m_ended, old.size());
     std::size_t persisted = 0;
     std::size_t ended = 0;
     for (std::size_t i = 0; i < old.size(); ++i) {
@@ -63,6 +63,11 @@ class PairHistory {
     m_result.ended = {m_ended.data(), ended};
   }
 
+  /// More than is needed, so that a number of pairs that goes up and down soon allocates nothing.
+  template <class T>
+  static void makeRoom(Buffer<T>& buffer, std::size_t size) {
+    if (size + 1 > buffer.capacity()) buffer.require(size + size / 4 + 1);
+  }
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
   void gatherFresh(Executor& executor);
   void mergeFresh();

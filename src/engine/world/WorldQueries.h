@@ -6,16 +6,25 @@
 #include <span>
 #include <vector>
 
+#include "allpairs/Executor.h"
 #include "allpairs/WorldTypes.h"
 #include "world/BoxStore.h"
+#include "world/KeptHierarchy.h"
 
 namespace allpairs::engine {
+
+/// What queries look at: the boxes, and the hierarchies over them, up to date.
+struct QueryTarget {
+  const BoxStore* store = nullptr;
+  std::array<Hierarchy, 2> hierarchies;  ///< Of the dynamic boxes and of the static ones.
+  Executor* executor = nullptr;
+};
 
 /// Queries against the boxes of a world, and the memory of their results.
 class WorldQueries {
  public:
   /// Queries look at these boxes until the next call.
-  void lookAt(const BoxStore& store) { m_store = &store; }
+  void lookAt(const QueryTarget& target) { m_target = target; }
 
   ResultLists<BoxId> findOverlapping(const BoxSet& boxes, const QueryFilter& filter);
   void findFirst(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits, const QueryFilter& filter);
@@ -24,15 +33,37 @@ class WorldQueries {
                                     const QueryFilter& filter);
 
  private:
-  [[nodiscard]] bool looksAt(BoxId id, const QueryFilter& filter) const noexcept;
+  /// The results of a batch of queries, at first in parts that tasks write.
+  template <class T>
+  struct Lists {
+    struct Part {
+      std::vector<T> values;
+      std::vector<std::size_t> sizes;  ///< By query.
+    };
+    std::vector<Part> parts;
+    std::vector<T> values;
+    std::vector<std::size_t> offsets;
+  };
 
-  const BoxStore* m_store = nullptr;
-  std::vector<std::size_t> m_boxOffsets;
-  std::vector<BoxId> m_boxes;
-  std::vector<std::size_t> m_hitOffsets;
-  std::vector<SweepHit> m_hits;
-  std::vector<std::size_t> m_neighborOffsets;
-  std::vector<Neighbor> m_neighbors;
+  template <class T, class Find>
+  ResultLists<T> findEach(std::size_t queries, Lists<T>& lists, const Find& find);
+
+  void overlapping(const Box& query, const QueryFilter& filter, std::vector<BoxId>& ids) const;
+  [[nodiscard]] SweepHit first(const BoxSweep& sweep, const QueryFilter& filter) const;
+  void all(const BoxSweep& sweep, const QueryFilter& filter, std::vector<SweepHit>& hits) const;
+  void nearest(const std::array<double, 3>& point, std::size_t count, const QueryFilter& filter,
+               std::vector<Neighbor>& neighbors) const;
+
+  /// Calls visit(hierarchy) for those of the two that the filter looks at and that are not empty.
+  template <class Visit>
+  void eachHierarchy(const QueryFilter& filter, const Visit& visit) const;
+  [[nodiscard]] bool passes(BoxId id, const QueryFilter& filter) const noexcept;
+  [[nodiscard]] Box widenedBox(BoxId id) const noexcept;
+
+  QueryTarget m_target;
+  Lists<BoxId> m_boxes;
+  Lists<SweepHit> m_hits;
+  Lists<Neighbor> m_neighbors;
 };
 
 }  // namespace allpairs::engine

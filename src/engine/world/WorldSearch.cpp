@@ -87,11 +87,12 @@ void WorldSearch::joinAll(const BoxStore& store) {
   m_statistics.exactTests = rules.exactTest ? tested.load() : 0;
 }
 
-std::uint64_t WorldSearch::joinChangedWith(LevelStack& changed, KeptHierarchy& with, PairFinder::Taker taker) {
-  const std::size_t depth = std::max(changed.depth(), with.levels().depth());
-  const PairFinder::Job job{changed.hierarchy(depth), with.levels().hierarchy(depth), false, PairSide::RowFirst};
+std::uint64_t WorldSearch::joinChangedWith(ChangedBoxes& changed, KeptHierarchy& with, PairFinder::Taker taker) {
+  const std::size_t depth = std::max(changed.levels().depth(), with.levels().depth());
+  const PairFinder::Job job{changed.levels().hierarchy(depth), with.levels().hierarchy(depth), false,
+                            PairSide::RowFirst};
   const std::uint64_t tests = join(job, taker);
-  with.rule().note(Joined::Changed, changed.places(), tests);
+  with.rule().note(Joined::Changed, changed.size(), tests);
   return tests;
 }
 
@@ -105,9 +106,9 @@ void WorldSearch::joinChanged(const BoxStore& store) {
   };
   m_changedDynamic.gather(store.touched(), m_dynamic, m_kernels, executor());
   m_changedStatic.gather(store.touched(), m_static, m_kernels, executor());
-  joinChangedWith(m_changedDynamic.levels(), m_dynamic, take);
-  joinChangedWith(m_changedDynamic.levels(), m_static, take);
-  joinChangedWith(m_changedStatic.levels(), m_dynamic, take);
+  joinChangedWith(m_changedDynamic, m_dynamic, take);
+  joinChangedWith(m_changedDynamic, m_static, take);
+  joinChangedWith(m_changedStatic, m_dynamic, take);
   m_statistics.exactTests = rules.exactTest ? tested.load() : 0;
 }
 

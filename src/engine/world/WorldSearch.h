@@ -45,7 +45,7 @@ class WorldSearch {
   void joinAll(const BoxStore& store);
   void joinChanged(const BoxStore& store);
   std::uint64_t join(const PairFinder::Job& job, PairFinder::Taker taker);
-  std::uint64_t joinChangedWith(LevelStack& changed, KeptHierarchy& with, PairFinder::Taker taker);
+  std::uint64_t joinChangedWith(ChangedBoxes& changed, KeptHierarchy& with, PairFinder::Taker taker);
   void noteTests(std::uint64_t pairs, bool exact);
 
   const WorldOptions& m_options;
