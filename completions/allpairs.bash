@@ -26,7 +26,7 @@ _allpairs() {
   if [[ $current == -* ]]; then
     case $command in
       detect)
-        words='--margin --box --strategy --threads --verify --format -o --output --partial --data -h --help'
+        words='--margin --box --strategy --threads --verify --exact --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
       generate) words='--boxes -n --seed --sorted -o --output -h --help' ;;
