@@ -232,11 +232,12 @@ TYPED_TEST(FclManager, StopsWhenTheCallbackSaysSo) {
 TYPED_TEST(FclManager, ListsItsObjectsAndIsEmptyWithoutAny) {
   EXPECT_TRUE(this->m_ours.empty());
   const auto objects = this->addObjects(4, TypeParam(3));
+  this->m_ours.registerObjects({objects[0], objects[1], objects[0]});
   this->m_ours.registerObjects(objects);
   this->m_ours.registerObject(objects[1]);
   std::vector<typename TestFixture::Object*> listed;
   this->m_ours.getObjects(listed);
-  EXPECT_EQ(listed, objects);
+  EXPECT_THAT(listed, ::testing::UnorderedElementsAreArray(objects));
   EXPECT_EQ(this->m_ours.size(), 4U);
   this->m_ours.unregisterObject(objects[2]);
   this->m_ours.unregisterObject(objects[2]);

@@ -44,18 +44,24 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   explicit FclBroadPhaseManager(Executor* executor = nullptr) : m_executor(executor), m_world(makeWorld()) {}
 
   void registerObjects(const std::vector<Object*>& objects) override {
-    m_world.reserve(m_world.size() + objects.size());
-    m_ids.reserve(m_ids.size() + objects.size());
-    for (Object* object : objects) registerObject(object);
+    std::vector<Object*> fresh;
+    std::vector<Box> boxes;
+    for (Object* object : objects) {
+      if (m_ids.contains(object)) {
+        update(object);
+      } else {
+        fresh.push_back(object);
+        boxes.push_back(toBox(object->getAABB()));
+      }
+    }
+    const std::vector<BoxId> ids = m_world.add(BoxSet(boxes));
+    m_ids.reserve(m_ids.size() + fresh.size());
+    for (std::size_t i = 0; i < fresh.size(); ++i) note(fresh[i], ids[i]);
   }
 
   void registerObject(Object* object) override {
     if (m_ids.contains(object)) return update(object);
-    const BoxId id = m_world.add(toBox(object->getAABB()));
-    m_ids.emplace(object, id);
-    if (m_objects.size() <= id) m_objects.resize(std::size_t{id} + 1);
-    m_objects[id] = {object, object->getAABB()};
-    m_isCurrent = false;
+    note(object, m_world.add(toBox(object->getAABB())));
   }
 
   void unregisterObject(Object* object) override {
@@ -200,6 +206,14 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
     WorldOptions options;
     options.executor = m_executor;
     return World(std::move(options));
+  }
+
+  /// Remembers an object by the number of its box; one that came twice in a list keeps the first.
+  void note(Object* object, BoxId id) {
+    m_isCurrent = false;
+    if (!m_ids.emplace(object, id).second) return m_world.remove(id);
+    if (m_objects.size() <= id) m_objects.resize(std::size_t{id} + 1);
+    m_objects[id] = {object, object->getAABB()};
   }
 
   /// Tells the world where an object is now.
