@@ -13,6 +13,7 @@
 #include "ChoiceOption.h"
 #include "Commands.h"
 #include "Detection.h"
+#include "Exact.h"
 #include "ExitStatus.h"
 #include "InputOptions.h"
 #include "Inputs.h"
@@ -21,6 +22,7 @@
 #include "Records.h"
 #include "Table.h"
 #include "Timer.h"
+#include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::app {
 namespace {
@@ -32,6 +34,7 @@ struct DetectSettings {
   std::string strategy = "auto";
   std::string threads = "0";
   bool verify = false;
+  bool exact = false;
   std::string format;  ///< Empty: as the output file's extension says, else a table.
   std::string output;
 };
@@ -48,6 +51,7 @@ Examples:
   allpairs detect scene.scn
   allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
   allpairs detect parts/ --margin 0.5
+  allpairs detect parts/ --exact
   allpairs detect boxes.npy -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
   allpairs detect scene.scn --verify --format json | jq '.pairs | length'
@@ -96,11 +100,29 @@ std::string boxMethod(const DetectionOptions& options) {
   return text;
 }
 
+void writeExact(const scene::ResultView& result, const ExactReport& exact, const TableNotes& notes,
+                const std::string& format, Output& output) {
+  const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
+  if (format == "json") {
+    writeExactJson(result, exact, sink);
+  } else if (format == "csv") {
+    writeExactCsv(result, exact, sink);
+  } else if (format == "npy") {
+    const std::vector<Pair> kept = withoutFalse(result.pairs, exact);
+    scene::ResultView found = result;
+    found.pairs = kept;
+    scene::writeNpy(found, sink);
+  } else {
+    writeExactTable(result, exact, notes, sink);
+  }
+}
+
 /// A detection and all that is needed to write it down.
 struct Outcome {
   Detection detection{};
   scene::ResultView result{};
   TableNotes notes{};
+  std::optional<ExactReport> exact{};
 };
 
 Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
@@ -125,6 +147,7 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
 Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
   warnOfPart(scene, settings.input);
   Outcome outcome{.detection = detectScene(scene, options)};
+  if (settings.exact) outcome.exact = examine(scene, outcome.detection.pairs);
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
   outcome.notes.remarkCount = scene.remarks.size();
@@ -136,20 +159,31 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   return outcome;
 }
 
+/// Boxes become models, which have shapes.
+void makeScene(Inputs& inputs) {
+  if (const auto* boxes = std::get_if<scene::BoxArray>(&inputs)) inputs = scene::toScene(*boxes);
+}
+
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
   Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
   if (settings.format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and not for a terminal: name a file with -o, or redirect the output");
   }
+  if (settings.exact) requireExact();
   const Timer timer;
   Inputs inputs = readInputs(settings.input);
+  if (settings.exact) makeScene(inputs);
   const double readSeconds = timer.seconds();
   Outcome outcome = std::visit([&](auto& input) { return detect(input, settings, options); }, inputs);
   outcome.result.pairs = outcome.detection.pairs;
   outcome.result.swapped = outcome.detection.swapped;
   outcome.result.statistics = outcome.detection.statistics;
   outcome.result.statistics.readSeconds = readSeconds;
-  write(outcome.result, outcome.notes, settings.format, output);
+  if (outcome.exact) {
+    writeExact(outcome.result, *outcome.exact, outcome.notes, settings.format, output);
+  } else {
+    write(outcome.result, outcome.notes, settings.format, output);
+  }
   output.commit();
 }
 
@@ -171,6 +205,9 @@ void addDetect(CLI::App& program) {
   command->add_option("--threads", settings->threads, "How many threads may work; 0, the default: one per core")
       ->type_name("N");
   command->add_flag("--verify", settings->verify, "Search exhaustively too, and fail on any difference");
+  command->add_flag(
+      "--exact", settings->exact,
+      "Look at the shapes too: which pairs are in contact, where and how deep, and how far apart the rest");
   addChoice(*command, "--format", settings->format, {"table", "csv", "json", "npy"})
       ->description("How to write the result: table, csv, json or npy; by default as FILE is called, else a table");
   addOutputOption(*command, settings->output);

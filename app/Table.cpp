@@ -48,8 +48,7 @@ std::string testLines(const scene::DetectionStatistics& statistics) {
 
 }  // namespace
 
-void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink) {
-  const scene::DetectionStatistics& statistics = result.statistics;
+std::string tableHead(const scene::ResultView& result, const TableNotes& notes) {
   std::string text = fmt::format("models   {}, of which {} simulated\n", grouped(result.modelCount),
                                  notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
   text += fmt::format("method   {}\n", notes.method);
@@ -58,11 +57,20 @@ void writeTable(const scene::ResultView& result, const TableNotes& notes, scene:
                         counted(notes.remarkCount, "part of the input", "parts of the input"),
                         notes.isPartial ? " --partial" : "");
   }
-  text += fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
-  text += pairLines(result) + testLines(statistics);
-  text += fmt::format("time     {} to read, {} to detect on {}\n", duration(statistics.readSeconds),
-                      duration(statistics.detectSeconds), counted(statistics.threads, "thread"));
-  sink(text);
+  return text;
+}
+
+std::string tableFoot(const scene::ResultView& result, std::optional<double> exactSeconds) {
+  const scene::DetectionStatistics& statistics = result.statistics;
+  const std::string exact = exactSeconds ? ", " + duration(*exactSeconds) + " to look at shapes" : "";
+  return testLines(statistics) + fmt::format("time     {} to read, {} to detect on {}{}\n",
+                                             duration(statistics.readSeconds), duration(statistics.detectSeconds),
+                                             counted(statistics.threads, "thread"), exact);
+}
+
+void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink) {
+  const std::string count = fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
+  sink(tableHead(result, notes) + count + pairLines(result) + tableFoot(result));
 }
 
 }  // namespace allpairs::app

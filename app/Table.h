@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "allpairs/scene/WriteResult.h"
@@ -15,6 +16,10 @@ struct TableNotes {
   std::size_t remarkCount = 0;  ///< How much of the input was left out.
   bool isPartial = false;       ///< Whether --partial was given, which info needs then too.
 };
+
+/// What stands above and below the pairs of a table; where shapes were looked at too, with how long that took.
+[[nodiscard]] std::string tableHead(const scene::ResultView& result, const TableNotes& notes);
+[[nodiscard]] std::string tableFoot(const scene::ResultView& result, std::optional<double> exactSeconds = {});
 
 /// Writes a result for people: what was tested, the first pairs and how many more there are, what it cost.
 void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink);

@@ -59,6 +59,19 @@ function(allpairs_add_library target export_name)
   endif()
 endfunction()
 
+# Adds a library of ours that is headers only, known to users as allpairs::NAME, exported as the others are.
+function(allpairs_add_interface target export_name)
+  add_library(${target} INTERFACE)
+  add_library(allpairs::${export_name} ALIAS ${target})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  target_include_directories(${target} INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  if(ALLPAIRS_INSTALL)
+    install(TARGETS ${target} EXPORT Allpairs_${export_name})
+    set_property(GLOBAL APPEND PROPERTY ALLPAIRS_COMPONENTS ${export_name})
+  endif()
+endfunction()
+
 # Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest.
 function(allpairs_add_test target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LIBRARIES")

@@ -29,7 +29,7 @@ _allpairs() {
   if [[ $current == -* ]]; then
     case $command in
       detect)
-        words='--margin --box --strategy --threads --verify --format -o --output --partial --data -h --help'
+        words='--margin --box --strategy --threads --verify --exact --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
       track) words='--margin --threads --verify --format -o --output -h --help' ;;

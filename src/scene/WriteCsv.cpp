@@ -13,7 +13,9 @@ bool needsQuotes(const std::string& name) {
   return hasSpaceAtEnd || name.front() == '#' || name.find_first_of(",\"\r\n\t") != std::string::npos;
 }
 
-std::string csvName(const std::string& name) {
+}  // namespace
+
+std::string csvField(const std::string& name) {
   if (!needsQuotes(name)) return name;
   std::string text = "\"";
   for (const char c : name) {
@@ -23,15 +25,13 @@ std::string csvName(const std::string& name) {
   return text + '"';
 }
 
-}  // namespace
-
 void writeCsv(const ResultView& result, ByteSink sink) {
   TextBuffer out(sink);
   out.append("first,second\n");
   for (const Pair pair : result.pairs) {
-    out.append(csvName(result.model(result.swapped ? pair.second : pair.first).name));
+    out.append(csvField(result.model(result.swapped ? pair.second : pair.first).name));
     out.append(",");
-    out.append(csvName(result.model(result.swapped ? pair.first : pair.second).name));
+    out.append(csvField(result.model(result.swapped ? pair.first : pair.second).name));
     out.append("\n");
   }
   out.flush();

@@ -66,6 +66,9 @@ void writeJson(const ResultView& result, ByteSink sink);
 /// Writes a header, and a line with the two names for each pair; names are quoted where they need to be (RFC 4180).
 void writeCsv(const ResultView& result, ByteSink sink);
 
+/// A name as a field of CSV: quoted where it needs to be (RFC 4180).
+[[nodiscard]] std::string csvField(const std::string& name);
+
 /// Writes the pairs as a NumPy array of shape (m, 2), uint32, little-endian.
 void writeNpy(const ResultView& result, ByteSink sink);
 

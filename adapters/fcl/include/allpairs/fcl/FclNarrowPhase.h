@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/collision/NarrowPhaseDetection.h"
+#include "allpairs/collision/Vec3.h"
+
+namespace allpairs {
+
+/// What two models are to each other, by their shapes and not their boxes.
+enum class ExactState : std::uint8_t {
+  Apart,        ///< There is room between them.
+  Touching,     ///< Their surfaces meet, and neither reaches into the other; or neither encloses a volume.
+  Overlapping,  ///< They share volume, and their surfaces cross or meet.
+  Contained,    ///< One lies within the other's volume, and their surfaces don't meet.
+  NotExamined,  ///< A model with itself, or of a type whose shape is not known.
+};
+
+/// Whether the models touch in any way: what a user calls a clash or a contact.
+[[nodiscard]] constexpr bool isContact(ExactState state) noexcept {
+  return state == ExactState::Touching || state == ExactState::Overlapping || state == ExactState::Contained;
+}
+
+/// Two models, looked at closely. Lengths are in the units of the models.
+struct ExactPair {
+  collision::CollisionModel* first = nullptr;
+  collision::CollisionModel* second = nullptr;
+  ExactState state = ExactState::NotExamined;
+
+  /// How far apart they are, Euclidean; 0 where they touch.
+  double distance = 0.0;
+
+  /// How far the deepest point found of one lies below the other's surface; 0 where they only touch. Nothing where no
+  /// depth can be told: surfaces that enclose no volume.
+  std::optional<double> depth{};
+
+  /// Apart: the nearest point of each. Else: the deepest point, and the point of the other's surface nearest to it.
+  collision::Vec3 pointOnFirst{};
+  collision::Vec3 pointOnSecond{};
+
+  /// A unit vector: which way to move the first to part them, or away from the second where they are apart.
+  collision::Vec3 normal{};
+
+  /// How many pairs of elements (triangles, segments, points, balls) meet; those of a Contained pair do not.
+  std::uint64_t contactCount = 0;
+
+  /// Where they meet: a point for each such pair of elements, or so many of them, evenly chosen, as the limit says.
+  std::vector<collision::Vec3> contactPoints{};
+
+  /// The box around all points where they meet, the chosen and the others; empty where there are none.
+  Box contactBox = kEmptyBox;
+};
+
+/// Settings of FclNarrowPhase.
+struct ExactOptions {
+  /// Surfaces count as meeting if they are no further apart, and as overlapping if they reach deeper, than this part of
+  /// the larger of the two models' greatest extents. A billionth: what is left of a double after some arithmetic.
+  double tolerance = 1e-9;
+
+  /// How many contact points to keep for a pair.
+  std::size_t contactLimit = 16;
+};
+
+/// A narrow phase that hands pairs of models to the Flexible Collision Library on their real shapes.
+///
+/// Triangle, tetrahedron (by their boundary), line and point models, boxes, spheres and capsules; a model of the user's
+/// own type is NotExamined. Each model's hierarchy is built when it is first in a pair, once in a step.
+/// Geometry:  a mesh whose triangles close (each edge is shared by as many one way as the other, or by an even number
+///            of them) is a solid, with holes where inner surfaces face inward; any other mesh is a surface without
+///            volume. Where models stand now: contact distances and velocities play no part. The depth is that of the
+///            deepest of the vertices, and of the middles of edges and triangles, of what lies in the other's box:
+///            never more than the true one, and equal to it where a vertex or a flat face is deepest.
+/// Bad input: a null model throws InvalidArgument; options that are negative or NaN too.
+/// Cost:      per pair, FCL's distance or collision of the two, and for a pair that meets a distance for each vertex
+///            that lies in the other.
+/// Threads:   one step at a time per object; the search for inner points runs on the calling thread.
+class FclNarrowPhase : public collision::NarrowPhaseDetection {
+ public:
+  explicit FclNarrowPhase(const ExactOptions& options = {});
+  ~FclNarrowPhase() override;
+
+  void beginNarrowPhase() override;
+  void addCollisionPair(const collision::CollisionModelPair& pair) override;
+  [[nodiscard]] bool needsDeepBoundingTree() const override { return false; }
+
+  /// The pairs of this step, as they were added.
+  [[nodiscard]] std::span<const ExactPair> pairs() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+}  // namespace allpairs

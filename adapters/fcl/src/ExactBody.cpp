@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "ExactBody.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "allpairs/collision/BoxModel.h"
+#include "allpairs/collision/CapsuleModel.h"
+#include "allpairs/collision/LineModel.h"
+#include "allpairs/collision/OrientedBoxModel.h"
+#include "allpairs/collision/PointModel.h"
+#include "allpairs/collision/SphereModel.h"
+#include "allpairs/collision/TetrahedronModel.h"
+#include "allpairs/collision/TriangleModel.h"
+
+namespace allpairs::exact {
+namespace {
+
+using collision::CollisionModel;
+
+void addPart(ExactBody& body, std::vector<Corners> triangles, double radius = 0.0) {
+  if (!triangles.empty()) body.parts.push_back(std::make_unique<ExactPart>(std::move(triangles), radius));
+}
+
+Point pointOf(const collision::MeshModel& mesh, std::uint32_t vertex) { return toPoint(mesh.positions()[vertex]); }
+
+void add(ExactBody& body, const collision::TriangleModel& model) {
+  std::vector<Corners> triangles;
+  triangles.reserve(model.triangles().size());
+  for (const auto& [a, b, c] : model.triangles()) {
+    triangles.push_back({pointOf(model, a), pointOf(model, b), pointOf(model, c)});
+  }
+  addPart(body, std::move(triangles));
+}
+
+void add(ExactBody& body, const collision::LineModel& model) {
+  std::vector<Corners> segments;
+  for (const auto& [a, b] : model.lines()) {
+    segments.push_back({pointOf(model, a), pointOf(model, b), pointOf(model, b)});
+  }
+  addPart(body, std::move(segments));
+}
+
+void add(ExactBody& body, const collision::PointModel& model) {
+  std::vector<Corners> points;
+  for (const auto& position : model.positions()) {
+    const Point point = toPoint(position);
+    points.push_back({point, point, point});
+  }
+  addPart(body, std::move(points));
+}
+
+/// The corner of a tetrahedron's faces, seen from outside in order if its volume is positive.
+constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+
+double signedVolume(const collision::TetrahedronModel& model, const collision::TetrahedronModel::Tetrahedron& t) {
+  const Point origin = pointOf(model, t[0]);
+  const Point ab = pointOf(model, t[1]) - origin;
+  return ab.cross(pointOf(model, t[2]) - origin).dot(pointOf(model, t[3]) - origin);
+}
+
+/// The faces that only one tetrahedron has.
+void add(ExactBody& body, const collision::TetrahedronModel& model) {
+  std::map<std::array<std::uint32_t, 3>, std::vector<std::array<std::uint32_t, 3>>> faces;
+  for (const auto& t : model.tetrahedra()) {
+    const bool isTurned = signedVolume(model, t) < 0.0;
+    for (const auto& [a, b, c] : kFaces) {
+      std::array<std::uint32_t, 3> face{t[a], t[isTurned ? c : b], t[isTurned ? b : c]};
+      std::array<std::uint32_t, 3> key = face;
+      std::sort(key.begin(), key.end());
+      faces[key].push_back(face);
+    }
+  }
+  std::vector<Corners> triangles;
+  for (const auto& [key, sides] : faces) {
+    if (sides.size() != 1) continue;
+    const auto& [a, b, c] = sides.front();
+    triangles.push_back({pointOf(model, a), pointOf(model, b), pointOf(model, c)});
+  }
+  addPart(body, std::move(triangles));
+}
+
+/// The 12 triangles of a box, from its corners: bit 0 of an index is x, bit 1 is y, bit 2 is z.
+std::vector<Corners> boxTriangles(const std::array<Point, 8>& corners) {
+  constexpr std::array<std::array<std::size_t, 4>, 6> kSides{
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  std::vector<Corners> triangles;
+  for (const auto& [a, b, c, d] : kSides) {
+    triangles.push_back({corners[a], corners[b], corners[c]});
+    triangles.push_back({corners[a], corners[c], corners[d]});
+  }
+  return triangles;
+}
+
+bool isFinite(const Box& box) {
+  return std::all_of(box.min.begin(), box.min.end(), [](double x) { return std::isfinite(x); }) &&
+         std::all_of(box.max.begin(), box.max.end(), [](double x) { return std::isfinite(x); });
+}
+
+void add(ExactBody& body, const collision::BoxModel& model) {
+  for (const Box& box : model.boxes()) {
+    if (isEmpty(box)) continue;
+    if (!isFinite(box)) body.isKnown = false;  // no triangle reaches so far
+    if (!body.isKnown) return;
+    std::array<Point, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        corners[i][static_cast<int>(axis)] = ((i >> axis) & 1U) != 0 ? box.max[axis] : box.min[axis];
+      }
+    }
+    addPart(body, boxTriangles(corners));
+  }
+}
+
+void add(ExactBody& body, const collision::OrientedBoxModel& model) {
+  for (const collision::OrientedBox& box : model.boxes()) {
+    std::array<Point, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i] = toPoint(box.centre);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double side = ((i >> axis) & 1U) != 0 ? 1.0 : -1.0;
+        corners[i] += side * box.halfExtents[axis] * toPoint(box.axes[axis]);
+      }
+    }
+    addPart(body, boxTriangles(corners));
+  }
+}
+
+void add(ExactBody& body, const collision::SphereModel& model) {
+  for (std::size_t i = 0; i < model.getSize(); ++i) {
+    const Point centre = toPoint(model.centres()[i]);
+    addPart(body, {{centre, centre, centre}}, model.radii()[i]);
+  }
+}
+
+void add(ExactBody& body, const collision::CapsuleModel& model) {
+  for (const collision::Capsule& capsule : model.capsules()) {
+    const Point end = toPoint(capsule.end);
+    addPart(body, {{toPoint(capsule.begin), end, end}}, capsule.radius);
+  }
+}
+
+template <class Model>
+bool addIf(ExactBody& body, const CollisionModel& model) {
+  const auto* known = dynamic_cast<const Model*>(&model);
+  if (known != nullptr) add(body, *known);
+  return known != nullptr;
+}
+
+template <class... Models>
+bool addAnyOf(ExactBody& body, const CollisionModel& model) {
+  return (addIf<Models>(body, model) || ...);
+}
+
+double extentOf(const ExactBody& body) {
+  Box box = kEmptyBox;
+  double radius = 0.0;
+  for (const auto& part : body.parts) {
+    box = merge(box, part->box());
+    radius = std::max(radius, part->radius());
+  }
+  double extent = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, box.max[axis] - box.min[axis]);
+  return extent + 2.0 * radius;
+}
+
+}  // namespace
+
+ExactBody makeBody(const CollisionModel& model) {
+  using namespace collision;
+  ExactBody body;
+  const bool isKnown = addAnyOf<TriangleModel, LineModel, PointModel, TetrahedronModel, BoxModel, OrientedBoxModel,
+                                SphereModel, CapsuleModel>(body, *model.getLast());
+  body.isKnown = body.isKnown && isKnown;
+  body.extent = extentOf(body);
+  return body;
+}
+
+}  // namespace allpairs::exact

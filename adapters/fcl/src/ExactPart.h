@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/OBBRSS.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/collision/Vec3.h"
+
+namespace allpairs::exact {
+
+using Point = ::fcl::Vector3d;
+using Corners = std::array<Point, 3>;
+using Hierarchy = ::fcl::BVHModel<::fcl::OBBRSSd>;
+
+[[nodiscard]] inline Point toPoint(const collision::Vec3& v) { return {v[0], v[1], v[2]}; }
+[[nodiscard]] inline collision::Vec3 toVec3(const Point& p) { return {p[0], p[1], p[2]}; }
+
+/// The box widened to hold a point.
+void include(Box& box, const Point& point);
+
+/// How the triangles of a part tell inside from outside.
+enum class Volume : std::uint8_t {
+  None,     ///< They don't close.
+  Winding,  ///< Each edge is passed as often one way as the other: what they wind around is inside.
+  Parity,   ///< Each edge is shared by an even number: a ray from inside leaves through an odd number of triangles.
+};
+
+/// Triangles, segments (two corners the same) or points (all three) thickened by a radius, ready for FCL.
+///
+/// A ball is a thick point and a capsule a thick segment, so that one kind of query serves all shapes.
+class ExactPart {
+ public:
+  ExactPart(std::vector<Corners> triangles, double radius);
+
+  [[nodiscard]] const std::vector<Corners>& triangles() const { return m_triangles; }
+  [[nodiscard]] const std::vector<Box>& triangleBoxes() const { return m_boxes; }
+  [[nodiscard]] const Hierarchy& hierarchy() const { return m_hierarchy; }
+  [[nodiscard]] double radius() const { return m_radius; }
+  [[nodiscard]] Volume volume() const { return m_volume; }
+
+  /// Holds the triangles, radius not included.
+  [[nodiscard]] const Box& box() const { return m_box; }
+
+ private:
+  std::vector<Corners> m_triangles;
+  std::vector<Box> m_boxes;
+  Hierarchy m_hierarchy;
+  double m_radius;
+  Volume m_volume;
+  Box m_box = kEmptyBox;
+};
+
+}  // namespace allpairs::exact

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "Meeting.h"
+
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "Deepest.h"
+#include "TriangleMeeting.h"
+
+namespace allpairs::exact {
+namespace {
+
+const ::fcl::Transform3d kHere = ::fcl::Transform3d::Identity();
+
+Point middleOf(const Box& box) { return (toPoint(box.min) + toPoint(box.max)) / 2.0; }
+
+Point directionOf(const Point& vector) {
+  const double length = vector.norm();
+  return length > 0.0 ? Point(vector / length) : Point(Point::Zero());
+}
+
+constexpr std::size_t kMostNormals = 32;  // each costs a pass over both parts
+
+/// From where to where a part reaches along a direction.
+std::pair<double, double> span(const ExactPart& part, const Point& direction) {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+  for (const Corners& corners : part.triangles()) {
+    for (const Point& corner : corners) {
+      min = std::min(min, direction.dot(corner));
+      max = std::max(max, direction.dot(corner));
+    }
+  }
+  return {min, max};
+}
+
+/// The triangles of the two parts that FCL finds to meet, in the order of their numbers.
+std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPart& second) {
+  const ::fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
+  ::fcl::CollisionResultd result;
+  ::fcl::collide(&first.hierarchy(), kHere, &second.hierarchy(), kHere, request, result);
+  std::vector<TrianglePair> pairs;
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const auto& contact = result.getContact(i);
+    pairs.push_back({static_cast<std::size_t>(contact.b1), static_cast<std::size_t>(contact.b2)});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& a, const TrianglePair& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
+  return pairs;
+}
+
+/// The part of a look at two parts that takes several steps.
+class Look {
+ public:
+  Look(const ExactPart& first, const ExactPart& second, double tolerance)
+      : m_first(first), m_second(second), m_tolerance(tolerance), m_radius(first.radius() + second.radius()) {}
+
+  Meeting take() {
+    measure();
+    findTriangles();
+    findDepth();
+    if (!m_meeting.surfacesMeet && !m_meeting.isDeep) return std::move(m_meeting);
+    m_meeting.distance = 0.0;
+    if (m_meeting.normal.isZero()) guessNormal();
+    return std::move(m_meeting);
+  }
+
+ private:
+  /// The distance of the two surfaces, and where they are nearest.
+  void measure() {
+    const ::fcl::DistanceRequestd request(true);
+    ::fcl::DistanceResultd result;
+    m_coreDistance =
+        std::max(0.0, ::fcl::distance(&m_first.hierarchy(), kHere, &m_second.hierarchy(), kHere, request, result));
+    const Point& a = result.nearest_points[0];
+    const Point& b = result.nearest_points[1];
+    m_meeting.normal = directionOf(a - b);
+    m_meeting.onFirst = a - m_first.radius() * m_meeting.normal;
+    m_meeting.onSecond = b + m_second.radius() * m_meeting.normal;
+    m_meeting.distance = std::max(0.0, m_coreDistance - m_radius);
+    m_meeting.surfacesMeet = m_coreDistance <= m_radius + m_tolerance;
+    m_meeting.hasVolume = m_radius > 0.0 || m_first.volume() != Volume::None || m_second.volume() != Volume::None;
+  }
+
+  /// The triangles that meet, and a point of each pair of them; of thick parts the one where they are nearest.
+  void findTriangles() {
+    if (!m_meeting.surfacesMeet) return;
+    if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second);
+    for (const TrianglePair& pair : m_pairs) {
+      const auto point = meetingPoint(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
+      if (point) m_meeting.contactPoints.push_back(*point);
+    }
+    if (m_meeting.contactPoints.empty()) {
+      m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
+    }
+    m_meeting.contactCount = std::max<std::size_t>(m_pairs.size(), 1);
+  }
+
+  void findDepth() {
+    const Deepest ofFirst = deepestWithin(m_second, m_first, m_pairs);
+    std::vector<TrianglePair> swapped;
+    for (const TrianglePair& pair : m_pairs) swapped.push_back({pair.second, pair.first});
+    const Deepest ofSecond = deepestWithin(m_first, m_second, swapped);
+    const bool isInside = ofFirst.found || ofSecond.found;
+    if (isInside) takeDeeper(ofFirst, ofSecond);
+    if (!isInside && m_meeting.surfacesMeet) m_meeting.depth = std::max(0.0, m_radius - m_coreDistance);
+    m_meeting.isDeep = m_meeting.depth > m_tolerance;
+    // A ball around a point within a solid touches its surface only if it reaches so far.
+    if (isInside && m_coreDistance > m_radius + m_tolerance) m_meeting.surfacesMeet = false;
+  }
+
+  void takeDeeper(const Deepest& ofFirst, const Deepest& ofSecond) {
+    const bool isFirst = ofFirst.found && (!ofSecond.found || ofFirst.depth >= ofSecond.depth);
+    const Deepest& deepest = isFirst ? ofFirst : ofSecond;
+    m_meeting.depth = deepest.depth + m_radius;
+    if (m_meeting.depth <= m_tolerance) return;
+    m_meeting.onFirst = isFirst ? deepest.point : deepest.surface;
+    m_meeting.onSecond = isFirst ? deepest.surface : deepest.point;
+    m_meeting.normal = directionOf(m_meeting.onSecond - m_meeting.onFirst);
+  }
+
+  /// Surfaces that only meet have no direction between nearest points: of the normals of the triangles that meet, the
+  /// one along which the two parts share least; else the line between their middles.
+  void guessNormal() {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point& normal : normalsOfMeeting()) {
+      for (const Point& direction : {normal, Point(-normal)}) {
+        const double shared = span(m_second, direction).second - span(m_first, direction).first;
+        if (shared >= least - m_tolerance) continue;
+        least = shared;
+        m_meeting.normal = direction;
+      }
+    }
+    if (m_meeting.normal.isZero()) m_meeting.normal = directionOf(middleOf(m_first.box()) - middleOf(m_second.box()));
+  }
+
+  [[nodiscard]] std::vector<Point> normalsOfMeeting() const {
+    std::vector<Point> normals;
+    const auto add = [&normals](const Corners& corners) {
+      const Point normal = directionOf((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+      if (!normal.isZero() && std::find(normals.begin(), normals.end(), normal) == normals.end()) {
+        normals.push_back(normal);
+      }
+    };
+    for (const TrianglePair& pair : m_pairs) {
+      if (normals.size() >= kMostNormals) break;
+      add(m_second.triangles()[pair.second]);
+      add(m_first.triangles()[pair.first]);
+    }
+    return normals;
+  }
+
+  const ExactPart& m_first;
+  const ExactPart& m_second;
+  double m_tolerance;
+  double m_radius;
+  double m_coreDistance = 0.0;
+  std::vector<TrianglePair> m_pairs;
+  Meeting m_meeting;
+};
+
+}  // namespace
+
+Meeting meet(const ExactPart& first, const ExactPart& second, double tolerance) {
+  return Look(first, second, tolerance).take();
+}
+
+double boxDistance(const ExactPart& first, const ExactPart& second) {
+  double squared = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double gap =
+        std::max({0.0, first.box().min[axis] - second.box().max[axis], second.box().min[axis] - first.box().max[axis]});
+    squared += gap * gap;
+  }
+  return std::max(0.0, std::sqrt(squared) - first.radius() - second.radius());
+}
+
+}  // namespace allpairs::exact

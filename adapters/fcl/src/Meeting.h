@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ExactPart.h"
+
+namespace allpairs::exact {
+
+/// Two parts, looked at closely.
+struct Meeting {
+  bool surfacesMeet = false;  ///< They are no further apart than the tolerance.
+  bool isDeep = false;        ///< One reaches into the other by more than the tolerance.
+  bool hasVolume = false;     ///< One of them is thick or encloses something, so that a depth can be told.
+  double distance = 0.0;      ///< Between the surfaces, 0 where they meet or one is within the other.
+  double depth = 0.0;
+  Point onFirst = Point::Zero();
+  Point onSecond = Point::Zero();
+  Point normal = Point::Zero();  ///< Unit; the way that parts the first from the second. Zero where there is none.
+  std::uint64_t contactCount = 0;
+  std::vector<Point> contactPoints;  ///< All of them.
+};
+
+/// Looks closely at two parts.
+[[nodiscard]] Meeting meet(const ExactPart& first, const ExactPart& second, double tolerance);
+
+/// No less than this lies between two parts.
+[[nodiscard]] double boxDistance(const ExactPart& first, const ExactPart& second);
+
+}  // namespace allpairs::exact

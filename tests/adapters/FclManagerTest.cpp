@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/distance.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <random>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/fcl/FclBroadPhaseManager.h"
+
+namespace allpairs::test {
+namespace {
+
+constexpr unsigned kSeed = 5;
+
+template <class S>
+class FclManager : public ::testing::Test {
+ protected:
+  using Object = ::fcl::CollisionObject<S>;
+  using Base = ::fcl::BroadPhaseCollisionManager<S>;
+  using Pairs = std::vector<std::pair<Object*, Object*>>;
+
+  /// Objects of two shapes, turned at random, in a cube of this size.
+  std::vector<Object*> addObjects(std::size_t count, S size) {
+    std::vector<Object*> objects;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::shared_ptr<::fcl::CollisionGeometry<S>> shape;
+      if (i % 2 == 0) shape = std::make_shared<::fcl::Box<S>>(S(0.5), S(1), S(1.5));
+      if (i % 2 != 0) shape = std::make_shared<::fcl::Sphere<S>>(S(0.5));
+      m_owned.push_back(std::make_unique<Object>(shape));
+      objects.push_back(m_owned.back().get());
+      place(*objects.back(), size);
+    }
+    return objects;
+  }
+
+  void place(Object& object, S size) {
+    object.setTranslation({number(size), number(size), number(size)});
+    object.setQuatRotation(::fcl::Quaternion<S>(number(1), number(1), number(1), S(0.1)).normalized());
+    object.computeAABB();
+  }
+
+  S number(S most) { return std::uniform_real_distribution<S>(0, most)(m_random); }
+
+  /// Collects the pairs that the objects' shapes have in common.
+  static bool collideShapes(Object* a, Object* b, void* data) {
+    if (distanceOf(a, b) <= S(0)) static_cast<Pairs*>(data)->push_back(std::minmax(a, b));
+    return false;
+  }
+
+  /// Keeps the least distance of shapes.
+  static bool measureShapes(Object* a, Object* b, void* data, S& least) {
+    S& known = *static_cast<S*>(data);
+    known = std::min(known, distanceOf(a, b));
+    least = known;
+    return known <= S(0);
+  }
+
+  /// By FCL in double; in float, for which its library has nothing compiled, of the balls around the shapes.
+  static S distanceOf(Object* a, Object* b) {
+    if constexpr (std::is_same_v<S, double>) {
+      ::fcl::DistanceResult<S> result;
+      ::fcl::distance(a, b, ::fcl::DistanceRequest<S>(), result);
+      return std::max(result.min_distance, S(0));
+    } else {
+      const S radii = S(0.5) + S(0.5);
+      return std::max((a->getTranslation() - b->getTranslation()).norm() - radii, S(0));
+    }
+  }
+
+  static Pairs sorted(Pairs pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  static Pairs collisions(const Base& manager) {
+    Pairs pairs;
+    manager.collide(&pairs, collideShapes);
+    return sorted(std::move(pairs));
+  }
+
+  template <class Other>
+  static Pairs collisions(const Base& manager, Other* other) {
+    Pairs pairs;
+    manager.collide(other, &pairs, collideShapes);
+    return sorted(std::move(pairs));
+  }
+
+  static S distance(const Base& manager) {
+    S least = std::numeric_limits<S>::max();
+    manager.distance(&least, measureShapes);
+    return least;
+  }
+
+  template <class Other>
+  static S distance(const Base& manager, Other* other) {
+    S least = std::numeric_limits<S>::max();
+    manager.distance(other, &least, measureShapes);
+    return least;
+  }
+
+  FclBroadPhaseManager<S> m_ours;
+  ::fcl::NaiveCollisionManager<S> m_naive;
+
+ private:
+  std::mt19937 m_random{kSeed};
+  std::vector<std::unique_ptr<Object>> m_owned;
+};
+
+using Precisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(FclManager, Precisions);
+
+TYPED_TEST(FclManager, FindsTheCollisionsOfTheNaiveManager) {
+  for (const int size : {3, 8, 20}) {
+    const auto objects = this->addObjects(150, static_cast<TypeParam>(size));
+    this->m_ours.clear();
+    this->m_naive.clear();
+    this->m_ours.registerObjects(objects);
+    this->m_naive.registerObjects(objects);
+    this->m_ours.setup();
+    EXPECT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive)) << "seed " << kSeed << ", size " << size;
+    for (auto* probe : this->addObjects(10, static_cast<TypeParam>(size))) {
+      EXPECT_EQ(this->collisions(this->m_ours, probe), this->collisions(this->m_naive, probe));
+    }
+  }
+}
+
+TYPED_TEST(FclManager, FindsTheLeastDistancesOfTheNaiveManager) {
+  for (const int size : {10, 40, 200}) {
+    const auto objects = this->addObjects(60, static_cast<TypeParam>(size));
+    this->m_ours.clear();
+    this->m_naive.clear();
+    this->m_ours.registerObjects(objects);
+    this->m_naive.registerObjects(objects);
+    this->m_ours.setup();
+    EXPECT_EQ(this->distance(this->m_ours), this->distance(this->m_naive)) << "seed " << kSeed << ", size " << size;
+    for (auto* probe : this->addObjects(10, static_cast<TypeParam>(size))) {
+      EXPECT_EQ(this->distance(this->m_ours, probe), this->distance(this->m_naive, probe));
+    }
+  }
+}
+
+TYPED_TEST(FclManager, MeetsAnotherManagerOfItsOwnKindAndOfFcl) {
+  const auto objects = this->addObjects(80, TypeParam(8));
+  const auto others = this->addObjects(70, TypeParam(8));
+  FclBroadPhaseManager<TypeParam> ourOther;
+  ::fcl::NaiveCollisionManager<TypeParam> naiveOther;
+  ::fcl::DynamicAABBTreeCollisionManager<TypeParam> treeOther;
+  this->m_ours.registerObjects(objects);
+  this->m_naive.registerObjects(objects);
+  for (auto* manager : std::vector<typename TestFixture::Base*>{&ourOther, &naiveOther, &treeOther}) {
+    manager->registerObjects(others);
+    manager->setup();
+  }
+  const auto expected = this->collisions(this->m_naive, static_cast<typename TestFixture::Base*>(&naiveOther));
+  EXPECT_FALSE(expected.empty());
+  const auto nearest = this->distance(this->m_naive, static_cast<typename TestFixture::Base*>(&naiveOther));
+  for (auto* manager : std::vector<typename TestFixture::Base*>{&ourOther, &naiveOther, &treeOther}) {
+    EXPECT_EQ(this->collisions(this->m_ours, manager), expected);
+    EXPECT_EQ(this->distance(this->m_ours, manager), nearest);
+  }
+  typename TestFixture::Base* itself = &this->m_ours;
+  EXPECT_EQ(this->collisions(this->m_ours, itself), this->collisions(this->m_naive));
+  EXPECT_EQ(this->distance(this->m_ours, itself), this->distance(this->m_naive));
+}
+
+TYPED_TEST(FclManager, TellsApartManagersThatAreApart) {
+  const auto objects = this->addObjects(20, TypeParam(5));
+  const auto others = this->addObjects(20, TypeParam(5));
+  for (auto* object : others) {
+    object->setTranslation(object->getTranslation() + ::fcl::Vector3<TypeParam>(30, 0, 0));
+    object->computeAABB();
+  }
+  FclBroadPhaseManager<TypeParam> ourOther;
+  ::fcl::NaiveCollisionManager<TypeParam> naiveOther;
+  this->m_ours.registerObjects(objects);
+  this->m_naive.registerObjects(objects);
+  ourOther.registerObjects(others);
+  naiveOther.registerObjects(others);
+  using Manager = typename TestFixture::Base;
+  EXPECT_EQ(this->distance(this->m_ours, static_cast<Manager*>(&ourOther)),
+            this->distance(this->m_naive, static_cast<Manager*>(&naiveOther)));
+  EXPECT_TRUE(this->collisions(this->m_ours, static_cast<Manager*>(&ourOther)).empty());
+}
+
+TYPED_TEST(FclManager, FollowsObjectsThatMoveComeAndGo) {
+  auto objects = this->addObjects(100, TypeParam(8));
+  this->m_ours.registerObjects(objects);
+  for (std::size_t step = 0; step < 60; ++step) {
+    std::vector<typename TestFixture::Object*> moved;
+    for (std::size_t i = step % 3; i < objects.size(); i += 3) moved.push_back(objects[i]);
+    for (auto* object : moved) this->place(*object, TypeParam(8));
+    if (step % 3 == 0) this->m_ours.update();
+    if (step % 3 == 1) this->m_ours.update(moved);
+    if (step % 3 == 2) {
+      for (auto* object : moved) this->m_ours.update(object);
+    }
+    this->m_ours.unregisterObject(objects[step]);
+    objects[step] = this->addObjects(1, TypeParam(8)).front();
+    this->m_ours.registerObject(objects[step]);
+    this->m_naive.clear();
+    this->m_naive.registerObjects(objects);
+    ASSERT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive)) << "seed " << kSeed << ", step " << step;
+    ASSERT_EQ(this->distance(this->m_ours), this->distance(this->m_naive));
+    ASSERT_EQ(this->m_ours.size(), 100U);
+  }
+}
+
+TYPED_TEST(FclManager, StopsWhenTheCallbackSaysSo) {
+  this->m_ours.registerObjects(this->addObjects(50, TypeParam(3)));
+  using Body = typename TestFixture::Object;
+  int calls = 0;
+  const auto stopAtThree = [](Body*, Body*, void* data) { return ++*static_cast<int*>(data) == 3; };
+  this->m_ours.collide(&calls, stopAtThree);
+  EXPECT_EQ(calls, 3);
+  const auto stopAtFive = [](Body*, Body*, void* data, TypeParam&) { return ++*static_cast<int*>(data) == 5; };
+  calls = 0;
+  this->m_ours.distance(&calls, stopAtFive);
+  EXPECT_EQ(calls, 5);
+}
+
+TYPED_TEST(FclManager, ListsItsObjectsAndIsEmptyWithoutAny) {
+  EXPECT_TRUE(this->m_ours.empty());
+  const auto objects = this->addObjects(4, TypeParam(3));
+  this->m_ours.registerObjects({objects[0], objects[1], objects[0]});
+  this->m_ours.registerObjects(objects);
+  this->m_ours.registerObject(objects[1]);
+  std::vector<typename TestFixture::Object*> listed;
+  this->m_ours.getObjects(listed);
+  EXPECT_THAT(listed, ::testing::UnorderedElementsAreArray(objects));
+  EXPECT_EQ(this->m_ours.size(), 4U);
+  this->m_ours.unregisterObject(objects[2]);
+  this->m_ours.unregisterObject(objects[2]);
+  EXPECT_EQ(this->m_ours.size(), 3U);
+  this->m_ours.clear();
+  EXPECT_TRUE(this->m_ours.empty());
+  EXPECT_TRUE(this->collisions(this->m_ours).empty());
+}
+
+TYPED_TEST(FclManager, GivesEachPairOnceInTheOrderOfRegistration) {
+  const auto objects = this->addObjects(60, TypeParam(5));
+  this->m_ours.registerObjects(objects);
+  typename TestFixture::Pairs given;
+  this->m_ours.collide(&given, [](auto* a, auto* b, void* data) {
+    static_cast<typename TestFixture::Pairs*>(data)->emplace_back(a, b);
+    return false;
+  });
+  typename TestFixture::Pairs expected;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (std::size_t j = i + 1; j < objects.size(); ++j) {
+      if (objects[i]->getAABB().overlap(objects[j]->getAABB())) expected.emplace_back(objects[i], objects[j]);
+    }
+  }
+  EXPECT_EQ(given, expected);
+}
+
+}  // namespace
+}  // namespace allpairs::test

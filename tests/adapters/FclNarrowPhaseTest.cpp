@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/fcl/FclNarrowPhase.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "Shapes.h"
+#include "allpairs/Error.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/collision/CollisionPipeline.h"
+#include "allpairs/collision/DiscreteIntersection.h"
+
+namespace allpairs::test {
+namespace {
+
+using collision::CollisionModel;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::Optional;
+
+constexpr double kClose = 1e-12;
+
+ExactPair examine(CollisionModel& first, CollisionModel& second, const ExactOptions& options = {}) {
+  FclNarrowPhase phase(options);
+  phase.beginNarrowPhase();
+  phase.addCollisionPair({&first, &second});
+  phase.endNarrowPhase();
+  return phase.pairs().front();
+}
+
+auto near(double x, double y, double z) {
+  return ElementsAre(DoubleNear(x, kClose), DoubleNear(y, kClose), DoubleNear(z, kClose));
+}
+
+auto depthOf(double depth) { return Optional(DoubleNear(depth, kClose)); }
+
+TEST(FclNarrowPhase, AlignedCubesThatShareATenthAreATenthDeep) {
+  const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({0.9, 0.0, 0.0}));
+  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_THAT(pair.depth, depthOf(0.1));
+  EXPECT_EQ(pair.distance, 0.0);
+  EXPECT_THAT(pair.normal, near(-1.0, 0.0, 0.0));
+}
+
+TEST(FclNarrowPhase, ShiftedCubesMeetWhereTheirFacesCross) {
+  const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({0.9, 0.3, 0.2}));
+  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_THAT(pair.depth, depthOf(0.1));
+  EXPECT_THAT(pair.normal, near(-1.0, 0.0, 0.0));
+  EXPECT_GT(pair.contactCount, 4U);
+  for (const Vec3& point : pair.contactPoints) {
+    EXPECT_TRUE(overlap({point, point}, {{0.9, 0.3, 0.2}, {1.0, 1.0, 1.0}}, kClose));
+  }
+  EXPECT_TRUE(overlap(pair.contactBox, {{0.9, 0.3, 0.2}, {1.0, 1.0, 1.0}}));
+}
+
+TEST(FclNarrowPhase, CubesThatShareAFaceTouchWithoutDepth) {
+  for (const Vec3& place : {Vec3{1.0, 0.0, 0.0}, Vec3{1.0, 0.3, 0.2}, Vec3{-1.0, 0.5, 0.0}}) {
+    const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube(place));
+    EXPECT_EQ(pair.state, ExactState::Touching);
+    EXPECT_THAT(pair.depth, depthOf(0.0));
+    EXPECT_EQ(pair.distance, 0.0);
+    EXPECT_THAT(pair.normal, near(place[0] > 0.0 ? -1.0 : 1.0, 0.0, 0.0));
+    for (const Vec3& point : pair.contactPoints) EXPECT_EQ(point[0], place[0] > 0.0 ? 1.0 : 0.0);
+  }
+}
+
+TEST(FclNarrowPhase, CubesThatShareACornerTouchThere) {
+  const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({1.0, 1.0, 1.0}));
+  EXPECT_EQ(pair.state, ExactState::Touching);
+  EXPECT_THAT(pair.depth, depthOf(0.0));
+  for (const Vec3& point : pair.contactPoints) EXPECT_THAT(point, near(1.0, 1.0, 1.0));
+}
+
+TEST(FclNarrowPhase, CubesAQuarterApartAreAQuarterApart) {
+  const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({1.25, 0.0, 0.0}));
+  EXPECT_EQ(pair.state, ExactState::Apart);
+  EXPECT_EQ(pair.distance, 0.25);
+  EXPECT_EQ(pair.depth, std::nullopt);
+  EXPECT_EQ(pair.pointOnFirst[0], 1.0);
+  EXPECT_EQ(pair.pointOnSecond[0], 1.25);
+  EXPECT_THAT(pair.normal, near(-1.0, 0.0, 0.0));
+  EXPECT_EQ(pair.contactCount, 0U);
+  EXPECT_TRUE(isEmpty(pair.contactBox));
+}
+
+TEST(FclNarrowPhase, TheDistanceIsEuclidean) {
+  const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({1.3, 1.4, 0.0}));
+  EXPECT_NEAR(pair.distance, 0.5, kClose);
+}
+
+TEST(FclNarrowPhase, APartWithinASolidIsContainedAsDeepAsItsDeepestPoint) {
+  const auto inner = cuboid({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5});
+  const auto outer = unitCube({0.0, 0.0, 0.0});
+  for (const auto& pair : {examine(*inner, *outer), examine(*outer, *inner)}) {
+    EXPECT_EQ(pair.state, ExactState::Contained);
+    EXPECT_THAT(pair.depth, depthOf(0.5));
+    EXPECT_EQ(pair.distance, 0.0);
+    EXPECT_EQ(pair.contactCount, 0U);
+  }
+}
+
+TEST(FclNarrowPhase, APartInTheHollowOfAnotherIsApart) {
+  const auto outer = cuboid({0.0, 0.0, 0.0}, {10.0, 10.0, 10.0});
+  const auto hollow = cuboid({1.0, 1.0, 1.0}, {9.0, 9.0, 9.0}, true);
+  const auto shell = together({outer.get(), hollow.get()});
+  const auto pair = examine(*shell, *unitCube({1.5, 4.0, 4.0}));
+  EXPECT_EQ(pair.state, ExactState::Apart);
+  EXPECT_EQ(pair.distance, 0.5);
+}
+
+TEST(FclNarrowPhase, SolidsThatOverlapThemselvesStaySolid) {
+  const auto left = cuboid({0.0, 0.0, 0.0}, {6.0, 4.0, 4.0});
+  const auto right = cuboid({4.0, 0.0, 0.0}, {10.0, 4.0, 4.0});
+  const auto welded = together({left.get(), right.get()});
+  const auto pair = examine(*welded, *cuboid({4.9, 1.9, 1.9}, {5.1, 2.1, 2.1}));
+  EXPECT_EQ(pair.state, ExactState::Contained);
+}
+
+TEST(FclNarrowPhase, TrianglesThatFaceEitherWayStillCloseASolid) {
+  const auto cube = unitCube({0.0, 0.0, 0.0});
+  auto triangles = cube->triangles();
+  std::swap(triangles[3][0], triangles[3][1]);
+  TriangleModel mixed("mixed", cube->positions(), triangles);
+  const auto pair = examine(mixed, *cuboid({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}));
+  EXPECT_EQ(pair.state, ExactState::Contained);
+}
+
+TEST(FclNarrowPhase, AVertexPerTriangleClosesASolidToo) {
+  const auto cube = unitCube({0.0, 0.0, 0.0});
+  std::vector<Vec3> points;
+  std::vector<TriangleModel::Triangle> triangles;
+  for (const auto& triangle : cube->triangles()) {
+    const auto first = static_cast<std::uint32_t>(points.size());
+    for (const std::uint32_t vertex : triangle) points.push_back(cube->positions()[vertex]);
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  TriangleModel soup("soup", points, triangles);
+  EXPECT_EQ(examine(soup, *cuboid({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6})).state, ExactState::Contained);
+}
+
+TEST(FclNarrowPhase, SheetsThatCrossTouchAndHaveNoDepth) {
+  TriangleModel floor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
+  TriangleModel wall("wall", {{1, 1, -1}, {1, 1, 1}, {1, 2, 1}}, {{0, 1, 2}});
+  const auto pair = examine(floor, wall);
+  EXPECT_EQ(pair.state, ExactState::Touching);
+  EXPECT_EQ(pair.depth, std::nullopt);
+  ASSERT_EQ(pair.contactPoints.size(), 1U);
+  EXPECT_THAT(pair.contactPoints.front(), near(1.0, 1.25, 0.0));
+}
+
+TEST(FclNarrowPhase, ASheetThatReachesIntoASolidIsAsDeepAsItsVertex) {
+  TriangleModel sheet("sheet", {{0.5, 0.5, 0.8}, {0.5, 0.4, 3.0}, {0.5, 0.6, 3.0}}, {{0, 1, 2}});
+  const auto pair = examine(sheet, *unitCube({0.0, 0.0, 0.0}));
+  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_THAT(pair.depth, depthOf(0.2));
+  EXPECT_THAT(pair.pointOnFirst, near(0.5, 0.5, 0.8));
+  EXPECT_THAT(pair.pointOnSecond, near(0.5, 0.5, 1.0));
+  EXPECT_THAT(pair.normal, near(0.0, 0.0, 1.0));
+}
+
+TEST(FclNarrowPhase, CrossedBeamsAreAsDeepAsTheirFacesAreBelowEachOther) {
+  const auto along = cuboid({-5.0, -0.5, 0.0}, {5.0, 0.5, 1.0});
+  const auto across = cuboid({-0.5, -5.0, 0.9}, {0.5, 5.0, 1.9});
+  const auto pair = examine(*along, *across);
+  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_THAT(pair.depth, depthOf(0.1));
+  EXPECT_THAT(pair.normal, near(0.0, 0.0, -1.0));
+}
+
+TEST(FclNarrowPhase, BallsOfTrianglesAreNearlyAsDeepAndAsFarAsSpheres) {
+  const auto deep = examine(*ball({0.0, 0.0, 0.0}, 1.0), *ball({0.0, 0.0, 1.9}, 1.0));
+  EXPECT_EQ(deep.state, ExactState::Overlapping);
+  EXPECT_NEAR(deep.depth.value_or(0.0), 0.1, 1e-3);
+  EXPECT_NEAR(deep.normal[2], -1.0, 0.01);
+  const auto far = examine(*ball({0.0, 0.0, 0.0}, 1.0), *ball({0.0, 0.0, 2.5}, 1.0));
+  EXPECT_EQ(far.state, ExactState::Apart);
+  EXPECT_NEAR(far.distance, 0.5, kClose);
+}
+
+TEST(FclNarrowPhase, BoxesThatOverlapAroundBallsThatDoNotAreFalseCandidates) {
+  const auto pair = examine(*ball({0.0, 0.0, 0.0}, 1.0, 40), *ball({1.5, 1.5, 1.5}, 1.0, 40));
+  EXPECT_EQ(pair.state, ExactState::Apart);
+  EXPECT_NEAR(pair.distance, 1.5 * std::sqrt(3.0) - 2.0, 0.01);
+}
+
+TEST(FclNarrowPhase, ContactPointsAreAtMostAsManyAsAskedFor) {
+  const ExactOptions three{.contactLimit = 3};
+  const auto pair = examine(*ball({0.0, 0.0, 0.0}, 1.0), *ball({0.0, 0.5, 0.5}, 1.0), three);
+  EXPECT_EQ(pair.contactPoints.size(), 3U);
+  EXPECT_GT(pair.contactCount, 100U);
+}
+
+TEST(FclNarrowPhase, AModelWithItselfIsNotExamined) {
+  const auto cube = unitCube({0.0, 0.0, 0.0});
+  EXPECT_EQ(examine(*cube, *cube).state, ExactState::NotExamined);
+}
+
+TEST(FclNarrowPhase, RefusesWhatMakesNoSense) {
+  EXPECT_THROW(FclNarrowPhase({.tolerance = -1.0}), InvalidArgument);
+  FclNarrowPhase phase;
+  EXPECT_THROW(phase.addCollisionPair({nullptr, nullptr}), InvalidArgument);
+}
+
+TEST(FclNarrowPhase, TakesTheCandidatesOfThePipelineInTheirOrder) {
+  const auto a = ball({0.0, 0.0, 0.0}, 1.0);
+  const auto b = ball({1.5, 1.5, 1.5}, 1.0);
+  const auto c = ball({0.0, 0.0, 1.9}, 1.0);
+  std::vector<CollisionModel*> models{a.get(), b.get(), c.get()};
+  for (CollisionModel* model : models) model->setOwner(model);
+
+  collision::DiscreteIntersection method;
+  collision::BruteForceBroadPhase broadPhase;
+  FclNarrowPhase narrowPhase;
+  collision::CollisionPipeline pipeline;
+  pipeline.setIntersectionMethod(&method);
+  pipeline.setBroadPhase(&broadPhase);
+  pipeline.setNarrowPhase(&narrowPhase);
+  for (int step = 0; step < 2; ++step) {
+    const auto& candidates = pipeline.step(models);
+    ASSERT_EQ(narrowPhase.pairs().size(), candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      EXPECT_EQ(narrowPhase.pairs()[i].first, candidates[i].first->getLast());
+      EXPECT_EQ(narrowPhase.pairs()[i].second, candidates[i].second->getLast());
+    }
+  }
+  ASSERT_EQ(narrowPhase.pairs().size(), 3U);
+  EXPECT_EQ(narrowPhase.pairs()[0].state, ExactState::Apart);
+  EXPECT_EQ(narrowPhase.pairs()[1].state, ExactState::Overlapping);
+}
+
+}  // namespace
+}  // namespace allpairs::test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "allpairs/collision/TriangleModel.h"
+
+namespace allpairs::test {
+
+using collision::TriangleModel;
+using collision::Vec3;
+
+/// The surface of a cuboid from one corner to the other; inside out if `isTurned`.
+inline std::unique_ptr<TriangleModel> cuboid(const Vec3& min, const Vec3& max, bool isTurned = false) {
+  std::vector<Vec3> corners;
+  for (const double z : {min[2], max[2]}) {
+    for (const double y : {min[1], max[1]}) {
+      for (const double x : {min[0], max[0]}) corners.push_back({x, y, z});
+    }
+  }
+  std::vector<TriangleModel::Quad> sides{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (auto& side : sides) {
+    if (isTurned) std::swap(side[1], side[3]);
+  }
+  return std::make_unique<TriangleModel>("cuboid", corners, std::vector<TriangleModel::Triangle>{}, sides);
+}
+
+inline std::unique_ptr<TriangleModel> unitCube(const Vec3& at) {
+  return cuboid(at, {at[0] + 1.0, at[1] + 1.0, at[2] + 1.0});
+}
+
+/// The triangles of several models as one model.
+inline std::unique_ptr<TriangleModel> together(const std::vector<const TriangleModel*>& models) {
+  std::vector<Vec3> points;
+  std::vector<TriangleModel::Triangle> triangles;
+  for (const TriangleModel* model : models) {
+    const auto first = static_cast<std::uint32_t>(points.size());
+    points.insert(points.end(), model->positions().begin(), model->positions().end());
+    for (const auto& [a, b, c] : model->triangles()) triangles.push_back({first + a, first + b, first + c});
+  }
+  return std::make_unique<TriangleModel>("together", points, triangles);
+}
+
+/// A closed ball of many triangles whose corners lie on the sphere.
+inline std::unique_ptr<TriangleModel> ball(const Vec3& centre, double radius, std::uint32_t rings = 24) {
+  const std::uint32_t columns = 2 * rings;
+  std::vector<Vec3> points;
+  for (std::uint32_t ring = 0; ring <= rings; ++ring) {
+    const double height = std::numbers::pi * ring / rings;
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const bool isPole = ring == 0 || ring == rings;
+      const double turn = isPole ? 0.0 : 2.0 * std::numbers::pi * column / columns;
+      const double r = isPole ? 0.0 : radius * std::sin(height);
+      const double z = ring == 0 ? radius : (ring == rings ? -radius : radius * std::cos(height));
+      points.push_back({centre[0] + r * std::cos(turn), centre[1] + r * std::sin(turn), centre[2] + z});
+    }
+  }
+  std::vector<TriangleModel::Quad> quads;
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const std::uint32_t next = (column + 1) % columns;
+      quads.push_back(
+          {ring * columns + column, (ring + 1) * columns + column, (ring + 1) * columns + next, ring * columns + next});
+    }
+  }
+  return std::make_unique<TriangleModel>("ball", points, std::vector<TriangleModel::Triangle>{}, quads);
+}
+
+}  // namespace allpairs::test

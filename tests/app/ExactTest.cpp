@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "Expect.h"
+#include "support/Data.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+#ifdef ALLPAIRS_HAS_FCL
+
+/// A file with one cuboid, named as the file, from `min` to `max` along x and from 0 to 1 along y and z.
+void writePart(const std::filesystem::path& folder, const std::string& name, double min, double max,
+               double margin = 0.0) {
+  std::ofstream file(folder / (name + ".obj"));
+  file << "o " << name << '\n';
+  for (const double z : {margin, 1.0 - margin}) {
+    for (const double y : {margin, 1.0 - margin})
+      file << "v " << min << ' ' << y << ' ' << z << "\nv " << max << ' ' << y << ' ' << z << '\n';
+  }
+  file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}
+
+/// Parts with known answers: two clash by 0.125, one touches, one is a quarter off, and one is within another.
+class Exact : public ::testing::Test {
+ protected:
+  Exact() {
+    writePart(parts(), "a-plate", 0.0, 1.0);
+    writePart(parts(), "b-bracket", 0.875, 2.0);
+    writePart(parts(), "c-shim", 2.0, 3.0);
+    writePart(parts(), "d-far", 3.25, 4.0);
+    writePart(parts(), "e-pin", 0.25, 0.5, 0.25);
+  }
+
+  [[nodiscard]] std::filesystem::path parts() const { return m_folder.path(); }
+
+  [[nodiscard]] ProgramRun detect(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"detect", parts().string(), "--exact", "--margin", "0.25"});
+    return runProgram(options);
+  }
+
+ private:
+  TempFolder m_folder;
+};
+
+TEST_F(Exact, TheTableSaysWhichPartsClashWhereAndHowDeepAndHowFarTheOthersAre) {
+  const ProgramRun run = detect({});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("pairs    4 by their boxes; by their shapes 3 in contact, 1 apart (25.0 %)\n\n"
+                                 "  contained    e-pin       a-plate     0.5 deep at "));
+  EXPECT_THAT(run.out, HasSubstr("\n  overlapping  b-bracket   a-plate     0.125 deep at (0.9375, "));
+  EXPECT_THAT(run.out, HasSubstr("\n  touching     c-shim      b-bracket   at (2, 0.5, 0.5)\n"
+                                 "  apart        d-far       c-shim      0.25 between (3.25, "));
+}
+
+TEST_F(Exact, CsvHasALineForEachCandidate) {
+  const ProgramRun run = detect({"--format", "csv"});
+  expectSuccess(run);
+  EXPECT_TRUE(
+      run.out.starts_with("first,second,state,distance,depth,x1,y1,z1,x2,y2,z2,nx,ny,nz,contacts\n"
+                          "b-bracket,a-plate,overlapping,0,0.125,0.875,"))
+      << run.out;
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 5);
+  EXPECT_THAT(run.out, HasSubstr("\nd-far,c-shim,apart,0.25,,3.25,"));
+}
+
+TEST_F(Exact, JsonHasWhatTheShapesSayForEachPairBesidesAllElse) {
+  const ProgramRun run = detect({"--format", "json"});
+  expectSuccess(run);
+  const auto result = nlohmann::json::parse(run.out);
+  ASSERT_EQ(result["pairs"].size(), 4U);
+  ASSERT_EQ(result["exact"].size(), 4U);
+  EXPECT_EQ(result["models"].size(), 5U);
+  EXPECT_EQ(result["exact"][0]["state"], "overlapping");
+  EXPECT_EQ(result["exact"][0]["depth"], 0.125);
+  EXPECT_EQ(result["exact"][0]["contactBox"], nlohmann::json::parse("[[0.875,0,0],[1,1,1]]"));
+  EXPECT_EQ(result["exact"][3]["state"], "contained");
+  EXPECT_EQ(result["exact"][1]["state"], "touching");
+  EXPECT_EQ(result["exact"][2]["distance"], 0.25);
+  EXPECT_EQ(result["exact"][2]["depth"], nullptr);
+  EXPECT_EQ(result["exactStatistics"]["falseShare"], 0.25);
+}
+
+TEST_F(Exact, NpyKeepsThePairsThatAreNotApart) {
+  const ProgramRun run = detect({"--format", "npy"});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("'shape': (3, 2)"));
+}
+
+TEST_F(Exact, BoxesAreLookedAtAsSolids) {
+  const TempFolder folder;
+  std::ofstream(folder.path() / "boxes.csv") << "0,0,0,1,1,1,a\n0.75,0,0,2,1,1,b\n2,0,0,3,1,inf,c\n";
+  const ProgramRun run = runProgram({"detect", folder.path() / "boxes.csv", "--exact", "--format", "csv"});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("\nb,a,overlapping,0,0.25,"));
+  EXPECT_THAT(run.out, HasSubstr("\nc,b,not-examined,,,,,,,,,,,,\n"));
+}
+
+TEST(ExactScenes, TheLinksOfAChainThreadEachOtherAndDoNotTouch) {
+  const std::filesystem::path scenes = dataFolder() / "scenes";
+  if (!std::filesystem::is_directory(scenes)) GTEST_SKIP() << "no folder of data: scenes are not tried";
+  const ProgramRun run = runProgram({"detect", scenes / "examples/Demos/chainHybrid.scn", "--data", scenes, "--data",
+                                     scenes / "examples", "--exact", "--format", "json"});
+  expectSuccess(run);
+  const auto result = nlohmann::json::parse(run.out);
+  EXPECT_EQ(result["exactStatistics"]["apart"], 4);
+  EXPECT_EQ(result["exactStatistics"]["falseShare"], 1.0);
+  for (const auto& pair : result["exact"]) EXPECT_GT(pair["distance"], 0.01);
+}
+
+#else
+
+TEST(Exact, WithoutFclTheOptionSaysWhatIsMissing) {
+  expectFailure(runProgram({"detect", "examples/scenes/demo.scn", "--exact"}), 2, "--exact needs FCL");
+}
+
+#endif
+
+}  // namespace
+}  // namespace allpairs::test
