@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Union
+from typing import Any, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,8 @@ from ._errors import InvalidArgument, InvalidBox
 
 #: Boxes as one array of shape (n, 6), or as two of shape (n, 3).
 BoxesLike = Union[npt.ArrayLike, tuple[npt.ArrayLike, npt.ArrayLike]]
+
+Chosen = TypeVar("Chosen")
 
 _UINT32_MAX = 0xFFFFFFFF
 _EXACT_INTEGERS = 2**53  # up to here float64 holds every integer
@@ -26,7 +28,7 @@ _STRATEGIES = {
 }
 
 
-def _choice(name: str, value: str, choices: dict[str, Any]) -> Any:
+def _choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
     try:
         return choices[value]
     except (KeyError, TypeError):
@@ -50,17 +52,18 @@ def whole(name: str, value: int, least: int = 0) -> int:
 
 
 def _floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
-    """An array of float32 or float64 in this machine's byte order; numbers of other types become one of them, exactly."""
+    """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly."""
     array = np.asarray(value)
-    if array.dtype == np.float32 or array.dtype == np.float64:
-        return array.astype(array.dtype.newbyteorder("="), copy=False)
+    native = array.dtype.newbyteorder("=")
+    if native == np.float32 or native == np.float64:
+        return array.astype(native, copy=False)
     if array.dtype == np.float16:
         return array.astype(np.float32)
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)
     if array.dtype.kind not in "iub":
         raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes float32 or float64")
-    if array.dtype.itemsize == 8 and array.size and np.abs(array.astype(np.float64)).max() > _EXACT_INTEGERS:
+    if array.dtype.itemsize == 8 and (array > _EXACT_INTEGERS).any() | (array < -_EXACT_INTEGERS).any():
         raise InvalidArgument(f"{name} has integers beyond 2**53, which float64 does not hold")
     return array.astype(np.float64)
 
@@ -101,7 +104,9 @@ def _corner_pair(lower: npt.ArrayLike, upper: npt.ArrayLike, prefix: str) -> tup
     return low, high
 
 
-def boxes_of(lower: npt.ArrayLike, upper: npt.ArrayLike | None, margin: npt.ArrayLike | None, prefix: str = "") -> _core.Boxes:
+def boxes_of(
+    lower: npt.ArrayLike, upper: npt.ArrayLike | None, margin: npt.ArrayLike | None, prefix: str = ""
+) -> _core.Boxes:
     """A set of boxes; ``prefix`` is how errors call it where there are two."""
     corners = _rows(prefix + "lower", lower) if upper is None else _corner_pair(lower, upper, prefix)
     boxes = _core.Boxes(corners[0], corners[1], prefix)
@@ -175,4 +180,5 @@ def both(name: str, value: Any) -> tuple[Any, Any]:
         return None, None
     if not isinstance(value, tuple) or len(value) != 2:
         raise InvalidArgument(f"{name} takes a tuple of two here: one for each set, or None")
-    return value
+    first, second = value
+    return first, second
