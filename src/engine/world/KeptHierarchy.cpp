@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "world/KeptHierarchy.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+
+#include "RadixRun.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// An order has room for a share of its boxes that come later, and leaves as much empty before it is made anew.
+constexpr std::size_t kShareOfChange = 8;
+constexpr std::size_t kLeastRoom = 64;
+
+/// If one box in so many has moved, all blocks are read anew, without asking which.
+constexpr std::size_t kShareOfMoved = 8;
+
+constexpr std::size_t kBlocksPerTask = 256;
+
+/// How many blocks ahead the boxes of a block are asked for.
+constexpr std::size_t kPrefetchDistance = 2;
+
+std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + kLeastRoom; }
+
+}  // namespace
+
+bool KeptHierarchy::update(const BoxStore& store, const UpdateTools& tools) {
+  sortOut(store);
+  const bool due = isRebuildDue();
+  if (due) {
+    rebuild(store, tools);
+  } else {
+    placeFresh(tools);
+    refit(tools);
+  }
+  m_fresh.clear();
+  m_dirtyBoxes = 0;
+  return due;
+}
+
+/// Finds out what happened to the boxes that changed: moved, new here, or gone.
+void KeptHierarchy::sortOut(const BoxStore& store) {
+  if (store.stale().empty()) return;
+  if (m_size == 0 && (m_ofStatic ? store.staticCount() == 0 : store.staticCount() == store.size())) return;
+  if (m_places.size() < store.idBound()) m_places.resize(store.idBound(), kNowhere);
+  for (const BoxId id : store.stale()) {
+    const bool here = m_places[id] != kNowhere;
+    if (belongs(store, id)) {
+      if (here) {
+        markBlock(m_places[id] / kFanOut);
+      } else {
+        m_fresh.push_back(id);
+      }
+    } else if (here) {
+      leave(id);
+    }
+  }
+}
+
+void KeptHierarchy::leave(BoxId id) {
+  const std::size_t place = m_places[id];
+  m_places[id] = kNowhere;
+  m_used[place / kFanOut] &= static_cast<std::uint16_t>(~(1U << (place % kFanOut)));
+  markBlock(place / kFanOut);
+  --m_size;
+}
+
+void KeptHierarchy::markBlock(std::size_t block) {
+  m_dirty[block / 64] |= std::uint64_t{1} << (block % 64);
+  ++m_dirtyBoxes;
+}
+
+bool KeptHierarchy::isRebuildDue() const noexcept {
+  if (m_levels.places() + m_fresh.size() > m_levels.capacity()) return true;
+  if (m_levels.places() - m_size > roomFor(m_levels.places())) return true;
+  return m_rule.isDue(m_size) && m_dirtyBoxes != 0;
+}
+
+void KeptHierarchy::rebuild(const BoxStore& store, const UpdateTools& tools) {
+  m_fresh.clear();
+  for (BoxId id = 0; id < store.idBound(); ++id) {
+    if (belongs(store, id)) m_fresh.push_back(id);
+  }
+  const std::size_t capacity = m_fresh.size() + roomFor(m_fresh.size());
+  m_levels.reset(capacity);
+  m_levels.resize(0);
+  const std::size_t blocks = (capacity + kFanOut - 1) / kFanOut;
+  m_used.assign(blocks, 0);
+  m_inexact.assign(blocks, 0);
+  m_dirty.assign((blocks + 63) / 64, 0);
+  m_inexactBlocks = 0;
+  m_size = 0;
+  m_rule.start();
+  m_grid = CurveGrid::fit(tools.reader);
+  placeFresh(tools);
+  refitAll(tools);
+}
+
+void KeptHierarchy::placeFresh(const UpdateTools& tools) {
+  if (m_fresh.empty()) return;
+  orderByCurve(m_fresh, tools);
+  append({m_keyed.data(), m_fresh.size()});
+}
+
+/// Sorts boxes along the curve into m_keyed.
+void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& tools) {
+  constexpr unsigned kIndexBits = 32;
+  m_keyed.require(ids.size() + ids.size() / kShareOfChange);
+  m_spare.require(ids.size() + ids.size() / kShareOfChange);
+  const std::size_t tasks = (ids.size() + kBlocksPerTask * kFanOut - 1) / (kBlocksPerTask * kFanOut);
+  tools.executor.run(tasks, [&](std::size_t task) {
+    const std::size_t end = std::min(ids.size(), (task + 1) * kBlocksPerTask * kFanOut);
+    LaneBlock block;
+    std::array<std::uint32_t, kFanOut> keys;
+    tools.reader.withLanes([&](const auto& lanesOf) {
+      for (std::size_t i = task * kBlocksPerTask * kFanOut; i < end; i += kFanOut) {
+        const std::size_t fill = std::min(kFanOut, end - i);
+        LaneBox lanes = kEverythingLanes;
+        for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+          if (lane < fill) static_cast<void>(lanesOf(ids[i + lane], lanes));
+          block.set(lane, lanes);
+        }
+        tools.kernels.curveKeys(block, m_grid, keys.data());
+        for (std::size_t lane = 0; lane < fill; ++lane) {
+          m_spare[i + lane] = (std::uint64_t{keys[lane]} << kIndexBits) | ids[i + lane];
+        }
+      }
+    });
+  });
+  sortRun(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits + CurveGrid::kKeyBits, kIndexBits);
+}
+
+/// Gives boxes the next places.
+void KeptHierarchy::append(std::span<const KeyedBox> order) {
+  const std::size_t begin = m_levels.places();
+  m_levels.resize(begin + order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t place = begin + i;
+    const BoxId id = indexOf(order[i]);
+    m_levels.id(place) = id;
+    m_places[id] = static_cast<std::uint32_t>(place);
+    m_used[place / kFanOut] |= static_cast<std::uint16_t>(1U << (place % kFanOut));
+    markBlock(place / kFanOut);
+  }
+  m_size += order.size();
+}
+
+void KeptHierarchy::refit(const UpdateTools& tools) {
+  if (m_dirtyBoxes == 0) return;
+  if (m_dirtyBoxes >= m_size / kShareOfMoved) {
+    refitAll(tools);
+    return;
+  }
+  const BlockReader blocks(tools.reader, tools.kernels);
+  m_blockList.clear();
+  for (std::size_t word = 0; word < m_dirty.size(); ++word) {
+    for (std::uint64_t bits = m_dirty[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t block = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+      gather(block, blocks, tools.reader);
+      m_blockList.push_back(static_cast<std::uint32_t>(block));
+    }
+    m_dirty[word] = 0;
+  }
+  m_inexactBlocks = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
+  m_levels.boundSome(m_blockList, tools.kernels);
+}
+
+void KeptHierarchy::refitAll(const UpdateTools& tools) {
+  const BlockReader blocks(tools.reader, tools.kernels);
+  const std::size_t count = m_levels.blockCount();
+  tools.executor.run((count + kBlocksPerTask - 1) / kBlocksPerTask, [&](std::size_t task) {
+    const std::size_t end = std::min(count, (task + 1) * kBlocksPerTask);
+    for (std::size_t b = task * kBlocksPerTask; b < end; ++b) {
+      const std::size_t ahead = std::min(b + kPrefetchDistance, count - 1) * kFanOut;
+      for (std::size_t lane = 0; lane < kFanOut; ++lane) tools.reader.prefetch(m_levels.id(ahead + lane));
+      gather(b, blocks, tools.reader);
+    }
+  });
+  std::fill(m_dirty.begin(), m_dirty.end(), std::uint64_t{0});
+  m_inexactBlocks = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
+  m_levels.boundAll(tools.kernels, tools.executor);
+}
+
+void KeptHierarchy::gather(std::size_t block, const BlockReader& blocks, const LaneReader& reader) {
+  const bool exact = blocks.isUsable() ? gatherPlain(block, blocks, reader) : gatherAny(block, reader);
+  m_inexact[block] = exact ? 0 : 1;
+}
+
+bool KeptHierarchy::gatherPlain(std::size_t block, const BlockReader& blocks, const LaneReader& reader) {
+  std::array<std::int32_t, kFanOut> offsets;
+  for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+    offsets[lane] = static_cast<std::int32_t>(6 * m_levels.id(block * kFanOut + lane));
+  }
+  LaneBlock& lanes = m_levels.block(block);
+  const RowBlockResult read = blocks.readAt(offsets, lanes);
+  const std::uint32_t unused = read.emptyLanes | (~std::uint32_t{m_used[block]} & 0xFFFFU);
+  // Empty boxes have infinite bounds, which no lane holds; that is not for the others to suffer from.
+  if (unused != 0 && !read.exact) return gatherAny(block, reader);
+  for (std::uint32_t bits = unused; bits != 0; bits &= bits - 1) {
+    lanes.set(static_cast<std::size_t>(std::countr_zero(bits)), kNeverLanes);
+  }
+  return read.exact;
+}
+
+bool KeptHierarchy::gatherAny(std::size_t block, const LaneReader& reader) {
+  return reader.withLanes([&](const auto& lanesOf) {
+    bool exact = true;
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+      LaneBox lanes = kNeverLanes;
+      const BoxId id = m_levels.id(block * kFanOut + lane);
+      if ((m_used[block] >> lane & 1U) != 0 && !lanesOf.isEmpty(id)) exact &= lanesOf(id, lanes);
+      m_levels.block(block).set(lane, lanes);
+    }
+    return exact;
+  });
+}
+
+}  // namespace allpairs::engine

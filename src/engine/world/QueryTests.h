@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What decides the answer of a query, for boxes and, with bounds that hold them, for groups: each is monotone in the
+// bounds under rounding, so that no box is met unless its group is.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "Lanes.h"
+#include "allpairs/Box.h"
+#include "allpairs/WorldTypes.h"
+
+namespace allpairs::engine {
+
+inline constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// A box with its margin added, in double.
+[[nodiscard]] inline Box widened(const Box& box, double margin) noexcept {
+  Box result = box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.min[axis] -= margin;
+    result.max[axis] += margin;
+  }
+  return result;
+}
+
+/// Bounds in double that hold whatever the lanes bound: the largest float32 stands for infinity as well.
+[[nodiscard]] inline Box unbounded(const LaneBox& lanes) noexcept {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = lanes.bound[axis] <= -kLaneMax ? -kFar : static_cast<double>(lanes.bound[axis]);
+    box.max[axis] = lanes.bound[axis + 3] >= kLaneMax ? kFar : static_cast<double>(lanes.bound[axis + 3]);
+  }
+  return box;
+}
+
+/// The least t at which a moving box meets a resting one, infinity if it doesn't; bounds may be turned over by a margin.
+[[nodiscard]] inline double meetingTime(const BoxSweep& sweep, const Box& box) noexcept {
+  double enter = 0.0;
+  double leave = sweep.length;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double v = sweep.motion[axis];
+    const double ahead = box.min[axis] - sweep.box.max[axis];
+    const double behind = box.max[axis] - sweep.box.min[axis];
+    if (v == 0.0) {
+      if (ahead > 0.0 || behind < 0.0) return kFar;
+      continue;
+    }
+    const double in = (v > 0.0 ? ahead : behind) / v;
+    const double out = (v > 0.0 ? behind : ahead) / v;
+    // A NaN, of two infinities, leaves both as they are.
+    if (in > enter) enter = in;
+    if (out < leave) leave = out;
+  }
+  return enter <= leave ? enter : kFar;
+}
+
+/// The Euclidean distance of a point from a box.
+[[nodiscard]] inline double distanceFrom(const std::array<double, 3>& point, const Box& box) noexcept {
+  double squares = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double apart = std::max({box.min[axis] - point[axis], point[axis] - box.max[axis], 0.0});
+    squares += apart * apart;
+  }
+  return std::sqrt(squares);
+}
+
+[[nodiscard]] inline BoxSweep sweepOf(const Ray& ray) noexcept {
+  return {{ray.origin, ray.origin}, ray.direction, ray.length};
+}
+
+}  // namespace allpairs::engine

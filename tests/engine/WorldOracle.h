@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/Pair.h"
+#include "allpairs/WorldTypes.h"
+
+namespace allpairs::test {
+
+/// What a World must hold and answer, by double loops over a map; it shares no code with the engine.
+struct WorldOracle {
+  struct Entry {
+    Box box;
+    BoxProperties properties;
+  };
+  std::map<BoxId, Entry> boxes;
+  std::vector<Pair> pairs, began, persisted, ended;
+  double distance = 0.0;
+
+  static bool empty(const Box& b) { return b.min[0] > b.max[0] || b.min[1] > b.max[1] || b.min[2] > b.max[2]; }
+
+  static bool apart(const Box& a, const Box& b, double d) {
+    bool result = empty(a) || empty(b);
+    for (std::size_t k = 0; k < 3; ++k) result = result || a.min[k] > b.max[k] + d || b.min[k] > a.max[k] + d;
+    return result;
+  }
+
+  static bool mayPair(const BoxProperties& a, const BoxProperties& b) {
+    if (a.isStatic && b.isStatic) return false;
+    if ((a.category & b.mask) == 0 || (b.category & a.mask) == 0) return false;
+    return (a.group == 0 || a.group != b.group) && (a.owner == 0 || a.owner != b.owner);
+  }
+
+  void step() {
+    std::vector<Pair> now;
+    for (auto a = boxes.begin(); a != boxes.end(); ++a) {
+      for (auto b = std::next(a); b != boxes.end(); ++b) {
+        const double d = distance + a->second.properties.margin + b->second.properties.margin;
+        if (apart(a->second.box, b->second.box, d)) continue;
+        if (mayPair(a->second.properties, b->second.properties)) now.push_back({a->first, b->first});
+      }
+    }
+    // Two boxes that had the same id are two boxes: a world must not reuse an id before this step is over.
+    began.clear(), persisted.clear(), ended.clear();
+    std::set_difference(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(began));
+    std::set_intersection(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(persisted));
+    std::set_difference(pairs.begin(), pairs.end(), now.begin(), now.end(), std::back_inserter(ended));
+    pairs = now;
+  }
+
+  static bool looksAt(const BoxProperties& p, const QueryFilter& f) {
+    return (p.category & f.mask) != 0 && (p.mask & f.category) != 0 && (p.isStatic ? f.staticBoxes : f.dynamicBoxes);
+  }
+
+  [[nodiscard]] std::vector<BoxId> overlapping(const Box& query, const QueryFilter& filter) const {
+    std::vector<BoxId> result;
+    for (const auto& [id, e] : boxes) {
+      if (looksAt(e.properties, filter) && !apart(e.box, query, e.properties.margin)) result.push_back(id);
+    }
+    return result;
+  }
+
+  /// When a swept box meets a box: each axis says when it does, and all must at once.
+  static double meeting(const BoxSweep& s, const Box& b, double margin) {
+    double from = 0.0;
+    double to = s.length;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = b.min[k] - margin;
+      const double high = b.max[k] + margin;
+      if (s.motion[k] == 0.0) {
+        if (low > s.box.max[k] || high < s.box.min[k]) return std::numeric_limits<double>::infinity();
+      } else {
+        const double t1 = (low - s.box.max[k]) / s.motion[k];
+        const double t2 = (high - s.box.min[k]) / s.motion[k];
+        from = std::max(from, s.motion[k] > 0.0 ? t1 : t2);
+        to = std::min(to, s.motion[k] > 0.0 ? t2 : t1);
+      }
+    }
+    return from <= to ? from : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] std::vector<SweepHit> along(const BoxSweep& sweep, const QueryFilter& filter) const {
+    std::vector<SweepHit> result;
+    for (const auto& [id, e] : boxes) {
+      if (!looksAt(e.properties, filter) || empty(e.box) || empty(sweep.box)) continue;
+      const double t = meeting(sweep, e.box, e.properties.margin);
+      if (t != std::numeric_limits<double>::infinity()) result.push_back({id, t});
+    }
+    std::stable_sort(result.begin(), result.end(), [](const SweepHit& a, const SweepHit& b) { return a.t < b.t; });
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Neighbor> nearest(const std::array<double, 3>& p, std::size_t count,
+                                              const QueryFilter& filter) const {
+    std::vector<Neighbor> result;
+    for (const auto& [id, e] : boxes) {
+      if (!looksAt(e.properties, filter) || empty(e.box)) continue;
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double below = (e.box.min[k] - e.properties.margin) - p[k];
+        const double above = p[k] - (e.box.max[k] + e.properties.margin);
+        const double gap = std::max(0.0, std::max(below, above));
+        sum += gap * gap;
+      }
+      result.push_back({id, std::sqrt(sum)});
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });
+    if (result.size() > count) result.resize(count);
+    return result;
+  }
+};
+
+}  // namespace allpairs::test
