@@ -10,6 +10,8 @@ foreach(component IN LISTS allpairs_components)
   if(component STREQUAL "allpairs")
     file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/allpairs/*.h")
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+  elseif(component STREQUAL "c")
+    install(FILES "${PROJECT_SOURCE_DIR}/include/allpairs.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   else()
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs/${component}"
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
@@ -18,11 +20,15 @@ endforeach()
 
 # Reads from what a library links which components of ours it stands on (NEEDS) and which packages of others its
 # installed target refers to (PACKAGES). A static library passes what it links privately on to whoever links it; a
-# shared one keeps that to itself.
+# shared one keeps that to itself; among static ones, that of C does.
 function(allpairs_read_links component)
   set(needs)
   set(packages)
   get_target_property(links allpairs::${component} LINK_LIBRARIES)
+  get_target_property(type allpairs::${component} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND NOT BUILD_SHARED_LIBS)
+    set(links) # the library for C holds what it links
+  endif()
   foreach(link IN LISTS links)
     if(link MATCHES "^allpairs(::|_)(.+)$")
       list(APPEND needs ${CMAKE_MATCH_2})

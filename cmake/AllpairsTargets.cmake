@@ -59,6 +59,15 @@ function(allpairs_add_library target export_name)
   endif()
 endfunction()
 
+# Compiles a C program of ours as C11 with our warnings.
+function(allpairs_configure_c target)
+  set_target_properties(${target} PROPERTIES C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion)
+  if(ALLPAIRS_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
 # Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest.
 function(allpairs_add_test target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LIBRARIES")
@@ -69,12 +78,19 @@ function(allpairs_add_test target)
   gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120)
 endfunction()
 
-# Adds a program of one page, NAME.cpp, that is run as a test: it must succeed and print exactly what is in the file
-# EXPECTED (NAME.expected beside it).
+# Adds a program of one page, NAME.cpp or SOURCE, that is run as a test: it must succeed and print exactly what is in
+# the file EXPECTED (NAME.expected beside it).
 function(allpairs_add_example name)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "EXPECTED" "LIBRARIES")
-  add_executable(example_${name} ${name}.cpp)
-  allpairs_configure(example_${name})
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "EXPECTED;SOURCE" "LIBRARIES")
+  if(NOT ARG_SOURCE)
+    set(ARG_SOURCE ${name}.cpp)
+  endif()
+  add_executable(example_${name} ${ARG_SOURCE})
+  if(ARG_SOURCE MATCHES "\\.c$")
+    allpairs_configure_c(example_${name})
+  else()
+    allpairs_configure(example_${name})
+  endif()
   target_link_libraries(example_${name} PRIVATE ${ARG_LIBRARIES})
   if(NOT ARG_EXPECTED)
     set(ARG_EXPECTED "${CMAKE_CURRENT_SOURCE_DIR}/${name}.expected")
