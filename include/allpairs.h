@@ -133,15 +133,15 @@ typedef struct allpairs_options {
   size_t struct_size;  ///< sizeof(allpairs_options)
   allpairs_strategy strategy;
   allpairs_order order;
-  double distance;          ///< Boxes at most this far apart on every axis are a pair; margins are added.
-  const double* region;     ///< Six numbers, or null: boxes outside of it are left out. Read when options are set.
-  allpairs_filter first;    ///< Of the set, or of the first of two.
-  allpairs_filter second;   ///< Of the second of two sets.
-  allpairs_accept accept;   ///< May be null.
+  double distance;         ///< Boxes at most this far apart on every axis are a pair; margins are added.
+  const double* region;    ///< Six numbers, or null: boxes outside of it are left out. Read when options are set.
+  allpairs_filter first;   ///< Of the set, or of the first of two.
+  allpairs_filter second;  ///< Of the second of two sets.
+  allpairs_accept accept;  ///< May be null.
   void* accept_context;
-  size_t threads;           ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
-  uint64_t max_pairs;       ///< More are an ALLPAIRS_LIMIT_EXCEEDED; 0: no limit. Counting and streaming have none.
-  size_t batch_size;        ///< How many pairs a visitor gets at a time, at most; 0: 65536.
+  size_t threads;      ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
+  uint64_t max_pairs;  ///< More are an ALLPAIRS_LIMIT_EXCEEDED; 0: no limit. Counting and streaming have none.
+  size_t batch_size;   ///< How many pairs a visitor gets at a time, at most; 0: 65536.
 } allpairs_options;
 
 /// The default settings.

@@ -6,18 +6,24 @@ namespace {
 
 Strategy strategyOf(allpairs_strategy strategy) {
   switch (strategy) {
-    case ALLPAIRS_AUTOMATIC: return Strategy::Automatic;
-    case ALLPAIRS_EXHAUSTIVE: return Strategy::Exhaustive;
-    case ALLPAIRS_BLOCKED: return Strategy::Blocked;
+    case ALLPAIRS_AUTOMATIC:
+      return Strategy::Automatic;
+    case ALLPAIRS_EXHAUSTIVE:
+      return Strategy::Exhaustive;
+    case ALLPAIRS_BLOCKED:
+      return Strategy::Blocked;
   }
   throw InvalidArgument("no strategy " + std::to_string(static_cast<int>(strategy)));
 }
 
 Order orderOf(allpairs_order order) {
   switch (order) {
-    case ALLPAIRS_BY_FIRST: return Order::ByFirst;
-    case ALLPAIRS_BY_SECOND: return Order::BySecond;
-    case ALLPAIRS_UNORDERED: return Order::Unordered;
+    case ALLPAIRS_BY_FIRST:
+      return Order::ByFirst;
+    case ALLPAIRS_BY_SECOND:
+      return Order::BySecond;
+    case ALLPAIRS_UNORDERED:
+      return Order::Unordered;
   }
   throw InvalidArgument("no order " + std::to_string(static_cast<int>(order)));
 }

@@ -72,9 +72,8 @@ allpairs_status allpairs_world_move(allpairs_world* world, allpairs_ids ids, con
 
 allpairs_status allpairs_world_move_swept(allpairs_world* world, allpairs_ids ids, const allpairs_set* starts,
                                           const allpairs_set* ends) {
-  return guarded([&] {
-    worldOf(world).moveSwept(idsOf(ids), required(starts, "starts").boxes, required(ends, "ends").boxes);
-  });
+  return guarded(
+      [&] { worldOf(world).moveSwept(idsOf(ids), required(starts, "starts").boxes, required(ends, "ends").boxes); });
 }
 
 allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids) {

@@ -7,12 +7,12 @@
 #include "allpairs.h"
 
 /// Ends the test unless the condition holds.
-#define ALLPAIRS_CHECK(condition)                                                                       \
-  do {                                                                                                  \
-    if (!(condition)) {                                                                                 \
-      fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, allpairs_error_message());    \
-      exit(EXIT_FAILURE);                                                                               \
-    }                                                                                                   \
+#define ALLPAIRS_CHECK(condition)                                                                    \
+  do {                                                                                               \
+    if (!(condition)) {                                                                              \
+      fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, allpairs_error_message()); \
+      exit(EXIT_FAILURE);                                                                            \
+    }                                                                                                \
   } while (0)
 
 /// The next of a fixed sequence of numbers from 0 to limit - 1 (constants of Numerical Recipes, section 7.1).

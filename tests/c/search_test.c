@@ -103,7 +103,9 @@ static bool collect(void* context, allpairs_pairs batch) {
 }
 
 static void streamsComeInBatchesAndCanBeStopped(allpairs_set* set) {
-  static Collected collected = {.stopAt = kPairs};
+  static Collected collected;
+  collected.count = 0;
+  collected.stopAt = kPairs;
   const allpairs_visitor visitor = {collect, &collected};
   allpairs_search* search = NULL;
   allpairs_options options = allpairs_default_options();
