@@ -12,6 +12,10 @@ endif()
 file(RELATIVE_PATH allpairs_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${allpairs_lib_from_bin}")
 
+# What is installed belongs to one of three: runtime (the command and shared libraries), dev (what else a program is built
+# with), python (the module). Where nothing is said it is dev.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+
 # Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend
 # on the instruction set; and without the path of the source tree in what is built.
 function(allpairs_configure target)
@@ -54,7 +58,10 @@ function(allpairs_add_library target export_name)
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
                                               "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   if(ALLPAIRS_INSTALL)
-    install(TARGETS ${target} EXPORT Allpairs_${export_name})
+    install(
+      TARGETS ${target}
+      EXPORT Allpairs_${export_name}
+      LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)
     set_property(GLOBAL APPEND PROPERTY ALLPAIRS_COMPONENTS ${export_name})
   endif()
 endfunction()
