@@ -14,6 +14,7 @@ from ._core import version as __version__
 from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
+from ._world import NO_BOX, Step, World
 
 __all__ = [
     "Detection",
@@ -23,8 +24,11 @@ __all__ = [
     "InvalidBox",
     "LimitExceeded",
     "Model",
+    "NO_BOX",
     "Remark",
     "Scene",
+    "Step",
+    "World",
     "__version__",
     "batches",
     "batches_between",

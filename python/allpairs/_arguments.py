@@ -115,8 +115,7 @@ def boxes_of(
         if margins.ndim == 0:
             boxes.set_margin(float(margins))
         else:
-            _check_length(prefix + "margin", margins, len(boxes))
-            boxes.set_margins(np.ascontiguousarray(margins))
+            boxes.set_margins(np.ascontiguousarray(of_length(prefix + "margin", margins, len(boxes))))
     return boxes
 
 
@@ -129,9 +128,11 @@ def boxes_between(value: BoxesLike, margin: npt.ArrayLike | None, prefix: str) -
     return boxes_of(value, None, margin, prefix)
 
 
-def _check_length(name: str, values: npt.NDArray[Any], length: int) -> None:
+def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[Any]:
+    """The array, if it has one value for each box."""
     if values.ndim != 1 or len(values) != length:
         raise InvalidArgument(f"{name} has shape {values.shape}; for {length} boxes it takes ({length},)")
+    return values
 
 
 def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
@@ -151,8 +152,22 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:
     """A filter's array: one number for each box."""
-    array = _uint32(name, value)
-    _check_length(name, array, length)
+    return of_length(name, _uint32(name, value), length)
+
+
+def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    """Boxes of a world by number."""
+    array = _uint32("ids", value)
+    if array.ndim != 1:
+        raise InvalidArgument(f"ids has shape {array.shape}; it takes (k,)")
+    return array
+
+
+def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Points or directions as rows of three."""
+    array = np.atleast_2d(_floats(name, value)).astype(np.float64, copy=False)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3)")
     return array
 
 

@@ -10,5 +10,6 @@ void bindErrors(pybind11::module_& module);
 void bindArguments(pybind11::module_& module);
 void bindSearch(pybind11::module_& module);
 void bindScene(pybind11::module_& module);
+void bindWorld(pybind11::module_& module);
 
 }  // namespace allpairs::python

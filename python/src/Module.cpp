@@ -8,4 +8,5 @@ PYBIND11_MODULE(_core, module) {
   allpairs::python::bindArguments(module);
   allpairs::python::bindSearch(module);
   allpairs::python::bindScene(module);
+  allpairs::python::bindWorld(module);
 }
