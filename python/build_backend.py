@@ -4,7 +4,7 @@
 Why a backend of our own: those that run CMake (scikit-build-core, py-build-cmake, meson-python) are not among Debian
 12's packages, or pip fetches them into an isolated environment; setuptools would have to be there, in a version that
 suits, and would know nothing of CMake. What a wheel is made of is little: files, two texts about them, and a list.
-docs/decisions/0007-python-build.md has more.
+docs/decisions/0011-python-build.md has more.
 
 ``--config-settings cmake.NAME=VALUE`` passes -DNAME=VALUE to CMake. ALLPAIRS_JOBS says how many jobs run at once.
 """
