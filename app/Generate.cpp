@@ -2,8 +2,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -14,6 +12,7 @@
 
 #include "Commands.h"
 #include "ExitStatus.h"
+#include "NpyOutput.h"
 #include "Output.h"
 #include "OutputOption.h"
 #include "SceneArguments.h"
@@ -33,36 +32,6 @@ constexpr const char* kExamples = R"(Examples:
 The file holds a NumPy array (n, 6), float32: minx miny minz maxx maxy maxz. It is
 the same on every machine for the same scene, number, seed and order.)";
 
-/// The start of a NumPy file, version 1.0: the numbers that follow it begin at a multiple of 64 bytes.
-std::string npyHeader(std::size_t count) {
-  std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(count) + ", 6), }";
-  constexpr std::size_t kBefore = 10;  // Magic, version and the length of the text.
-  constexpr std::size_t kAlignment = 64;
-  while ((kBefore + text.size() + 1) % kAlignment != 0) text += ' ';
-  text += '\n';
-  const std::size_t length = text.size();
-  const std::string start{
-      '\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0, static_cast<char>(length % 256), static_cast<char>(length / 256)};
-  return start + text;
-}
-
-void appendLittleEndian(std::string& bytes, float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xFFU);
-}
-
-void writeRows(const std::vector<float>& rows, Output& output) {
-  constexpr std::size_t kAtOnce = 65536;
-  std::string bytes = npyHeader(rows.size() / 6);
-  for (const float value : rows) {
-    appendLittleEndian(bytes, value);
-    if (bytes.size() < kAtOnce) continue;
-    output.write(bytes);
-    bytes.clear();
-  }
-  output.write(bytes);
-}
-
 /// A name that promises another format would be a lie.
 void checkExtension(const std::string& path) {
   const std::string extension = lowerExtension(path);
@@ -77,7 +46,7 @@ void runGenerate(const GenerateSettings& settings) {
   if (output.isTerminal()) {
     throw UsageError("boxes are binary and not for a terminal: name a file with -o, or redirect the output");
   }
-  writeRows(generate::makeBoxes(request), output);
+  NpyOutput(output, "<f4", {request.count, 6}).add(generate::makeBoxes(request));
   output.commit();
 }
 
