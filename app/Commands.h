@@ -13,5 +13,6 @@ void addDetect(CLI::App& program);
 void addElements(CLI::App& program);
 void addGenerate(CLI::App& program);
 void addInfo(CLI::App& program);
+void addTrack(CLI::App& program);
 
 }  // namespace allpairs::app
