@@ -59,6 +59,14 @@ double parseMargin(const std::string& text) {
   return *value;
 }
 
+std::size_t parseThreads(const std::string& text) {
+  constexpr std::size_t kMostDigits = 4;
+  const bool isCount = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  if (!isCount || text.size() > kMostDigits)
+    throw UsageError("--threads: '" + text + "' is not a number of threads from 0 to 9999");
+  return static_cast<std::size_t>(std::stoul(text));
+}
+
 Box parseRegion(const std::string& text) {
   std::array<double, 6> values{};
   std::size_t count = 0;

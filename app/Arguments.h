@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,11 @@ namespace allpairs::app {
 ///
 /// Bad input: anything but a number, NaN and -infinity throw UsageError.
 [[nodiscard]] double parseMargin(const std::string& text);
+
+/// The number that follows --threads.
+///
+/// Bad input: throws UsageError.
+[[nodiscard]] std::size_t parseThreads(const std::string& text);
 
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "Arguments.h"
+#include "ChoiceOption.h"
 #include "Commands.h"
 #include "Detection.h"
 #include "ExitStatus.h"
@@ -58,14 +59,6 @@ Strategy strategyOf(const std::string& name) {
   return name == "blocked" ? Strategy::Blocked : Strategy::Automatic;
 }
 
-std::size_t threadsOf(const std::string& text) {
-  constexpr std::size_t kMostDigits = 4;
-  const bool isCount = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  if (!isCount || text.size() > kMostDigits)
-    throw UsageError("--threads: '" + text + "' is not a number of threads from 0 to 9999");
-  return static_cast<std::size_t>(std::stoul(text));
-}
-
 std::string formatOf(const DetectSettings& settings) {
   if (!settings.format.empty()) return settings.format;
   const std::string extension = lowerExtension(settings.output);
@@ -78,7 +71,7 @@ DetectionOptions detectionOptions(const DetectSettings& settings, bool hasMargin
   if (hasMargin) options.margin = parseMargin(settings.margin);
   if (hasBox) options.region = parseRegion(settings.box);
   options.strategy = strategyOf(settings.strategy);
-  options.threads = threadsOf(settings.threads);
+  options.threads = parseThreads(settings.threads);
   options.verify = settings.verify;
   return options;
 }
@@ -141,15 +134,6 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   outcome.result.modelCount = models.size();
   outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
   return outcome;
-}
-
-CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
-                       std::vector<std::string> choices) {
-  const auto check = [name, choices](const std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
-    return fmt::format("'{}' is none of {}", text, fmt::join(choices, ", "));
-  };
-  return command.add_option(name, value)->type_name("WORD")->check(check);
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {

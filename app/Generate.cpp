@@ -2,10 +2,10 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <array>
-#include <bit>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,53 +14,47 @@
 
 #include "Commands.h"
 #include "ExitStatus.h"
+#include "NpyOutput.h"
 #include "Output.h"
 #include "OutputOption.h"
+#include "Progress.h"
+#include "Records.h"
 #include "SceneArguments.h"
+#include "allpairs/generate/BoxMotions.h"
 
 namespace allpairs::app {
 namespace {
 
 struct GenerateSettings {
   SceneArguments scene;
+  std::uint64_t frames = 1000;  // as many as Broadmark's scenes have
+  bool hasFrames = false;
   std::string output;
 };
 
 constexpr const char* kExamples = R"(Examples:
   allpairs generate uniform -n 100000 -o boxes.npy
   allpairs generate needles -n 50000 --seed 7 --sorted -o needles.npy
+  allpairs generate brownian -n 10000 --frames 200 -o frames.npy
 
-The file holds a NumPy array (n, 6), float32: minx miny minz maxx maxy maxz. It is
-the same on every machine for the same scene, number, seed and order.)";
+The file holds a NumPy array (n, 6), float32: minx miny minz maxx maxy maxz; of a
+motion (t, n, 6). It is the same on every machine for the same scene, number, seed
+and order.)";
 
-/// The start of a NumPy file, version 1.0: the numbers that follow it begin at a multiple of 64 bytes.
-std::string npyHeader(std::size_t count) {
-  std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(count) + ", 6), }";
-  constexpr std::size_t kBefore = 10;  // Magic, version and the length of the text.
-  constexpr std::size_t kAlignment = 64;
-  while ((kBefore + text.size() + 1) % kAlignment != 0) text += ' ';
-  text += '\n';
-  const std::size_t length = text.size();
-  const std::string start{
-      '\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0, static_cast<char>(length % 256), static_cast<char>(length / 256)};
-  return start + text;
+bool isMotion(const std::string& name) {
+  const auto motions = generate::boxMotions();
+  return std::any_of(motions.begin(), motions.end(), [&](const generate::BoxMotion& m) { return m.name == name; });
 }
 
-void appendLittleEndian(std::string& bytes, float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xFFU);
-}
-
-void writeRows(const std::vector<float>& rows, Output& output) {
-  constexpr std::size_t kAtOnce = 65536;
-  std::string bytes = npyHeader(rows.size() / 6);
-  for (const float value : rows) {
-    appendLittleEndian(bytes, value);
-    if (bytes.size() < kAtOnce) continue;
-    output.write(bytes);
-    bytes.clear();
+std::string motionList() {
+  constexpr std::size_t kColumn = 18;
+  std::string text = "Motions, of equal cubes that fill a tenth of a unit cube:";
+  for (const generate::BoxMotion& motion : generate::boxMotions()) {
+    std::string name(motion.name);
+    name.resize(kColumn, ' ');
+    text.append("\n  ").append(name).append(motion.description);
   }
-  output.write(bytes);
+  return text;
 }
 
 /// A name that promises another format would be a lie.
@@ -70,14 +64,45 @@ void checkExtension(const std::string& path) {
   throw UsageError("-o: '" + path + "': boxes are written as a NumPy array, whose files end in .npy");
 }
 
+void writeBoxes(const SceneArguments& scene, Output& output) {
+  const generate::SceneRequest request = sceneRequest(scene);
+  NpyOutput(output, "<f4", {request.count, 6}).add(generate::makeBoxes(request));
+}
+
+/// Frame by frame: there is never more than one in memory.
+void writeFrames(const GenerateSettings& settings, Output& output) {
+  generate::MotionFrames motion({settings.scene.scene, settings.scene.count, settings.scene.seed});
+  NpyOutput file(output, "<f4", {settings.frames, settings.scene.count, 6});
+  ProgressLine line;
+  for (std::uint64_t frame = 0; frame < settings.frames; ++frame) {
+    line.show("frame " + grouped(frame + 1) + " of " + grouped(settings.frames));
+    file.add(motion.next());
+  }
+}
+
+void checkScene(const GenerateSettings& settings) {
+  const SceneArguments& scene = settings.scene;
+  if (isMotion(scene.scene)) {
+    if (scene.sorted) throw UsageError("--sorted: boxes that move are in no spatial order; leave it out");
+    if (scene.count > std::numeric_limits<std::uint32_t>::max()) {
+      throw UsageError("-n: a motion has at most 4294967295 boxes");
+    }
+    return;
+  }
+  if (settings.hasFrames && isSceneName(scene.scene)) {
+    throw UsageError("--frames: the boxes of '" + scene.scene + "' do not move; name a motion");
+  }
+  static_cast<void>(sceneRequest(scene));
+}
+
 void runGenerate(const GenerateSettings& settings) {
   checkExtension(settings.output);
-  const generate::SceneRequest request = sceneRequest(settings.scene);
+  checkScene(settings);
   Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
   if (output.isTerminal()) {
     throw UsageError("boxes are binary and not for a terminal: name a file with -o, or redirect the output");
   }
-  writeRows(generate::makeBoxes(request), output);
+  isMotion(settings.scene.scene) ? writeFrames(settings, output) : writeBoxes(settings.scene, output);
   output.commit();
 }
 
@@ -85,12 +110,18 @@ void runGenerate(const GenerateSettings& settings) {
 
 void addGenerate(CLI::App& program) {
   const auto settings = std::make_shared<GenerateSettings>();
-  CLI::App* command = program.add_subcommand("generate", "Make boxes to measure with");
-  command->footer(sceneList() + "\n\n" + kExamples);
+  CLI::App* command = program.add_subcommand("generate", "Make boxes to measure with, at rest or moving");
+  command->footer(sceneList() + "\n\n" + motionList() + "\n\n" + kExamples);
   command->add_option("SCENE", settings->scene.scene, "Which boxes to make; see below")->required()->type_name("");
   addSceneOptions(*command, settings->scene);
+  CLI::Option* frames = command->add_option("--frames", settings->frames, "How many frames of a motion")
+                            ->type_name("T")
+                            ->capture_default_str();
   addOutputOption(*command, settings->output);
-  command->callback([settings] { runGenerate(*settings); });
+  command->callback([settings, frames] {
+    settings->hasFrames = frames->count() != 0;
+    runGenerate(*settings);
+  });
 }
 
 }  // namespace allpairs::app

@@ -25,6 +25,8 @@ constexpr const char* kExamples = R"(Examples:
   allpairs detect boxes.npy -o pairs.npy         overlapping boxes, from NumPy to NumPy
   allpairs detect parts/ --margin 0.5            meshes of a folder at most 0.5 apart
   allpairs info scene.scn                        what is in it, and what was ignored
+  allpairs track frames.npy                      pairs that begin and end as boxes move
+  allpairs elements start.ply end.ply            vertices, edges, faces that may touch
   allpairs bench uniform -n 100000               how long so many boxes take
 
 'allpairs detect --help' tells more. Exit status: 0 success, 1 --verify found a
@@ -99,6 +101,8 @@ int main(int count, char** arguments) {
   program.footer(kExamples);
   allpairs::app::addDetect(program);
   allpairs::app::addInfo(program);
+  allpairs::app::addElements(program);
+  allpairs::app::addTrack(program);
   allpairs::app::addGenerate(program);
   allpairs::app::addBench(program);
   return static_cast<int>(run(program, count, arguments));

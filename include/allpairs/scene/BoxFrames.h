@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "allpairs/BoxSet.h"
+
+namespace allpairs::scene {
+
+/// Boxes that move, as a file holds them, one frame after the other; only one of them is in memory.
+///
+/// The file is a NumPy array of shape (t, n, 6), float32 or float64, either byte order, C order: t frames of n boxes.
+/// Bad input: anything else throws FileError, and so does a NaN, naming frame and box.
+/// Cost:      one read of each frame; the memory of one.
+class BoxFrames {
+ public:
+  explicit BoxFrames(const std::filesystem::path& path);
+  ~BoxFrames();
+  BoxFrames(BoxFrames&&) noexcept;
+  BoxFrames& operator=(BoxFrames&&) noexcept;
+
+  [[nodiscard]] std::size_t frameCount() const noexcept;
+  [[nodiscard]] std::size_t boxCount() const noexcept;
+
+  /// The boxes of the next frame, of which there are frameCount(); valid until the next call.
+  ///
+  /// Bad input: more calls than that throw InvalidArgument.
+  [[nodiscard]] BoxSet next();
+
+ private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+}  // namespace allpairs::scene

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/elements/ElementCandidates.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "ElementBoxes.h"
+#include "Memory.h"
+#include "PairChecks.h"
+
+namespace allpairs::elements {
+namespace {
+
+/// So many pairs, and those of them that stay, are in the second-level cache when they are looked at again.
+constexpr std::size_t kBatch = 8192;
+
+/// Pairs that are worth a task of their own.
+constexpr std::size_t kPairsPerTask = std::size_t{1} << 16;
+
+/// The boxes of the elements of a kind of candidate: one set, or two.
+struct Sets {
+  BoxSet first;
+  BoxSet second;
+  bool one = true;
+};
+
+/// The pairs of a kind that were found, in memory that the next search writes over.
+struct Found {
+  engine::Buffer<Pair> pairs;
+  std::size_t size = 0;
+};
+
+/// Room for the pairs of the first search. Memory that isn't touched costs nothing, and growing costs much.
+std::size_t firstCapacity(const ElementCounts& counts) {
+  constexpr std::size_t kPairsPerElement = 128;
+  constexpr std::size_t kMost = std::size_t{1} << 24;
+  return std::min(kMost, kPairsPerElement * (counts.edges + counts.triangles + 1));
+}
+
+/// Adds the pairs that pass to what was found, many at once.
+template <class Check>
+void addSelected(std::span<const Pair> pairs, const Check& check, Executor& executor, Found& found) {
+  found.pairs.grow(found.size + pairs.size());
+  Pair* to = found.pairs.data() + found.size;
+  const std::size_t tasks = std::clamp<std::size_t>(pairs.size() / kPairsPerTask, 1, 4 * executor.concurrency());
+  std::vector<std::size_t> sizes(tasks);
+  const auto begin = [&](std::size_t task) { return pairs.size() * task / tasks; };
+  executor.run(tasks, [&](std::size_t task) {
+    sizes[task] = selectPairs(pairs.subspan(begin(task), begin(task + 1) - begin(task)), check, to + begin(task));
+  });
+  std::size_t total = sizes[0];
+  for (std::size_t task = 1; task < tasks; ++task) {
+    std::copy_n(to + begin(task), sizes[task], to + total);
+    total += sizes[task];
+  }
+  found.size += total;
+}
+
+}  // namespace
+
+struct ElementCandidates::State {
+  State(MeshTopology meshes, const CandidateOptions& wanted)
+      : topology(std::move(meshes)),
+        options(wanted),
+        corners(topology.triangles().begin(), topology.triangles().end()),
+        boxes(topology) {}
+
+  OverlapOptions engineOptions(Order order) const {
+    OverlapOptions engine;
+    engine.order = order;
+    engine.distance = options.margin;
+    engine.executor = options.executor;
+    engine.batchSize = kBatch;
+    return engine;
+  }
+
+  /// No candidates, whatever the positions.
+  [[nodiscard]] bool wantsNothing() const {
+    return !options.withinMeshes && (!options.betweenMeshes || topology.meshCount() < 2);
+  }
+
+  /// Calls `use` with the check of a kind and with the boxes to search.
+  template <class Use>
+  void visit(CandidateKind kind, Use use);
+
+  template <class Elements, class Use>
+  void visitAs(Elements elements, ElementKind first, ElementKind second, Use use);
+
+  void stream(const Sets& sets, PairVisitor visitor) {
+    sets.one ? search.stream(sets.first, visitor) : search.streamBetween(sets.first, sets.second, visitor);
+  }
+
+  std::span<const Pair> find(const Sets& sets) {
+    return sets.one ? search.find(sets.first) : search.findBetween(sets.first, sets.second);
+  }
+
+  void streamIn(Order order, CandidateKind kind, PairVisitor visitor);
+
+  [[nodiscard]] BoxTables tables(ElementKind kind) {
+    return {boxes.lanes(kind, topology).data(), boxes.exact(kind, topology).data()};
+  }
+
+  MeshTopology topology;
+  CandidateOptions options;
+  std::vector<Corners> corners;
+  ElementBoxes boxes;
+  Overlaps search;
+  SerialExecutor serial;
+  std::array<Found, 3> found;
+  std::vector<Pair> batch;
+};
+
+template <class Elements, class Use>
+void ElementCandidates::State::visitAs(Elements elements, ElementKind first, ElementKind second, Use use) {
+  const bool all = options.withinMeshes && options.betweenMeshes;
+  const bool tell = !all && topology.meshCount() > 1;
+  const MeshRule rule{tell ? topology.meshOfVertex().data() : nullptr, options.withinMeshes};
+  const auto differ = [=](Pair pair) { return !elements.share(pair) & rule.allows(elements, pair); };
+  const bool one = first == second;
+  if (options.margin != 0.0) {  // The engine compares in double.
+    use(differ, Sets{boxes.exact(first, topology), boxes.exact(second, topology), one});
+    return;
+  }
+  const Sets rounded{boxes.rounded(first, topology), boxes.rounded(second, topology), one};
+  if (boxes.roundedAreExact()) {
+    use(differ, rounded);
+  } else {
+    const BoxTables a = tables(first);
+    const BoxTables b = tables(second);
+    use([=](Pair pair) { return differ(pair) && overlapExactly(a, b, pair); }, rounded);
+  }
+}
+
+template <class Use>
+void ElementCandidates::State::visit(CandidateKind kind, Use use) {
+  if (wantsNothing()) return;
+  switch (kind) {
+    case CandidateKind::VertexFace:
+      visitAs(VertexAndFace{corners.data()}, ElementKind::Vertices, ElementKind::Faces, use);
+      break;
+    case CandidateKind::EdgeEdge:
+      visitAs(TwoEdges{topology.edges().data()}, ElementKind::Edges, ElementKind::Edges, use);
+      break;
+    case CandidateKind::FaceFace:
+      visitAs(TwoFaces{corners.data()}, ElementKind::Faces, ElementKind::Faces, use);
+      break;
+  }
+}
+
+void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVisitor visitor) {
+  search.setOptions(engineOptions(order));
+  visit(kind, [&](const auto& check, const Sets& sets) {
+    stream(sets, [&](std::span<const Pair> pairs) {
+      batch.resize(std::max(batch.size(), pairs.size()));
+      const std::size_t size = selectPairs(pairs, check, batch.data());
+      if (size != 0) visitor(std::span<const Pair>(batch).first(size));
+    });
+  });
+}
+
+ElementCandidates::ElementCandidates(MeshTopology topology, CandidateOptions options)
+    : m_state(std::make_unique<State>(std::move(topology), options)) {}
+ElementCandidates::~ElementCandidates() = default;
+ElementCandidates::ElementCandidates(ElementCandidates&&) noexcept = default;
+ElementCandidates& ElementCandidates::operator=(ElementCandidates&&) noexcept = default;
+
+const MeshTopology& ElementCandidates::topology() const noexcept { return m_state->topology; }
+
+void ElementCandidates::setPositions(std::size_t mesh, std::span<const float> start, std::span<const float> end) {
+  m_state->boxes.setPositions(m_state->topology, mesh, start, end);
+}
+
+void ElementCandidates::setPositions(std::size_t mesh, std::span<const double> start, std::span<const double> end) {
+  m_state->boxes.setPositions(m_state->topology, mesh, start, end);
+}
+
+std::span<const Pair> ElementCandidates::find(CandidateKind kind) {
+  State& state = *m_state;
+  Found& found = state.found[static_cast<std::size_t>(kind)];
+  found.size = 0;
+  if (found.pairs.capacity() == 0) found.pairs.require(firstCapacity(state.topology.counts()));
+  state.search.setOptions(state.engineOptions(state.options.order));
+  state.visit(kind, [&](const auto& check, const Sets& sets) {
+    if (state.options.order == Order::Unordered && state.options.executor == nullptr) {
+      state.stream(sets, [&](std::span<const Pair> pairs) { addSelected(pairs, check, state.serial, found); });
+    } else {
+      Executor& executor = state.options.executor != nullptr ? *state.options.executor : state.serial;
+      addSelected(state.find(sets), check, executor, found);
+    }
+  });
+  return {found.pairs.data(), found.size};
+}
+
+std::uint64_t ElementCandidates::count(CandidateKind kind) {
+  std::uint64_t count = 0;
+  m_state->streamIn(Order::Unordered, kind, [&count](std::span<const Pair> pairs) { count += pairs.size(); });
+  return count;
+}
+
+void ElementCandidates::stream(CandidateKind kind, PairVisitor visitor) {
+  m_state->streamIn(m_state->options.order, kind, visitor);
+}
+
+}  // namespace allpairs::elements

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "allpairs/Box.h"
+#include "allpairs/elements/MeshTopology.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace allpairs::elements {
+
+// Four numbers at once, in the language extension that GCC and Clang share: every processor that they know has at least
+// that, and a pair to check is too little work for more.
+using Float4 [[gnu::vector_size(16)]] = float;
+using UInt4 [[gnu::vector_size(16)]] = std::uint32_t;
+
+#if defined(__SSE2__)
+/// Whether any lane of a comparison says yes, or all do.
+template <class Mask>
+[[nodiscard]] inline bool anyLane(Mask mask) noexcept {
+  return _mm_movemask_epi8(std::bit_cast<__m128i>(mask)) != 0;
+}
+
+template <class Mask>
+[[nodiscard]] inline bool allLanes(Mask mask) noexcept {
+  return _mm_movemask_epi8(std::bit_cast<__m128i>(mask)) == 0xFFFF;
+}
+#else
+/// Whether any lane of a comparison says yes, or all do.
+template <class Mask>
+[[nodiscard]] inline bool anyLane(Mask mask) noexcept {
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(mask);
+  return (halves[0] | halves[1]) != 0;
+}
+
+template <class Mask>
+[[nodiscard]] inline bool allLanes(Mask mask) noexcept {
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(mask);
+  return (halves[0] & halves[1]) == ~std::uint64_t{0};
+}
+#endif
+
+/// The vertices of a triangle, the last of them twice.
+struct Corners {
+  UInt4 vertices;
+
+  explicit Corners(const Triangle& t) noexcept : vertices{t[0], t[1], t[2], t[2]} {}
+
+  [[nodiscard]] bool has(std::uint32_t vertex) const noexcept {
+    return anyLane(vertices == UInt4{vertex, vertex, vertex, vertex});
+  }
+
+  [[nodiscard]] bool hasAnyOf(const Corners& other) const noexcept {
+    const UInt4 turned = __builtin_shufflevector(other.vertices, other.vertices, 1, 2, 0, 0);
+    const UInt4 turnedTwice = __builtin_shufflevector(other.vertices, other.vertices, 2, 0, 1, 1);
+    return anyLane((vertices == other.vertices) | (vertices == turned) | (vertices == turnedTwice));
+  }
+};
+
+/// A float32 box whose fourth lane overlaps that of any other.
+struct LaneBounds {
+  Float4 min;
+  Float4 max;
+
+  explicit LaneBounds(const BoxF& box) noexcept
+      : min{box.min[0], box.min[1], box.min[2], 0.0F}, max{box.max[0], box.max[1], box.max[2], 1.0F} {}
+
+  /// Whether the two overlap by more than a common face, edge or corner.
+  [[nodiscard]] bool overlapsInside(const LaneBounds& other) const noexcept {
+    return allLanes((min < other.max) & (other.min < max));
+  }
+};
+
+}  // namespace allpairs::elements

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/elements/MeshTopology.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "allpairs/Error.h"
+
+namespace allpairs::elements {
+namespace {
+
+constexpr std::size_t kMostElements = std::numeric_limits<std::uint32_t>::max();
+
+[[noreturn]] void failIndex(std::size_t mesh, std::size_t triangle, std::uint32_t vertex, std::size_t vertices) {
+  throw InvalidArgument("mesh " + std::to_string(mesh) + ": triangle " + std::to_string(triangle) + " names vertex " +
+                        std::to_string(vertex) + " of " + std::to_string(vertices));
+}
+
+/// The place of each vertex's edges to larger vertices, each as often as triangles name it: place[v] to place[v + 1].
+std::vector<std::uint64_t> placesBySmallerVertex(std::span<const Triangle> triangles, std::size_t vertices) {
+  std::vector<std::uint64_t> places(vertices + 1);
+  for (const Triangle& t : triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t a = t[corner];
+      const std::uint32_t b = t[(corner + 1) % 3];
+      places[std::min(a, b)] += a != b ? 1U : 0U;
+    }
+  }
+  std::uint64_t sum = 0;
+  for (std::uint64_t& place : places) {
+    const std::uint64_t count = place;
+    place = sum;
+    sum += count;
+  }
+  return places;
+}
+
+/// The larger vertices, sorted by the smaller one. Moves each place to its end, which is where the next one began.
+std::vector<std::uint32_t> scatterLargerVertices(std::span<const Triangle> triangles,
+                                                 std::vector<std::uint64_t>& places) {
+  std::vector<std::uint32_t> larger(places.back());
+  for (const Triangle& t : triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t a = t[corner];
+      const std::uint32_t b = t[(corner + 1) % 3];
+      if (a != b) larger[places[std::min(a, b)]++] = std::max(a, b);
+    }
+  }
+  return larger;
+}
+
+using Place = std::vector<std::uint32_t>::iterator;
+
+/// Sorts a vertex's edges, which are few but for the hub of a fan.
+void sortFew(Place begin, Place end) {
+  constexpr std::ptrdiff_t kFew = 24;
+  if (end - begin > kFew) {
+    std::sort(begin, end);
+    return;
+  }
+  for (Place next = begin; next < end; ++next) {
+    const std::uint32_t value = *next;
+    Place hole = next;
+    for (; hole > begin && *(hole - 1) > value; --hole) *hole = *(hole - 1);
+    *hole = value;
+  }
+}
+
+}  // namespace
+
+MeshTopology::MeshTopology(const MeshView& mesh) : MeshTopology(std::span(&mesh, 1)) {}
+
+MeshTopology::MeshTopology(std::span<const MeshView> meshes) : m_before(1) {
+  for (const MeshView& mesh : meshes) add(mesh);
+  extractEdges();
+  if (meshes.size() < 2) return;
+  m_meshOfVertex.resize(counts().vertices);
+  for (std::size_t mesh = 0; mesh < meshCount(); ++mesh) {
+    std::fill(m_meshOfVertex.begin() + static_cast<std::ptrdiff_t>(m_before[mesh].vertices),
+              m_meshOfVertex.begin() + static_cast<std::ptrdiff_t>(m_before[mesh + 1].vertices),
+              static_cast<std::uint32_t>(mesh));
+  }
+}
+
+const ElementCounts& MeshTopology::before(std::size_t mesh) const {
+  if (mesh < m_before.size()) return m_before[mesh];
+  throw InvalidArgument("there is no mesh " + std::to_string(mesh) + " among " + std::to_string(meshCount()));
+}
+
+void MeshTopology::add(const MeshView& mesh) {
+  const std::string name = "mesh " + std::to_string(meshCount());
+  if (mesh.triangles.size() % 3 != 0) {
+    throw InvalidArgument(name + ": its triangles are " + std::to_string(mesh.triangles.size()) +
+                          " indices, which is no multiple of 3");
+  }
+  ElementCounts next = counts();
+  if (mesh.vertexCount > kMostElements - next.vertices || mesh.triangles.size() / 3 > kMostElements - next.triangles) {
+    throw InvalidArgument(name + ": more than 2^32 - 1 vertices or triangles in all");
+  }
+  const auto first = static_cast<std::uint32_t>(next.vertices);
+  const std::size_t count = mesh.triangles.size() / 3;
+  m_triangles.reserve(next.triangles + count);
+  for (std::size_t t = 0; t < count; ++t) {
+    Triangle triangle{};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t vertex = mesh.triangles[3 * t + corner];
+      if (vertex >= mesh.vertexCount) failIndex(meshCount(), t, vertex, mesh.vertexCount);
+      triangle[corner] = first + vertex;
+    }
+    m_triangles.push_back(triangle);
+  }
+  next.vertices += mesh.vertexCount;
+  next.triangles += count;
+  m_before.push_back(next);
+}
+
+/// A sort by key in two steps: by the smaller vertex in place, and each vertex's few edges by the larger one.
+void MeshTopology::extractEdges() {
+  std::vector<std::uint64_t> places = placesBySmallerVertex(m_triangles, counts().vertices);
+  std::vector<std::uint32_t> larger = scatterLargerVertices(m_triangles, places);
+  m_edges.reserve(larger.size() / 2 + 1);
+  auto begin = larger.begin();
+  std::size_t mesh = 0;
+  for (std::size_t vertex = 0; vertex < counts().vertices; ++vertex) {
+    while (vertex == m_before[mesh + 1].vertices) m_before[++mesh].edges = m_edges.size();
+    const auto end = larger.begin() + static_cast<std::ptrdiff_t>(places[vertex]);
+    sortFew(begin, end);
+    for (auto next = begin; next != end; ++next) {
+      if (next == begin || *next != *(next - 1)) m_edges.push_back({static_cast<std::uint32_t>(vertex), *next});
+    }
+    begin = end;
+  }
+  while (++mesh < m_before.size()) m_before[mesh].edges = m_edges.size();
+  if (m_edges.size() > kMostElements) throw InvalidArgument("the meshes have more than 2^32 - 1 edges");
+}
+
+}  // namespace allpairs::elements

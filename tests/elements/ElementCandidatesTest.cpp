@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/elements/ElementCandidates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "ElementOracle.h"
+#include "allpairs/Error.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "support/Boxes.h"
+
+namespace allpairs::elements {
+namespace {
+
+using test::candidatesOf;
+using test::ElementOracle;
+using test::MovingMesh;
+using test::toVector;
+using test::Wanted;
+
+/// A sheet of n by n squares, rolled up so that it meets itself, whose vertices move by about a square.
+MovingMesh rolledSheet(std::uint32_t n, unsigned seed) {
+  std::mt19937 generator(seed);
+  const auto jitter = [&] { return (static_cast<double>(generator()) * 0x1p-32 - 0.5) * 1.2; };
+  MovingMesh mesh;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    const double turn = 0.35 * i;
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      const double radius = 2.5 + 0.12 * turn;
+      mesh.start.insert(mesh.start.end(), {radius * std::cos(turn), radius * std::sin(turn), 1.0 * j});
+      if (i < n && j < n) {
+        const std::uint32_t a = i * (n + 1) + j;
+        mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, a + n + 1, a + 1, a + n + 2, a + n + 1});
+      }
+    }
+  }
+  for (const double x : mesh.start) mesh.end.push_back(x + jitter());
+  return mesh;
+}
+
+/// The same with positions that float32 holds.
+MovingMesh rounded(MovingMesh mesh) {
+  for (double& x : mesh.start) x = static_cast<double>(static_cast<float>(x));
+  for (double& x : mesh.end) x = static_cast<double>(static_cast<float>(x));
+  return mesh;
+}
+
+void expectEqual(ElementCandidates& candidates, const ElementOracle& oracle, const Wanted& wanted = {}) {
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::VertexFace)), oracle.vertexFace(wanted));
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::EdgeEdge)), oracle.edgeEdge(wanted));
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::FaceFace)), oracle.faceFace(wanted));
+}
+
+std::string messageOf(const MovingMesh& mesh) {
+  try {
+    candidatesOf({mesh});
+  } catch (const InvalidArgument& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+const MovingMesh kTriangle{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}};
+
+MovingMesh shifted(MovingMesh mesh, double x, double y, double z) {
+  const double by[] = {x, y, z};
+  for (std::size_t i = 0; i < mesh.start.size(); ++i) {
+    mesh.start[i] += by[i % 3];
+    mesh.end[i] += by[i % 3];
+  }
+  return mesh;
+}
+
+TEST(ElementCandidates, OfASheetThatMeetsItselfAreTheDoubleLoops) {
+  for (const MovingMesh& mesh : {rolledSheet(24, 1), rounded(rolledSheet(24, 2))}) {
+    const ElementOracle oracle({mesh});
+    ASSERT_GT(oracle.edgeEdge().size(), 1000U);
+    ElementCandidates candidates = candidatesOf({mesh});
+    expectEqual(candidates, oracle);
+  }
+}
+
+TEST(ElementCandidates, AreTheSameAtEveryMarginAsTheDoubleLoops) {
+  const MovingMesh mesh = rolledSheet(16, 3);
+  const ElementOracle oracle({mesh});
+  for (const double margin : {-0.3, 0.1, 1.0}) {
+    ElementCandidates candidates = candidatesOf({mesh}, {.margin = margin});
+    expectEqual(candidates, oracle, {.margin = margin});
+  }
+}
+
+TEST(ElementCandidates, OfSeveralMeshesAreWithinOrBetweenThemAsIsWanted) {
+  const std::vector<MovingMesh> meshes{rolledSheet(9, 4), shifted(rolledSheet(8, 5), 0.5, 0.25, 1.0), kTriangle};
+  const ElementOracle oracle(meshes);
+  for (const bool within : {false, true}) {
+    for (const bool between : {false, true}) {
+      ElementCandidates candidates = candidatesOf(meshes, {.withinMeshes = within, .betweenMeshes = between});
+      expectEqual(candidates, oracle, {.within = within, .between = between});
+    }
+  }
+}
+
+TEST(ElementCandidates, WithoutOrderAndInParallelAreTheSame) {
+  const MovingMesh mesh = rolledSheet(64, 6);
+  parallel::TbbExecutor executor(4);
+  for (const CandidateKind kind : {CandidateKind::VertexFace, CandidateKind::EdgeEdge, CandidateKind::FaceFace}) {
+    ElementCandidates ordered = candidatesOf({mesh});
+    const std::vector<Pair> expected = toVector(ordered.find(kind));
+    ElementCandidates parallel = candidatesOf({mesh}, {.executor = &executor});
+    EXPECT_EQ(toVector(parallel.find(kind)), expected);
+    ElementCandidates unordered = candidatesOf({mesh}, {.order = Order::Unordered});
+    std::vector<Pair> found = toVector(unordered.find(kind));
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(ordered.count(kind), expected.size());
+    std::vector<Pair> streamed;
+    ordered.stream(kind, [&](std::span<const Pair> batch) { streamed.insert(streamed.end(), batch.begin(), batch.end()); });
+    EXPECT_EQ(streamed, expected);
+  }
+}
+
+TEST(ElementCandidates, FollowTheirPositions) {
+  MovingMesh mesh = rolledSheet(10, 7);
+  ElementCandidates candidates = candidatesOf({mesh});
+  expectEqual(candidates, ElementOracle({mesh}));
+  mesh = rounded(rolledSheet(10, 8));
+  const std::vector<float> start(mesh.start.begin(), mesh.start.end());
+  const std::vector<float> end(mesh.end.begin(), mesh.end.end());
+  candidates.setPositions(0, std::span<const float>(start), end);
+  expectEqual(candidates, ElementOracle({mesh}));
+}
+
+TEST(ElementCandidates, ThatOnlyTouchAreCandidates) {
+  // The second triangle lies one further along x, where the first ends.
+  ElementCandidates candidates = candidatesOf({kTriangle, shifted(kTriangle, 1.0, 0.0, 0.0)});
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::FaceFace)), (std::vector<Pair>{{0, 1}}));
+  const double above = 1.0 + 0x1p-52;  // which float32 can't tell from 1
+  ElementCandidates apart = candidatesOf({kTriangle, shifted(kTriangle, above, 0.0, 0.0)});
+  EXPECT_EQ(toVector(apart.find(CandidateKind::FaceFace)), std::vector<Pair>());
+}
+
+TEST(ElementCandidates, SeeWhatHappensBetweenStartAndEnd) {
+  MovingMesh point{{0.25, 0.25, 5.0}, {0.25, 0.25, -5.0}, {}};
+  ElementCandidates candidates = candidatesOf({kTriangle, point});
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::VertexFace)), (std::vector<Pair>{{3, 0}}));
+}
+
+TEST(ElementCandidates, OfNumbersBeyondFloat32AreExact) {
+  MovingMesh mesh = kTriangle;
+  for (std::vector<double>* positions : {&mesh.start, &mesh.end}) {
+    for (double& x : *positions) x *= 1e300;
+  }
+  const std::vector<MovingMesh> meshes{mesh, shifted(mesh, 2e300, 0.0, 0.0), shifted(mesh, 1e300, 0.0, 0.0)};
+  ElementCandidates candidates = candidatesOf(meshes);
+  expectEqual(candidates, ElementOracle(meshes));
+}
+
+TEST(ElementCandidates, RefusePositionsOfTheWrongNumberNamingTheMesh) {
+  MovingMesh mesh = kTriangle;
+  mesh.end.resize(6);
+  EXPECT_EQ(messageOf(mesh), "mesh 0: its positions at the end are 6 numbers where 3 vertices need 9");
+}
+
+TEST(ElementCandidates, RefuseANumberThatIsNotFiniteNamingMeshAndVertex) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+    MovingMesh mesh = kTriangle;
+    mesh.start[7] = bad;
+    EXPECT_EQ(messageOf(mesh), "mesh 0: vertex 2 has a coordinate at the start that is no finite number");
+  }
+}
+
+TEST(ElementCandidates, RefuseAMeshThatIsNotThereAndAMarginThatIsNoDistance) {
+  ElementCandidates candidates = candidatesOf({kTriangle});
+  EXPECT_THROW(candidates.setPositions(1, std::span<const double>(), {}), InvalidArgument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(candidatesOf({kTriangle}, {.margin = nan}).find(CandidateKind::EdgeEdge)),
+               InvalidArgument);
+}
+
+}  // namespace
+}  // namespace allpairs::elements
