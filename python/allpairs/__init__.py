@@ -11,6 +11,7 @@ array([[0, 1],
 """
 
 from ._core import version as __version__
+from ._elements import MeshCandidates
 from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
@@ -23,6 +24,7 @@ __all__ = [
     "InvalidArgument",
     "InvalidBox",
     "LimitExceeded",
+    "MeshCandidates",
     "Model",
     "NO_BOX",
     "Remark",

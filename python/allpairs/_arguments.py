@@ -28,7 +28,7 @@ _STRATEGIES = {
 }
 
 
-def _choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
+def choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
     try:
         return choices[value]
     except (KeyError, TypeError):
@@ -36,11 +36,11 @@ def _choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
 
 
 def order_of(order: str) -> _core.Order:
-    return _choice("order", order, _ORDERS)
+    return choice("order", order, _ORDERS)
 
 
 def strategy_of(strategy: str) -> _core.Strategy:
-    return _choice("strategy", strategy, _STRATEGIES)
+    return choice("strategy", strategy, _STRATEGIES)
 
 
 def whole(name: str, value: int, least: int = 0) -> int:
@@ -95,10 +95,13 @@ def _rows(name: str, value: npt.ArrayLike) -> tuple[npt.NDArray[Any], npt.NDArra
     return array[:, :3], array[:, 3:]
 
 
-def _corner_pair(lower: npt.ArrayLike, upper: npt.ArrayLike, prefix: str) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    low, high = _corners(prefix + "lower", lower), _corners(prefix + "upper", upper)
+def corner_pair(
+    low_name: str, lower: npt.ArrayLike, high_name: str, upper: npt.ArrayLike
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    """Two arrays of shape (n, 3) and of one type."""
+    low, high = _corners(low_name, lower), _corners(high_name, upper)
     if len(low) != len(high):
-        raise InvalidArgument(f"{prefix}lower has {len(low)} rows and {prefix}upper {len(high)}")
+        raise InvalidArgument(f"{low_name} has {len(low)} rows and {high_name} {len(high)}")
     if low.dtype != high.dtype:
         low, high = low.astype(np.float64, copy=False), high.astype(np.float64, copy=False)
     return low, high
@@ -108,7 +111,10 @@ def boxes_of(
     lower: npt.ArrayLike, upper: npt.ArrayLike | None, margin: npt.ArrayLike | None, prefix: str = ""
 ) -> _core.Boxes:
     """A set of boxes; ``prefix`` is how errors call it where there are two."""
-    corners = _rows(prefix + "lower", lower) if upper is None else _corner_pair(lower, upper, prefix)
+    if upper is None:
+        corners = _rows(prefix + "lower", lower)
+    else:
+        corners = corner_pair(prefix + "lower", lower, prefix + "upper", upper)
     boxes = _core.Boxes(corners[0], corners[1], prefix)
     if margin is not None:
         margins = np.asarray(margin, dtype=np.float64)
@@ -165,19 +171,19 @@ def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Points or directions as rows of three."""
-    array = np.atleast_2d(_floats(name, value)).astype(np.float64, copy=False)
+    array: npt.NDArray[np.float64] = np.atleast_2d(_floats(name, value)).astype(np.float64, copy=False)
     if array.ndim != 2 or array.shape[1] != 3:
         raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3)")
     return array
 
 
-def pair_list(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
-    """Pairs of boxes by index."""
+def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.uint32]:
+    """Rows of indices: pairs of boxes, triangles."""
     array = _uint32(name, value)
     if array.size == 0:
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 2)")
+        array = array.reshape(0, columns)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, {columns})")
     return array
 
 

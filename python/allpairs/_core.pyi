@@ -77,6 +77,26 @@ class World:
     def first_hits(self, rays: Any, query: QueryFilter) -> tuple[IdArray, RealArray]: ...
     def nearest(self, points: Any, count: int, query: QueryFilter) -> tuple[IdArray, RealArray]: ...
 
+class CandidateKind:
+    vertex_face: CandidateKind
+    edge_edge: CandidateKind
+    face_face: CandidateKind
+
+class CandidateSettings:
+    margin: float
+    within: bool
+    between: bool
+    order: Order
+    threads: int
+
+class MeshCandidates:
+    def __init__(self, triangles: list[Any], vertex_counts: list[int], settings: CandidateSettings) -> None: ...
+    def set_positions(self, mesh: int, start: Any, end: Any) -> None: ...
+    def find(self, kind: CandidateKind) -> PairArray: ...
+    def count(self, kind: CandidateKind) -> int: ...
+    def edges(self) -> IdArray: ...
+    def triangles(self) -> IdArray: ...
+
 class DetectionOptions:
     margin: Optional[float]
     strategy: Strategy

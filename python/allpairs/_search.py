@@ -38,7 +38,7 @@ def _settings(values: dict[str, Any], one_set: bool) -> _core.Options:
     if values["region"] is not None:
         options.set_region(_arguments.region_of(values["region"]))
     if values["ignore"] is not None:
-        options.set_ignored(_arguments.pair_list("ignore", values["ignore"]), one_set)
+        options.set_ignored(_arguments.index_rows("ignore", values["ignore"], 2), one_set)
     if "order" in values:
         options.set_order(_arguments.order_of(values["order"]))
     if values.get("max_pairs") is not None:

@@ -9,6 +9,7 @@ namespace allpairs::python {
 void bindErrors(pybind11::module_& module);
 void bindArguments(pybind11::module_& module);
 void bindSearch(pybind11::module_& module);
+void bindElements(pybind11::module_& module);
 void bindScene(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 

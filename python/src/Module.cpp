@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   allpairs::python::bindErrors(module);
   allpairs::python::bindArguments(module);
   allpairs::python::bindSearch(module);
+  allpairs::python::bindElements(module);
   allpairs::python::bindScene(module);
   allpairs::python::bindWorld(module);
 }
