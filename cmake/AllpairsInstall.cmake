@@ -13,6 +13,8 @@ foreach(component IN LISTS allpairs_components)
   elseif(EXISTS "${PROJECT_SOURCE_DIR}/adapters/${component}/include")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/${component}/include/allpairs"
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  elseif(component STREQUAL "c")
+    install(FILES "${PROJECT_SOURCE_DIR}/include/allpairs.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   else()
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs/${component}"
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
@@ -21,7 +23,7 @@ endforeach()
 
 # Reads from what a library links which components of ours it stands on (NEEDS) and which packages of others its
 # installed target refers to (PACKAGES). A static library passes what it links privately on to whoever links it; a
-# shared one keeps that to itself.
+# shared one keeps that to itself; among static ones, that of C does.
 function(allpairs_read_links component)
   set(needs)
   set(packages)
@@ -30,6 +32,9 @@ function(allpairs_read_links component)
     get_target_property(links allpairs::${component} INTERFACE_LINK_LIBRARIES)
   else()
     get_target_property(links allpairs::${component} LINK_LIBRARIES)
+  endif()
+  if(type STREQUAL "SHARED_LIBRARY" AND NOT BUILD_SHARED_LIBS)
+    set(links) # the library for C holds what it links
   endif()
   foreach(link IN LISTS links)
     if(link MATCHES "^allpairs(::|_)(.+)$")
@@ -47,6 +52,31 @@ function(allpairs_read_links component)
   string(APPEND allpairs_links "set(_allpairs_needs_${component} ${needs})\n"
          "set(_allpairs_packages_${component} ${packages})\n")
   set(allpairs_links "${allpairs_links}" PARENT_SCOPE)
+  set(allpairs_needs ${needs} PARENT_SCOPE)
+  set(allpairs_packages ${packages} PARENT_SCOPE)
+endfunction()
+
+# Installs the pkg-config file of a component: allpairs.pc for the engine, allpairs-NAME.pc for another. It finds its
+# prefix by where it lies, so that it can be moved with the rest.
+function(allpairs_install_pkg_config component needs packages)
+  set(folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  cmake_path(RELATIVE_PATH CMAKE_INSTALL_LIBDIR BASE_DIRECTORY "${folder}" OUTPUT_VARIABLE lib)
+  cmake_path(RELATIVE_PATH CMAKE_INSTALL_INCLUDEDIR BASE_DIRECTORY "${folder}" OUTPUT_VARIABLE include)
+  if(component STREQUAL "allpairs")
+    set(name allpairs)
+    set(library allpairs)
+  else()
+    set(name allpairs-${component})
+    set(library allpairs_${component})
+  endif()
+  list(TRANSFORM needs PREPEND "allpairs-")
+  list(TRANSFORM needs REPLACE "^allpairs-allpairs$" "allpairs")
+  list(TRANSFORM packages TOLOWER)
+  list(TRANSFORM packages REPLACE "^hwy$" "libhwy")
+  list(JOIN needs " " needs)
+  list(JOIN packages " " packages)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/allpairs.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${folder}")
 endfunction()
 
 set(allpairs_links)
@@ -56,6 +86,7 @@ foreach(component IN LISTS allpairs_components)
     NAMESPACE allpairs::
     DESTINATION ${allpairs_package_dir})
   allpairs_read_links(${component})
+  allpairs_install_pkg_config(${component} "${allpairs_needs}" "${allpairs_packages}")
 endforeach()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/AllpairsConfig.cmake.in"
@@ -63,3 +94,5 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/AllpairsConfig.cmake.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/AllpairsConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/AllpairsConfig.cmake" "${PROJECT_BINARY_DIR}/AllpairsConfigVersion.cmake"
         DESTINATION ${allpairs_package_dir})
+
+include(AllpairsPackages)

@@ -12,6 +12,10 @@ endif()
 file(RELATIVE_PATH allpairs_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${allpairs_lib_from_bin}")
 
+# What is installed belongs to one of three: runtime (the command and shared libraries), dev (what else a program is built
+# with), python (the module). Where nothing is said it is dev.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+
 # Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend
 # on the instruction set; and without the path of the source tree in what is built.
 function(allpairs_configure target)
@@ -54,7 +58,10 @@ function(allpairs_add_library target export_name)
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
                                               "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   if(ALLPAIRS_INSTALL)
-    install(TARGETS ${target} EXPORT Allpairs_${export_name})
+    install(
+      TARGETS ${target}
+      EXPORT Allpairs_${export_name}
+      LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)
     set_property(GLOBAL APPEND PROPERTY ALLPAIRS_COMPONENTS ${export_name})
   endif()
 endfunction()
@@ -72,6 +79,15 @@ function(allpairs_add_interface target export_name)
   endif()
 endfunction()
 
+# Compiles a C program of ours as C11 with our warnings.
+function(allpairs_configure_c target)
+  set_target_properties(${target} PROPERTIES C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion)
+  if(ALLPAIRS_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
 # Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest.
 function(allpairs_add_test target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LIBRARIES")
@@ -82,12 +98,19 @@ function(allpairs_add_test target)
   gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120)
 endfunction()
 
-# Adds a program of one page, NAME.cpp, that is run as a test: it must succeed and print exactly what is in the file
-# EXPECTED (NAME.expected beside it).
+# Adds a program of one page, NAME.cpp or SOURCE, that is run as a test: it must succeed and print exactly what is in
+# the file EXPECTED (NAME.expected beside it).
 function(allpairs_add_example name)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "EXPECTED" "LIBRARIES")
-  add_executable(example_${name} ${name}.cpp)
-  allpairs_configure(example_${name})
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "EXPECTED;SOURCE" "LIBRARIES")
+  if(NOT ARG_SOURCE)
+    set(ARG_SOURCE ${name}.cpp)
+  endif()
+  add_executable(example_${name} ${ARG_SOURCE})
+  if(ARG_SOURCE MATCHES "\\.c$")
+    allpairs_configure_c(example_${name})
+  else()
+    allpairs_configure(example_${name})
+  endif()
   target_link_libraries(example_${name} PRIVATE ${ARG_LIBRARIES})
   if(NOT ARG_EXPECTED)
     set(ARG_EXPECTED "${CMAKE_CURRENT_SOURCE_DIR}/${name}.expected")

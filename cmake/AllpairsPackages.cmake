@@ -1,0 +1,53 @@
+# Debian packages of what is installed, by `cpack -G DEB` in the build folder or ./dev package: allpairs (the command and
+# shared libraries), liballpairs-dev, python3-allpairs.
+
+set(CPACK_PACKAGE_NAME allpairs)
+set(CPACK_PACKAGE_VENDOR Allpairs)
+set(CPACK_PACKAGE_CONTACT "Allpairs <allpairs@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_COMPONENTS_ALL dev)
+if(TARGET allpairs_app OR TARGET allpairs_c OR BUILD_SHARED_LIBS)
+  list(APPEND CPACK_COMPONENTS_ALL runtime)
+endif()
+if(TARGET allpairs_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src/engine" "${PROJECT_BINARY_DIR}/src/collision"
+    "${PROJECT_BINARY_DIR}/src/elements" "${PROJECT_BINARY_DIR}/src/parallel" "${PROJECT_BINARY_DIR}/src/scene" "${PROJECT_BINARY_DIR}/src/generate")
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME allpairs)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}\n The command allpairs and the shared libraries.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME liballpairs-dev)
+set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}\n Headers, libraries, and files for CMake and pkg-config.")
+if("runtime" IN_LIST CPACK_COMPONENTS_ALL)
+  set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "allpairs (= ${PROJECT_VERSION})")
+endif()
+if(NOT BUILD_SHARED_LIBS) # static libraries are linked with what they use
+  set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
+      "libhwy-dev, libtbb-dev, libassimp-dev, zlib1g-dev, libpugixml-dev, libtinyobjloader-dev, libfmt-dev, nlohmann-json3-dev")
+endif()
+
+if(TARGET allpairs_python)
+  math(EXPR allpairs_next_python "${ALLPAIRS_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-allpairs)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}\n The module for Python 3 and NumPy.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${ALLPAIRS_PYTHON_MINOR}), python3 (<< 3.${allpairs_next_python}), python3-numpy")
+  if(BUILD_SHARED_LIBS)
+    string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", allpairs (= ${PROJECT_VERSION})")
+  endif()
+endif()
+
+include(CPack)

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+//
+// The interface of Allpairs for C, and for every language that can call C. docs/c.md shows it in use.
+//
+// Every function that can fail returns a status; what went wrong is then said by allpairs_error_message(). No exception
+// leaves the library, and it never prints or aborts. Handles are made by ..._create, given back by ..._destroy, which
+// takes null too, and used by one thread at a time, unless they are const. Null where a handle or a result is asked for
+// is an ALLPAIRS_INVALID_ARGUMENT.
+//
+// Structures may grow at their end: struct_size says which of their fields the caller knows, and all fields may be 0.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// NOLINTBEGIN: names and forms are C's.
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#define ALLPAIRS_C_API
+#else
+#define ALLPAIRS_C_API __attribute__((visibility("default")))
+#endif
+
+/// How a call went.
+typedef enum allpairs_status {
+  ALLPAIRS_OK = 0,
+  ALLPAIRS_INVALID_ARGUMENT = 1,  ///< An argument or a setting that makes no sense.
+  ALLPAIRS_INVALID_BOX = 2,       ///< A box, or a value of one; allpairs_error_index() says which.
+  ALLPAIRS_LIMIT_EXCEEDED = 3,    ///< More pairs than max_pairs; allpairs_error_index() is how many had been found.
+  ALLPAIRS_STOPPED = 4,           ///< A visitor asked for no more.
+  ALLPAIRS_OUT_OF_MEMORY = 5,
+  ALLPAIRS_INTERNAL = 6  ///< Anything else: a bug, of which the message may say more.
+} allpairs_status;
+
+/// One line about the last call that failed in this thread; empty before the first one. Valid until the next failure.
+ALLPAIRS_C_API const char* allpairs_error_message(void);
+
+/// The index that belongs to the last failure in this thread: of a box, or a count of pairs; otherwise 0.
+ALLPAIRS_C_API uint64_t allpairs_error_index(void);
+
+/// The version of the library: "0.1.0".
+ALLPAIRS_C_API const char* allpairs_version(void);
+
+/// Two boxes by index. Within one set first < second; between two sets, first is of the first set.
+typedef struct allpairs_pair {
+  uint32_t first;
+  uint32_t second;
+} allpairs_pair;
+
+/// Pairs that belong to the handle that gave them.
+typedef struct allpairs_pairs {
+  const allpairs_pair* data;
+  size_t count;
+} allpairs_pairs;
+
+// Sets of boxes.
+
+/// A checked view of n boxes in the caller's memory, which must outlive it and stay unchanged while it is in use.
+///
+/// Geometry:  boxes are closed; min > max on an axis means empty; infinite bounds are allowed.
+/// Bad input: a NaN is an ALLPAIRS_INVALID_BOX.
+/// Threads:   const use from any number of threads.
+typedef struct allpairs_set allpairs_set;
+
+/// Where one corner of each box lies: coordinate `axis` of box i is data[i * box_stride + axis * axis_stride]. Strides
+/// count numbers, not bytes, and may be negative.
+typedef struct allpairs_corner_f32 {
+  const float* data;
+  ptrdiff_t box_stride;
+  ptrdiff_t axis_stride;
+} allpairs_corner_f32;
+
+typedef struct allpairs_corner_f64 {
+  const double* data;
+  ptrdiff_t box_stride;
+  ptrdiff_t axis_stride;
+} allpairs_corner_f64;
+
+/// From rows of 6: minx miny minz maxx maxy maxz, `count` rows one after the other.
+ALLPAIRS_C_API allpairs_status allpairs_set_create_f32(const float* rows, size_t count, allpairs_set** set);
+ALLPAIRS_C_API allpairs_status allpairs_set_create_f64(const double* rows, size_t count, allpairs_set** set);
+
+/// From corners in any strided layout, such as two arrays, or columns of a larger table.
+ALLPAIRS_C_API allpairs_status allpairs_set_create_strided_f32(size_t count, allpairs_corner_f32 min,
+                                                               allpairs_corner_f32 max, allpairs_set** set);
+ALLPAIRS_C_API allpairs_status allpairs_set_create_strided_f64(size_t count, allpairs_corner_f64 min,
+                                                               allpairs_corner_f64 max, allpairs_set** set);
+
+ALLPAIRS_C_API void allpairs_set_destroy(allpairs_set* set);
+
+ALLPAIRS_C_API size_t allpairs_set_size(const allpairs_set* set);
+
+/// How far every box reaches beyond its bounds, on all sides.
+ALLPAIRS_C_API allpairs_status allpairs_set_margin(allpairs_set* set, double margin);
+
+/// The same for each box, as many as there are boxes; null takes them back. The memory stays the caller's.
+ALLPAIRS_C_API allpairs_status allpairs_set_margins(allpairs_set* set, const double* margins);
+
+// Searches.
+
+typedef enum allpairs_strategy {
+  ALLPAIRS_AUTOMATIC = 0,
+  ALLPAIRS_EXHAUSTIVE = 1,  ///< Every pair is tested.
+  ALLPAIRS_BLOCKED = 2      ///< Groups of boxes are tested by their bounds before their members are.
+} allpairs_strategy;
+
+typedef enum allpairs_order {
+  ALLPAIRS_BY_FIRST = 0,   ///< Ascending by (first, second).
+  ALLPAIRS_BY_SECOND = 1,  ///< Ascending by (second, first).
+  ALLPAIRS_UNORDERED = 2   ///< As found; the same each time.
+} allpairs_order;
+
+/// As many threads as the machine runs at once.
+#define ALLPAIRS_ALL_THREADS SIZE_MAX
+
+/// What the boxes of one set say about whom they may pair with; null, or as long as the set.
+typedef struct allpairs_filter {
+  const uint32_t* categories;  ///< What a box is, as bits; null: every bit.
+  const uint32_t* masks;       ///< Which categories it accepts; null: every bit. Both of a pair must accept the other.
+  const uint32_t* groups;      ///< Boxes of the same non-zero group are no pair.
+} allpairs_filter;
+
+/// Says whether a pair that passed the rest is wanted. Called in no particular order and, with threads, from several.
+typedef bool (*allpairs_accept)(void* context, uint32_t first, uint32_t second);
+
+/// Settings of a search. All zeros, but for struct_size, are the defaults.
+typedef struct allpairs_options {
+  size_t struct_size;  ///< sizeof(allpairs_options)
+  allpairs_strategy strategy;
+  allpairs_order order;
+  double distance;         ///< Boxes at most this far apart on every axis are a pair; margins are added.
+  const double* region;    ///< Six numbers, or null: boxes outside of it are left out. Read when options are set.
+  allpairs_filter first;   ///< Of the set, or of the first of two.
+  allpairs_filter second;  ///< Of the second of two sets.
+  allpairs_accept accept;  ///< May be null.
+  void* accept_context;
+  size_t threads;      ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
+  uint64_t max_pairs;  ///< More are an ALLPAIRS_LIMIT_EXCEEDED; 0: no limit. Counting and streaming have none.
+  size_t batch_size;   ///< How many pairs a visitor gets at a time, at most; 0: 65536.
+} allpairs_options;
+
+/// The default settings.
+static inline allpairs_options allpairs_default_options(void) {
+#ifdef __cplusplus
+  allpairs_options options{};
+#else
+  allpairs_options options = {0};
+#endif
+  options.struct_size = sizeof(allpairs_options);
+  return options;
+}
+
+/// Finds overlapping boxes, and keeps its working memory from one search to the next.
+typedef struct allpairs_search allpairs_search;
+
+/// What options point to must outlive their use, but for the region. Null options are the defaults.
+ALLPAIRS_C_API allpairs_status allpairs_search_create(const allpairs_options* options, allpairs_search** search);
+ALLPAIRS_C_API allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options);
+ALLPAIRS_C_API void allpairs_search_destroy(allpairs_search* search);
+
+/// All overlapping pairs of one set, each once; valid until the next search or the end of the handle.
+ALLPAIRS_C_API allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs);
+
+/// All pairs of a box of `first` and a box of `second` that overlap.
+ALLPAIRS_C_API allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first,
+                                                     const allpairs_set* second, allpairs_pairs* pairs);
+
+/// How many pairs there are, in memory that does not depend on it.
+ALLPAIRS_C_API allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set, uint64_t* count);
+ALLPAIRS_C_API allpairs_status allpairs_count_between(allpairs_search* search, const allpairs_set* first,
+                                                      const allpairs_set* second, uint64_t* count);
+
+/// Takes pairs, a batch at a time, on the calling thread. They are valid during the call.
+typedef struct allpairs_visitor {
+  bool (*visit)(void* context, allpairs_pairs batch);  ///< false: no more; the search returns ALLPAIRS_STOPPED.
+  void* context;
+} allpairs_visitor;
+
+/// Hands the pairs of allpairs_find() to a visitor, in memory that does not depend on how many there are.
+ALLPAIRS_C_API allpairs_status allpairs_stream(allpairs_search* search, const allpairs_set* set,
+                                               allpairs_visitor visitor);
+ALLPAIRS_C_API allpairs_status allpairs_stream_between(allpairs_search* search, const allpairs_set* first,
+                                                       const allpairs_set* second, allpairs_visitor visitor);
+
+// Boxes that move.
+
+/// The id that no box has.
+#define ALLPAIRS_NO_BOX UINT32_MAX
+
+/// What a box of a world is besides its place. A pair of boxes stays if each one's mask has a bit of the other's
+/// category, they are not of the same non-zero group or owner, and not both static.
+typedef struct allpairs_properties {
+  uint32_t category;
+  uint32_t mask;
+  uint32_t group;
+  uint32_t owner;
+  double margin;
+  bool is_static;
+} allpairs_properties;
+
+/// Every category, accepting every other; no group, no owner, no margin, moving.
+static inline allpairs_properties allpairs_default_properties(void) {
+  allpairs_properties properties = {UINT32_MAX, UINT32_MAX, 0, 0, 0.0, false};
+  return properties;
+}
+
+typedef struct allpairs_world_options {
+  size_t struct_size;  ///< sizeof(allpairs_world_options)
+  double distance;
+  allpairs_accept accept;  ///< Its answer must stay the same until a box of the pair is changed or touched.
+  void* accept_context;
+  size_t threads;  ///< As in allpairs_options.
+} allpairs_world_options;
+
+/// The pairs of a step, each list ordered by (first, second), of ids; valid until the next step.
+typedef struct allpairs_step {
+  allpairs_pairs pairs;      ///< All pairs.
+  allpairs_pairs began;      ///< Those that were none in the last step.
+  allpairs_pairs persisted;  ///< Those that were.
+  allpairs_pairs ended;      ///< Those of the last step that are none now.
+} allpairs_step;
+
+/// Boxes that are added, moved and removed by id, their pairs step by step, and queries.
+///
+/// Bad input: an id that is not in the world, or a NaN, is an ALLPAIRS_INVALID_BOX; nothing of the call has been done.
+typedef struct allpairs_world allpairs_world;
+
+ALLPAIRS_C_API allpairs_status allpairs_world_create(const allpairs_world_options* options, allpairs_world** world);
+ALLPAIRS_C_API void allpairs_world_destroy(allpairs_world* world);
+
+/// Ids, and what each is given: boxes, properties.
+typedef struct allpairs_ids {
+  const uint32_t* data;
+  size_t count;
+} allpairs_ids;
+
+/// Adds boxes with the same properties (null: the defaults) and writes their ids, as many as the set has boxes. Margins
+/// of the set are not looked at.
+ALLPAIRS_C_API allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
+                                                  const allpairs_properties* properties, uint32_t* ids);
+
+/// Gives boxes new bounds: box k of the set becomes that of ids[k].
+ALLPAIRS_C_API allpairs_status allpairs_world_move(allpairs_world* world, allpairs_ids ids, const allpairs_set* boxes);
+
+/// Gives boxes the bounds that hold them from where they start to where they end.
+ALLPAIRS_C_API allpairs_status allpairs_world_move_swept(allpairs_world* world, allpairs_ids ids,
+                                                         const allpairs_set* starts, const allpairs_set* ends);
+
+ALLPAIRS_C_API allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids);
+
+/// Gives boxes other properties, as many as ids.
+ALLPAIRS_C_API allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_ids ids,
+                                                             const allpairs_properties* properties);
+
+/// Has the next step ask `accept` again about the pairs of these boxes.
+ALLPAIRS_C_API allpairs_status allpairs_world_touch(allpairs_world* world, allpairs_ids ids);
+
+ALLPAIRS_C_API size_t allpairs_world_size(const allpairs_world* world);
+ALLPAIRS_C_API bool allpairs_world_contains(const allpairs_world* world, uint32_t id);
+
+/// Writes the six bounds of a box.
+ALLPAIRS_C_API allpairs_status allpairs_world_box(const allpairs_world* world, uint32_t id, double* bounds);
+
+/// Finds the pairs of the boxes as they are now.
+ALLPAIRS_C_API allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step);
+
+/// Which boxes a query looks at: those whose category has a bit of `mask` and whose mask has a bit of `category`.
+typedef struct allpairs_query_filter {
+  uint32_t category;
+  uint32_t mask;
+  bool skip_static;
+  bool skip_moving;
+} allpairs_query_filter;
+
+/// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. Null filter: all.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
+                                                               const allpairs_query_filter* filter, allpairs_ids* ids);
+
+/// The points origin + t * direction with 0 <= t <= length.
+typedef struct allpairs_ray {
+  double origin[3];
+  double direction[3];
+  double length;
+} allpairs_ray;
+
+/// A box and the least t at which a ray meets it.
+typedef struct allpairs_hit {
+  uint32_t id;
+  double t;
+} allpairs_hit;
+
+/// The first box that a ray meets; id is ALLPAIRS_NO_BOX where there is none.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_first(allpairs_world* world, const allpairs_ray* ray,
+                                                         const allpairs_query_filter* filter, allpairs_hit* hit);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif
+
+// NOLINTEND

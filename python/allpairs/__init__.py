@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Which boxes overlap? Every pair, exactly, in order, from NumPy arrays.
+
+>>> import numpy as np
+>>> import allpairs
+>>> lower = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]])
+>>> upper = np.array([[2.0, 2.0, 2.0], [3.0, 3.0, 3.0], [4.0, 4.0, 4.0]])
+>>> allpairs.overlaps(lower, upper)
+array([[0, 1],
+       [1, 2]], dtype=uint32)
+"""
+
+from ._core import version as __version__
+from ._elements import MeshCandidates
+from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded
+from ._scene import Detection, Model, Remark, Scene, detect, load
+from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
+from ._world import NO_BOX, Step, World
+
+__all__ = [
+    "Detection",
+    "Error",
+    "FileError",
+    "InvalidArgument",
+    "InvalidBox",
+    "LimitExceeded",
+    "MeshCandidates",
+    "Model",
+    "NO_BOX",
+    "Remark",
+    "Scene",
+    "Step",
+    "World",
+    "__version__",
+    "batches",
+    "batches_between",
+    "count",
+    "count_between",
+    "detect",
+    "instruction_sets",
+    "load",
+    "overlaps",
+    "overlaps_between",
+]

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""Arguments as callers write them, made into what _core takes; arrays that fit are not copied."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, TypeVar, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import InvalidArgument, InvalidBox
+
+#: Boxes as one array of shape (n, 6), or as two of shape (n, 3).
+BoxesLike = Union[npt.ArrayLike, tuple[npt.ArrayLike, npt.ArrayLike]]
+
+Chosen = TypeVar("Chosen")
+
+_UINT32_MAX = 0xFFFFFFFF
+_EXACT_INTEGERS = 2**53  # up to here float64 holds every integer
+
+_ORDERS = {"first": _core.Order.first, "second": _core.Order.second, "unordered": _core.Order.unordered}
+_STRATEGIES = {
+    "auto": _core.Strategy.auto,
+    "exhaustive": _core.Strategy.exhaustive,
+    "blocked": _core.Strategy.blocked,
+}
+
+
+def choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
+    try:
+        return choices[value]
+    except (KeyError, TypeError):
+        raise InvalidArgument(f"{name} is {value!r}; it can be {', '.join(map(repr, choices))}") from None
+
+
+def order_of(order: str) -> _core.Order:
+    return choice("order", order, _ORDERS)
+
+
+def strategy_of(strategy: str) -> _core.Strategy:
+    return choice("strategy", strategy, _STRATEGIES)
+
+
+def whole(name: str, value: int, least: int = 0) -> int:
+    """An argument that counts something."""
+    number = operator.index(value)
+    if number < least:
+        raise InvalidArgument(f"{name} is {number}; it is at least {least}")
+    return number
+
+
+def _floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+    """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly."""
+    array = np.asarray(value)
+    native = array.dtype.newbyteorder("=")
+    if native == np.float32 or native == np.float64:
+        return array.astype(native, copy=False)
+    if array.dtype == np.float16:
+        return array.astype(np.float32)
+    if array.size == 0 and array.dtype.kind in "OV":
+        return array.astype(np.float64)
+    if array.dtype.kind not in "iub":
+        raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes float32 or float64")
+    if array.dtype.itemsize == 8 and (array > _EXACT_INTEGERS).any() | (array < -_EXACT_INTEGERS).any():
+        raise InvalidArgument(f"{name} has integers beyond 2**53, which float64 does not hold")
+    return array.astype(np.float64)
+
+
+def _plain(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The array itself where its strides are whole elements, else a copy."""
+    size = array.itemsize
+    if array.flags.aligned and all(stride % size == 0 for stride in array.strides):
+        return array
+    return np.ascontiguousarray(array)
+
+
+def _corners(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+    array = _floats(name, value)
+    if array.ndim == 1 and array.size == 0:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (n, 3)")
+    return _plain(array)
+
+
+def _rows(name: str, value: npt.ArrayLike) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    array = _floats(name, value)
+    if array.ndim == 1 and array.size == 0:
+        array = array.reshape(0, 6)
+    if array.ndim != 2 or array.shape[1] != 6:
+        raise InvalidArgument(f"{name} has shape {array.shape}; alone it takes (n, 6)")
+    array = _plain(array)
+    return array[:, :3], array[:, 3:]
+
+
+def corner_pair(
+    low_name: str, lower: npt.ArrayLike, high_name: str, upper: npt.ArrayLike
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    """Two arrays of shape (n, 3) and of one type."""
+    low, high = _corners(low_name, lower), _corners(high_name, upper)
+    if len(low) != len(high):
+        raise InvalidArgument(f"{low_name} has {len(low)} rows and {high_name} {len(high)}")
+    if low.dtype != high.dtype:
+        low, high = low.astype(np.float64, copy=False), high.astype(np.float64, copy=False)
+    return low, high
+
+
+def boxes_of(
+    lower: npt.ArrayLike, upper: npt.ArrayLike | None, margin: npt.ArrayLike | None, prefix: str = ""
+) -> _core.Boxes:
+    """A set of boxes; ``prefix`` is how errors call it where there are two."""
+    if upper is None:
+        corners = _rows(prefix + "lower", lower)
+    else:
+        corners = corner_pair(prefix + "lower", lower, prefix + "upper", upper)
+    boxes = _core.Boxes(corners[0], corners[1], prefix)
+    if margin is not None:
+        margins = np.asarray(margin, dtype=np.float64)
+        if margins.ndim == 0:
+            boxes.set_margin(float(margins))
+        else:
+            boxes.set_margins(np.ascontiguousarray(of_length(prefix + "margin", margins, len(boxes))))
+    return boxes
+
+
+def boxes_between(value: BoxesLike, margin: npt.ArrayLike | None, prefix: str) -> _core.Boxes:
+    """One of two sets: an array of shape (n, 6), or a tuple (lower, upper)."""
+    if isinstance(value, tuple):
+        if len(value) != 2:
+            raise InvalidArgument(f"{prefix}boxes are a tuple of {len(value)}; it takes (lower, upper)")
+        return boxes_of(value[0], value[1], margin, prefix)
+    return boxes_of(value, None, margin, prefix)
+
+
+def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[Any]:
+    """The array, if it has one value for each box."""
+    if values.ndim != 1 or len(values) != length:
+        raise InvalidArgument(f"{name} has shape {values.shape}; for {length} boxes it takes ({length},)")
+    return values
+
+
+def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    """Integers as uint32, the same memory where they are."""
+    array = np.asarray(value)
+    if array.size == 0:
+        array = array.astype(np.uint32)
+    if array.dtype.kind not in "iub":
+        raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes integers")
+    if array.dtype.kind == "i" or array.dtype.itemsize > 4:
+        outside = (array < 0) | (array > _UINT32_MAX)
+        if outside.any():
+            index = int(np.argwhere(outside)[0][0])
+            raise InvalidBox(f"{name}[{index}] is {array[index]}; it takes 0 to {_UINT32_MAX}", index)
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:
+    """A filter's array: one number for each box."""
+    return of_length(name, _uint32(name, value), length)
+
+
+def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    """Boxes of a world by number."""
+    array = _uint32("ids", value)
+    if array.ndim != 1:
+        raise InvalidArgument(f"ids has shape {array.shape}; it takes (k,)")
+    return array
+
+
+def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Points or directions as rows of three."""
+    array: npt.NDArray[np.float64] = np.atleast_2d(_floats(name, value)).astype(np.float64, copy=False)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3)")
+    return array
+
+
+def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.uint32]:
+    """Rows of indices: pairs of boxes, triangles."""
+    array = _uint32(name, value)
+    if array.size == 0:
+        array = array.reshape(0, columns)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, {columns})")
+    return array
+
+
+def region_of(region: npt.ArrayLike) -> list[float]:
+    """A box as six numbers, from six or from two corners."""
+    bounds = np.asarray(region, dtype=np.float64)
+    if bounds.shape not in ((6,), (2, 3)):
+        raise InvalidArgument(f"region has shape {bounds.shape}; it takes (2, 3) or (6,)")
+    return [float(bound) for bound in bounds.ravel()]
+
+
+def both(name: str, value: Any) -> tuple[Any, Any]:
+    """An argument for each of two sets: a tuple of two, or None for neither."""
+    if value is None:
+        return None, None
+    if not isinstance(value, tuple) or len(value) != 2:
+        raise InvalidArgument(f"{name} takes a tuple of two here: one for each set, or None")
+    first, second = value
+    return first, second

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: MIT
+"""Candidates of deforming triangle meshes: which vertices, edges and faces may touch during a step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Union, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _core
+from ._errors import InvalidArgument
+from ._search import Pairs
+
+_KINDS = {
+    "vertex-face": _core.CandidateKind.vertex_face,
+    "edge-edge": _core.CandidateKind.edge_edge,
+    "face-face": _core.CandidateKind.face_face,
+}
+
+
+class MeshCandidates:
+    """Finds the pairs of elements of triangle meshes that may touch while their vertices move, for continuous collision
+    detection; elements with a vertex in common are none.
+
+    Elements are numbered through: those of the first mesh, then those of the second, and so on.
+
+    Parameters
+    ----------
+    triangles : array_like, shape (k, 3), integers, or list of such arrays
+        The vertices of each triangle, of one mesh or of several.
+    vertex_count : int, or list of int
+        How many vertices each mesh has.
+    margin : float
+        Elements whose boxes are at most this far apart on every axis are candidates.
+    within, between : bool
+        Whether two elements of one mesh, and two of different meshes, are candidates.
+    order, threads
+        As in `allpairs.overlaps`.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (e, 2), uint32
+        The vertices of each edge: unique, ascending.
+    triangles : ndarray, shape (t, 3), uint32
+        The vertices of each triangle, in the order given.
+
+    Examples
+    --------
+    Two triangles, one of which falls through the other:
+
+    >>> import numpy as np
+    >>> import allpairs
+    >>> meshes = allpairs.MeshCandidates([[[0, 1, 2]], [[0, 1, 2]]], [3, 3])
+    >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    >>> meshes.set_positions(corners, mesh=0)
+    >>> meshes.set_positions(corners + [0, 0, 1], corners - [0, 0, 1], mesh=1)
+    >>> meshes.find("face-face")
+    array([[0, 1]], dtype=uint32)
+    >>> meshes.count("vertex-face"), meshes.count("edge-edge")
+    (6, 9)
+    """
+
+    def __init__(
+        self,
+        triangles: Union[npt.ArrayLike, Sequence[npt.ArrayLike]],
+        vertex_count: Union[int, Sequence[int]],
+        *,
+        margin: float = 0.0,
+        within: bool = True,
+        between: bool = True,
+        order: str = "first",
+        threads: int = 1,
+    ) -> None:
+        settings = _core.CandidateSettings()
+        settings.margin, settings.within, settings.between = margin, within, between
+        settings.order = _arguments.order_of(order)
+        settings.threads = _arguments.whole("threads", threads)
+        single = isinstance(vertex_count, (int, np.integer))
+        meshes: list[Any] = [triangles] if single else list(cast(Any, triangles))
+        counts: list[Any] = [vertex_count] if single else list(cast(Any, vertex_count))
+        if len(meshes) != len(counts):
+            raise InvalidArgument(f"triangles of {len(meshes)} meshes and vertex_count of {len(counts)}")
+        arrays = [_arguments.index_rows(f"triangles of mesh {i}", mesh, 3) for i, mesh in enumerate(meshes)]
+        numbers = [_arguments.whole("vertex_count", count) for count in counts]
+        self._core = _core.MeshCandidates(arrays, numbers, settings)
+        self.edges: npt.NDArray[np.uint32] = np.asarray(self._core.edges())
+        self.triangles: npt.NDArray[np.uint32] = np.asarray(self._core.triangles())
+
+    def set_positions(self, start: npt.ArrayLike, end: npt.ArrayLike | None = None, *, mesh: int = 0) -> None:
+        """Says where the vertices of a mesh are at the start of the step and at its end.
+
+        Parameters
+        ----------
+        start, end : array_like, shape (n, 3), float32 or float64
+            Without ``end``, they rest.
+        mesh : int
+        """
+        begin, finish = _arguments.corner_pair("start", start, "end", start if end is None else end)
+        number = _arguments.whole("mesh", mesh)
+        self._core.set_positions(number, np.ascontiguousarray(begin), np.ascontiguousarray(finish))
+
+    def find(self, kind: str) -> Pairs:
+        """All candidates of a kind, each once.
+
+        Parameters
+        ----------
+        kind : {"vertex-face", "edge-edge", "face-face"}
+
+        Returns
+        -------
+        ndarray, shape (m, 2), uint32
+            Vertex and triangle, or two edges or triangles with ``first < second``.
+        """
+        return np.asarray(self._core.find(_arguments.choice("kind", kind, _KINDS)))
+
+    def count(self, kind: str) -> int:
+        """How many candidates `find` would give, in memory that does not depend on it."""
+        return self._core.count(_arguments.choice("kind", kind, _KINDS))

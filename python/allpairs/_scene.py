@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: MIT
+"""Scenes, meshes and box arrays from files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _core
+from ._search import Pairs
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Model(NamedTuple):
+    """What a scene says of one collision model."""
+
+    name: str
+    type: str
+    elements: int
+    active: bool
+    simulated: bool
+    moving: bool
+    self_collision: bool
+    groups: tuple[int, ...]
+    contact_distance: float
+
+
+class Remark(NamedTuple):
+    """A part of the input that was left out, and why; ``line`` counts from 1 and is 0 where there is none."""
+
+    file: str
+    line: int
+    subject: str
+    reason: str
+    is_partial: bool
+
+
+class Scene:
+    """What `load` has read: n collision models, and how they are tested.
+
+    Attributes
+    ----------
+    boxes : ndarray, shape (n, 6), read-only
+        The root box of each model: float64. Of a file of boxes, the boxes as they are there, float32 or float64.
+    method : str
+        The intersection method.
+    alarm_distance : float
+        How far apart things are when they begin to be of interest.
+    region : ndarray, shape (2, 3), or None
+        Where models have to be.
+    remarks : list of Remark
+        What was left out.
+    """
+
+    def __init__(self, core: _core.Scene) -> None:
+        self._core = core
+        self.boxes: npt.NDArray[np.float32] | npt.NDArray[np.float64] = np.asarray(core)
+        self.method = core.method()
+        self.alarm_distance = core.alarm_distance()
+        bounds = core.region()
+        self.region = None if bounds is None else np.array(bounds).reshape(2, 3)
+        self.remarks = [Remark(*fields) for fields in core.remarks()]
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __getitem__(self, index: int) -> Model:
+        """The model with this index."""
+        return Model(*self._core.model(index + len(self) if index < 0 else index))
+
+    def __iter__(self) -> Iterator[Model]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"<Scene of {len(self)} models, {self.method}, alarm distance {self.alarm_distance:g}>"
+
+    @property
+    def names(self) -> list[str]:
+        """What each model is called."""
+        return [model.name for model in self]
+
+    def detect(
+        self,
+        *,
+        margin: float | None = None,
+        region: npt.ArrayLike | None = None,
+        strategy: str = "auto",
+        threads: int = 1,
+        verify: bool = False,
+    ) -> Pairs:
+        """The pairs of models that may touch, by their root boxes and by the rules of the scene.
+
+        Parameters
+        ----------
+        margin : float, optional
+            In place of the scene's alarm distance.
+        region : array_like, shape (2, 3) or (6,), optional
+            In place of the scene's region.
+        strategy, threads
+            As in `allpairs.overlaps`.
+        verify : bool
+            Also test all pairs one by one, and raise Error where the two disagree.
+
+        Returns
+        -------
+        ndarray, shape (m, 2), uint32
+            In the orientation and the order of the double loop: newest model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
+        """
+        options = _core.DetectionOptions()
+        options.margin = margin
+        options.strategy = _arguments.strategy_of(strategy)
+        options.threads = _arguments.whole("threads", threads)
+        options.verify = verify
+        if region is not None:
+            options.set_region(_arguments.region_of(region))
+        return np.asarray(self._core.detect(options))
+
+
+class Detection(NamedTuple):
+    """What `detect` gives: the scene, and the pairs of its models that may touch."""
+
+    scene: Scene
+    pairs: Pairs
+
+    @property
+    def names(self) -> list[tuple[str, str]]:
+        """The names of each pair, in the order of ``pairs``."""
+        names = self.scene.names
+        return [(names[first], names[second]) for first, second in self.pairs.tolist()]
+
+
+def load(path: Path, *, search_roots: Iterable[Path] = (), partial: bool = False) -> Scene:
+    """Reads a SOFA scene (.scn, .xml), a mesh file, a folder of mesh files, or boxes (.npy, .csv).
+
+    Parameters
+    ----------
+    path : str or path
+    search_roots : iterable of str or path
+        Folders to search for files that a scene names, after its own folder.
+    partial : bool
+        Leave out what cannot be placed, with a remark, instead of raising.
+
+    Raises
+    ------
+    FileError
+        With the file, line and column; it is a ValueError and an OSError.
+    """
+    roots = [os.fspath(root) for root in search_roots]
+    return Scene(_core.load(os.fspath(path), roots, partial))
+
+
+def detect(
+    path: Path,
+    *,
+    search_roots: Iterable[Path] = (),
+    partial: bool = False,
+    margin: float | None = None,
+    region: npt.ArrayLike | None = None,
+    strategy: str = "auto",
+    threads: int = 1,
+    verify: bool = False,
+) -> Detection:
+    """Reads a file or folder as `load` does and finds the pairs that may touch, as `Scene.detect` does.
+
+    Examples
+    --------
+    >>> import allpairs
+    >>> detection = allpairs.detect("examples/boxes.csv")
+    >>> detection.names
+    [('lamp', 'table'), ('chair', 'table')]
+    >>> detection.pairs
+    array([[1, 0],
+           [2, 0]], dtype=uint32)
+    """
+    scene = load(path, search_roots=search_roots, partial=partial)
+    pairs = scene.detect(margin=margin, region=region, strategy=strategy, threads=threads, verify=verify)
+    return Detection(scene, pairs)

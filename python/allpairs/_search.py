@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: MIT
+"""Searches over arrays of boxes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _core
+from ._arguments import BoxesLike
+
+#: Pairs by index: shape (m, 2).
+Pairs = npt.NDArray[np.uint32]
+
+#: A setting for each of two sets.
+Both = Optional[tuple[Optional[npt.ArrayLike], Optional[npt.ArrayLike]]]
+
+
+def _filter(options: _core.Options, side: _core.Side, boxes: _core.Boxes, values: dict[str, Any], prefix: str) -> None:
+    for name, setter in (
+        ("group", options.set_groups),
+        ("category", options.set_categories),
+        ("mask", options.set_masks),
+    ):
+        if values[name] is not None:
+            setter(side, _arguments.labels(prefix + name, values[name], len(boxes)))
+
+
+def _settings(values: dict[str, Any], one_set: bool) -> _core.Options:
+    """What is not about single boxes; a function that lacks a setting has no such name among its values."""
+    options = _core.Options()
+    options.set_distance(values["distance"])
+    options.set_strategy(_arguments.strategy_of(values["strategy"]))
+    options.threads = _arguments.whole("threads", values["threads"])
+    if values["region"] is not None:
+        options.set_region(_arguments.region_of(values["region"]))
+    if values["ignore"] is not None:
+        options.set_ignored(_arguments.index_rows("ignore", values["ignore"], 2), one_set)
+    if "order" in values:
+        options.set_order(_arguments.order_of(values["order"]))
+    if values.get("max_pairs") is not None:
+        options.set_max_pairs(_arguments.whole("max_pairs", values["max_pairs"]))
+    if "batch_size" in values:
+        options.set_batch_size(_arguments.whole("batch_size", values["batch_size"], least=1))
+    return options
+
+
+def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
+    boxes = _arguments.boxes_of(values["lower"], values["upper"], values["margin"])
+    options = _settings(values, one_set=True)
+    _filter(options, _core.Side.FIRST, boxes, values, "")
+    return boxes, options
+
+
+def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
+    options = _settings(values, one_set=False)
+    margins = _arguments.both("margin", values["margin"])
+    labels = {name: _arguments.both(name, values[name]) for name in ("group", "category", "mask")}
+    sets = []
+    for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
+        prefix = f"{name} set: "
+        boxes = _arguments.boxes_between(values[name], margins[i], prefix)
+        _filter(options, side, boxes, {key: pair[i] for key, pair in labels.items()}, prefix)
+        sets.append(boxes)
+    return sets[0], sets[1], options
+
+
+def overlaps(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    ignore: npt.ArrayLike | None = None,
+    order: str = "first",
+    strategy: str = "auto",
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> Pairs:
+    """All pairs of boxes that overlap, each once.
+
+    Boxes are closed: sharing a face, an edge or a corner is an overlap. The answer is exactly that of testing all
+    pairs one by one, whatever the strategy and the number of threads. A box with ``lower > upper`` on some axis is
+    empty and overlaps nothing; infinite bounds are allowed.
+
+    Parameters
+    ----------
+    lower, upper : array_like, shape (n, 3), float32 or float64
+        The corners of n boxes. Or ``lower`` alone, of shape (n, 6): a row is minx miny minz maxx maxy maxz. Any strides
+        will do, and nothing is copied unless one of the two is float32 and the other float64, or the type is another.
+        Integers are taken as float64.
+    distance : float
+        Boxes that are at most this far apart on every axis are a pair. Negative shrinks.
+    margin : float or array_like, shape (n,)
+        How far each box reaches beyond its bounds: a pair's margins are added to the distance.
+    region : array_like, shape (2, 3) or (6,)
+        Boxes outside of this box, widened by distance and margin, are left out.
+    group : array_like, shape (n,), integers 0 to 2**32 - 1
+        Boxes of the same group are no pair, unless it is 0.
+    category, mask : array_like, shape (n,), integers 0 to 2**32 - 1
+        Bits: a pair stays if each box's mask has a bit of the other's category. Without one, all bits are set.
+    ignore : array_like, shape (k, 2), integers
+        Pairs to leave out, in either orientation.
+    order : {"first", "second", "unordered"}
+        Ascending by (first, second); by (second, first); or as found, which is faster and not random either.
+    strategy : {"auto", "exhaustive", "blocked"}
+        How pairs are found. It never changes which.
+    threads : int
+        How many threads may work; 0 means as many as the machine runs at once. It never changes the result.
+    max_pairs : int, optional
+        More pairs than this raise LimitExceeded.
+
+    Returns
+    -------
+    ndarray, shape (m, 2), uint32
+        The indices of each pair, ``first < second``.
+
+    Raises
+    ------
+    InvalidBox
+        A NaN, or a number that does not fit; ``error.index`` says of which box.
+    InvalidArgument
+        An array of another shape or type, or a setting that makes no sense. Both are ValueErrors.
+
+    Notes
+    -----
+    Other Python threads run during the search; they must not change the arrays meanwhile.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> lower = np.array([[0, 0, 0], [1, 1, 1], [3, 3, 3], [9, 9, 9]], dtype=np.float32)
+    >>> upper = lower + 2
+    >>> allpairs.overlaps(lower, upper)
+    array([[0, 1],
+           [1, 2]], dtype=uint32)
+    >>> allpairs.overlaps(np.hstack([lower, upper]), distance=4)
+    array([[0, 1],
+           [0, 2],
+           [1, 2],
+           [2, 3]], dtype=uint32)
+    >>> allpairs.overlaps(lower, upper, ignore=[[1, 0]])
+    array([[1, 2]], dtype=uint32)
+    """
+    boxes, options = _one(locals())
+    return np.asarray(_core.overlaps(boxes, options))
+
+
+def overlaps_between(
+    first: BoxesLike,
+    second: BoxesLike,
+    *,
+    distance: float = 0.0,
+    margin: Both = None,
+    region: npt.ArrayLike | None = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
+    ignore: npt.ArrayLike | None = None,
+    order: str = "first",
+    strategy: str = "auto",
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> Pairs:
+    """All pairs of a box of one set and a box of another that overlap.
+
+    Parameters
+    ----------
+    first, second : array_like, shape (n, 6), or tuple of two array_like of shape (n, 3)
+        Each set as one array, or as ``(lower, upper)``; float32 or float64, also one of each.
+    margin, group, category, mask : tuple of two, optional
+        What `overlaps` takes, for the first set and for the second; None leaves one out.
+    ignore : array_like, shape (k, 2), integers
+        Pairs (first, second) to leave out.
+
+    The other parameters, and what is raised, are those of `overlaps`.
+
+    Returns
+    -------
+    ndarray, shape (m, 2), uint32
+        In each row an index into the first set and one into the second.
+
+    Examples
+    --------
+    >>> import allpairs
+    >>> parts = [[0, 0, 0, 1, 1, 1], [5, 0, 0, 6, 1, 1]]
+    >>> shelves = ([[-1, -1, -1]], [[5, 5, 0]])
+    >>> allpairs.overlaps_between(parts, shelves)
+    array([[0, 0],
+           [1, 0]], dtype=uint32)
+    >>> allpairs.overlaps_between(parts, shelves, group=([7, 0], [7]))
+    array([[1, 0]], dtype=uint32)
+    """
+    a, b, options = _two(locals())
+    return np.asarray(_core.overlaps_between(a, b, options))
+
+
+def count(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    ignore: npt.ArrayLike | None = None,
+    strategy: str = "auto",
+    threads: int = 1,
+) -> int:
+    """How many pairs `overlaps` would give, in memory that does not depend on it.
+
+    The parameters are those of `overlaps`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> corners = np.arange(12.0).reshape(4, 3)
+    >>> allpairs.count(corners, corners + 3)
+    3
+    """
+    boxes, options = _one(locals())
+    return _core.count(boxes, options)
+
+
+def count_between(
+    first: BoxesLike,
+    second: BoxesLike,
+    *,
+    distance: float = 0.0,
+    margin: Both = None,
+    region: npt.ArrayLike | None = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
+    ignore: npt.ArrayLike | None = None,
+    strategy: str = "auto",
+    threads: int = 1,
+) -> int:
+    """How many pairs `overlaps_between` would give, in memory that does not depend on it.
+
+    The parameters are those of `overlaps_between`.
+
+    Examples
+    --------
+    >>> import allpairs
+    >>> allpairs.count_between([[0, 0, 0, 1, 1, 1]], [[1, 1, 1, 2, 2, 2], [3, 3, 3, 4, 4, 4]])
+    1
+    """
+    a, b, options = _two(locals())
+    return _core.count_between(a, b, options)
+
+
+def _iterate(stream: _core.Batches) -> Iterator[Pairs]:
+    try:
+        while (batch := stream.next()) is not None:
+            yield np.asarray(batch)
+    finally:
+        stream.close()
+
+
+def batches(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    ignore: npt.ArrayLike | None = None,
+    order: str = "first",
+    strategy: str = "auto",
+    threads: int = 1,
+    batch_size: int = 65536,
+) -> Iterator[Pairs]:
+    """The pairs of `overlaps`, a batch at a time, in memory that does not depend on how many there are.
+
+    The search runs in a thread of its own, at most two batches ahead of its reader. Leaving the loop early ends it.
+
+    Parameters
+    ----------
+    batch_size : int
+        How many pairs a batch has at most.
+
+    The other parameters, and what is raised, are those of `overlaps`.
+
+    Yields
+    ------
+    ndarray, shape (m, 2), uint32
+        One after the other, these are the rows that `overlaps` returns.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> boxes = np.zeros((1000, 6))  # all in one place: 499,500 pairs
+    >>> sum(len(batch) for batch in allpairs.batches(boxes))
+    499500
+    """
+    boxes, options = _one(locals())
+    return _iterate(_core.Batches(boxes, None, options))
+
+
+def batches_between(
+    first: BoxesLike,
+    second: BoxesLike,
+    *,
+    distance: float = 0.0,
+    margin: Both = None,
+    region: npt.ArrayLike | None = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
+    ignore: npt.ArrayLike | None = None,
+    order: str = "first",
+    strategy: str = "auto",
+    threads: int = 1,
+    batch_size: int = 65536,
+) -> Iterator[Pairs]:
+    """The pairs of `overlaps_between`, a batch at a time, as `batches` gives those of one set.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> [batch.shape for batch in allpairs.batches_between(np.zeros((3, 6)), np.zeros((2, 6)), batch_size=4)]
+    [(4, 2), (2, 2)]
+    """
+    a, b, options = _two(locals())
+    return _iterate(_core.Batches(a, b, options))
+
+
+def instruction_sets() -> tuple[str, ...]:
+    """The instruction sets that this processor has and the module carries; the first is in use."""
+    return _core.instruction_sets()

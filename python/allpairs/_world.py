@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: MIT
+"""Boxes that move: their pairs step by step, and queries."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _core
+from ._search import Pairs
+
+#: Boxes of a World by number: shape (n,).
+Ids = npt.NDArray[np.uint32]
+
+#: The id that no box has.
+NO_BOX: int = _core.NO_BOX
+
+
+class Step(NamedTuple):
+    """The pairs of a step, each array of shape (m, 2), uint32, in ascending order, with ``first < second``."""
+
+    pairs: Pairs
+    """All pairs."""
+    began: Pairs
+    """Those that were none in the last step."""
+    persisted: Pairs
+    """Those that were."""
+    ended: Pairs
+    """Those of the last step that are none now; a box in it may have been removed."""
+
+
+def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
+    """Fields of boxes from numbers or arrays; what is None keeps its default."""
+    properties = _core.Properties(size)
+    for name, setter in (
+        ("category", properties.set_category),
+        ("mask", properties.set_mask),
+        ("group", properties.set_group),
+        ("owner", properties.set_owner),
+        ("static", properties.set_static),
+    ):
+        if values[name] is not None:
+            setter(_arguments.labels(name, _spread(values[name], size), size))
+    if values["margin"] is not None:
+        margins = np.ascontiguousarray(_spread(values["margin"], size), dtype=np.float64)
+        properties.set_margin(_arguments.of_length("margin", margins, size))
+    return properties
+
+
+def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
+    """One value for all boxes, or the array as it is."""
+    return np.broadcast_to(value, (size,)) if np.ndim(value) == 0 else value
+
+
+def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
+    query = _core.QueryFilter()
+    query.category, query.mask = values["category"], values["mask"]
+    query.static, query.moving = values["static"], values["moving"]
+    return query
+
+
+class World:
+    """Boxes that are added, moved and removed by id, their overlapping pairs step by step, and queries.
+
+    Each step costs what has changed since the last one. Boxes are closed, as everywhere.
+
+    Parameters
+    ----------
+    distance : float
+        Boxes that are at most this far apart on every axis are a pair.
+    threads : int
+        How many threads may work; 0 means as many as the machine runs at once. It never changes a result.
+
+    Examples
+    --------
+    >>> import allpairs
+    >>> world = allpairs.World()
+    >>> ids = world.add([[0, 0, 0], [2, 0, 0], [9, 0, 0]], [[1, 1, 1], [3, 1, 1], [10, 1, 1]])
+    >>> ids
+    array([0, 1, 2], dtype=uint32)
+    >>> world.step().pairs
+    array([], shape=(0, 2), dtype=uint32)
+    >>> world.move(ids[1:2], [[8, 0, 0, 9, 1, 1]])
+    >>> world.step().began
+    array([[1, 2]], dtype=uint32)
+    >>> world.remove([2])
+    >>> world.step().ended
+    array([[1, 2]], dtype=uint32)
+    """
+
+    def __init__(self, *, distance: float = 0.0, threads: int = 1) -> None:
+        self._core = _core.World(distance, _arguments.whole("threads", threads))
+
+    def add(
+        self,
+        lower: npt.ArrayLike,
+        upper: npt.ArrayLike | None = None,
+        *,
+        category: npt.ArrayLike | None = None,
+        mask: npt.ArrayLike | None = None,
+        group: npt.ArrayLike | None = None,
+        owner: npt.ArrayLike | None = None,
+        margin: npt.ArrayLike | None = None,
+        static: npt.ArrayLike | None = None,
+    ) -> Ids:
+        """Adds boxes.
+
+        Parameters
+        ----------
+        lower, upper : array_like, shape (n, 3), or one of shape (n, 6)
+            As in `allpairs.overlaps`. They are copied.
+        category, mask : int or array_like, shape (n,)
+            Bits: a pair stays if each box's mask has a bit of the other's category. All bits are set by default.
+        group, owner : int or array_like, shape (n,)
+            Boxes of the same group are no pair, nor are those of the same owner, unless it is 0.
+        margin : float or array_like, shape (n,)
+            How far each box reaches beyond its bounds.
+        static : bool or array_like, shape (n,)
+            Static boxes are never a pair with each other. They may be moved all the same.
+
+        Returns
+        -------
+        ndarray, shape (n,), uint32
+            The ids of the boxes. Those of removed boxes are given again.
+        """
+        boxes = _arguments.boxes_of(lower, upper, None)
+        return np.asarray(self._core.add(boxes, _properties(len(boxes), locals())))
+
+    def move(self, ids: npt.ArrayLike, lower: npt.ArrayLike, upper: npt.ArrayLike | None = None) -> None:
+        """Gives boxes new bounds.
+
+        Parameters
+        ----------
+        ids : array_like, shape (k,), integers
+        lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
+        """
+        self._core.move(_arguments.ids(ids), _arguments.boxes_of(lower, upper, None))
+
+    def move_swept(
+        self, ids: npt.ArrayLike, starts: _arguments.BoxesLike, ends: _arguments.BoxesLike
+    ) -> None:
+        """Gives boxes the bounds that hold them on their way through a step.
+
+        Parameters
+        ----------
+        ids : array_like, shape (k,), integers
+        starts, ends : array_like, shape (k, 6), or tuple of two array_like of shape (k, 3)
+        """
+        begin = _arguments.boxes_between(starts, None, "starts: ")
+        self._core.move_swept(_arguments.ids(ids), begin, _arguments.boxes_between(ends, None, "ends: "))
+
+    def remove(self, ids: npt.ArrayLike) -> None:
+        """Removes boxes; their pairs are among those that ended at the next step.
+
+        Parameters
+        ----------
+        ids : array_like, shape (k,), integers
+        """
+        self._core.remove(_arguments.ids(ids))
+
+    def set_properties(
+        self,
+        ids: npt.ArrayLike,
+        *,
+        category: npt.ArrayLike | None = None,
+        mask: npt.ArrayLike | None = None,
+        group: npt.ArrayLike | None = None,
+        owner: npt.ArrayLike | None = None,
+        margin: npt.ArrayLike | None = None,
+        static: npt.ArrayLike | None = None,
+    ) -> None:
+        """Gives boxes other properties, all of them: what is not named gets its default. They are those of `add`."""
+        chosen = _arguments.ids(ids)
+        self._core.set_properties(chosen, _properties(len(chosen), locals()))
+
+    def __len__(self) -> int:
+        return self._core.size()
+
+    def __contains__(self, id: int) -> bool:
+        return self._core.contains(id)
+
+    def boxes(self, ids: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The bounds of boxes.
+
+        Parameters
+        ----------
+        ids : array_like, shape (k,), integers
+
+        Returns
+        -------
+        ndarray, shape (k, 6), float64
+        """
+        return np.asarray(self._core.boxes(_arguments.ids(ids)))
+
+    def step(self) -> Step:
+        """The pairs of the boxes as they are now, and what has changed since the last step."""
+        return Step(*map(np.asarray, self._core.step()))
+
+    def overlapping(
+        self,
+        lower: npt.ArrayLike,
+        upper: npt.ArrayLike | None = None,
+        *,
+        category: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+        static: bool = True,
+        moving: bool = True,
+    ) -> Pairs:
+        """Which boxes overlap each of some others.
+
+        Parameters
+        ----------
+        lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
+        category, mask : int
+            Only boxes whose category has a bit of ``mask`` and whose mask has a bit of ``category``.
+        static, moving : bool
+            Whether to look at static boxes, and at others.
+
+        Returns
+        -------
+        ndarray, shape (m, 2), uint32
+            In each row the index of a query and the id of a box, in ascending order.
+        """
+        query = _query_filter(locals())
+        return np.asarray(self._core.overlapping(_arguments.boxes_of(lower, upper, None), query))
+
+    def first_hits(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        length: npt.ArrayLike = np.inf,
+        *,
+        category: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+        static: bool = True,
+        moving: bool = True,
+    ) -> tuple[Ids, npt.NDArray[np.float64]]:
+        """The first box that each ray meets.
+
+        Parameters
+        ----------
+        origins, directions : array_like, shape (k, 3) or (3,)
+        length : float or array_like, shape (k,)
+            Rays end at ``origin + length * direction``.
+
+        The others are those of `overlapping`.
+
+        Returns
+        -------
+        ids : ndarray, shape (k,), uint32
+            NO_BOX where a ray meets none.
+        t : ndarray, shape (k,), float64
+            How far along, in units of the direction; infinity where there is none.
+        """
+        query = _query_filter(locals())
+        start, way = _arguments.points("origins", origins), _arguments.points("directions", directions)
+        start, way = np.broadcast_arrays(start, way)
+        end = np.broadcast_to(np.asarray(length, dtype=np.float64), (len(start),))
+        ids, t = self._core.first_hits(np.column_stack([start, way, end]), query)
+        return np.asarray(ids), np.asarray(t)
+
+    def nearest(
+        self,
+        points: npt.ArrayLike,
+        k: int = 1,
+        *,
+        category: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+        static: bool = True,
+        moving: bool = True,
+    ) -> tuple[Ids, npt.NDArray[np.float64]]:
+        """The boxes nearest to each point, by Euclidean distance; 0 inside of a box.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3) or (3,)
+        k : int
+
+        The others are those of `overlapping`.
+
+        Returns
+        -------
+        ids : ndarray, shape (n, k), uint32
+            NO_BOX where there are fewer boxes than k.
+        distances : ndarray, shape (n, k), float64
+        """
+        query = _query_filter(locals())
+        count = _arguments.whole("k", k, least=1)
+        ids, distances = self._core.nearest(np.ascontiguousarray(_arguments.points("points", points)), count, query)
+        return np.asarray(ids), np.asarray(distances)

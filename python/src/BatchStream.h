@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "allpairs/Overlaps.h"
+
+namespace allpairs::python {
+
+/// Turns a search that hands over batches into one that is asked for them: the search runs in a thread of its own and
+/// waits whenever a batch has not been fetched yet, so that at most two are held.
+///
+/// Threads: next() and close() from one thread at a time.
+class BatchStream {
+ public:
+  using Search = std::function<void(PairVisitor)>;
+
+  explicit BatchStream(Search search);
+  BatchStream(const BatchStream&) = delete;
+  BatchStream& operator=(const BatchStream&) = delete;
+  BatchStream(BatchStream&&) = delete;
+  BatchStream& operator=(BatchStream&&) = delete;
+  ~BatchStream();
+
+  /// The next batch; nothing after the last. What the search throws is thrown here, once.
+  [[nodiscard]] std::optional<std::vector<Pair>> next();
+
+  /// Ends the search before its end; next() gives nothing from then on.
+  void close() noexcept;
+
+ private:
+  struct Stopped {};
+
+  void run(const Search& search) noexcept;
+  void put(std::span<const Pair> batch);
+
+  std::mutex m_mutex;
+  std::condition_variable m_changed;
+  std::optional<std::vector<Pair>> m_batch;
+  std::exception_ptr m_error;
+  bool m_done = false;
+  bool m_stop = false;
+  std::thread m_thread;
+};
+
+}  // namespace allpairs::python

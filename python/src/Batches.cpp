@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "Batches.h"
+
+#include <utility>
+
+namespace allpairs::python {
+namespace py = pybind11;
+
+Batches::Batches(std::shared_ptr<Boxes> first, std::shared_ptr<Boxes> second, std::shared_ptr<Options> options)
+    : m_first(std::move(first)), m_second(std::move(second)), m_options(std::move(options)) {
+  m_stream = std::make_unique<BatchStream>([this](PairVisitor visitor) {
+    const BoxSet& boxes = m_first->set();
+    if (m_second) {
+      const BoxSet& others = m_second->set();
+      streamOverlapsBetween(boxes, others, visitor, m_options->withExecutor(boxes.size() + others.size()));
+    } else {
+      streamOverlaps(boxes, visitor, m_options->withExecutor(boxes.size()));
+    }
+  });
+}
+
+Batches::~Batches() { close(); }
+
+std::unique_ptr<PairArray> Batches::next() {
+  std::optional<std::vector<Pair>> batch;
+  {
+    const py::gil_scoped_release release;
+    batch = m_stream->next();
+  }
+  return batch ? toPython(std::move(*batch)) : nullptr;
+}
+
+void Batches::close() {
+  const py::gil_scoped_release release;
+  m_stream->close();
+}
+
+}  // namespace allpairs::python

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "BatchStream.h"
+#include "Boxes.h"
+#include "Options.h"
+#include "PairArray.h"
+
+namespace allpairs::python {
+
+/// The batches of one search, for Python to fetch; keeps what the search reads alive.
+class Batches {
+ public:
+  /// `second` is null for pairs of one set.
+  Batches(std::shared_ptr<Boxes> first, std::shared_ptr<Boxes> second, std::shared_ptr<Options> options);
+  Batches(const Batches&) = delete;
+  Batches& operator=(const Batches&) = delete;
+  Batches(Batches&&) = delete;
+  Batches& operator=(Batches&&) = delete;
+  ~Batches();
+
+  /// Null after the last batch.
+  [[nodiscard]] std::unique_ptr<PairArray> next();
+  void close();
+
+ private:
+  std::shared_ptr<Boxes> m_first;
+  std::shared_ptr<Boxes> m_second;
+  std::shared_ptr<Options> m_options;
+  std::unique_ptr<BatchStream> m_stream;
+};
+
+}  // namespace allpairs::python

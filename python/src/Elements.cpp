@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Candidates of deforming triangle meshes.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "Arguments.h"
+#include "Bindings.h"
+#include "NumberArray.h"
+#include "PairArray.h"
+#include "allpairs/Error.h"
+#include "allpairs/elements/ElementCandidates.h"
+#include "allpairs/parallel/TbbExecutor.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+using elements::CandidateKind;
+
+/// What a search for candidates is told before it starts.
+struct CandidateSettings {
+  double margin = 0.0;
+  bool within = true;
+  bool between = true;
+  Order order = Order::ByFirst;
+  std::size_t threads = 1;
+};
+
+/// Rows of indices as one array of numbers.
+template <class Rows>
+std::vector<std::uint32_t> flat(const Rows& rows) {
+  std::vector<std::uint32_t> values;
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return values;
+}
+
+/// ElementCandidates that Python may use from several threads, which wait for each other without the GIL.
+class MeshCandidates {
+ public:
+  using Indices = std::unique_ptr<NumberArray<std::uint32_t>>;
+
+  /// A buffer of triangles, (k, 3), for each mesh, and how many vertices each has.
+  MeshCandidates(const std::vector<py::buffer>& triangles, const std::vector<std::size_t>& vertexCounts,
+                 const CandidateSettings& settings)
+      : m_executor(settings.threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(settings.threads)),
+        m_candidates(topologyOf(triangles, vertexCounts), {.margin = settings.margin,
+                                                           .withinMeshes = settings.within,
+                                                           .betweenMeshes = settings.between,
+                                                           .order = settings.order,
+                                                           .executor = m_executor.get()}) {}
+
+  /// Contiguous buffers of shape (n, 3), both float32 or both float64.
+  void setPositions(std::size_t mesh, const py::buffer& start, const py::buffer& end) {
+    const bool single = isFloat32(start);
+    const py::buffer_info from = requestBuffer(start, {single ? "f" : "d", 3});
+    const py::buffer_info to = requestBuffer(end, {single ? "f" : "d", 3});
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(m_mutex);
+    if (single) {
+      m_candidates.setPositions(mesh, valuesOf<float>(from), valuesOf<float>(to));
+    } else {
+      m_candidates.setPositions(mesh, valuesOf<double>(from), valuesOf<double>(to));
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<PairArray> find(CandidateKind kind) {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(m_mutex);
+    const std::span<const Pair> pairs = m_candidates.find(kind);
+    return toPython({pairs.begin(), pairs.end()});
+  }
+
+  [[nodiscard]] std::uint64_t count(CandidateKind kind) {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(m_mutex);
+    return m_candidates.count(kind);
+  }
+
+  [[nodiscard]] Indices edges() const {
+    return std::make_unique<NumberArray<std::uint32_t>>(flat(m_candidates.topology().edges()), 2);
+  }
+
+  [[nodiscard]] Indices triangles() const {
+    return std::make_unique<NumberArray<std::uint32_t>>(flat(m_candidates.topology().triangles()), 3);
+  }
+
+ private:
+  static elements::MeshTopology topologyOf(const std::vector<py::buffer>& triangles,
+                                           const std::vector<std::size_t>& vertexCounts) {
+    if (triangles.size() != vertexCounts.size()) throw InvalidArgument("as many vertex counts as meshes");
+    std::vector<py::buffer_info> held;
+    std::vector<elements::MeshView> meshes;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      held.push_back(requestBuffer(triangles[i], {"I", 3}));
+      meshes.push_back({vertexCounts[i], valuesOf<std::uint32_t>(held.back())});
+    }
+    const py::gil_scoped_release release;
+    return elements::MeshTopology(std::span<const elements::MeshView>(meshes));
+  }
+
+  std::mutex m_mutex;
+  std::unique_ptr<Executor> m_executor;
+  elements::ElementCandidates m_candidates;
+};
+
+}  // namespace
+
+void bindElements(py::module_& module) {
+  py::enum_<CandidateKind>(module, "CandidateKind")
+      .value("vertex_face", CandidateKind::VertexFace)
+      .value("edge_edge", CandidateKind::EdgeEdge)
+      .value("face_face", CandidateKind::FaceFace);
+  py::class_<CandidateSettings>(module, "CandidateSettings")
+      .def(py::init<>())
+      .def_readwrite("margin", &CandidateSettings::margin)
+      .def_readwrite("within", &CandidateSettings::within)
+      .def_readwrite("between", &CandidateSettings::between)
+      .def_readwrite("order", &CandidateSettings::order)
+      .def_readwrite("threads", &CandidateSettings::threads);
+  py::class_<MeshCandidates>(module, "MeshCandidates")
+      .def(py::init<const std::vector<py::buffer>&, const std::vector<std::size_t>&, const CandidateSettings&>())
+      .def("set_positions", &MeshCandidates::setPositions)
+      .def("find", &MeshCandidates::find)
+      .def("count", &MeshCandidates::count)
+      .def("edges", &MeshCandidates::edges)
+      .def("triangles", &MeshCandidates::triangles);
+}
+
+}  // namespace allpairs::python

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// C++ exceptions become those of allpairs._errors, which are plain Python.
+#include <exception>
+
+#include "Bindings.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+/// Sets Python's error to an exception of allpairs._errors.
+template <class... Arguments>
+void raise(const char* name, Arguments&&... arguments) {
+  const py::object type = py::module_::import("allpairs._errors").attr(name);
+  const py::object error = type(std::forward<Arguments>(arguments)...);
+  PyErr_SetObject(type.ptr(), error.ptr());
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const InvalidBox& error) {
+    raise("InvalidBox", error.what(), error.index());
+  } catch (const LimitExceeded& error) {
+    raise("LimitExceeded", error.what(), error.count());
+  } catch (const FileError& error) {
+    raise("FileError", error.what(), error.path().string(), error.line(), error.column());
+  } catch (const InvalidArgument& error) {
+    raise("InvalidArgument", error.what());
+  } catch (const Error& error) {
+    raise("Error", error.what());
+  }
+}
+
+}  // namespace
+
+void bindErrors(py::module_& /*module*/) { py::register_local_exception_translator(translate); }
+
+}  // namespace allpairs::python

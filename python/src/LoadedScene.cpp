@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "LoadedScene.h"
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "allpairs/Overlaps.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/collision/CollisionPipeline.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/ReadInput.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+using collision::CollisionModel;
+using Content = std::variant<scene::Scene, scene::BoxArray>;
+
+std::vector<CollisionModel*> modelsOf(const scene::Scene& scene) {
+  std::vector<CollisionModel*> models;
+  models.reserve(scene.models.size());
+  for (const auto& model : scene.models) models.push_back(model.get());
+  return models;
+}
+
+scene::Scene withRootBoxes(scene::Scene scene) {
+  collision::CollisionPipeline pipeline;
+  collision::BruteForceBroadPhase broadPhase;
+  pipeline.setIntersectionMethod(scene.intersection.get());
+  pipeline.setBroadPhase(&broadPhase);
+  pipeline.computeBoundingTrees(modelsOf(scene), scene.timeStep);
+  return scene;
+}
+
+Content read(const std::filesystem::path& path, const scene::ReadOptions& options) {
+  std::error_code ignored;
+  if (scene::isBoxArrayFile(path) && !std::filesystem::is_directory(path, ignored)) {
+    return scene::readBoxArray(path, options);
+  }
+  return withRootBoxes(scene::readInput(path, options));
+}
+
+scene::ModelRecord recordOf(const CollisionModel& model) {
+  const CollisionModel& elements = *model.getLast();
+  const bool hasRoot = !elements.empty() && elements.hasBoundingTree();
+  return {.name = elements.getName(),
+          .type = std::string(elements.typeName()),
+          .elements = elements.getSize(),
+          .box = hasRoot ? elements.getFirst()->elementBox(0) : kEmptyBox,
+          .active = elements.isActive(),
+          .simulated = elements.isSimulated(),
+          .moving = elements.isMoving(),
+          .selfCollision = elements.getSelfCollision(),
+          .groups = elements.getGroups(),
+          .contactDistance = elements.getContactDistance()};
+}
+
+/// The six columns of a file's boxes as they lie in memory: the max corners are behind the min corners in each.
+template <class T>
+py::buffer_info columnsOf(const BoxSet::Corners<T>& corners, std::size_t size) {
+  constexpr py::ssize_t kSize = sizeof(T);
+  return {const_cast<T*>(corners.min.data),
+          kSize,
+          py::format_descriptor<T>::format(),
+          2,
+          {static_cast<py::ssize_t>(size), py::ssize_t{6}},
+          {corners.min.boxStride * kSize, corners.min.axisStride * kSize},
+          true};
+}
+
+std::unique_ptr<Executor> executorOf(std::size_t threads) {
+  return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
+}
+
+std::vector<Pair> detectBoxes(const BoxSet& boxes, const DetectionOptions& options) {
+  const std::unique_ptr<Executor> executor = executorOf(options.threads);
+  OverlapOptions engine;
+  engine.strategy = options.strategy;
+  engine.order = Order::BySecond;
+  engine.distance = options.margin.value_or(0.0);
+  engine.region = options.region;
+  engine.executor = executor.get();
+  std::vector<Pair> pairs = overlaps(boxes, engine);
+  for (Pair& pair : pairs) std::swap(pair.first, pair.second);
+  return pairs;
+}
+
+/// Models by their last levels, since a pair may name them by any level.
+std::vector<Pair> indexed(const std::vector<collision::CollisionModelPair>& pairs,
+                          const std::vector<CollisionModel*>& models) {
+  std::unordered_map<const CollisionModel*, std::uint32_t> indices;
+  for (std::uint32_t i = 0; i < models.size(); ++i) indices.emplace(models[i]->getLast(), i);
+  std::vector<Pair> result;
+  result.reserve(pairs.size());
+  for (const auto& [first, second] : pairs) {
+    result.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
+  }
+  return result;
+}
+
+std::vector<Pair> runPipeline(const scene::Scene& scene, const DetectionOptions& options) {
+  const std::unique_ptr<Executor> executor = executorOf(options.threads);
+  collision::BruteForceBroadPhase broadPhase;
+  const std::optional<Box> region = options.region ? options.region : scene.region;
+  if (region) broadPhase.setBox(*region);
+  broadPhase.setStrategy(options.strategy);
+  broadPhase.setExecutor(executor.get());
+  collision::CollisionPipeline pipeline;
+  pipeline.setIntersectionMethod(scene.intersection.get());
+  pipeline.setBroadPhase(&broadPhase);
+  const std::vector<CollisionModel*> models = modelsOf(scene);
+  const auto& pairs = pipeline.step(models, scene.timeStep);
+  if (options.verify) broadPhase.verify();
+  return indexed(pairs, models);
+}
+
+/// Gives the method another alarm distance, until the end of the scope.
+class AlarmDistance {
+ public:
+  AlarmDistance(collision::Intersection& method, std::optional<double> distance)
+      : m_method(method), m_before(method.getAlarmDistance()) {
+    if (distance) m_method.setAlarmDistance(*distance);
+  }
+  AlarmDistance(const AlarmDistance&) = delete;
+  AlarmDistance& operator=(const AlarmDistance&) = delete;
+  AlarmDistance(AlarmDistance&&) = delete;
+  AlarmDistance& operator=(AlarmDistance&&) = delete;
+  ~AlarmDistance() { m_method.setAlarmDistance(m_before); }
+
+ private:
+  collision::Intersection& m_method;
+  double m_before;
+};
+
+}  // namespace
+
+LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOptions& options)
+    : m_content(read(path, options)) {
+  const auto* scene = std::get_if<scene::Scene>(&m_content);
+  if (scene == nullptr) return;
+  for (const auto& model : scene->models) {
+    const Box box = recordOf(*model).box;
+    m_rootBoxes.insert(m_rootBoxes.end(), box.min.begin(), box.min.end());
+    m_rootBoxes.insert(m_rootBoxes.end(), box.max.begin(), box.max.end());
+  }
+}
+
+std::size_t LoadedScene::size() const {
+  const auto* boxes = std::get_if<scene::BoxArray>(&m_content);
+  return boxes != nullptr ? boxes->size() : std::get<scene::Scene>(m_content).models.size();
+}
+
+scene::ModelRecord LoadedScene::model(std::size_t index) const {
+  if (index >= size()) throw py::index_error();
+  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) {
+    return {.name = boxes->name(index), .type = "BoxModel", .elements = 1, .box = boxes->boxes()[index]};
+  }
+  return recordOf(*std::get<scene::Scene>(m_content).models[index]);
+}
+
+std::span<const scene::Remark> LoadedScene::remarks() const {
+  const auto* scene = std::get_if<scene::Scene>(&m_content);
+  return scene != nullptr ? std::span<const scene::Remark>(scene->remarks) : std::span<const scene::Remark>();
+}
+
+std::string LoadedScene::method() const {
+  const auto* scene = std::get_if<scene::Scene>(&m_content);
+  return scene != nullptr ? std::string(scene->intersection->typeName()) : "DiscreteIntersection";
+}
+
+double LoadedScene::alarmDistance() const {
+  const auto* scene = std::get_if<scene::Scene>(&m_content);
+  return scene != nullptr ? scene->intersection->getAlarmDistance() : 0.0;
+}
+
+std::optional<Box> LoadedScene::region() const {
+  const auto* scene = std::get_if<scene::Scene>(&m_content);
+  return scene != nullptr ? scene->region : std::nullopt;
+}
+
+py::buffer_info LoadedScene::boxes() {
+  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) {
+    const BoxSet& set = boxes->boxes();
+    return set.isFloat64() ? columnsOf(set.float64(), set.size()) : columnsOf(set.float32(), set.size());
+  }
+  constexpr py::ssize_t kSize = sizeof(double);
+  const auto rows = static_cast<py::ssize_t>(m_rootBoxes.size() / 6);
+  return {m_rootBoxes.data(), kSize, py::format_descriptor<double>::format(), 2, {rows, py::ssize_t{6}},
+          {6 * kSize, kSize}, true};
+}
+
+std::vector<Pair> LoadedScene::detect(const DetectionOptions& options) {
+  const std::lock_guard lock(m_mutex);
+  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options);
+  const auto& scene = std::get<scene::Scene>(m_content);
+  const AlarmDistance distance(*scene.intersection, options.margin);
+  return runPipeline(scene, options);
+}
+
+}  // namespace allpairs::python

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "MovingBoxes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "Arguments.h"
+#include "allpairs/Error.h"
+#include "allpairs/parallel/TbbExecutor.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+std::unique_ptr<Executor> executorOf(std::size_t threads) {
+  return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
+}
+
+WorldOptions optionsOf(double distance, Executor* executor) {
+  WorldOptions options;
+  options.distance = distance;
+  options.executor = executor;
+  return options;
+}
+
+/// Ids in an array, kept for as long as this lives.
+class IdView {
+ public:
+  explicit IdView(const py::buffer& ids) : m_info(requestBuffer(ids, {"I", 0})) {}
+  [[nodiscard]] std::span<const BoxId> ids() const { return valuesOf<BoxId>(m_info); }
+
+ private:
+  py::buffer_info m_info;
+};
+
+std::unique_ptr<PairArray> copyOf(std::span<const Pair> pairs) { return toPython({pairs.begin(), pairs.end()}); }
+
+std::vector<Ray> raysOf(std::span<const double> rows) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i + 6 < rows.size(); i += 7) {
+    const double* row = &rows[i];
+    rays.push_back({{row[0], row[1], row[2]}, {row[3], row[4], row[5]}, row[6]});
+  }
+  return rays;
+}
+
+std::vector<std::array<double, 3>> pointsOf(std::span<const double> rows) {
+  std::vector<std::array<double, 3>> points;
+  for (std::size_t i = 0; i + 2 < rows.size(); i += 3) points.push_back({rows[i], rows[i + 1], rows[i + 2]});
+  return points;
+}
+
+/// Ids and a number for each, as two arrays.
+struct Found {
+  std::vector<std::uint32_t> ids;
+  std::vector<double> numbers;
+
+  [[nodiscard]] py::tuple arrays(py::ssize_t columns = 0) && {
+    return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(ids), columns),
+                          std::make_unique<NumberArray<double>>(std::move(numbers), columns));
+  }
+};
+
+}  // namespace
+
+void Properties::setField(std::uint32_t BoxProperties::*field, const py::buffer& values) {
+  const py::buffer_info info = requestBuffer(values, {"I", 0});
+  const auto numbers = valuesOf<std::uint32_t>(info);
+  if (numbers.size() != m_values.size()) throw InvalidArgument("properties of another length");
+  for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].*field = numbers[i];
+}
+
+void Properties::setMargins(const py::buffer& values) {
+  const py::buffer_info info = requestBuffer(values, {"d", 0});
+  const auto numbers = valuesOf<double>(info);
+  if (numbers.size() != m_values.size()) throw InvalidArgument("margins of another length");
+  for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].margin = numbers[i];
+}
+
+void Properties::setStatic(const py::buffer& values) {
+  const py::buffer_info info = requestBuffer(values, {"I", 0});
+  const auto numbers = valuesOf<std::uint32_t>(info);
+  if (numbers.size() != m_values.size()) throw InvalidArgument("flags of another length");
+  for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].isStatic = numbers[i] != 0;
+}
+
+MovingBoxes::MovingBoxes(double distance, std::size_t threads)
+    : m_executor(executorOf(threads)), m_world(optionsOf(distance, m_executor.get())) {}
+
+MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properties) {
+  std::vector<BoxId> ids(boxes.set().size());
+  alone([&](World& world) { world.add(boxes.set(), properties.values(), ids); });
+  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
+}
+
+void MovingBoxes::move(const py::buffer& ids, const Boxes& boxes) {
+  const IdView view(ids);
+  alone([&](World& world) { world.move(view.ids(), boxes.set()); });
+}
+
+void MovingBoxes::moveSwept(const py::buffer& ids, const Boxes& starts, const Boxes& ends) {
+  const IdView view(ids);
+  alone([&](World& world) { world.moveSwept(view.ids(), starts.set(), ends.set()); });
+}
+
+void MovingBoxes::remove(const py::buffer& ids) {
+  const IdView view(ids);
+  alone([&](World& world) { world.remove(view.ids()); });
+}
+
+void MovingBoxes::setProperties(const py::buffer& ids, const Properties& properties) {
+  const IdView view(ids);
+  alone([&](World& world) { world.setProperties(view.ids(), properties.values()); });
+}
+
+std::size_t MovingBoxes::size() {
+  return alone([](World& world) { return world.size(); });
+}
+
+bool MovingBoxes::contains(BoxId id) {
+  return alone([id](World& world) { return world.contains(id); });
+}
+
+MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
+  const IdView view(ids);
+  std::vector<double> bounds;
+  bounds.reserve(6 * view.ids().size());
+  alone([&](World& world) {
+    for (const BoxId id : view.ids()) {
+      const Box box = world.box(id);
+      bounds.insert(bounds.end(), box.min.begin(), box.min.end());
+      bounds.insert(bounds.end(), box.max.begin(), box.max.end());
+    }
+  });
+  return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
+}
+
+py::tuple MovingBoxes::step() {
+  std::array<std::unique_ptr<PairArray>, 4> lists;
+  alone([&](World& world) {
+    const StepResult result = world.step();
+    lists = {copyOf(result.pairs), copyOf(result.began), copyOf(result.persisted), copyOf(result.ended)};
+  });
+  return py::make_tuple(std::move(lists[0]), std::move(lists[1]), std::move(lists[2]), std::move(lists[3]));
+}
+
+std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const QueryFilter& filter) {
+  return alone([&](World& world) {
+    const ResultLists<BoxId> found = world.findOverlapping(boxes.set(), filter);
+    std::vector<Pair> pairs;
+    pairs.reserve(found.values.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (const BoxId id : found[i]) pairs.push_back({static_cast<std::uint32_t>(i), id});
+    }
+    return toPython(std::move(pairs));
+  });
+}
+
+py::tuple MovingBoxes::firstHits(const py::buffer& rays, const QueryFilter& filter) {
+  const py::buffer_info info = requestBuffer(rays, {"d", 7});
+  Found found;
+  alone([&](World& world) {
+    const std::vector<Ray> asked = raysOf(valuesOf<double>(info));
+    std::vector<SweepHit> hits(asked.size());
+    world.findFirst(asked, hits, filter);
+    for (const SweepHit& hit : hits) {
+      found.ids.push_back(hit.id);
+      found.numbers.push_back(hit.t);
+    }
+  });
+  return std::move(found).arrays();
+}
+
+py::tuple MovingBoxes::nearest(const py::buffer& points, std::size_t count, const QueryFilter& filter) {
+  const py::buffer_info info = requestBuffer(points, {"d", 3});
+  Found found;
+  alone([&](World& world) {
+    const std::vector<std::array<double, 3>> asked = pointsOf(valuesOf<double>(info));
+    found.ids.assign(asked.size() * count, kNoBox);
+    found.numbers.assign(asked.size() * count, std::numeric_limits<double>::infinity());
+    const ResultLists<Neighbor> lists = world.findNearest(asked, count, filter);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      for (std::size_t k = 0; k < lists[i].size(); ++k) {
+        found.ids[i * count + k] = lists[i][k].id;
+        found.numbers[i * count + k] = lists[i][k].distance;
+      }
+    }
+  });
+  return std::move(found).arrays(static_cast<py::ssize_t>(count));
+}
+
+}  // namespace allpairs::python

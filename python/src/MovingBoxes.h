@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "Boxes.h"
+#include "NumberArray.h"
+#include "PairArray.h"
+#include "allpairs/World.h"
+
+namespace allpairs::python {
+
+/// Properties of some boxes, from an array for each field.
+class Properties {
+ public:
+  explicit Properties(std::size_t size) : m_values(size) {}
+
+  /// Contiguous buffers with as many numbers as there are boxes.
+  void setField(std::uint32_t BoxProperties::*field, const pybind11::buffer& values);
+  void setMargins(const pybind11::buffer& values);
+  void setStatic(const pybind11::buffer& values);
+
+  [[nodiscard]] std::span<const BoxProperties> values() const noexcept { return m_values; }
+
+ private:
+  std::vector<BoxProperties> m_values;
+};
+
+/// A World that Python may use from several threads, which wait for each other without the GIL.
+class MovingBoxes {
+ public:
+  using Ids = std::unique_ptr<NumberArray<std::uint32_t>>;
+  using Numbers = std::unique_ptr<NumberArray<double>>;
+
+  MovingBoxes(double distance, std::size_t threads);
+
+  [[nodiscard]] Ids add(const Boxes& boxes, const Properties& properties);
+  void move(const pybind11::buffer& ids, const Boxes& boxes);
+  void moveSwept(const pybind11::buffer& ids, const Boxes& starts, const Boxes& ends);
+  void remove(const pybind11::buffer& ids);
+  void setProperties(const pybind11::buffer& ids, const Properties& properties);
+
+  [[nodiscard]] std::size_t size();
+  [[nodiscard]] bool contains(BoxId id);
+  [[nodiscard]] Numbers boxes(const pybind11::buffer& ids);
+
+  /// Pairs, and those that began, persisted and ended.
+  [[nodiscard]] pybind11::tuple step();
+
+  /// In each row the index of a query and the id of a box that it overlaps.
+  [[nodiscard]] std::unique_ptr<PairArray> overlapping(const Boxes& boxes, const QueryFilter& filter);
+
+  /// For each ray, of rows of 7 (origin, direction, length), the id of the first box that it meets, and t.
+  [[nodiscard]] pybind11::tuple firstHits(const pybind11::buffer& rays, const QueryFilter& filter);
+
+  /// For each point, of rows of 3, the ids of the nearest boxes, and their distances; kNoBox and infinity at the end.
+  [[nodiscard]] pybind11::tuple nearest(const pybind11::buffer& points, std::size_t count, const QueryFilter& filter);
+
+ private:
+  /// Runs work on the world without the GIL, alone.
+  template <class Work>
+  decltype(auto) alone(const Work& work) {
+    const pybind11::gil_scoped_release release;
+    const std::lock_guard lock(m_mutex);
+    return work(m_world);
+  }
+
+  std::mutex m_mutex;
+  std::unique_ptr<Executor> m_executor;
+  World m_world;
+};
+
+}  // namespace allpairs::python

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "Bindings.h"
+#include "LoadedScene.h"
+#include "PairArray.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+using Bounds = std::array<double, 6>;
+
+std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
+                                  bool partial) {
+  const py::gil_scoped_release release;
+  scene::ReadOptions options;
+  options.searchRoots = std::move(searchRoots);
+  options.partial = partial;
+  return std::make_shared<LoadedScene>(path, options);
+}
+
+std::unique_ptr<PairArray> detect(LoadedScene& scene, const DetectionOptions& options) {
+  const py::gil_scoped_release release;
+  return toPython(scene.detect(options));
+}
+
+/// The fields of the package's Model, in its order.
+py::tuple modelOf(const LoadedScene& scene, std::size_t index) {
+  const scene::ModelRecord record = scene.model(index);
+  return py::make_tuple(record.name, record.type, record.elements, record.active, record.simulated, record.moving,
+                        record.selfCollision, py::tuple(py::cast(record.groups)), record.contactDistance);
+}
+
+/// The fields of the package's Remark, in its order.
+py::list remarksOf(const LoadedScene& scene) {
+  py::list remarks;
+  for (const scene::Remark& remark : scene.remarks()) {
+    remarks.append(py::make_tuple(remark.file.string(), remark.line, remark.subject, remark.reason, remark.isPartial));
+  }
+  return remarks;
+}
+
+std::optional<Bounds> regionOf(const LoadedScene& scene) {
+  const std::optional<Box> box = scene.region();
+  if (!box) return std::nullopt;
+  return Bounds{box->min[0], box->min[1], box->min[2], box->max[0], box->max[1], box->max[2]};
+}
+
+}  // namespace
+
+void bindScene(py::module_& module) {
+  py::class_<DetectionOptions>(module, "DetectionOptions")
+      .def(py::init<>())
+      .def_readwrite("margin", &DetectionOptions::margin)
+      .def_readwrite("strategy", &DetectionOptions::strategy)
+      .def_readwrite("threads", &DetectionOptions::threads)
+      .def_readwrite("verify", &DetectionOptions::verify)
+      .def("set_region", [](DetectionOptions& self, const Bounds& b) {
+        self.region = Box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+      });
+  py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(module, "Scene", py::buffer_protocol())
+      .def_buffer(&LoadedScene::boxes)
+      .def("__len__", &LoadedScene::size)
+      .def("model", &modelOf)
+      .def("remarks", &remarksOf)
+      .def("method", &LoadedScene::method)
+      .def("alarm_distance", &LoadedScene::alarmDistance)
+      .def("region", &regionOf)
+      .def("detect", &detect);
+  module.def("load", &load);
+}
+
+}  // namespace allpairs::python

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/Overlaps.h"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+
+#include "Batches.h"
+#include "Bindings.h"
+#include "Boxes.h"
+#include "Options.h"
+#include "PairArray.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+std::unique_ptr<PairArray> findPairs(const Boxes& boxes, Options& options) {
+  const py::gil_scoped_release release;
+  return toPython(overlaps(boxes.set(), options.withExecutor(boxes.set().size())));
+}
+
+std::unique_ptr<PairArray> findPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
+  const py::gil_scoped_release release;
+  const std::size_t size = first.set().size() + second.set().size();
+  return toPython(overlapsBetween(first.set(), second.set(), options.withExecutor(size)));
+}
+
+std::uint64_t countPairs(const Boxes& boxes, Options& options) {
+  const py::gil_scoped_release release;
+  return countOverlaps(boxes.set(), options.withExecutor(boxes.set().size()));
+}
+
+std::uint64_t countPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
+  const py::gil_scoped_release release;
+  const std::size_t size = first.set().size() + second.set().size();
+  return countOverlapsBetween(first.set(), second.set(), options.withExecutor(size));
+}
+
+Box regionOf(const std::array<double, 6>& bounds) {
+  return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
+}
+
+void bindOptions(py::module_& module) {
+  py::enum_<Side>(module, "Side").value("FIRST", Side::First).value("SECOND", Side::Second);
+  py::enum_<Order>(module, "Order")
+      .value("first", Order::ByFirst)
+      .value("second", Order::BySecond)
+      .value("unordered", Order::Unordered);
+  py::enum_<Strategy>(module, "Strategy")
+      .value("auto", Strategy::Automatic)
+      .value("exhaustive", Strategy::Exhaustive)
+      .value("blocked", Strategy::Blocked);
+  py::class_<Options, std::shared_ptr<Options>>(module, "Options")
+      .def(py::init<>())
+      .def_readwrite("threads", &Options::threads)
+      .def("set_distance", [](Options& self, double distance) { self.engine.distance = distance; })
+      .def("set_order", [](Options& self, Order order) { self.engine.order = order; })
+      .def("set_strategy", [](Options& self, Strategy strategy) { self.engine.strategy = strategy; })
+      .def("set_max_pairs", [](Options& self, std::uint64_t count) { self.engine.maxPairs = count; })
+      .def("set_batch_size", [](Options& self, std::size_t size) { self.engine.batchSize = size; })
+      .def("set_region", [](Options& self, const std::array<double, 6>& box) { self.setRegion(regionOf(box)); })
+      .def("set_groups", &Options::setGroups)
+      .def("set_categories", &Options::setCategories)
+      .def("set_masks", &Options::setMasks)
+      .def("set_ignored", &Options::setIgnored);
+}
+
+}  // namespace
+
+void bindArguments(py::module_& module) {
+  py::class_<Boxes, std::shared_ptr<Boxes>>(module, "Boxes")
+      .def(py::init<const py::buffer&, const py::buffer&, std::string>())
+      .def("__len__", [](const Boxes& self) { return self.set().size(); })
+      .def("set_margin", &Boxes::setMargin)
+      .def("set_margins", &Boxes::setMargins);
+  py::class_<PairArray>(module, "PairArray", py::buffer_protocol()).def_buffer(&PairArray::buffer);
+  bindOptions(module);
+}
+
+void bindSearch(py::module_& module) {
+  py::class_<Batches>(module, "Batches")
+      .def(py::init<std::shared_ptr<Boxes>, std::shared_ptr<Boxes>, std::shared_ptr<Options>>())
+      .def("next", &Batches::next)
+      .def("close", &Batches::close);
+  module.def("overlaps", &findPairs);
+  module.def("overlaps_between", &findPairsBetween);
+  module.def("count", &countPairs);
+  module.def("count_between", &countPairsBetween);
+  module.def("instruction_sets", [] {
+    py::tuple names(instructionSets().size());
+    std::size_t i = 0;
+    for (const std::string_view name : instructionSets()) names[i++] = py::str(name.data(), name.size());
+    return names;
+  });
+}
+
+}  // namespace allpairs::python

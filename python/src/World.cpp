@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/World.h"
+
+#include "Bindings.h"
+#include "MovingBoxes.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+template <class T>
+void bindNumbers(py::module_& module, const char* name) {
+  py::class_<NumberArray<T>>(module, name, py::buffer_protocol()).def_buffer(&NumberArray<T>::buffer);
+}
+
+template <std::uint32_t BoxProperties::*Field>
+void setField(Properties& properties, const py::buffer& values) {
+  properties.setField(Field, values);
+}
+
+void bindProperties(py::module_& module) {
+  py::class_<Properties>(module, "Properties")
+      .def(py::init<std::size_t>())
+      .def("set_category", &setField<&BoxProperties::category>)
+      .def("set_mask", &setField<&BoxProperties::mask>)
+      .def("set_group", &setField<&BoxProperties::group>)
+      .def("set_owner", &setField<&BoxProperties::owner>)
+      .def("set_margin", &Properties::setMargins)
+      .def("set_static", &Properties::setStatic);
+  py::class_<QueryFilter>(module, "QueryFilter")
+      .def(py::init<>())
+      .def_readwrite("category", &QueryFilter::category)
+      .def_readwrite("mask", &QueryFilter::mask)
+      .def_readwrite("static", &QueryFilter::staticBoxes)
+      .def_readwrite("moving", &QueryFilter::dynamicBoxes);
+}
+
+}  // namespace
+
+void bindWorld(py::module_& module) {
+  bindNumbers<std::uint32_t>(module, "IdArray");
+  bindNumbers<double>(module, "RealArray");
+  bindProperties(module);
+  module.attr("NO_BOX") = kNoBox;
+  py::class_<MovingBoxes>(module, "World")
+      .def(py::init<double, std::size_t>())
+      .def("add", &MovingBoxes::add)
+      .def("move", &MovingBoxes::move)
+      .def("move_swept", &MovingBoxes::moveSwept)
+      .def("remove", &MovingBoxes::remove)
+      .def("set_properties", &MovingBoxes::setProperties)
+      .def("size", &MovingBoxes::size)
+      .def("contains", &MovingBoxes::contains)
+      .def("boxes", &MovingBoxes::boxes)
+      .def("step", &MovingBoxes::step)
+      .def("overlapping", &MovingBoxes::overlapping)
+      .def("first_hits", &MovingBoxes::firstHits)
+      .def("nearest", &MovingBoxes::nearest);
+}
+
+}  // namespace allpairs::python

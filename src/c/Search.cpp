@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "Handles.h"
+
+namespace allpairs::c {
+namespace {
+
+Strategy strategyOf(allpairs_strategy strategy) {
+  switch (strategy) {
+    case ALLPAIRS_AUTOMATIC:
+      return Strategy::Automatic;
+    case ALLPAIRS_EXHAUSTIVE:
+      return Strategy::Exhaustive;
+    case ALLPAIRS_BLOCKED:
+      return Strategy::Blocked;
+  }
+  throw InvalidArgument("no strategy " + std::to_string(static_cast<int>(strategy)));
+}
+
+Order orderOf(allpairs_order order) {
+  switch (order) {
+    case ALLPAIRS_BY_FIRST:
+      return Order::ByFirst;
+    case ALLPAIRS_BY_SECOND:
+      return Order::BySecond;
+    case ALLPAIRS_UNORDERED:
+      return Order::Unordered;
+  }
+  throw InvalidArgument("no order " + std::to_string(static_cast<int>(order)));
+}
+
+/// What a filter's array is about: C says nothing of its length, which is the set's.
+std::span<const std::uint32_t> labelsOf(const std::uint32_t* data, const BoxSet& boxes) {
+  return {data, data == nullptr ? 0 : boxes.size()};
+}
+
+FilterBits bitsOf(const allpairs_filter& filter, const BoxSet& boxes) {
+  return {labelsOf(filter.categories, boxes), labelsOf(filter.masks, boxes), labelsOf(filter.groups, boxes)};
+}
+
+OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
+  OverlapOptions options;
+  options.strategy = strategyOf(given.strategy);
+  options.order = orderOf(given.order);
+  options.distance = given.distance;
+  if (given.region != nullptr) options.region = boxOf(given.region);
+  if (given.accept != nullptr) {
+    options.filter.accept = [accept = given.accept, context = given.accept_context](std::uint32_t a, std::uint32_t b) {
+      return accept(context, a, b);
+    };
+  }
+  options.executor = executor;
+  if (given.max_pairs != 0) options.maxPairs = given.max_pairs;
+  if (given.batch_size != 0) options.batchSize = given.batch_size;
+  return options;
+}
+
+void setOptions(allpairs_search& search, const allpairs_options* options) {
+  const allpairs_options given = known(options);
+  std::unique_ptr<Executor> executor = executorFor(given.threads);
+  search.overlaps.setOptions(optionsOf(given, executor.get()));
+  search.executor = std::move(executor);
+  search.first = given.first;
+  search.second = given.second;
+}
+
+/// The search, with its filters as long as the sets that it is about to look at.
+Overlaps& prepared(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) {
+  allpairs_search& handle = required(search, "search");
+  OverlapOptions options = handle.overlaps.options();
+  options.filter.first = bitsOf(handle.first, required(first, "set").boxes);
+  options.filter.second = second == nullptr ? FilterBits() : bitsOf(handle.second, second->boxes);
+  handle.overlaps.setOptions(std::move(options));
+  return handle.overlaps;
+}
+
+/// A visitor of the engine that asks the caller's.
+class Visitor {
+ public:
+  explicit Visitor(const allpairs_visitor& visitor) : m_visitor(visitor) {
+    if (visitor.visit == nullptr) throw InvalidArgument("visitor.visit is null");
+  }
+
+  void operator()(std::span<const Pair> batch) {
+    if (!m_visitor.visit(m_visitor.context, toC(batch))) throw Stopped();
+  }
+
+ private:
+  allpairs_visitor m_visitor;
+};
+
+}  // namespace
+}  // namespace allpairs::c
+
+// NOLINTBEGIN(readability-identifier-naming): names are C's.
+using namespace allpairs::c;
+
+allpairs_status allpairs_search_create(const allpairs_options* options, allpairs_search** search) {
+  return guarded([&] {
+    allpairs_search*& result = required(search, "search");
+    auto handle = std::make_unique<allpairs_search>();
+    setOptions(*handle, options);
+    result = handle.release();
+  });
+}
+
+allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options) {
+  return guarded([&] { setOptions(required(search, "search"), options); });
+}
+
+void allpairs_search_destroy(allpairs_search* search) {
+  delete search;  // NOLINT(cppcoreguidelines-owning-memory): C's handle
+}
+
+allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs) {
+  return guarded([&] { required(pairs, "pairs") = toC(prepared(search, set, nullptr).find(set->boxes)); });
+}
+
+allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
+                                      allpairs_pairs* pairs) {
+  return guarded([&] {
+    const allpairs::BoxSet& others = required(second, "second").boxes;
+    required(pairs, "pairs") = toC(prepared(search, first, second).findBetween(first->boxes, others));
+  });
+}
+
+allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set, uint64_t* count) {
+  return guarded([&] { required(count, "count") = prepared(search, set, nullptr).count(set->boxes); });
+}
+
+allpairs_status allpairs_count_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
+                                       uint64_t* count) {
+  return guarded([&] {
+    const allpairs::BoxSet& others = required(second, "second").boxes;
+    required(count, "count") = prepared(search, first, second).countBetween(first->boxes, others);
+  });
+}
+
+allpairs_status allpairs_stream(allpairs_search* search, const allpairs_set* set, allpairs_visitor visitor) {
+  return guarded([&] {
+    Visitor asking(visitor);
+    prepared(search, set, nullptr).stream(set->boxes, asking);
+  });
+}
+
+allpairs_status allpairs_stream_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
+                                        allpairs_visitor visitor) {
+  return guarded([&] {
+    Visitor asking(visitor);
+    const allpairs::BoxSet& others = required(second, "second").boxes;
+    prepared(search, first, second).streamBetween(first->boxes, others, asking);
+  });
+}
+
+// NOLINTEND(readability-identifier-naming)

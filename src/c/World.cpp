@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/World.h"
+
+#include "Handles.h"
+
+namespace allpairs::c {
+namespace {
+
+BoxProperties propertiesOf(const allpairs_properties& given) {
+  return {given.category, given.mask, given.group, given.owner, given.margin, given.is_static};
+}
+
+QueryFilter filterOf(const allpairs_query_filter* given) {
+  if (given == nullptr) return {};
+  return {given->category, given->mask, !given->skip_static, !given->skip_moving};
+}
+
+WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor) {
+  WorldOptions options;
+  options.distance = given.distance;
+  options.executor = executor;
+  if (given.accept != nullptr) {
+    options.accept = [accept = given.accept, context = given.accept_context](BoxId a, BoxId b) {
+      return accept(context, a, b);
+    };
+  }
+  return options;
+}
+
+World& worldOf(allpairs_world* world) { return required(world, "world").world; }
+
+std::span<const BoxId> idsOf(const allpairs_ids& ids) { return requiredSpan(ids.data, ids.count, "ids.data"); }
+
+Ray rayOf(const allpairs_ray& ray) {
+  return {{ray.origin[0], ray.origin[1], ray.origin[2]},
+          {ray.direction[0], ray.direction[1], ray.direction[2]},
+          ray.length};
+}
+
+}  // namespace
+}  // namespace allpairs::c
+
+// NOLINTBEGIN(readability-identifier-naming): names are C's.
+using namespace allpairs::c;
+
+allpairs_status allpairs_world_create(const allpairs_world_options* options, allpairs_world** world) {
+  return guarded([&] {
+    allpairs_world*& result = required(world, "world");
+    const allpairs_world_options given = known(options);
+    std::unique_ptr<allpairs::Executor> executor = executorFor(given.threads);
+    allpairs::World made(optionsOf(given, executor.get()));
+    result = std::make_unique<allpairs_world>(allpairs_world{std::move(executor), std::move(made)}).release();
+  });
+}
+
+void allpairs_world_destroy(allpairs_world* world) {
+  delete world;  // NOLINT(cppcoreguidelines-owning-memory): C's handle
+}
+
+allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
+                                   const allpairs_properties* properties, uint32_t* ids) {
+  return guarded([&] {
+    const allpairs::BoxSet& set = required(boxes, "boxes").boxes;
+    const allpairs::BoxProperties all = propertiesOf(properties ? *properties : allpairs_default_properties());
+    worldOf(world).add(set, {&all, 1}, requiredSpan(ids, set.size(), "ids"));
+  });
+}
+
+allpairs_status allpairs_world_move(allpairs_world* world, allpairs_ids ids, const allpairs_set* boxes) {
+  return guarded([&] { worldOf(world).move(idsOf(ids), required(boxes, "boxes").boxes); });
+}
+
+allpairs_status allpairs_world_move_swept(allpairs_world* world, allpairs_ids ids, const allpairs_set* starts,
+                                          const allpairs_set* ends) {
+  return guarded(
+      [&] { worldOf(world).moveSwept(idsOf(ids), required(starts, "starts").boxes, required(ends, "ends").boxes); });
+}
+
+allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids) {
+  return guarded([&] { worldOf(world).remove(idsOf(ids)); });
+}
+
+allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_ids ids,
+                                              const allpairs_properties* properties) {
+  return guarded([&] {
+    std::vector<allpairs::BoxProperties> each;
+    each.reserve(ids.count);
+    for (const auto& given : requiredSpan(properties, ids.count, "properties")) each.push_back(propertiesOf(given));
+    worldOf(world).setProperties(idsOf(ids), each);
+  });
+}
+
+allpairs_status allpairs_world_touch(allpairs_world* world, allpairs_ids ids) {
+  return guarded([&] { worldOf(world).touch(idsOf(ids)); });
+}
+
+size_t allpairs_world_size(const allpairs_world* world) { return world == nullptr ? 0 : world->world.size(); }
+
+bool allpairs_world_contains(const allpairs_world* world, uint32_t id) {
+  return world != nullptr && world->world.contains(id);
+}
+
+allpairs_status allpairs_world_box(const allpairs_world* world, uint32_t id, double* bounds) {
+  return guarded([&] {
+    const allpairs::Box box = required(world, "world").world.box(id);
+    const std::span<double> values = requiredSpan(bounds, 6, "bounds");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      values[axis] = box.min[axis];
+      values[axis + 3] = box.max[axis];
+    }
+  });
+}
+
+allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step) {
+  return guarded([&] {
+    allpairs_step& result = required(step, "step");
+    const allpairs::StepResult found = worldOf(world).step();
+    result = {toC(found.pairs), toC(found.began), toC(found.persisted), toC(found.ended)};
+  });
+}
+
+allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
+                                                const allpairs_query_filter* filter, allpairs_ids* ids) {
+  return guarded([&] {
+    allpairs_ids& result = required(ids, "ids");
+    const auto found = worldOf(world).findOverlapping(boxOf(&required(box, "box")), filterOf(filter));
+    result = {found.data(), found.size()};
+  });
+}
+
+allpairs_status allpairs_world_find_first(allpairs_world* world, const allpairs_ray* ray,
+                                          const allpairs_query_filter* filter, allpairs_hit* hit) {
+  return guarded([&] {
+    allpairs_hit& result = required(hit, "hit");
+    const allpairs::SweepHit found = worldOf(world).findFirst(rayOf(required(ray, "ray")), filterOf(filter));
+    result = {found.id, found.t};
+  });
+}
+
+// NOLINTEND(readability-identifier-naming)

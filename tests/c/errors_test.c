@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "Check.h"
+
+static const double kBoxes[12] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
+
+static bool says(const char* text) { return strstr(allpairs_error_message(), text) != NULL; }
+
+static void aNanNamesItsBox(void) {
+  double rows[18] = {0};
+  allpairs_set* set = NULL;
+  rows[2 * 6 + 4] = NAN;
+  ALLPAIRS_CHECK(allpairs_set_create_f64(rows, 3, &set) == ALLPAIRS_INVALID_BOX);
+  ALLPAIRS_CHECK(set == NULL && allpairs_error_index() == 2 && says("box 2: max y"));
+}
+
+static void nullIsAnError(void) {
+  allpairs_set* set = NULL;
+  allpairs_search* search = NULL;
+  allpairs_pairs pairs;
+  uint64_t count = 0;
+  const allpairs_visitor nobody = {NULL, NULL};
+  const allpairs_ids none = {NULL, 3};
+  ALLPAIRS_CHECK(allpairs_set_create_f64(NULL, 3, &set) == ALLPAIRS_INVALID_ARGUMENT && says("rows is null"));
+  ALLPAIRS_CHECK(allpairs_set_create_f64(kBoxes, 2, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_search_create(NULL, NULL) == ALLPAIRS_INVALID_ARGUMENT && says("search is null"));
+  ALLPAIRS_CHECK(allpairs_set_create_f64(kBoxes, 2, &set) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(NULL, set, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(search, NULL, &pairs) == ALLPAIRS_INVALID_ARGUMENT && says("set is null"));
+  ALLPAIRS_CHECK(allpairs_find(search, set, NULL) == ALLPAIRS_INVALID_ARGUMENT && says("pairs is null"));
+  ALLPAIRS_CHECK(allpairs_count_between(search, set, NULL, &count) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_stream(search, set, nobody) == ALLPAIRS_INVALID_ARGUMENT && says("visit is null"));
+  ALLPAIRS_CHECK(allpairs_world_remove(NULL, none) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_step(NULL, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  allpairs_search_destroy(search);
+  allpairs_search_destroy(NULL);
+  allpairs_set_destroy(set);
+  allpairs_set_destroy(NULL);
+  allpairs_world_destroy(NULL);
+}
+
+static void settingsThatMakeNoSenseAreRefused(void) {
+  allpairs_search* search = NULL;
+  allpairs_set* set = NULL;
+  allpairs_pairs pairs;
+  allpairs_options options = {0};
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_INVALID_ARGUMENT && says("struct_size is 0"));
+  options.struct_size = sizeof options + 8;
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_INVALID_ARGUMENT);
+  options = allpairs_default_options();
+  options.strategy = (allpairs_strategy)17;
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_INVALID_ARGUMENT && says("no strategy 17"));
+  options.strategy = ALLPAIRS_AUTOMATIC;
+  options.max_pairs = 1;
+  options.distance = NAN;
+  double rows[18] = {0};
+  ALLPAIRS_CHECK(allpairs_set_create_f64(rows, 3, &set) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(search, set, &pairs) == ALLPAIRS_INVALID_ARGUMENT && says("distance"));
+  options.distance = 0;
+  ALLPAIRS_CHECK(allpairs_search_set_options(search, &options) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(search, set, &pairs) == ALLPAIRS_LIMIT_EXCEEDED && allpairs_error_index() == 3);
+  ALLPAIRS_CHECK(allpairs_set_margin(set, NAN) == ALLPAIRS_INVALID_ARGUMENT);
+  allpairs_search_destroy(search);
+  allpairs_set_destroy(set);
+}
+
+/// A caller that was compiled against an earlier, shorter structure.
+static void shorterStructuresAreTaken(void) {
+  allpairs_search* search = NULL;
+  allpairs_set* set = NULL;
+  allpairs_pairs pairs;
+  allpairs_options options = allpairs_default_options();
+  options.struct_size = offsetof(allpairs_options, max_pairs);
+  options.max_pairs = 1;  // not known to that caller, and so not read
+  double rows[18] = {0};
+  ALLPAIRS_CHECK(allpairs_set_create_f64(rows, 3, &set) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(search, set, &pairs) == ALLPAIRS_OK && pairs.count == 3);
+  allpairs_search_destroy(search);
+  allpairs_set_destroy(set);
+}
+
+static void anUnknownIdIsNamed(void) {
+  allpairs_world* world = NULL;
+  const uint32_t id = 41;
+  const allpairs_ids ids = {&id, 1};
+  double bounds[6];
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_remove(world, ids) == ALLPAIRS_INVALID_BOX && says("41"));
+  ALLPAIRS_CHECK(allpairs_world_box(world, id, bounds) == ALLPAIRS_INVALID_BOX);
+  ALLPAIRS_CHECK(allpairs_world_size(world) == 0 && !allpairs_world_contains(world, id));
+  allpairs_world_destroy(world);
+}
+
+int main(void) {
+  ALLPAIRS_CHECK(strlen(allpairs_error_message()) == 0);
+  ALLPAIRS_CHECK(strlen(allpairs_version()) >= 5);
+  aNanNamesItsBox();
+  nullIsAnError();
+  settingsThatMakeNoSenseAreRefused();
+  shorterStructuresAreTaken();
+  anUnknownIdIsNamed();
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "Check.h"
+
+enum { kBoxes = 120 };
+
+static double rows[6 * kBoxes];
+static uint32_t ids[kBoxes];
+static bool isIn[kBoxes];
+static bool met[kBoxes][kBoxes];
+
+static allpairs_set* setOf(const double* data, size_t count) {
+  allpairs_set* set = NULL;
+  ALLPAIRS_CHECK(allpairs_set_create_f64(data, count, &set) == ALLPAIRS_OK);
+  return set;
+}
+
+static bool meetNow(size_t i, size_t j) { return isIn[i] && isIn[j] && checkMeet(&rows[6 * i], &rows[6 * j], 0.5); }
+
+/// One step against the double loop: pairs, and which began, persisted and ended. Ids are those of the rows here.
+static void checkStep(allpairs_world* world) {
+  allpairs_step step;
+  size_t all = 0, began = 0, persisted = 0, ended = 0;
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  for (uint32_t i = 0; i < kBoxes; ++i) {
+    for (uint32_t j = i + 1; j < kBoxes; ++j) {
+      const bool now = meetNow(i, j);
+      const allpairs_pair pair = {i, j};
+      if (now) ALLPAIRS_CHECK(all < step.pairs.count && !memcmp(&step.pairs.data[all++], &pair, sizeof pair));
+      if (now && !met[i][j]) ALLPAIRS_CHECK(!memcmp(&step.began.data[began++], &pair, sizeof pair));
+      if (now && met[i][j]) ALLPAIRS_CHECK(!memcmp(&step.persisted.data[persisted++], &pair, sizeof pair));
+      if (!now && met[i][j]) ALLPAIRS_CHECK(!memcmp(&step.ended.data[ended++], &pair, sizeof pair));
+      met[i][j] = now;
+    }
+  }
+  ALLPAIRS_CHECK(step.pairs.count == all && step.began.count == began);
+  ALLPAIRS_CHECK(step.persisted.count == persisted && step.ended.count == ended);
+}
+
+static void moveSome(allpairs_world* world, uint32_t seed) {
+  uint32_t moved[kBoxes];
+  double bounds[6 * kBoxes];
+  size_t count = 0;
+  for (uint32_t i = 0; i < kBoxes; i += 1 + checkRandom(&seed, 6)) {
+    if (!isIn[i]) continue;
+    checkFill(&rows[6 * i], 1, seed);
+    memcpy(&bounds[6 * count], &rows[6 * i], 6 * sizeof(double));
+    moved[count++] = i;
+  }
+  allpairs_set* set = setOf(bounds, count);
+  const allpairs_ids chosen = {moved, count};
+  ALLPAIRS_CHECK(allpairs_world_move(world, chosen, set) == ALLPAIRS_OK);
+  allpairs_set_destroy(set);
+}
+
+static void checkQueries(allpairs_world* world) {
+  const double box[6] = {3, 3, 3, 6, 6, 6};
+  allpairs_ids found;
+  size_t next = 0;
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, box, NULL, &found) == ALLPAIRS_OK && found.count > 0);
+  for (uint32_t i = 0; i < kBoxes; ++i) {
+    if (isIn[i] && checkMeet(box, &rows[6 * i], 0)) ALLPAIRS_CHECK(next < found.count && found.data[next++] == i);
+  }
+  ALLPAIRS_CHECK(next == found.count);
+  const allpairs_query_filter nothing = {.category = UINT32_MAX, .mask = UINT32_MAX, .skip_moving = true};
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, box, &nothing, &found) == ALLPAIRS_OK && found.count == 0);
+
+  const allpairs_ray up = {{100.5, 0.5, -5}, {0, 0, 2}, 50};
+  allpairs_hit hit;
+  ALLPAIRS_CHECK(allpairs_world_find_first(world, &up, NULL, &hit) == ALLPAIRS_OK && hit.id == ALLPAIRS_NO_BOX);
+  const double target[6] = {100, 0, 1, 101, 1, 2};
+  allpairs_set* set = setOf(target, 1);
+  uint32_t id = 0;
+  ALLPAIRS_CHECK(allpairs_world_add(world, set, NULL, &id) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_find_first(world, &up, NULL, &hit) == ALLPAIRS_OK && hit.id == id && hit.t == 3);
+  const allpairs_ids added = {&id, 1};
+  ALLPAIRS_CHECK(allpairs_world_remove(world, added) == ALLPAIRS_OK && !allpairs_world_contains(world, id));
+  allpairs_set_destroy(set);
+}
+
+static void propertiesAreRead(void) {
+  const double same[12] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
+  allpairs_world* world = NULL;
+  allpairs_set* set = setOf(same, 2);
+  allpairs_properties properties = allpairs_default_properties();
+  allpairs_properties apart[2];
+  uint32_t two[2];
+  allpairs_step step;
+  properties.is_static = true;
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(world, set, &properties, two) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK && step.pairs.count == 0);
+  apart[0] = apart[1] = allpairs_default_properties();
+  const allpairs_ids both = {two, 2};
+  ALLPAIRS_CHECK(allpairs_world_set_properties(world, both, apart) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK && step.began.count == 1);
+  apart[0].owner = apart[1].owner = 4;
+  ALLPAIRS_CHECK(allpairs_world_set_properties(world, both, apart) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK && step.ended.count == 1);
+  allpairs_world_destroy(world);
+  allpairs_set_destroy(set);
+}
+
+static void sweptBoxesHoldTheirWay(allpairs_world* world) {
+  const double start[6] = {0, 0, 0, 1, 1, 1}, end[6] = {4, 0, 0, 5, 1, 1};
+  allpairs_set *from = setOf(start, 1), *to = setOf(end, 1);
+  const allpairs_ids first = {ids, 1};
+  double bounds[6];
+  ALLPAIRS_CHECK(allpairs_world_move_swept(world, first, from, to) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_box(world, ids[0], bounds) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(bounds[0] == 0 && bounds[3] == 5 && bounds[4] == 1);
+  allpairs_set_destroy(from);
+  allpairs_set_destroy(to);
+}
+
+int main(void) {
+  allpairs_world* world = NULL;
+  allpairs_world_options options = {.struct_size = sizeof options, .distance = 0.5, .threads = 2};
+  ALLPAIRS_CHECK(allpairs_world_create(&options, &world) == ALLPAIRS_OK);
+  checkFill(rows, kBoxes, 11);
+  allpairs_set* set = setOf(rows, kBoxes);
+  ALLPAIRS_CHECK(allpairs_world_add(world, set, NULL, ids) == ALLPAIRS_OK && allpairs_world_size(world) == kBoxes);
+  allpairs_set_destroy(set);
+  for (uint32_t i = 0; i < kBoxes; ++i) {
+    ALLPAIRS_CHECK(ids[i] == i && allpairs_world_contains(world, i));
+    isIn[i] = true;
+  }
+  for (uint32_t step = 0; step < 20; ++step) {
+    checkStep(world);
+    moveSome(world, 7 * step + 1);
+    const uint32_t gone = 5 * step;
+    const allpairs_ids removed = {&gone, 1};
+    ALLPAIRS_CHECK(allpairs_world_remove(world, removed) == ALLPAIRS_OK);
+    isIn[gone] = false;
+  }
+  checkStep(world);
+  checkQueries(world);
+  propertiesAreRead();
+  ids[0] = 1;
+  sweptBoxesHoldTheirWay(world);
+  allpairs_world_destroy(world);
+  return EXIT_SUCCESS;
+}

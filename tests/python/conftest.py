@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""The oracle, which shares no code with what it tests, and boxes for it."""
+
+import numpy as np
+import pytest
+
+
+def every_pair(lower, upper, distance=0.0):
+    """Every pair of the plain double loop, by broadcasting, in ascending order."""
+    lower, upper = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
+    apart = lower[:, None] > upper[None] + distance
+    full = (lower <= upper).all(axis=1)
+    meet = ~(apart | apart.transpose(1, 0, 2)).any(axis=2) & full[:, None] & full
+    return np.argwhere(np.triu(meet, k=1)).astype(np.uint32)
+
+
+def random_boxes(n, seed=1, dtype=np.float64):
+    """Boxes on a coarse grid, so that many touch exactly, a few of them empty or without end."""
+    rng = np.random.default_rng(seed)
+    lower = rng.integers(0, 24, (n, 3)).astype(dtype)
+    upper = lower + rng.integers(0, 5, (n, 3)).astype(dtype)
+    upper[::17, 1] = lower[::17, 1] - 1
+    upper[5::53] = np.inf
+    return lower, upper
+
+
+@pytest.fixture
+def boxes():
+    return random_boxes(400)

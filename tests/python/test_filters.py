@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""What is left out: by group, category and mask, by list, by region."""
+
+import allpairs
+import numpy as np
+import pytest
+from conftest import every_pair
+
+
+def test_boxes_of_a_group_are_no_pair_and_group_0_is_none(boxes):
+    group = np.arange(400) % 3
+    first, second = every_pair(*boxes).T
+    keep = (group[first] != group[second]) | (group[first] == 0)
+    np.testing.assert_array_equal(allpairs.overlaps(*boxes, group=group), np.stack([first, second], axis=1)[keep])
+    assert 0 < keep.sum() < len(keep)
+
+
+@pytest.mark.parametrize("dtype", [np.uint32, np.int64, np.uint8])
+def test_each_box_must_accept_the_other(dtype, boxes):
+    rng = np.random.default_rng(4)
+    category, mask = rng.integers(0, 8, (2, 400)).astype(dtype)
+    first, second = every_pair(*boxes).T
+    keep = (mask[first] & category[second] != 0) & (mask[second] & category[first] != 0)
+    found = allpairs.overlaps(*boxes, category=category, mask=mask)
+    np.testing.assert_array_equal(found, np.stack([first, second], axis=1)[keep])
+
+
+def test_a_mask_alone_is_against_categories_of_all_bits(boxes):
+    mask = (np.arange(400) % 2).astype(np.uint32)
+    pairs = every_pair(*boxes)
+    np.testing.assert_array_equal(allpairs.overlaps(*boxes, mask=mask), pairs[mask[pairs].all(axis=1)])
+
+
+def test_ignored_pairs_are_left_out_in_either_orientation(boxes):
+    pairs = every_pair(*boxes)
+    ignore = np.vstack([pairs[::3], pairs[1::3, ::-1]])
+    np.testing.assert_array_equal(allpairs.overlaps(*boxes, ignore=ignore), pairs[2::3])
+    np.testing.assert_array_equal(allpairs.overlaps(*boxes, ignore=[]), pairs)
+
+
+def test_ignored_pairs_of_two_sets_are_read_as_first_and_second():
+    boxes = np.zeros((3, 6))
+    found = allpairs.overlaps_between(boxes, boxes, ignore=[[0, 1], [2, 2]])
+    assert found.tolist() == [[0, 0], [0, 2], [1, 0], [1, 1], [1, 2], [2, 0], [2, 1]]
+
+
+def test_boxes_outside_of_the_region_are_left_out(boxes):
+    lower, upper = boxes
+    inside = ((lower <= 12) & (upper >= 6)).all(axis=1)
+    pairs = every_pair(lower, upper)
+    expected = pairs[inside[pairs].all(axis=1)]
+    np.testing.assert_array_equal(allpairs.overlaps(lower, upper, region=[[6] * 3, [12] * 3]), expected)
+    np.testing.assert_array_equal(allpairs.overlaps(lower, upper, region=np.array([6] * 3 + [12] * 3)), expected)
+
+
+def test_between_filters_are_given_for_each_set():
+    boxes = np.zeros((2, 6))
+    assert allpairs.overlaps_between(boxes, boxes, group=([1, 2], [1, 2])).tolist() == [[0, 1], [1, 0]]
+    assert allpairs.overlaps_between(boxes, boxes, category=([1, 2], None), mask=(None, [2, 3])).tolist() == [
+        [0, 1],
+        [1, 0],
+        [1, 1],
+    ]
+    assert allpairs.count_between(boxes, boxes, group=([1, 2], [1, 2])) == 2

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""Files: scenes, meshes, folders and box arrays."""
+
+import json
+import os
+import pathlib
+
+import allpairs
+import numpy as np
+import pytest
+from conftest import every_pair, random_boxes
+
+EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
+SCENE = EXAMPLES / "scenes" / "demo.scn"
+DATA = pathlib.Path(os.environ.get("ALLPAIRS_DATA", pathlib.Path(__file__).parents[3] / "shared" / "data"))
+
+
+def test_a_scene_has_models_with_boxes_and_flags():
+    scene = allpairs.load(SCENE)
+    assert scene.boxes.shape == (len(scene), 6)
+    assert scene.boxes.dtype == np.float64
+    assert scene[0] == allpairs.Model("/Hall/Floor/Concrete", "TTriangleModel", 2, True, False, False, False, (), 0.0)
+    assert scene[-1].name == scene.names[-1]
+    assert scene.method == "MinProximityIntersection"
+    assert scene.region.shape == (2, 3)
+    with pytest.raises(IndexError):
+        scene[len(scene)]
+
+
+def test_a_scene_s_pairs_are_verified_and_come_newest_first():
+    scene = allpairs.load(SCENE)
+    pairs = scene.detect(verify=True)
+    assert len(pairs) == 40
+    assert (pairs[:, 0] >= pairs[:, 1]).all()
+    assert (np.diff(pairs[:, 0].astype(int)) >= 0).all()
+    np.testing.assert_array_equal(scene.detect(strategy="exhaustive"), pairs)
+    np.testing.assert_array_equal(scene.detect(threads=2), pairs)
+
+
+def test_a_margin_and_a_region_hold_for_one_detection():
+    scene = allpairs.load(SCENE)
+    before = scene.detect()
+    assert len(scene.detect(margin=1.0)) > len(before)
+    assert len(scene.detect(region=[[-1, -1, -1], [0, 0, 0]])) < len(before)
+    np.testing.assert_array_equal(scene.detect(), before)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_a_file_of_boxes_is_its_array(tmp_path, dtype, order):
+    lower, upper = random_boxes(200, dtype=dtype)
+    rows = np.hstack([lower, upper])
+    np.save(tmp_path / "boxes.npy", np.asarray(rows, order=order))
+    scene = allpairs.load(tmp_path / "boxes.npy")
+    assert scene.boxes.dtype == dtype
+    np.testing.assert_array_equal(scene.boxes, rows)
+    expected = every_pair(lower, upper)
+    expected = expected[np.lexsort((expected[:, 0], expected[:, 1]))][:, ::-1]
+    np.testing.assert_array_equal(scene.detect(), expected)
+
+
+def test_boxes_of_a_file_live_as_long_as_their_array(tmp_path):
+    np.save(tmp_path / "boxes.npy", np.arange(12.0).reshape(2, 6))
+    boxes = allpairs.load(str(tmp_path / "boxes.npy")).boxes
+    np.testing.assert_array_equal(boxes, np.arange(12.0).reshape(2, 6))
+    with pytest.raises(ValueError):
+        boxes[0, 0] = 1
+
+
+def test_detect_names_the_pairs():
+    detection = allpairs.detect(EXAMPLES / "boxes.csv")
+    assert detection.names == [("lamp", "table"), ("chair", "table")]
+
+
+def test_a_folder_of_meshes_is_a_scene():
+    scene = allpairs.load(EXAMPLES / "scenes" / "meshes")
+    assert len(scene) > 1
+    assert len(set(scene.names)) == len(scene)
+
+
+def test_a_missing_file_is_named():
+    with pytest.raises(allpairs.FileError) as caught:
+        allpairs.load("no/such/thing.scn")
+    assert caught.value.path == "no/such/thing.scn"
+
+
+def test_a_malformed_scene_names_its_line(tmp_path):
+    (tmp_path / "bad.scn").write_text('<Node>\n<Node name="a" name=b/>\n</Node>\n')
+    with pytest.raises(OSError, match="bad.scn:2") as caught:
+        allpairs.detect(tmp_path / "bad.scn")
+    assert caught.value.line == 2
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason=f"no data in {DATA}")
+def test_scenes_of_sofa_give_the_pairs_that_sofa_printed():
+    checked = 0
+    for answer in sorted((DATA / "scenes" / "expected").glob("*.json")):
+        expected = json.loads(answer.read_text())
+        path = next((DATA / "scenes").rglob(answer.stem + ".scn"))
+        scene = allpairs.load(path, search_roots=[DATA / "scenes", DATA / "scenes" / "examples"])
+        assert scene.detect().tolist() == expected["pairs"], answer.stem
+        checked += 1
+    assert checked
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason=f"no data in {DATA}")
+def test_box_arrays_give_the_pairs_of_the_double_loop():
+    checked = 0
+    for answer in sorted((DATA / "boxes").glob("*.pairs.npy")):
+        boxes = np.load(answer.with_name(answer.name.replace(".pairs.npy", ".npy")))
+        np.testing.assert_array_equal(allpairs.overlaps(boxes), np.load(answer))
+        checked += 1
+    assert checked

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: MIT
+"""Moving boxes against the double loop, step by step."""
+
+import threading
+
+import allpairs
+import numpy as np
+import pytest
+from conftest import every_pair
+
+
+def rows_of(pairs):
+    return set(map(tuple, pairs.tolist()))
+
+
+def assert_step(step, before, now):
+    """`now` and `before` are the oracle's pairs of this step and of the last one, ascending."""
+    np.testing.assert_array_equal(step.pairs, now)
+    old, new = rows_of(before), rows_of(now)
+    for found, expected in ((step.began, new - old), (step.persisted, new & old), (step.ended, old - new)):
+        assert found.dtype == np.uint32
+        assert found.shape == (len(expected), 2)
+        assert found.tolist() == sorted(map(list, expected))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_steps_are_those_of_the_double_loop(dtype, threads):
+    rng = np.random.default_rng(6)
+    world = allpairs.World(distance=1, threads=threads)
+    lower = rng.integers(0, 30, (300, 3)).astype(dtype)
+    upper = lower + rng.integers(0, 4, (300, 3)).astype(dtype)
+    ids = world.add(lower, upper)
+    assert ids.dtype == np.uint32
+    np.testing.assert_array_equal(ids, np.arange(300))
+    before = np.zeros((0, 2), np.uint32)
+    for _ in range(12):
+        now = every_pair(lower, upper, distance=1)
+        assert_step(world.step(), before, now)
+        before = now
+        some = rng.choice(300, 40, replace=False)
+        lower[some] = rng.integers(0, 30, (40, 3))
+        upper[some] = lower[some] + 2
+        world.move(some, np.hstack([lower[some], upper[some]]))
+    assert len(before) > 20
+
+
+def test_boxes_are_added_removed_and_asked_for():
+    world = allpairs.World()
+    ids = world.add(np.zeros((3, 6)))
+    assert len(world) == 3
+    world.remove(ids[:1])
+    assert (0 in world, 1 in world, len(world)) == (False, True, 2)
+    assert world.step().pairs.tolist() == [[1, 2]]
+    world.move_swept([1], np.zeros((1, 6)), ([[4, 0, 0]], [[5, 1, 1]]))
+    np.testing.assert_array_equal(world.boxes([1, 2]), [[0, 0, 0, 5, 1, 1], [0] * 6])
+
+
+def test_what_a_step_gave_stays_when_the_world_goes_on():
+    world = allpairs.World()
+    ids = world.add(np.zeros((3, 6)))
+    first = world.step()
+    world.remove(ids)
+    world.step()
+    assert first.pairs.tolist() == [[0, 1], [0, 2], [1, 2]]
+
+
+@pytest.mark.parametrize(
+    "properties, pairs",
+    [
+        ({}, [[0, 1], [0, 2], [1, 2]]),
+        ({"static": [True, True, False]}, [[0, 2], [1, 2]]),
+        ({"static": True}, []),
+        ({"group": [5, 5, 0]}, [[0, 2], [1, 2]]),
+        ({"owner": [0, 3, 3]}, [[0, 1], [0, 2]]),
+        ({"category": [1, 2, 4], "mask": [2, 1, 7]}, [[0, 1]]),
+        ({"margin": [-1, 0, 0]}, [[1, 2]]),
+        ({"margin": -1}, []),
+    ],
+)
+def test_properties_decide_about_pairs(properties, pairs):
+    boxes = np.zeros((3, 6)) + [0, 0, 0, 0.5, 0.5, 0.5]
+    world = allpairs.World()
+    ids = world.add(boxes, **properties)
+    assert world.step().pairs.tolist() == pairs
+    world.set_properties(ids)
+    assert len(world.step().pairs) == 3
+    world.set_properties(ids, **properties)
+    assert world.step().pairs.tolist() == pairs
+
+
+def test_queries_find_what_a_loop_finds():
+    rng = np.random.default_rng(9)
+    lower = rng.integers(0, 20, (200, 3)).astype(float)
+    upper = lower + rng.integers(1, 4, (200, 3))
+    world = allpairs.World()
+    world.add(lower, upper, static=np.arange(200) % 2 == 0)
+    asked = np.hstack([lower[:5], upper[:5]]) + 0.5
+    meet = ((asked[:, None, :3] <= upper) & (lower <= asked[:, None, 3:])).all(axis=2)
+    np.testing.assert_array_equal(world.overlapping(asked), np.argwhere(meet))
+    meet[:, ::2] = False
+    np.testing.assert_array_equal(world.overlapping(asked, static=False), np.argwhere(meet))
+
+    points = rng.uniform(-5, 25, (7, 3))
+    gaps = np.linalg.norm(np.maximum(np.maximum(lower - points[:, None], points[:, None] - upper), 0), axis=2)
+    ids, distances = world.nearest(points, k=4)
+    np.testing.assert_allclose(distances, np.sort(gaps, axis=1)[:, :4])
+    np.testing.assert_allclose(np.take_along_axis(gaps, ids.astype(int), axis=1), distances)
+
+    origins = np.column_stack([lower[:9, :2] + 0.5, np.full(9, -3.0)])
+    ids, t = world.first_hits(origins, [0, 0, 2])
+    pierced = ((lower[:, :2] <= origins[:, None, :2]) & (origins[:, None, :2] <= upper[:, :2])).all(axis=2)
+    first = np.where(pierced, lower[:, 2], np.inf)
+    np.testing.assert_array_equal(ids, first.argmin(axis=1))
+    np.testing.assert_array_equal(t, (first.min(axis=1) + 3) / 2)
+
+
+def test_queries_that_find_nothing_say_so():
+    world = allpairs.World()
+    world.add([[0, 0, 0, 1, 1, 1]])
+    ids, t = world.first_hits([[5, 5, 5]], [[1, 0, 0]], length=3)
+    assert (ids.tolist(), t.tolist()) == ([allpairs.NO_BOX], [np.inf])
+    ids, distances = world.nearest([3, 0, 0], k=2)
+    assert (ids.tolist(), distances.tolist()) == ([[0, allpairs.NO_BOX]], [[2, np.inf]])
+    assert world.overlapping([[5, 5, 5, 6, 6, 6]]).shape == (0, 2)
+
+
+def test_bad_input_is_named_and_changes_nothing():
+    world = allpairs.World()
+    ids = world.add(np.zeros((2, 6)))
+    with pytest.raises(allpairs.InvalidBox, match="7") as caught:
+        world.remove([0, 7])
+    assert caught.value.index == 1
+    assert len(world) == 2
+    with pytest.raises(allpairs.InvalidBox):
+        world.move(ids, np.full((2, 6), np.nan))
+    with pytest.raises(allpairs.InvalidBox, match=r"group\[1\] is -1"):
+        world.add(np.zeros((2, 6)), group=[0, -1])
+    with pytest.raises(allpairs.InvalidArgument, match=r"margin has shape \(3,\)"):
+        world.add(np.zeros((2, 6)), margin=[0, 0, 0])
+    with pytest.raises(allpairs.InvalidArgument):
+        world.move([0, 1], np.zeros((1, 6)))
+    with pytest.raises(allpairs.InvalidArgument, match="ids has shape"):
+        world.remove([[0, 1]])
+    with pytest.raises(allpairs.InvalidArgument, match="k is 0"):
+        world.nearest([0, 0, 0], k=0)
+    assert world.step().pairs.tolist() == [[0, 1]]
+
+
+def test_threads_that_share_a_world_wait_for_each_other():
+    world = allpairs.World()
+
+    def work():
+        for _ in range(50):
+            ids = world.add(np.zeros((5, 6)))
+            world.step()
+            world.remove(ids)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(world) == 0
+    assert len(world.step().pairs) == 0
