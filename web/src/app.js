@@ -8,10 +8,10 @@ import { tone } from "./palette.js";
 const flashMs = 700;
 
 export class App extends EventTarget {
-  constructor(scene, stage) {
+  constructor(scene) {
     super();
     this.scene = scene;
-    this.stage = stage; // null where the browser has no WebGL
+    this.stage = null; // until there is a picture; for good where the browser has no WebGL
     this.show = { boxes: true, shapes: true, links: false, excluded: true, region: scene.region !== null };
     this.boxMode = scene.models > 3000 ? "solid" : "outlines";
     this.models = []; // chosen: none, one, or the two of a pair
@@ -20,6 +20,15 @@ export class App extends EventTarget {
 
   get frame() {
     return this.scene.frames[this.index];
+  }
+
+  /** Shows everything in a picture from now on. */
+  attach(stage) {
+    this.stage = stage;
+    stage.setFrame(this.frame);
+    this.restyle();
+    if (this.models.length > 0) this.lookAtChosen();
+    this.emit("show");
   }
 
   emit(name) {
@@ -126,13 +135,16 @@ export class App extends EventTarget {
     const { stage, scene } = this;
     if (!stage) return;
     const near = this.models.length === 1 ? new Set(this.table.entriesOf(this.models[0]).flatMap((e) => [this.table.first(e), this.table.second(e)])) : null;
+    const chosenModels = new Set(this.models);
+    let anyFaint = false;
     for (let i = 0; i < scene.models; ++i) {
-      const chosen = this.models.length === 0 || this.models.includes(i) || near?.has(i);
+      const chosen = this.models.length === 0 || chosenModels.has(i) || near?.has(i);
       const faint = !chosen || (this.models.length === 0 && this.kinds[i] === kind.out);
       stage.styles.set(i, this.toneOf(i), look.shown | (faint ? look.faint : 0));
+      anyFaint ||= faint;
     }
     stage.styles.update();
-    stage.boxes.setMode(this.show.boxes ? this.boxMode : "hidden");
+    stage.boxes.setMode(this.show.boxes ? this.boxMode : "hidden", anyFaint);
     stage.boxes.setFill(stage.shapes.length > 0 ? 0.03 : 0.1);
     for (const shape of stage.shapes) shape.visible = this.show.shapes;
     stage.region.visible = this.show.region && scene.region !== null;

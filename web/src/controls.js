@@ -92,7 +92,7 @@ export function setUpToolbar(app, theme) {
     byId("box-mode").textContent = app.boxMode === "solid" ? "solid" : "outlines";
     byId("up-axis").textContent = `${app.stage?.up ?? "z"} up`;
   };
-  byId("show-shapes").hidden = !app.stage || app.stage.shapes.length === 0;
+  byId("show-shapes").hidden = app.scene.mesh.vertices.length === 0;
   byId("show-region").hidden = app.scene.region === null;
   byId("show-excluded").hidden = app.scene.frames.every((frame) => frame.excluded.length === 0);
   app.addEventListener("show", update);

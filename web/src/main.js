@@ -20,6 +20,24 @@ function makeStage(scene) {
   }
 }
 
+/** Notes, for whoever measures, when the lists and when the picture were there: milliseconds from the page's start. */
+function note(what) {
+  document.documentElement.dataset[what] = Math.round(performance.now());
+}
+
+function showPicture(app, theme) {
+  const stage = makeStage(app.scene);
+  if (stage) {
+    theme.apply = (name) => stage.setTheme(name);
+    theme.update();
+    stage.resize();
+    stage.lookAt(stage.whole);
+    app.attach(stage);
+    setUpPointer(app);
+  }
+  requestAnimationFrame(() => setTimeout(() => note("ready")));
+}
+
 function start() {
   const scene = readScene(document);
   if (!scene) {
@@ -27,9 +45,9 @@ function start() {
     return;
   }
   document.title = `${scene.title} – Allpairs`;
-  const stage = makeStage(scene);
-  const app = new App(scene, stage);
-  const theme = new Theme((name) => stage?.setTheme(name));
+  byId("version").textContent = `Allpairs ${scene.version}`;
+  const app = new App(scene);
+  const theme = new Theme(() => {});
   showSummary(app);
   const panels = { pairs: new PairPanel(app), models: new ModelPanel(app) };
   new Details(app);
@@ -37,13 +55,10 @@ function start() {
   setUpTabs();
   setUpToolbar(app, theme);
   setUpKeys(app, panels, timeline, theme);
-  setUpPointer(app);
   if (app.table.size === 0) openTab("models");
-  byId("version").textContent = `Allpairs ${scene.version}`;
-  stage?.resize();
-  stage?.lookAt(stage.whole);
   requestAnimationFrame(() => setTimeout(() => {
-    document.documentElement.dataset.ready = Math.round(performance.now());
+    note("loaded");
+    showPicture(app, theme);
   }));
 }
 

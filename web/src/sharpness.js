@@ -1,33 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Fewer pixels while the picture moves and drawing is slow, as without a graphics processor; all of them when it rests.
+// Fewer pixels, and fewer of many boxes, while the picture moves and drawing is slow, as without a graphics processor;
+// all of them when it rests.
 
-const slow = 60; // milliseconds between two frames of a movement
-const rest = 180; // milliseconds without a frame
-const coarsest = 0.35;
+const slow = 70; // milliseconds from one frame of a movement to the next
+const rest = 250; // milliseconds without a frame, or twice what one takes
+const coarsest = 0.15;
 
 export class Sharpness {
-  constructor(again) {
+  constructor(again, scale = 1) {
     this.again = again;
-    this.scale = 1;
-    this.last = -Infinity;
+    this.scale = scale;
+    this.cost = 0;
+    this.isMoving = false; // while the pointer holds the picture, it does not rest
   }
 
-  /** How many pixels of the picture there are to one of the page, for a frame at this time. */
-  ratio(time, devicePixelRatio) {
-    const full = Math.min(devicePixelRatio, 2);
-    const since = time - this.last;
-    this.last = time;
+  /** How fine to draw the next frame, up to 1. */
+  next() {
     clearTimeout(this.timer);
-    if (this.isFinal) {
-      this.isFinal = false;
-      return full;
-    }
-    if (since < 1000) {
-      if (since > slow) this.scale = Math.max(coarsest, this.scale * 0.8);
-      else if (since < slow / 3) this.scale = Math.min(1, this.scale * 1.1);
-    }
-    if (this.scale < 1) this.timer = setTimeout(() => this.finish(), rest);
-    return full * this.scale;
+    this.wasFinal = this.isFinal;
+    this.isFinal = false;
+    if (this.wasFinal) return 1;
+    this.plan();
+    return this.scale;
+  }
+
+  plan() {
+    if (this.scale < 1 && !this.isMoving) this.timer = setTimeout(() => this.finish(), Math.max(rest, 2 * this.cost));
+  }
+
+  /** The pointer takes hold of the picture, or lets go. */
+  hold(isMoving) {
+    this.isMoving = isMoving;
+    clearTimeout(this.timer);
+    this.plan();
+  }
+
+  /** How long the last frame took until the browser was ready for another. */
+  took(milliseconds) {
+    if (this.wasFinal) return; // that was the whole picture, and says little about a coarse one
+    this.cost = milliseconds;
+    const factor = milliseconds > slow ? Math.max(0.5, slow / milliseconds) : milliseconds < slow / 2 ? 1.15 : 1;
+    this.scale = Math.min(1, Math.max(coarsest, this.scale * factor));
   }
 
   finish() {

@@ -16,6 +16,8 @@ import { ModelStyles } from "./styles.js";
 
 const sizeOf = (corners) => Math.hypot(...[0, 1, 2].map((k) => corners[k + 3] - corners[k]));
 
+const manyModels = 5000; // of more, some may be missing while the picture moves
+
 const emptyBox = () => new Box3(new Vector3(0, 0, 0), new Vector3(0, 0, 0));
 
 export class Stage {
@@ -25,10 +27,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(40, 1, 0.1, 1000);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.invalidate());
-    this.sharpness = new Sharpness(() => this.invalidate());
+    this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1);
     this.styles = new ModelStyles(scene.models);
     const palette = Array.from({ length: 11 }, () => new Color());
     this.shared = { styles: { value: this.styles.texture }, palette: { value: palette } };
@@ -129,12 +128,19 @@ export class Stage {
   setUp(axis) {
     this.up = axis;
     this.camera.up.set(0, axis === "y" ? 1 : 0, axis === "z" ? 1 : 0);
-    this.controls.dispose();
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls?.dispose();
+    this.controls = this.makeControls();
     const direction = axis === "z" ? new Vector3(0.75, -1, 0.65) : new Vector3(0.75, 0.65, 1);
     this.lookAt(this.whole, direction);
+  }
+
+  makeControls() {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.zoomToCursor = true;
+    controls.addEventListener("change", () => this.invalidate());
+    controls.addEventListener("start", () => this.sharpness.hold(true));
+    controls.addEventListener("end", () => this.sharpness.hold(false));
+    return controls;
   }
 
   /** Moves the camera so that a box, six numbers, fills the picture; keeps its direction unless one is given. */
@@ -187,22 +193,41 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Draws soon, once, and not before the last picture is done. */
   invalidate() {
-    this.pending ??= requestAnimationFrame((time) => {
-      this.pending = undefined;
-      this.draw(time);
-    });
+    if (this.fence) this.isStale = true;
+    else this.pending ??= requestAnimationFrame(() => this.draw());
   }
 
-  draw(time) {
+  draw() {
+    this.pending = undefined;
     if (!this.size) return;
-    const ratio = this.sharpness.ratio(time, window.devicePixelRatio);
+    const scale = this.sharpness.next();
+    const ratio = Math.min(window.devicePixelRatio, 2) * Math.max(scale, 0.5);
+    this.boxes.setDetail(this.data.models > manyModels ? scale * scale : 1);
     if (this.renderer.getPixelRatio() !== ratio || this.drawnSize !== this.size) {
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(...this.size, false);
       this.drawnSize = this.size;
     }
+    const begin = performance.now();
     this.renderer.render(this.scene, this.camera);
-    this.onDraw?.();
+    this.awaitGraphics(begin);
+  }
+
+  /** Browsers queue pictures; a slow renderer would lag behind the pointer by seconds. */
+  awaitGraphics(begin) {
+    const gl = this.renderer.getContext();
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (this.fence && gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) return requestAnimationFrame(look);
+      gl.deleteSync(this.fence);
+      this.fence = null;
+      this.sharpness.took(performance.now() - begin);
+      if (this.isStale) this.invalidate();
+      this.isStale = false;
+    };
+    requestAnimationFrame(look);
   }
 }
