@@ -12,6 +12,7 @@ void addBench(CLI::App& program);
 void addDetect(CLI::App& program);
 void addGenerate(CLI::App& program);
 void addInfo(CLI::App& program);
+void addReport(CLI::App& program);
 void addView(CLI::App& program);
 
 }  // namespace allpairs::app

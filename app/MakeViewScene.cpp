@@ -9,12 +9,14 @@
 #include <map>
 #include <utility>
 
+#include "ExitStatus.h"
 #include "Explain.h"
 #include "ModelMesh.h"
 #include "Records.h"
 #include "Timer.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/scene/BoxFrames.h"
 
 namespace allpairs::app {
 namespace {
@@ -170,14 +172,63 @@ void fill(scene::BoxArray& from, const DetectionOptions& options, view::ViewScen
   to.statistics = detection.statistics;
 }
 
+/// One frame of a sequence: its pairs newest first, as a scene's.
+view::ViewFrame searchFrame(const BoxSet& boxes, const DetectionOptions& options, Overlaps& search) {
+  view::ViewFrame frame = boxFrame(boxes, options);
+  for (const auto& [first, second] : search.find(boxes)) frame.pairs.push_back({second, first});
+  return frame;
+}
+
+OverlapOptions frameOptions(const view::ViewScene& scene, Executor* executor) {
+  OverlapOptions options;
+  options.order = Order::BySecond;
+  options.distance = scene.distance;
+  options.region = scene.region;
+  options.executor = executor;
+  return options;
+}
+
+void fillFrames(const scene::BoxFrames& from, const DetectionOptions& options, view::ViewScene& to) {
+  to.method = fmt::format("{}, {}", boxMethod(options), counted(from.frameCount, "frame"));
+  to.distance = options.margin.value_or(0.0);
+  to.region = options.region;
+  addBoxColumns(from.boxCount, to);
+  const auto executor = makeExecutor(options.threads, from.boxCount);
+  Overlaps search(frameOptions(to, executor.get()));
+  const std::uint64_t all = from.boxCount == 0 ? 0 : std::uint64_t{from.boxCount} * (from.boxCount - 1) / 2;
+  to.statistics.strategy = strategyName(options.strategy);
+  to.statistics.distance = to.distance;
+  const Timer timer;
+  for (std::size_t i = 0; i < from.frameCount; ++i) {
+    to.frames.push_back(searchFrame(from.frame(i), options, search));
+    to.statistics.testsOfAllPairs += all;
+    to.statistics.testsMade += search.statistics().boxTests + search.statistics().groupTests;
+  }
+  to.statistics.detectSeconds = timer.seconds();
+}
+
+/// Frames are read alone: they are not put together with other inputs.
+bool areFrames(const InputSettings& input) {
+  const bool isAny = std::any_of(input.paths.begin(), input.paths.end(),
+                                 [](const std::string& path) { return scene::isBoxFramesFile(path); });
+  if (isAny && input.paths.size() > 1) throw UsageError("boxes over time cannot be put together with other inputs");
+  return isAny;
+}
+
 }  // namespace
 
 view::ViewScene makeViewScene(const InputSettings& input, const DetectionOptions& options) {
   view::ViewScene result;
+  result.title = titleOf(input);
   const Timer timer;
+  if (areFrames(input)) {
+    const scene::BoxFrames frames = scene::readBoxFrames(input.paths.front());
+    result.statistics.readSeconds = timer.seconds();
+    fillFrames(frames, options, result);
+    return result;
+  }
   Inputs inputs = readInputs(input);
   const double readSeconds = timer.seconds();
-  result.title = titleOf(input);
   std::visit([&](auto& content) { fill(content, options, result); }, inputs);
   result.statistics.readSeconds = readSeconds;
   return result;

@@ -100,6 +100,7 @@ int main(int count, char** arguments) {
   allpairs::app::addDetect(program);
   allpairs::app::addInfo(program);
   allpairs::app::addView(program);
+  allpairs::app::addReport(program);
   allpairs::app::addGenerate(program);
   allpairs::app::addBench(program);
   return static_cast<int>(run(program, count, arguments));

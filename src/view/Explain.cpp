@@ -96,9 +96,9 @@ Explanation explain(const ViewScene& scene, const ViewFrame& frame, std::uint32_
 }
 
 std::string_view verdictName(Verdict verdict) {
-  static constexpr std::array<std::string_view, 10> kNames{"pair",         "inactive",   "no-elements", "outside",
+  static constexpr std::array<std::string_view, 10> kNames{"pair",          "inactive",   "no-elements", "outside",
                                                            "not-simulated", "same-owner", "same-group",  "apart",
-                                                           "no-self",      "flat"};
+                                                           "no-self",       "flat"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

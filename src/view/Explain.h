@@ -17,16 +17,16 @@ enum class Verdict : std::uint8_t {
   NotSimulated,  ///< Neither of the two is simulated.
   SameOwner,     ///< Parts of one body, of which not both may collide with it.
   SameGroup,
-  Apart,         ///< The boxes are further apart than counts, or one of them is empty.
-  NoSelf,        ///< A model with itself: it may not collide with itself.
-  Flat,          ///< A model with itself: too flat to touch itself.
+  Apart,   ///< The boxes are further apart than counts, or one of them is empty.
+  NoSelf,  ///< A model with itself: it may not collide with itself.
+  Flat,    ///< A model with itself: too flat to touch itself.
 };
 
 struct Explanation {
   Verdict verdict = Verdict::Pair;
-  int axis = -1;         ///< For Apart: the axis with the widest gap; -1 where a box is empty.
-  double gap = 0.0;      ///< For Apart: how wide it is.
-  int group = 0;         ///< For SameGroup: the smallest that both are in.
+  int axis = -1;     ///< For Apart: the axis with the widest gap; -1 where a box is empty.
+  double gap = 0.0;  ///< For Apart: how wide it is.
+  int group = 0;     ///< For SameGroup: the smallest that both are in.
 };
 
 /// What the rules say of a model and one that was added before it, or of a model with itself, in the rules' order.

@@ -19,7 +19,7 @@ inline constexpr std::uint8_t kActive = 1;
 inline constexpr std::uint8_t kSimulated = 2;
 inline constexpr std::uint8_t kMoving = 4;
 inline constexpr std::uint8_t kSelfCollision = 8;
-inline constexpr std::uint8_t kOutside = 16;    ///< Does not touch the region.
+inline constexpr std::uint8_t kOutside = 16;  ///< Does not touch the region.
 inline constexpr std::uint8_t kNoElements = 32;
 inline constexpr std::uint8_t kTouchesItself = 64;  ///< The method's answer for the model's root with itself.
 }  // namespace flag

@@ -140,7 +140,7 @@ export class App extends EventTarget {
     for (let i = 0; i < scene.models; ++i) {
       const chosen = this.models.length === 0 || chosenModels.has(i) || near?.has(i);
       const faint = !chosen || (this.models.length === 0 && this.kinds[i] === kind.out);
-      stage.styles.set(i, this.toneOf(i), look.shown | (faint ? look.faint : 0));
+      stage.styles.set(i, this.toneOf(i), look.shown | (faint ? look.faint : near && !chosenModels.has(i) ? look.ghost : 0));
       anyFaint ||= faint;
     }
     stage.styles.update();

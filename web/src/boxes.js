@@ -4,7 +4,7 @@
 // hundred thousand of them. Edges are found in the fragment shader, so that a box is twelve triangles and no line.
 
 import { BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, Mesh, NearestFilter, RGBAFormat, ShaderMaterial } from "three";
-import { styleLookup } from "./styles.js";
+import { look, styleLookup } from "./styles.js";
 
 const width = 2048; // texels; a box has two beside each other
 const fineModels = 20_000; // of more, those that are faint are not drawn at all
@@ -93,7 +93,7 @@ export class BoxCloud {
   }
 
   makeObject(uniforms, pass) {
-    const own = { pass: { value: pass }, fill: { value: 0 }, edgeFill: { value: 0.9 }, solid: { value: false }, faces: { value: 6 } };
+    const own = { pass: { value: pass }, faintBits: { value: look.faint }, fill: { value: 0 }, edgeFill: { value: 0.9 }, solid: { value: false }, faces: { value: 6 } };
     const material = new ShaderMaterial({ glslVersion: GLSL3, vertexShader, fragmentShader, uniforms: { ...uniforms, ...own }, transparent: true, depthWrite: false, side: DoubleSide });
     const object = new Mesh(new BufferGeometry(), material);
     object.frustumCulled = false;

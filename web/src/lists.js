@@ -219,6 +219,6 @@ export class ModelPanel extends Panel {
     const tags = tagsOf(app, model).map((tag) => make("span", "tag", tag));
     const name = app.scene.nameOf(model);
     row.append(make("span", "dot"), make("span", "names", make("span", "name", name), ...tags), make("span", "value", grouped(app.partners[model])));
-    row.title = name;
+    row.title = `${name}\n${app.scene.typeNames[app.scene.types[model]]}, model ${model}`;
   }
 }

@@ -2,7 +2,7 @@
 // The meshes of all models, drawn together: triangles, lines and points that look their colour up by model.
 
 import { BufferAttribute, BufferGeometry, DoubleSide, GLSL3, LineSegments, Mesh, Points, ShaderMaterial } from "three";
-import { styleLookup } from "./styles.js";
+import { look, styleLookup } from "./styles.js";
 
 const vertexShader = `
 in float model;
@@ -49,7 +49,7 @@ function modelsOfVertices(mesh) {
 
 function materialOf(shared, pass, lit) {
   const faint = pass === 1;
-  const uniforms = { ...shared, pass: { value: pass }, opacity: { value: faint ? 0.1 : 1 }, lit: { value: lit }, neutral: { value: lit ? 0.45 : 0 } };
+  const uniforms = { ...shared, pass: { value: pass }, faintBits: { value: look.faint | look.ghost }, opacity: { value: faint ? 0.1 : 1 }, lit: { value: lit }, neutral: { value: lit ? 0.45 : 0 } };
   return new ShaderMaterial({
     glslVersion: GLSL3, vertexShader, fragmentShader, uniforms, side: DoubleSide,
     transparent: faint, depthWrite: !faint, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,

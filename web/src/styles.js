@@ -6,7 +6,7 @@ import { DataTexture, NearestFilter, RGBAIntegerFormat, UnsignedByteType } from 
 
 const width = 1024;
 
-export const look = { shown: 1, faint: 2 };
+export const look = { shown: 1, faint: 2, ghost: 4 }; // a ghost's shape is faint, its box is not
 
 export class ModelStyles {
   constructor(count) {
@@ -33,12 +33,13 @@ export const styleLookup = `
 uniform highp usampler2D styles;
 uniform vec3 palette[11];
 uniform int pass; // 0: what is solid, 1: what is faint
+uniform uint faintBits;
 uvec4 styleOf(float model) {
   int i = int(model + 0.5);
   return texelFetch(styles, ivec2(i % ${width}, i / ${width}), 0);
 }
 bool isSkipped(uvec4 style) {
-  bool faint = (style.g & 2u) != 0u;
+  bool faint = (style.g & faintBits) != 0u;
   return (style.g & 1u) == 0u || faint != (pass == 1);
 }
 vec3 colourOf(uvec4 style, float model) {
