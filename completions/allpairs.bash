@@ -13,14 +13,14 @@ _allpairs() {
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
       return
       ;;
-    --margin | --box | --threads | --boxes | -n | --seed | --repetitions | --instruction-set) return ;;
+    --margin | --box | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --seed | --repetitions | --instruction-set) return ;;
   esac
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info generate bench --help -h --version' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect info view report generate bench --help -h --version' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
@@ -29,6 +29,8 @@ _allpairs() {
         words='--margin --box --strategy --threads --verify --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
+      view) words='--margin --box --partial --data -o --output --open --serve --port -h --help' ;;
+      report) words='--margin --box --partial --data -o --output --pictures --metres-per-unit -h --help' ;;
       generate) words='--boxes -n --seed --sorted -o --output -h --help' ;;
       bench)
         words='--boxes -n --seed --sorted --threads --repetitions --unordered --count --strategy --instruction-set --json

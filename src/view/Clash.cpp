@@ -36,12 +36,18 @@ Clash clashOf(const ViewScene& scene, const Pair& pair) {
   return clash;
 }
 
+/// What touches itself comes last: its boxes always share all.
+bool comesBefore(const Clash& a, const Clash& b) {
+  if (a.isSelf() != b.isSelf()) return b.isSelf();
+  return a.volume > b.volume;
+}
+
 }  // namespace
 
 std::vector<Clash> clashesOf(const ViewScene& scene) {
   std::vector<Clash> clashes;
   for (const Pair& pair : scene.frames.front().pairs) clashes.push_back(clashOf(scene, pair));
-  std::stable_sort(clashes.begin(), clashes.end(), [](const Clash& a, const Clash& b) { return a.volume > b.volume; });
+  std::stable_sort(clashes.begin(), clashes.end(), comesBefore);
   for (std::size_t i = 0; i < clashes.size(); ++i) {
     Clash& clash = clashes[i];
     clash.number = i + 1;

@@ -21,7 +21,8 @@ struct Clash {
   [[nodiscard]] bool isSelf() const { return first == second; }
 };
 
-/// The pairs of the scene's first frame, largest overlap first, those of equal volume as they were found.
+/// The pairs of the scene's first frame, largest overlap first, those of equal volume as they were found; self pairs
+/// last.
 [[nodiscard]] std::vector<Clash> clashesOf(const ViewScene& scene);
 
 /// What both boxes of a clash share, or where they are apart the gap between them.

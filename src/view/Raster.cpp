@@ -96,8 +96,8 @@ Raster Raster::halved() const {
   for (std::size_t y = 0; y < result.m_height; ++y) {
     for (std::size_t x = 0; x < result.m_width; ++x) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const int sum = at(2 * x, 2 * y)[i] + at(2 * x + 1, 2 * y)[i] + at(2 * x, 2 * y + 1)[i] +
-                        at(2 * x + 1, 2 * y + 1)[i];
+        const int sum =
+            at(2 * x, 2 * y)[i] + at(2 * x + 1, 2 * y)[i] + at(2 * x, 2 * y + 1)[i] + at(2 * x + 1, 2 * y + 1)[i];
         result.m_pixels[y * result.m_width + x][i] = static_cast<std::uint8_t>((sum + 2) / 4);
       }
     }

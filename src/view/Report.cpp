@@ -64,7 +64,8 @@ std::string introduction(const ViewScene& scene, std::size_t count, std::size_t 
                                  scene.modelCount, count, escapeXml(scene.method));
   text +=
       "<p>A pair is two models whose axis-aligned bounding boxes are near enough: they may touch, and only a look at "
-      "their shapes says whether they do. Red is what the two boxes share. The largest comes first.</p>\n";
+      "their shapes says whether they do. Red is what the two boxes share. The largest comes first; models that may "
+      "touch themselves come last.</p>\n";
   text += "<p>Also in this folder: <a href=\"clashes.csv\">clashes.csv</a>, <a href=\"clashes.bcf\">clashes.bcf</a>.";
   if (pictured < count) text += fmt::format(" The first {} have pictures and are in the BCF file.", pictured);
   return text + "</p>\n";
