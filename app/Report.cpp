@@ -104,6 +104,7 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
 }
 
 void runReport(const ReportSettings& settings) {
+  if (settings.folder.empty()) throw UsageError("-o DIR is needed: the folder to write into");
   if (!(settings.metresPerUnit > 0.0)) throw UsageError("--metres-per-unit: a number above 0 is needed");
   const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
   if (scene.frames.size() > 1) throw UsageError("a report is of one moment: the input has several frames");
@@ -120,8 +121,7 @@ void addReport(CLI::App& program) {
   addInputOptions(*command, settings->input);
   addSearchOptions(*command, settings->search);
   command->add_option("-o,--output", settings->folder, "Write into the folder DIR, which is made if it is not there")
-      ->type_name("DIR")
-      ->required();
+      ->type_name("DIR");
   command->add_option("--pictures", settings->pictures, "At most so many pairs have a picture and are in the BCF file")
       ->type_name("N")
       ->capture_default_str();

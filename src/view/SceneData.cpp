@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "Base64.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::view {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "the page reads its arrays as little-endian");
+
+constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // as base64, about what browsers take for one text
 
 /// Arrays one after the other, each at a multiple of eight bytes, and the list that says where.
 class ArrayWriter {
@@ -177,6 +180,10 @@ SceneData::SceneData(const ViewScene& scene) {
             {"arrays", arrays.list()}};
   m_json = scriptSafe(json);
   m_bytes = arrays.bytes();
+  if (m_json.size() + m_bytes.size() > kMostBytes) {
+    throw Error(std::to_string(scene.modelCount) + " models and their pairs are too much for one page: " +
+                std::to_string((m_json.size() + m_bytes.size()) >> 20U) + " MiB");
+  }
 }
 
 void SceneData::writeBase64(scene::ByteSink sink) const { view::writeBase64(m_bytes, sink); }

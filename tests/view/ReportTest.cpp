@@ -158,7 +158,7 @@ TEST(Report, SaysWhatIsWrong) {
   const TempFolder folder;
   const std::string file = folder.write("file", "");
   expectFailure(runProgram({"report", kDemo, "-o", file + "/out"}), 3, "cannot make this folder");
-  expectFailure(runProgram({"report", kDemo}), 2, "");
+  expectFailure(runProgram({"report", kDemo}), 2, "-o DIR is needed");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
                 "a number above 0");
 }
