@@ -41,7 +41,7 @@ Verdict verdictOf(const ViewScene& scene, const std::string& a, const std::strin
     EXPECT_NE(place, scene.names.end()) << name;
     return static_cast<std::uint32_t>(place - scene.names.begin());
   };
-  const auto [older, newer] = std::minmax(indexOf(a), indexOf(b));
+  const auto [older, newer] = std::minmax({indexOf(a), indexOf(b)});
   return explain(scene, scene.frames.front(), newer, older).verdict;
 }
 
