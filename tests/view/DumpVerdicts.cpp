@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints, for each model of the inputs and each before it and itself, the verdict of the rules, the widest gap and its
+// dump_verdicts INPUT... [--data DIR]...: prints, for each model of the inputs and each before it and itself, the verdict of the rules, the widest gap and its
 // axis, one a line: what the page's own rules are compared with.
 
 #include <cstdio>
@@ -12,7 +12,14 @@
 int main(int count, char** arguments) {
   try {
     allpairs::app::InputSettings input;
-    for (int i = 1; i < count; ++i) input.paths.emplace_back(arguments[i]);
+    for (int i = 1; i < count; ++i) {
+      const std::string word = arguments[i];
+      if (word == "--data" && i + 1 < count) {
+        input.searchRoots.emplace_back(arguments[++i]);
+      } else {
+        input.paths.push_back(word);
+      }
+    }
     const allpairs::view::ViewScene scene = allpairs::app::makeViewScene(input, {});
     for (std::uint32_t newer = 0; newer < scene.modelCount; ++newer) {
       for (std::uint32_t older = 0; older <= newer; ++older) {

@@ -52,5 +52,6 @@ test("verdicts of boxes with gaps, empty and infinite ones are the program's", (
 
 const data = dataFolder();
 test("verdicts of real scenes are the program's", { skip: data ? false : "no folder of data" }, () => {
-  for (const scene of scenesIn(data).filter((path) => !/Demos|Tutorials/.test(path))) compare(scene);
+  const roots = ["--data", join(data, "scenes"), "--data", join(data, "scenes/examples")];
+  for (const scene of scenesIn(data)) compare(scene, ...roots);
 });
