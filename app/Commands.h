@@ -14,5 +14,7 @@ void addElements(CLI::App& program);
 void addGenerate(CLI::App& program);
 void addInfo(CLI::App& program);
 void addTrack(CLI::App& program);
+void addReport(CLI::App& program);
+void addView(CLI::App& program);
 
 }  // namespace allpairs::app

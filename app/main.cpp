@@ -103,6 +103,8 @@ int main(int count, char** arguments) {
   allpairs::app::addInfo(program);
   allpairs::app::addElements(program);
   allpairs::app::addTrack(program);
+  allpairs::app::addView(program);
+  allpairs::app::addReport(program);
   allpairs::app::addGenerate(program);
   allpairs::app::addBench(program);
   return static_cast<int>(run(program, count, arguments));

@@ -16,14 +16,14 @@ _allpairs() {
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
       return
       ;;
-    --margin | --box | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
+    --margin | --box | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
   esac
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements generate bench --help -h --version' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench --help -h --version' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
@@ -32,6 +32,8 @@ _allpairs() {
         words='--margin --box --strategy --threads --verify --exact --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
+      view) words='--margin --box --partial --data -o --output --open --serve --port -h --help' ;;
+      report) words='--margin --box --partial --data -o --output --pictures --metres-per-unit -h --help' ;;
       track) words='--margin --threads --verify --format -o --output -h --help' ;;
       elements) words='--margin --between --threads --format -o --output -h --help' ;;
       generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;

@@ -38,6 +38,12 @@ void checkLength(const NpyHeader& header, std::uint64_t itemSize, const InputFil
 
 }  // namespace
 
+bool isBoxFramesFile(const Path& path) {
+  if (path.extension() != ".npy") return false;
+  InputFile file(path);
+  return readNpyHeader(file, path).shape.size() == 3;
+}
+
 struct BoxFrames::State {
   explicit State(const Path& filePath) : path(filePath), file(filePath), header(readNpyHeader(file, filePath)) {}
 

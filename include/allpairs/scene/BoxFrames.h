@@ -9,6 +9,11 @@
 
 namespace allpairs::scene {
 
+/// Whether the path is a NumPy file of three dimensions.
+///
+/// Bad input: a .npy file that is missing, unreadable or malformed throws FileError.
+[[nodiscard]] bool isBoxFramesFile(const std::filesystem::path& path);
+
 /// Boxes that move, as a file holds them, one frame after the other; only one of them is in memory.
 ///
 /// The file is a NumPy array of shape (t, n, 6), float32 or float64, either byte order, C order: t frames of n boxes.

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "Report.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "Bcf.h"
+#include "Clash.h"
+#include "ClashPicture.h"
+#include "Commands.h"
+#include "ExitStatus.h"
+#include "InputOptions.h"
+#include "MakeViewScene.h"
+#include "Output.h"
+#include "Png.h"
+#include "Progress.h"
+#include "SearchArguments.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportSettings {
+  InputSettings input;
+  SearchArguments search;
+  std::string folder;
+  std::size_t pictures = 500;
+  double metresPerUnit = 1.0;
+};
+
+constexpr const char* kExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
+and a folder of pictures. Pairs whose boxes share most come first.
+
+Examples:
+  allpairs report parts/ -o report
+  allpairs report assembly.glb --margin 0.01 -o report --pictures 100
+  allpairs report parts/ --metres-per-unit 0.001 -o report)";
+
+void writeFile(const fs::path& path, std::string_view bytes) {
+  Output output(path);
+  output.write(bytes);
+  output.commit();
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) throw FileError(folder, "cannot make this folder: " + problem.message());
+}
+
+/// Now, or the moment that builds which must repeat exactly give in SOURCE_DATE_EPOCH.
+std::string dateText() {
+  std::time_t moment = std::time(nullptr);
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) {
+    char* end = nullptr;
+    const long long seconds = std::strtoll(fixed, &end, 10);
+    if (end != fixed && *end == '\0') moment = static_cast<std::time_t>(seconds);
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
+}
+
+/// The pictures of the first clashes as files, by number.
+std::vector<std::string> writePictures(const view::ViewScene& scene, std::span<const view::Clash> clashes,
+                                       const fs::path& folder) {
+  ProgressLine line;
+  std::vector<std::string> pictures;
+  for (const view::Clash& clash : clashes) {
+    line.show(fmt::format("drawing {} of {}", clash.number, clashes.size()));
+    pictures.push_back(view::encodePng(view::pictureOf(scene, clash, view::cameraOf(scene, clash))));
+    writeFile(folder / view::pictureName(clash), pictures.back());
+  }
+  return pictures;
+}
+
+void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
+  const fs::path folder = settings.folder;
+  const std::vector<view::Clash> clashes = view::clashesOf(scene);
+  const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
+  makeFolder(folder / "pictures");
+  const std::vector<std::string> pictures = writePictures(scene, pictured, folder);
+  view::BcfOptions options;
+  options.date = dateText();
+  options.metresPerUnit = settings.metresPerUnit;
+  options.picture = [&pictures](const view::Clash& clash) { return pictures[clash.number - 1]; };
+  writeFile(folder / "clashes.bcf", view::makeBcf(scene, pictured, options));
+  Output csv(folder / "clashes.csv");
+  view::writeReportCsv(scene, clashes, [&csv](std::string_view bytes) { csv.write(bytes); });
+  csv.commit();
+  Output page(folder / "index.html");  // last, so that what it refers to is there
+  view::writeReportPage(scene, clashes, pictured.size(), [&page](std::string_view bytes) { page.write(bytes); });
+  page.commit();
+}
+
+void runReport(const ReportSettings& settings) {
+  if (settings.folder.empty()) throw UsageError("-o DIR is needed: the folder to write into");
+  if (!(settings.metresPerUnit > 0.0)) throw UsageError("--metres-per-unit: a number above 0 is needed");
+  const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
+  if (scene.frames.size() > 1) throw UsageError("a report is of one moment: the input has several frames");
+  writeReport(scene, settings);
+}
+
+}  // namespace
+
+void addReport(CLI::App& program) {
+  const auto settings = std::make_shared<ReportSettings>();
+  CLI::App* command =
+      program.add_subcommand("report", "Write a folder with a page, a table and a BCF file of all pairs");
+  command->footer(kExamples);
+  addInputOptions(*command, settings->input);
+  addSearchOptions(*command, settings->search);
+  command->add_option("-o,--output", settings->folder, "Write into the folder DIR, which is made if it is not there")
+      ->type_name("DIR");
+  command->add_option("--pictures", settings->pictures, "At most so many pairs have a picture and are in the BCF file")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--metres-per-unit", settings->metresPerUnit, "How long a unit of the input is, for BCF's cameras")
+      ->type_name("M")
+      ->capture_default_str();
+  command->callback([settings] { runReport(*settings); });
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Commands.h"
+#include "ExitStatus.h"
+#include "InputOptions.h"
+#include "MakeViewScene.h"
+#include "OpenFile.h"
+#include "Output.h"
+#include "OutputOption.h"
+#include "SearchArguments.h"
+#include "ServePage.h"
+#include "WritePage.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::app {
+namespace {
+
+struct ViewSettings {
+  InputSettings input;
+  SearchArguments search;
+  std::string output;
+  bool open = false;
+  bool serve = false;
+  int port = 0;
+};
+
+constexpr const char* kExamples =
+    R"(The page needs no network and no other file: send it to whom you like. Press ? in it.
+
+Examples:
+  allpairs view scene.scn -o scene.html
+  allpairs view parts/ --margin 0.5 --open
+  allpairs view boxes.npy --serve)";
+
+void writeFile(const view::ViewScene& scene, const std::optional<std::filesystem::path>& path) {
+  Output output(path);
+  if (output.isTerminal())
+    throw UsageError("a page is not for a terminal: name a file with -o, or use --open or --serve");
+  view::writePage(scene, [&output](std::string_view bytes) { output.write(bytes); });
+  output.commit();
+}
+
+/// A new file in the folder for temporary files, which only the user may read.
+std::string temporaryFile() {
+  std::string name = std::filesystem::temp_directory_path() / "allpairs-XXXXXX.html";
+  const int descriptor = ::mkstemps(name.data(), 5);
+  if (descriptor < 0) throw FileError(name, "cannot make a temporary file");
+  ::close(descriptor);
+  return name;
+}
+
+void serve(const view::ViewScene& scene, const ViewSettings& settings) {
+  std::string page;
+  view::writePage(scene, [&page](std::string_view bytes) { page += bytes; });
+  servePage(page, settings.port, [&settings](const std::string& address) {
+    fmt::print("{} (end with Ctrl+C)\n", address);
+    std::fflush(stdout);
+    if (settings.open) openInBrowser(address);
+  });
+}
+
+void runView(const ViewSettings& settings) {
+  const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
+  std::optional<std::filesystem::path> path;
+  if (!settings.output.empty()) path = settings.output;
+  if (!path && settings.open && !settings.serve) path = temporaryFile();
+  if (path || !settings.serve) writeFile(scene, path);
+  if (settings.serve) return serve(scene, settings);
+  if (settings.open) openInBrowser(std::filesystem::absolute(*path));
+}
+
+}  // namespace
+
+void addView(CLI::App& program) {
+  const auto settings = std::make_shared<ViewSettings>();
+  CLI::App* command = program.add_subcommand("view", "Write a page that shows models and pairs in 3D");
+  command->footer(kExamples);
+  addInputOptions(*command, settings->input);
+  addSearchOptions(*command, settings->search);
+  addOutputOption(*command, settings->output);
+  command->add_flag("--open", settings->open, "Open the page in the browser");
+  command->add_flag("--serve", settings->serve, "Serve the page on this machine alone until the program is ended");
+  command->add_option("--port", settings->port, "Where to serve; 0, the default: any port that is free")
+      ->type_name("P")
+      ->check(CLI::Range(0, 65535));
+  command->callback([settings] { runView(*settings); });
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "ClashPicture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace allpairs::view {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+constexpr std::size_t kWidth = 640;
+constexpr std::size_t kHeight = 480;
+constexpr Colour kBackground{246, 248, 250};
+constexpr Colour kFirst{0, 114, 178};  // colours that people with any colour vision tell apart
+constexpr Colour kSecond{230, 159, 0};
+constexpr Colour kShared{213, 50, 15};
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+double sizeOf(const Box& box) {
+  const Vec3 extent = minus(box.max, box.min);
+  return std::sqrt(dot(extent, extent));
+}
+
+/// Corner 0 to 7: bit k says whether it is at the maximum of axis k.
+Vec3 cornerOf(const Box& box, unsigned corner) {
+  Vec3 p = box.min;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if ((corner >> axis & 1U) != 0) p[axis] = box.max[axis];
+  }
+  return p;
+}
+
+/// Infinite sides end where the picture has long ended.
+Box finite(const Box& box, const ParallelCamera& camera) {
+  constexpr double kFar = 50.0;
+  Box result = box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.min[axis] = std::max(box.min[axis], camera.centre[axis] - kFar * camera.height);
+    result.max[axis] = std::min(box.max[axis], camera.centre[axis] + kFar * camera.height);
+  }
+  return result;
+}
+
+class Drawing {
+ public:
+  Drawing(const ViewScene& scene, const ParallelCamera& camera)
+      : m_scene(scene),
+        m_camera(camera),
+        m_right(cross(camera.direction, camera.up)),
+        m_raster(2 * kWidth, 2 * kHeight, kBackground) {}
+
+  void model(std::uint32_t model, Colour colour) {
+    drawTriangles(model, colour);
+    drawLines(model, colour);
+    const Box box = finite(m_scene.frames.front().boxes[model], m_camera);
+    if (!hasShape(model)) this->veil(box, colour, 0.25);
+    edges(box, colour, 2.5);
+  }
+
+  void shared(const Box& box) {
+    const Box cut = finite(box, m_camera);
+    veil(cut, kShared, 0.3);
+    edges(cut, kShared, 3.5);
+  }
+
+  [[nodiscard]] Raster finish() const { return m_raster.halved(); }
+
+ private:
+  [[nodiscard]] RasterPoint project(const Vec3& p) const {
+    const double scale = static_cast<double>(m_raster.height()) / m_camera.height;
+    const Vec3 from = minus(p, m_camera.centre);
+    return {static_cast<double>(m_raster.width()) / 2.0 + scale * dot(from, m_right),
+            static_cast<double>(m_raster.height()) / 2.0 - scale * dot(from, m_camera.up),
+            dot(from, m_camera.direction) / m_camera.height};
+  }
+
+  [[nodiscard]] Vec3 vertex(std::uint32_t i) const {
+    const double* p = &m_scene.mesh.vertices[std::size_t{i} * 3];
+    return {p[0], p[1], p[2]};
+  }
+
+  [[nodiscard]] static std::span<const std::uint32_t> partOf(const std::vector<std::uint32_t>& indices,
+                                                             const std::vector<std::uint32_t>& ends,
+                                                             std::uint32_t model) {
+    if (ends.empty()) return {};
+    const std::size_t begin = model == 0 ? 0 : ends[model - 1];
+    return std::span(indices).subspan(begin, ends[model] - begin);
+  }
+
+  [[nodiscard]] bool hasShape(std::uint32_t model) const {
+    const ViewMesh& mesh = m_scene.mesh;
+    return !partOf(mesh.triangles, mesh.triangleEnds, model).empty() ||
+           !partOf(mesh.lines, mesh.lineEnds, model).empty() || !partOf(mesh.points, mesh.pointEnds, model).empty();
+  }
+
+  void drawTriangles(std::uint32_t model, Colour colour) {
+    const auto indices = partOf(m_scene.mesh.triangles, m_scene.mesh.triangleEnds, model);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      const std::array<Vec3, 3> corners{vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2])};
+      m_raster.triangle({project(corners[0]), project(corners[1]), project(corners[2])}, lit(corners, colour));
+    }
+  }
+
+  void drawLines(std::uint32_t model, Colour colour) {
+    const auto indices = partOf(m_scene.mesh.lines, m_scene.mesh.lineEnds, model);
+    for (std::size_t i = 0; i + 1 < indices.size(); i += 2) {
+      m_raster.line(project(vertex(indices[i])), project(vertex(indices[i + 1])), colour, 2.0);
+    }
+    for (const std::uint32_t point : partOf(m_scene.mesh.points, m_scene.mesh.pointEnds, model)) {
+      m_raster.line(project(vertex(point)), project(vertex(point)), colour, 8.0);
+    }
+  }
+
+  /// A colour in the light that falls on a triangle from behind the camera's shoulder.
+  [[nodiscard]] Colour lit(const std::array<Vec3, 3>& corners, Colour colour) const {
+    const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    const double length = std::sqrt(dot(normal, normal));
+    const Vec3 light{0.27, -0.53, 0.80};
+    const double brightness = 0.5 + 0.5 * (length > 0.0 ? std::abs(dot(normal, light)) / length : 1.0);
+    for (std::uint8_t& part : colour) part = static_cast<std::uint8_t>(std::lround(part * brightness));
+    return colour;
+  }
+
+  void veil(const Box& box, Colour colour, double opacity) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const unsigned side = m_camera.direction[axis] < 0.0 ? 1U << axis : 0U;  // the face that the camera sees
+      const unsigned u = 1U << (axis + 1) % 3;
+      const unsigned v = 1U << (axis + 2) % 3;
+      const RasterPoint a = project(cornerOf(box, side));
+      const RasterPoint c = project(cornerOf(box, side | u | v));
+      m_raster.veil({a, project(cornerOf(box, side | u)), c}, colour, opacity);
+      m_raster.veil({a, c, project(cornerOf(box, side | v))}, colour, opacity);
+    }
+  }
+
+  void edges(const Box& box, Colour colour, double width) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        if ((corner >> axis & 1U) != 0) continue;
+        m_raster.line(project(cornerOf(box, corner)), project(cornerOf(box, corner | 1U << axis)), colour, width);
+      }
+    }
+  }
+
+  const ViewScene& m_scene;
+  const ParallelCamera& m_camera;
+  Vec3 m_right;
+  Raster m_raster;
+};
+
+/// What a picture is of: both boxes, or what is shared and the smaller of two that differ much in size.
+Box subjectOf(const ViewScene& scene, const Clash& clash) {
+  constexpr double kMuchLarger = 4.0;
+  const Box& a = scene.frames.front().boxes[clash.first];
+  const Box& b = scene.frames.front().boxes[clash.second];
+  const double sizeA = sizeOf(a);
+  const double sizeB = sizeOf(b);
+  if (sizeA > kMuchLarger * sizeB) return merge(placeOf(scene, clash), b);
+  if (sizeB > kMuchLarger * sizeA) return merge(placeOf(scene, clash), a);
+  return merge(a, b);
+}
+
+}  // namespace
+
+ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash) {
+  ParallelCamera camera;
+  camera.direction = {-0.48, 0.72, -0.50};
+  const double length = std::sqrt(dot(camera.direction, camera.direction));
+  for (double& part : camera.direction) part /= length;
+  const Vec3 right = cross(camera.direction, {0.0, 0.0, 1.0});
+  camera.up = cross(right, camera.direction);
+  const double upLength = std::sqrt(dot(camera.up, camera.up));
+  for (double& part : camera.up) part /= upLength;
+  const Box subject = subjectOf(scene, clash);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double middle = subject.min[axis] / 2.0 + subject.max[axis] / 2.0;
+    camera.centre[axis] = std::isfinite(middle) ? middle : 0.0;
+  }
+  constexpr double kRoom = 1.15;
+  const double size = sizeOf(subject) * kRoom;
+  if (size > 0.0 && std::isfinite(size)) camera.height = size;
+  return camera;
+}
+
+Raster pictureOf(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera) {
+  Drawing drawing(scene, camera);
+  drawing.model(clash.first, kFirst);
+  if (clash.isSelf()) return drawing.finish();
+  drawing.model(clash.second, kSecond);
+  drawing.shared(placeOf(scene, clash));
+  return drawing.finish();
+}
+
+}  // namespace allpairs::view

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace allpairs::view {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+/// A place in a picture: pixels to the right and down, and how far behind the picture's plane it is.
+struct RasterPoint {
+  double x = 0.0;
+  double y = 0.0;
+  double depth = 0.0;
+};
+
+/// A picture with a depth for each pixel, into which triangles and lines are drawn.
+///
+/// Whatever lies outside of the picture is cut off.
+class Raster {
+ public:
+  Raster(std::size_t width, std::size_t height, Colour background);
+
+  [[nodiscard]] std::size_t width() const { return m_width; }
+  [[nodiscard]] std::size_t height() const { return m_height; }
+  [[nodiscard]] Colour at(std::size_t x, std::size_t y) const { return m_pixels[y * m_width + x]; }
+
+  /// Hides what is behind it.
+  void triangle(const std::array<RasterPoint, 3>& corners, Colour colour);
+
+  /// Mixes its colour with what is there, opacity from 0 to 1, wherever it is; hides nothing.
+  void veil(const std::array<RasterPoint, 3>& corners, Colour colour, double opacity);
+
+  /// A line of a width in pixels. Where something else is in front of it, it is faint.
+  void line(const RasterPoint& begin, const RasterPoint& end, Colour colour, double width);
+
+  /// Half as wide and high, each pixel the mean of four.
+  [[nodiscard]] Raster halved() const;
+
+ private:
+  template <class Paint>
+  void scan(const std::array<RasterPoint, 3>& corners, const Paint& paint) const;
+  void mix(std::size_t pixel, Colour colour, double opacity);
+  void stamp(const RasterPoint& centre, Colour colour, double radius);
+
+  std::size_t m_width;
+  std::size_t m_height;
+  std::vector<Colour> m_pixels;
+  std::vector<float> m_depths;
+};
+
+}  // namespace allpairs::view

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "SceneData.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+
+#include "Base64.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "the page reads its arrays as little-endian");
+
+constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // as base64, about what browsers take for one text
+
+/// Arrays one after the other, each at a multiple of eight bytes, and the list that says where.
+class ArrayWriter {
+ public:
+  template <class T>
+  void add(const char* name, const char* type, std::span<const T> values) {
+    m_list.push_back({{"name", name}, {"type", type}, {"offset", m_bytes.size()}, {"length", values.size()}});
+    if (!values.empty()) {
+      const std::size_t offset = m_bytes.size();
+      m_bytes.resize(offset + values.size_bytes());
+      std::memcpy(m_bytes.data() + offset, values.data(), values.size_bytes());
+    }
+    m_bytes.resize((m_bytes.size() + 7) / 8 * 8);
+  }
+
+  void add(const char* name, const std::vector<double>& values) { add<double>(name, "Float64", values); }
+  void add(const char* name, const std::vector<float>& values) { add<float>(name, "Float32", values); }
+  void add(const char* name, const std::vector<std::uint32_t>& values) { add<std::uint32_t>(name, "Uint32", values); }
+  void add(const char* name, const std::vector<std::uint8_t>& values) { add<std::uint8_t>(name, "Uint8", values); }
+
+  [[nodiscard]] Json list() { return std::move(m_list); }
+  [[nodiscard]] std::string bytes() { return std::move(m_bytes); }
+
+ private:
+  Json m_list = Json::array();
+  std::string m_bytes;
+};
+
+void append(std::vector<double>& numbers, const Box& box) {
+  numbers.insert(numbers.end(), box.min.begin(), box.min.end());
+  numbers.insert(numbers.end(), box.max.begin(), box.max.end());
+}
+
+void append(std::vector<std::uint32_t>& numbers, const std::vector<Pair>& pairs) {
+  for (const auto& [first, second] : pairs) numbers.insert(numbers.end(), {first, second});
+}
+
+/// The middle of all that is finite: what coordinates are taken from before they become float32 for the graphics.
+std::vector<double> originOf(const ViewScene& scene) {
+  Box whole = kEmptyBox;
+  for (const Box& box : scene.frames.front().boxes) {
+    Box finite = box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(box.min[axis]) || !std::isfinite(box.max[axis])) finite = kEmptyBox;
+    }
+    whole = merge(whole, finite);
+  }
+  if (isEmpty(whole)) return {0.0, 0.0, 0.0};
+  std::vector<double> origin;
+  for (std::size_t axis = 0; axis < 3; ++axis) origin.push_back(whole.min[axis] / 2 + whole.max[axis] / 2);
+  return origin;
+}
+
+void addMesh(const ViewMesh& mesh, const std::vector<double>& origin, ArrayWriter& arrays) {
+  std::vector<float> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    vertices.push_back(static_cast<float>(mesh.vertices[i] - origin[i % 3]));
+  }
+  arrays.add("vertices", vertices);
+  arrays.add("triangles", mesh.triangles);
+  arrays.add("triangleEnds", mesh.triangleEnds);
+  arrays.add("lines", mesh.lines);
+  arrays.add("lineEnds", mesh.lineEnds);
+  arrays.add("points", mesh.points);
+  arrays.add("pointEnds", mesh.pointEnds);
+}
+
+void addFrames(const ViewScene& scene, ArrayWriter& arrays) {
+  std::vector<double> boxes;
+  std::vector<std::uint8_t> flags;
+  std::vector<std::uint32_t> pairs;
+  std::vector<std::uint32_t> pairEnds;
+  std::vector<std::uint32_t> excluded;
+  std::vector<std::uint32_t> excludedEnds;
+  for (const ViewFrame& frame : scene.frames) {
+    for (const Box& box : frame.boxes) append(boxes, box);
+    flags.insert(flags.end(), frame.flags.begin(), frame.flags.end());
+    append(pairs, frame.pairs);
+    append(excluded, frame.excluded);
+    pairEnds.push_back(static_cast<std::uint32_t>(pairs.size() / 2));
+    excludedEnds.push_back(static_cast<std::uint32_t>(excluded.size() / 2));
+  }
+  arrays.add("boxes", boxes);
+  arrays.add("flags", flags);
+  arrays.add("pairs", pairs);
+  arrays.add("pairEnds", pairEnds);
+  arrays.add("excluded", excluded);
+  arrays.add("excludedEnds", excludedEnds);
+}
+
+void addModels(const ViewScene& scene, ArrayWriter& arrays) {
+  arrays.add("types", scene.types);
+  arrays.add("groups", scene.groups);
+  arrays.add("owners", scene.owners);
+  arrays.add("elements", scene.elements);
+  arrays.add("contactDistances", scene.contactDistances);
+}
+
+Json statisticsOf(const ViewScene& scene) {
+  const scene::DetectionStatistics& from = scene.statistics;
+  return {{"strategy", from.strategy},       {"threads", from.threads},
+          {"verified", from.verified},       {"testsOfAllPairs", from.testsOfAllPairs},
+          {"testsMade", from.testsMade},     {"candidates", from.candidates},
+          {"readSeconds", from.readSeconds}, {"detectSeconds", from.detectSeconds}};
+}
+
+Json ignoredOf(const ViewScene& scene) {
+  Json list = Json::array();
+  for (const scene::Remark& remark : scene.ignored) {
+    list.push_back({{"file", remark.file.filename().string()},
+                    {"line", remark.line},
+                    {"subject", remark.subject},
+                    {"reason", remark.reason}});
+  }
+  return list;
+}
+
+/// JSON that an HTML parser takes for text to its end: it has no "<", which would begin "</script" or "<!--".
+std::string scriptSafe(const Json& json) {
+  std::string result;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      result += "\\u003c";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+SceneData::SceneData(const ViewScene& scene) {
+  ArrayWriter arrays;
+  const std::vector<double> origin = originOf(scene);
+  std::vector<double> region;
+  if (scene.region) append(region, *scene.region);
+  arrays.add("distance", std::vector<double>{scene.distance});
+  arrays.add("region", region);
+  arrays.add("origin", origin);
+  addModels(scene, arrays);
+  addFrames(scene, arrays);
+  addMesh(scene.mesh, origin, arrays);
+  Json json{{"format", 1},
+            {"version", ALLPAIRS_VERSION},
+            {"title", scene.title},
+            {"method", scene.method},
+            {"addsContactDistances", scene.addsContactDistances},
+            {"models", scene.modelCount},
+            {"frames", scene.frames.size()},
+            {"meshIsShortened", scene.mesh.isShortened},
+            {"names", scene.names},
+            {"typeNames", scene.typeNames},
+            {"groupSets", scene.groupSets},
+            {"statistics", statisticsOf(scene)},
+            {"ignored", ignoredOf(scene)},
+            {"arrays", arrays.list()}};
+  m_json = scriptSafe(json);
+  m_bytes = arrays.bytes();
+  if (m_json.size() + m_bytes.size() > kMostBytes) {
+    throw Error(std::to_string(scene.modelCount) + " models and their pairs are too much for one page: " +
+                std::to_string((m_json.size() + m_bytes.size()) >> 20U) + " MiB");
+  }
+}
+
+void SceneData::writeBase64(scene::ByteSink sink) const { view::writeBase64(m_bytes, sink); }
+
+}  // namespace allpairs::view

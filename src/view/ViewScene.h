@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/Pair.h"
+#include "allpairs/scene/WriteResult.h"
+
+namespace allpairs::view {
+
+/// What the rules know of one model in one frame, as bits; web/src/rules.js has the same numbers.
+namespace flag {
+inline constexpr std::uint8_t kActive = 1;
+inline constexpr std::uint8_t kSimulated = 2;
+inline constexpr std::uint8_t kMoving = 4;
+inline constexpr std::uint8_t kSelfCollision = 8;
+inline constexpr std::uint8_t kOutside = 16;  ///< Does not touch the region.
+inline constexpr std::uint8_t kNoElements = 32;
+inline constexpr std::uint8_t kTouchesItself = 64;  ///< The method's answer for the model's root with itself.
+}  // namespace flag
+
+/// The shapes of all models in one block. Model i has the entries from ends[i - 1] (0 for the first) to ends[i].
+struct ViewMesh {
+  std::vector<double> vertices;  ///< x y z.
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> lines;
+  std::vector<std::uint32_t> points;
+  std::vector<std::uint32_t> triangleEnds;  ///< Counted in indices: three a triangle, two a line, one a point.
+  std::vector<std::uint32_t> lineEnds;
+  std::vector<std::uint32_t> pointEnds;
+  bool isShortened = false;  ///< Models from some place on have no shape, because there would be too much of it.
+};
+
+/// Boxes and pairs at one moment. Pairs are oriented and ordered as a result has them.
+struct ViewFrame {
+  std::vector<Box> boxes;
+  std::vector<std::uint8_t> flags;
+  std::vector<Pair> pairs;
+  std::vector<Pair> excluded;  ///< (newer, older): the boxes are near enough, and a rule says no.
+};
+
+/// All that a page or a report shows: models, what the rules read of them, and what was found, frame by frame.
+struct ViewScene {
+  std::string title;
+  std::string method;  ///< How models are tested, in words.
+  double distance = 0.0;
+  bool addsContactDistances = false;
+  std::optional<Box> region;
+  std::size_t modelCount = 0;
+  std::vector<std::string> names;  ///< Empty: a model is called by its index.
+  std::vector<std::string> typeNames;
+  std::vector<std::vector<int>> groupSets;  ///< The first is empty.
+  std::vector<std::uint32_t> types;         ///< Of each model, an index into typeNames.
+  std::vector<std::uint32_t> groups;        ///< Of each model, an index into groupSets.
+  std::vector<std::uint32_t> owners;        ///< Models with the same number are one body.
+  std::vector<std::uint32_t> elements;
+  std::vector<double> contactDistances;
+  ViewMesh mesh;
+  std::vector<ViewFrame> frames;  ///< At least one.
+  std::vector<scene::Remark> ignored;
+  scene::DetectionStatistics statistics;
+
+  [[nodiscard]] std::string name(std::size_t model) const {
+    return names.empty() ? std::to_string(model) : names[model];
+  }
+};
+
+}  // namespace allpairs::view

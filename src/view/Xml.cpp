@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "Xml.h"
+
+#include <nlohmann/json.hpp>
+
+namespace allpairs::view {
+namespace {
+
+/// The text with what is no UTF-8 replaced. The writer of JSON does it, whose quoting is undone again.
+std::string validUtf8(std::string_view text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+}  // namespace
+
+std::string escapeXml(std::string_view text) {
+  std::string result;
+  for (const char c : validUtf8(text)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      case '\t':
+      case '\n':
+        result += ' ';
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+          result += "\xEF\xBF\xBD";
+        } else {
+          result += c;
+        }
+    }
+  }
+  return result;
+}
+
+}  // namespace allpairs::view

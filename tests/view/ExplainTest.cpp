@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "Explain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/MakeViewScene.h"
+#include "support/Data.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+using view::Verdict;
+using view::ViewScene;
+
+ViewScene sceneOf(const std::string& path, const std::vector<std::string>& roots = {},
+                  const app::DetectionOptions& options = {}) {
+  return app::makeViewScene({.paths = {path}, .searchRoots = roots}, options);
+}
+
+/// The pairs that the verdicts name, in the order of the double loop.
+std::vector<Pair> pairsByVerdict(const ViewScene& scene, const view::ViewFrame& frame) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t newer = 0; newer < scene.modelCount; ++newer) {
+    if (explain(scene, frame, newer, newer).verdict == Verdict::Pair) pairs.push_back({newer, newer});
+    for (std::uint32_t older = 0; older < newer; ++older) {
+      if (explain(scene, frame, newer, older).verdict == Verdict::Pair) pairs.push_back({newer, older});
+    }
+  }
+  return pairs;
+}
+
+Verdict verdictOf(const ViewScene& scene, const std::string& a, const std::string& b) {
+  const auto indexOf = [&scene](const std::string& name) {
+    const auto place = std::find(scene.names.begin(), scene.names.end(), name);
+    EXPECT_NE(place, scene.names.end()) << name;
+    return static_cast<std::uint32_t>(place - scene.names.begin());
+  };
+  const auto [older, newer] = std::minmax({indexOf(a), indexOf(b)});
+  return explain(scene, scene.frames.front(), newer, older).verdict;
+}
+
+/// A model for each rule.
+std::string rulesScene(const TempFolder& folder) {
+  return folder.write("rules.scn", R"(<Node name="root"><DefaultPipeline/>
+<BruteForceBroadPhase box="-9 -9 -9 9 9 9"/><MinProximityIntersection alarmDistance="0.5"/>
+<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="G"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" group="4 7"/></Node>
+<Node name="H"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" group="7 8"/></Node>
+<Node name="S"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" simulated="0"/></Node>
+<Node name="T"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" simulated="0"/>
+<SphereCollisionModel name="t" radius="1" selfCollision="1"/></Node>
+<Node name="O"><MechanicalObject position="50 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)");
+}
+
+TEST(Explain, NamesTheRuleThatKeepsTwoModelsApart) {
+  const TempFolder folder;
+  const ViewScene scene = sceneOf(rulesScene(folder));
+  EXPECT_EQ(verdictOf(scene, "/A/s", "/G/s"), Verdict::Pair);
+  EXPECT_EQ(verdictOf(scene, "/A/s", "/B/s"), Verdict::Apart);
+  EXPECT_EQ(verdictOf(scene, "/G/s", "/H/s"), Verdict::SameGroup);
+  EXPECT_EQ(verdictOf(scene, "/S/s", "/T/s"), Verdict::NotSimulated);
+  EXPECT_EQ(verdictOf(scene, "/T/s", "/T/t"), Verdict::SameOwner);
+  EXPECT_EQ(verdictOf(scene, "/A/s", "/O/s"), Verdict::Outside);
+  EXPECT_EQ(verdictOf(scene, "/A/s", "/A/s"), Verdict::NoSelf);
+  EXPECT_EQ(verdictOf(scene, "/T/t", "/T/t"), Verdict::Pair);
+}
+
+TEST(Explain, TellsTheWidestGapAndItsAxisAndTheSmallestCommonGroup) {
+  const TempFolder folder;
+  const ViewScene scene = sceneOf(rulesScene(folder));
+  const auto apart = explain(scene, scene.frames.front(), 1, 0);
+  EXPECT_EQ(apart.axis, 0);
+  EXPECT_DOUBLE_EQ(apart.gap, 1.0);
+  EXPECT_EQ(explain(scene, scene.frames.front(), 3, 2).group, 7);
+}
+
+TEST(Explain, GivesThePairsOfTheBroadPhaseInItsOrder) {
+  const TempFolder folder;
+  const std::vector<std::string> paths{rulesScene(folder), ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn",
+                                       ALLPAIRS_SOURCE_DIR "/examples/boxes.csv"};
+  for (const std::string& path : paths) {
+    const ViewScene scene = sceneOf(path);
+    EXPECT_FALSE(scene.frames.front().pairs.empty()) << path;
+    EXPECT_EQ(pairsByVerdict(scene, scene.frames.front()), scene.frames.front().pairs) << path;
+  }
+}
+
+TEST(Explain, FollowsMarginAndRegionOfBoxes) {
+  app::DetectionOptions options;
+  options.margin = 0.75;
+  options.region = Box{{-1.0, -1.0, -1.0}, {2.0, 2.0, 2.0}};
+  const ViewScene scene = sceneOf(ALLPAIRS_SOURCE_DIR "/examples/boxes.csv", {}, options);
+  EXPECT_EQ(pairsByVerdict(scene, scene.frames.front()), scene.frames.front().pairs);
+}
+
+TEST(Explain, GivesThePairsOfRealScenes) {
+  const std::filesystem::path folder = dataFolder() / "scenes";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder of data: real scenes are not tried";
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "examples")) {
+    if (entry.path().extension() != ".scn") continue;
+    const ViewScene scene = sceneOf(entry.path(), {folder, folder / "examples"});
+    EXPECT_EQ(pairsByVerdict(scene, scene.frames.front()), scene.frames.front().pairs) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 12U);
+}
+
+TEST(ExcludedPairs, AreThoseThatTouchAndThatARuleKeepsApart) {
+  const TempFolder folder;
+  for (const std::string& path : {rulesScene(folder), std::string(ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn")}) {
+    const ViewScene scene = sceneOf(path);
+    const view::ViewFrame& frame = scene.frames.front();
+    std::vector<Pair> expected;
+    for (std::uint32_t newer = 0; newer < scene.modelCount; ++newer) {
+      for (std::uint32_t older = 0; older < newer; ++older) {
+        const Verdict verdict = explain(scene, frame, newer, older).verdict;
+        const bool takePart = verdict != Verdict::Outside && verdict != Verdict::Inactive;
+        const bool areNear = overlap(frame.boxes[newer], frame.boxes[older], distanceOf(scene, newer, older));
+        if (takePart && areNear && verdict != Verdict::Pair) expected.push_back({newer, older});
+      }
+    }
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(frame.excluded, expected) << path;
+  }
+}
+
+}  // namespace
+}  // namespace allpairs::test

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "app/Expect.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kDemo = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
+
+/// All files of a zip archive by their names.
+std::map<std::string, std::string> filesOf(const fs::path& path) {
+  std::map<std::string, std::string> files;
+  zip_t* archive = zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, nullptr);
+  EXPECT_NE(archive, nullptr) << path;
+  if (archive == nullptr) return files;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
+    zip_stat_t status{};
+    EXPECT_EQ(zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &status), 0);
+    std::string bytes(status.size, '\0');
+    zip_file_t* file = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
+    EXPECT_EQ(zip_fread(file, bytes.data(), bytes.size()), static_cast<zip_int64_t>(bytes.size()));
+    zip_fclose(file);
+    files.emplace(status.name, bytes);
+  }
+  zip_close(archive);
+  return files;
+}
+
+pugi::xml_document parse(const std::string& text) {
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(text.c_str())) << text;
+  return document;
+}
+
+std::vector<std::string> childrenOf(const pugi::xml_node& node) {
+  std::vector<std::string> names;
+  for (const pugi::xml_node& child : node.children()) names.emplace_back(child.name());
+  return names;
+}
+
+bool isGuid(const std::string& text) {
+  static const std::regex kForm("[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}");
+  return std::regex_match(text, kForm);
+}
+
+using Names = std::vector<std::string>;
+
+/// The order and the names of BCF 2.1's markup.xsd.
+void expectMarkup(const std::string& text, const std::string& folder) {
+  const pugi::xml_document document = parse(text);
+  const pugi::xml_node markup = document.child("Markup");
+  EXPECT_EQ(childrenOf(markup), (Names{"Header", "Topic", "Viewpoints"}));
+  const pugi::xml_node topic = markup.child("Topic");
+  EXPECT_EQ(topic.attribute("Guid").value(), folder);
+  EXPECT_EQ(childrenOf(topic), (Names{"Title", "Index", "CreationDate", "CreationAuthor", "Description"}));
+  EXPECT_TRUE(std::regex_match(topic.child_value("CreationDate"),
+                               std::regex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z")));
+  const pugi::xml_node viewpoints = markup.child("Viewpoints");
+  EXPECT_EQ(childrenOf(viewpoints), (Names{"Viewpoint", "Snapshot", "Index"}));
+  EXPECT_TRUE(isGuid(viewpoints.attribute("Guid").value()));
+  EXPECT_STREQ(viewpoints.child_value("Viewpoint"), "viewpoint.bcfv");
+  EXPECT_STREQ(viewpoints.child_value("Snapshot"), "snapshot.png");
+}
+
+/// The order and the names of BCF 2.1's visinfo.xsd.
+void expectViewpoint(const std::string& text) {
+  const pugi::xml_document document = parse(text);
+  const pugi::xml_node info = document.child("VisualizationInfo");
+  EXPECT_TRUE(isGuid(info.attribute("Guid").value()));
+  EXPECT_EQ(childrenOf(info), (Names{"Components", "OrthogonalCamera"}));
+  EXPECT_EQ(childrenOf(info.child("Components")), (Names{"Selection", "Visibility"}));
+  const pugi::xml_node camera = info.child("OrthogonalCamera");
+  EXPECT_EQ(childrenOf(camera), (Names{"CameraViewPoint", "CameraDirection", "CameraUpVector", "ViewToWorldScale"}));
+  for (const char* part : {"CameraViewPoint", "CameraDirection", "CameraUpVector"}) {
+    EXPECT_EQ(childrenOf(camera.child(part)), (Names{"X", "Y", "Z"}));
+  }
+  EXPECT_GT(camera.child("ViewToWorldScale").text().as_double(), 0.0);
+}
+
+TEST(Report, BcfHasATopicAViewpointAndAPictureForEachPairInTheFormOfVersion21) {
+  const TempFolder folder;
+  expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "out"}));
+  const auto files = filesOf(folder.path() / "out/clashes.bcf");
+  const pugi::xml_document version = parse(files.at("bcf.version"));
+  EXPECT_STREQ(version.child("Version").attribute("VersionId").value(), "2.1");
+  std::size_t topics = 0;
+  for (const auto& [name, bytes] : files) {
+    if (!name.ends_with("/markup.bcf")) continue;
+    const std::string guid = name.substr(0, name.find('/'));
+    EXPECT_TRUE(isGuid(guid)) << guid;
+    expectMarkup(bytes, guid);
+    expectViewpoint(files.at(guid + "/viewpoint.bcfv"));
+    EXPECT_EQ(files.at(guid + "/snapshot.png").substr(0, 4), "\x89PNG");
+    ++topics;
+  }
+  const auto result = nlohmann::json::parse(runProgram({"detect", kDemo, "--format", "json"}).out);
+  EXPECT_EQ(topics, result["pairs"].size());
+  EXPECT_EQ(files.size(), 3 * topics + 1);
+}
+
+TEST(Report, TableHasEveryPairOfDetectOnce) {
+  const TempFolder folder;
+  expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "out", "--pictures", "2"}));
+  const std::string table = readBytes(folder.path() / "out/clashes.csv");
+  std::vector<std::string> found;
+  std::size_t begin = table.find('\n') + 1;
+  for (std::size_t end = table.find('\n', begin); end != std::string::npos; end = table.find('\n', begin)) {
+    const std::string line = table.substr(begin, end - begin);
+    const std::size_t first = line.find(',') + 1;
+    found.push_back(line.substr(first, line.find(',', line.find(',', first) + 1) - first));
+    begin = end + 1;
+  }
+  std::vector<std::string> expected;
+  const auto result = nlohmann::json::parse(runProgram({"detect", kDemo, "--format", "json"}).out);
+  for (const auto& pair : result["pairs"]) {
+    expected.push_back(result["models"][pair[0].get<std::size_t>()]["name"].get<std::string>() + ',' +
+                       result["models"][pair[1].get<std::size_t>()]["name"].get<std::string>());
+  }
+  std::sort(found.begin(), found.end());
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(fs::exists(folder.path() / "out/pictures/0002.png"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out/pictures/0003.png"));
+  EXPECT_NE(readBytes(folder.path() / "out/index.html").find("The first 2 have pictures"), std::string::npos);
+}
+
+TEST(Report, NamesAreTextInThePageAndInBcf) {
+  const TempFolder folder;
+  const std::string name = "<img src=x onerror=alert(1)>";
+  folder.write("a.obj", "o " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("b.obj", "o b & c\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+  expectSuccess(runProgram({"report", folder.path(), "-o", folder.path() / "out"}));
+  const std::string page = readBytes(folder.path() / "out/index.html");
+  EXPECT_EQ(page.find("<img src=x"), std::string::npos);
+  EXPECT_NE(page.find("&lt;img src=x onerror=alert(1)&gt;"), std::string::npos);
+  for (const auto& [file, bytes] : filesOf(folder.path() / "out/clashes.bcf")) {
+    if (!file.ends_with("markup.bcf")) continue;
+    const std::string title = parse(bytes).child("Markup").child("Topic").child_value("Title");
+    EXPECT_EQ(title, "b & c and " + name);
+  }
+}
+
+TEST(Report, SaysWhatIsWrong) {
+  const TempFolder folder;
+  const std::string file = folder.write("file", "");
+  expectFailure(runProgram({"report", kDemo, "-o", file + "/out"}), 3, "cannot make this folder");
+  expectFailure(runProgram({"report", kDemo}), 2, "-o DIR is needed");
+  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
+                "a number above 0");
+}
+
+}  // namespace
+}  // namespace allpairs::test

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// What is shown and chosen, and who must know when it changes.
+
+import { kind, modelKinds, PairTable, pairsWithout, partnerCounts } from "./pairs.js";
+import { look } from "./styles.js";
+import { tone } from "./palette.js";
+
+const flashMs = 700;
+
+export class App extends EventTarget {
+  constructor(scene) {
+    super();
+    this.scene = scene;
+    this.stage = null; // until there is a picture; for good where the browser has no WebGL
+    this.show = { boxes: true, shapes: true, links: false, excluded: true, region: scene.region !== null };
+    this.boxMode = scene.models > 3000 ? "solid" : "outlines";
+    this.models = []; // chosen: none, one, or the two of a pair
+    this.setFrame(0);
+  }
+
+  get frame() {
+    return this.scene.frames[this.index];
+  }
+
+  /** Shows everything in a picture from now on. */
+  attach(stage) {
+    this.stage = stage;
+    stage.setFrame(this.frame);
+    this.restyle();
+    if (this.models.length > 0) this.lookAtChosen();
+    this.emit("show");
+  }
+
+  emit(name) {
+    this.dispatchEvent(new Event(name));
+  }
+
+  setFrame(index, { flash = false } = {}) {
+    const before = this.index;
+    this.index = index;
+    this.table = new PairTable(this.frame);
+    this.kinds = modelKinds(this.table, this.scene.models);
+    this.partners = partnerCounts(this.table, this.scene.models);
+    this.counts = this.table.counts();
+    this.changes = this.changesFrom(before);
+    this.stage?.setFrame(this.frame);
+    if (flash) this.flash();
+    else this.clearFlash();
+    this.restyle();
+    this.emit("frame");
+    this.emit("choice");
+  }
+
+  /** The pairs that began and ended since another frame. */
+  changesFrom(before) {
+    if (before === undefined || before === this.index) return { began: [], ended: [] };
+    const was = this.scene.frames[before].pairs;
+    const count = this.scene.models;
+    return { began: pairsWithout(this.frame.pairs, was, count), ended: pairsWithout(was, this.frame.pairs, count) };
+  }
+
+  flash() {
+    const { began, ended } = this.changes;
+    this.flashing = new Map();
+    for (const pair of ended) pair.forEach((model) => this.flashing.set(model, tone.ended));
+    for (const pair of began) pair.forEach((model) => this.flashing.set(model, tone.began));
+    this.stage?.setLines(this.stage.flashes[0], began);
+    this.stage?.setLines(this.stage.flashes[1], ended);
+    clearTimeout(this.flashTimer);
+    this.flashTimer = setTimeout(() => {
+      this.clearFlash();
+      this.restyle();
+    }, flashMs);
+  }
+
+  clearFlash() {
+    this.flashing = null;
+    for (const lines of this.stage?.flashes ?? []) lines.visible = false;
+  }
+
+  /** Chooses nothing, a model, or the two models of a pair. */
+  choose(models, { look: frames = true } = {}) {
+    this.models = models.length === 2 && models[0] === models[1] ? [models[0]] : models;
+    this.isSelf = models.length === 2 && models[0] === models[1];
+    this.entry = models.length === 2 ? this.table.find(...models) : -1;
+    this.restyle();
+    if (frames && models.length > 0) this.lookAtChosen();
+    this.emit("choice");
+  }
+
+  /** A model while a pair of it is chosen, and the other way round, stays chosen when the frame changes. */
+  get chosenPair() {
+    return this.isSelf ? [this.models[0], this.models[0]] : this.models.length === 2 ? this.models : null;
+  }
+
+  lookAtChosen() {
+    if (!this.stage || this.models.length === 0) return;
+    const corners = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+    for (const model of this.models) {
+      const box = this.stage.boxOf(model);
+      for (let k = 0; k < 3; ++k) {
+        corners[k] = Math.min(corners[k], box[k]);
+        corners[k + 3] = Math.max(corners[k + 3], box[k + 3]);
+      }
+    }
+    if (corners[0] <= corners[3]) this.stage.lookAt(corners);
+  }
+
+  lookAtAll() {
+    this.stage?.lookAt(this.stage.whole);
+  }
+
+  toggle(what) {
+    this.show[what] = !this.show[what];
+    this.restyle();
+    this.emit("show");
+  }
+
+  setBoxMode(mode) {
+    this.boxMode = mode;
+    this.restyle();
+    this.emit("show");
+  }
+
+  toneOf(model) {
+    const place = this.models.indexOf(model);
+    if (place >= 0) return place === 0 ? tone.first : tone.second;
+    const flash = this.flashing?.get(model);
+    if (flash !== undefined) return flash;
+    const is = this.kinds[model];
+    return is === kind.excluded && !this.show.excluded ? kind.free : is;
+  }
+
+  restyle() {
+    const { stage, scene } = this;
+    if (!stage) return;
+    const near = this.models.length === 1 ? new Set(this.table.entriesOf(this.models[0]).flatMap((e) => [this.table.first(e), this.table.second(e)])) : null;
+    const chosenModels = new Set(this.models);
+    let anyFaint = false;
+    for (let i = 0; i < scene.models; ++i) {
+      const chosen = this.models.length === 0 || chosenModels.has(i) || near?.has(i);
+      const faint = !chosen || (this.models.length === 0 && this.kinds[i] === kind.out);
+      stage.styles.set(i, this.toneOf(i), look.shown | (faint ? look.faint : near && !chosenModels.has(i) ? look.ghost : 0));
+      anyFaint ||= faint;
+    }
+    stage.styles.update();
+    stage.boxes.setMode(this.show.boxes ? this.boxMode : "hidden", anyFaint);
+    stage.boxes.setFill(stage.shapes.length > 0 ? 0.03 : 0.1);
+    for (const shape of stage.shapes) shape.visible = this.show.shapes;
+    stage.region.visible = this.show.region && scene.region !== null;
+    stage.setLines(stage.links, this.show.links ? this.foundPairs() : []);
+    stage.setChosen(this.models);
+  }
+
+  foundPairs() {
+    return Array.from({ length: this.table.found }, (_, e) => [this.table.first(e), this.table.second(e)]);
+  }
+}

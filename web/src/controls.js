@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Buttons over the picture, keys, pointer, and the choice between dark and light.
+
+import { byId } from "./dom.js";
+
+const stored = (key) => {
+  try {
+    return localStorage.getItem(key);
+  } catch {
+    return null; // a page from disk may have no storage
+  }
+};
+
+const store = (key, value) => {
+  try {
+    localStorage.setItem(key, value);
+  } catch {
+    // then it is asked again next time
+  }
+};
+
+export class Theme {
+  constructor(apply) {
+    this.apply = apply;
+    this.system = matchMedia("(prefers-color-scheme: dark)");
+    this.system.addEventListener("change", () => this.update());
+    this.choice = stored("allpairs-theme");
+    this.update();
+  }
+
+  get current() {
+    return this.choice ?? (this.system.matches ? "dark" : "light");
+  }
+
+  toggle() {
+    this.choice = this.current === "dark" ? "light" : "dark";
+    store("allpairs-theme", this.choice);
+    this.update();
+  }
+
+  update() {
+    document.documentElement.dataset.theme = this.current;
+    this.apply(this.current);
+  }
+}
+
+/** Shows one of the two lists. */
+export function openTab(name) {
+  for (const tab of ["pairs", "models"]) {
+    byId(`tab-${tab}`).setAttribute("aria-selected", tab === name);
+    byId(`tab-${tab}`).tabIndex = tab === name ? 0 : -1;
+    byId(`panel-${tab}`).hidden = tab !== name;
+  }
+}
+
+export const currentTab = () => (byId("panel-pairs").hidden ? "models" : "pairs");
+
+export function setUpTabs() {
+  for (const name of ["pairs", "models"]) {
+    const tab = byId(`tab-${name}`);
+    tab.addEventListener("click", () => openTab(name));
+    tab.addEventListener("keydown", (event) => {
+      if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+      const other = name === "pairs" ? "models" : "pairs";
+      openTab(other);
+      byId(`tab-${other}`).focus();
+    });
+  }
+}
+
+/** Buttons that switch what is drawn. */
+export function setUpToolbar(app, theme) {
+  const nextMode = { outlines: "solid", solid: "outlines" };
+  const acts = {
+    "show-boxes": () => app.toggle("boxes"),
+    "box-mode": () => app.setBoxMode(nextMode[app.boxMode]),
+    "show-shapes": () => app.toggle("shapes"),
+    "show-links": () => app.toggle("links"),
+    "show-excluded": () => app.toggle("excluded"),
+    "show-region": () => app.toggle("region"),
+    "frame-all": () => app.lookAtAll(),
+    "up-axis": () => {
+      app.stage?.setUp(app.stage.up === "z" ? "y" : "z");
+      update();
+    },
+    "theme": () => theme.toggle(),
+    "help-button": () => toggleHelp(),
+  };
+  for (const [id, act] of Object.entries(acts)) byId(id).addEventListener("click", act);
+  const update = () => {
+    for (const what of ["boxes", "shapes", "links", "excluded", "region"]) byId(`show-${what}`).setAttribute("aria-pressed", app.show[what]);
+    byId("box-mode").textContent = app.boxMode === "solid" ? "solid" : "outlines";
+    byId("up-axis").textContent = `${app.stage?.up ?? "z"} up`;
+  };
+  byId("show-shapes").hidden = app.scene.mesh.vertices.length === 0;
+  byId("show-region").hidden = app.scene.region === null;
+  byId("show-excluded").hidden = app.scene.frames.every((frame) => frame.excluded.length === 0);
+  app.addEventListener("show", update);
+  update();
+}
+
+export function toggleHelp() {
+  const help = byId("help");
+  if (help.open) help.close();
+  else help.showModal();
+}
+
+function keysOf(app, panels, timeline, theme) {
+  const search = () => byId(`${currentTab()}-search`).focus();
+  const press = (id) => byId(id).click();
+  return {
+    "?": toggleHelp,
+    "/": search,
+    p: () => openTab("pairs"),
+    m: () => openTab("models"),
+    j: () => panels[currentTab()].step(1),
+    k: () => panels[currentTab()].step(-1),
+    n: () => panels[currentTab()].step(1),
+    N: () => panels[currentTab()].step(-1),
+    f: () => app.lookAtChosen(),
+    a: () => app.lookAtAll(),
+    b: () => press("show-boxes"),
+    o: () => press("box-mode"),
+    g: () => press("show-shapes"),
+    l: () => press("show-links"),
+    e: () => press("show-excluded"),
+    r: () => press("show-region"),
+    u: () => press("up-axis"),
+    t: () => theme.toggle(),
+    " ": () => timeline.toggle(),
+    ",": () => timeline.step(-1),
+    ".": () => timeline.step(1),
+    Escape: () => app.choose([]),
+  };
+}
+
+export function setUpKeys(app, panels, timeline, theme) {
+  const keys = keysOf(app, panels, timeline, theme);
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
+    const inText = event.target.matches("input[type=search], select");
+    if (inText && event.key === "Escape") return event.target.blur();
+    if (inText || !(event.key in keys)) return;
+    if (event.key === " " && event.target.matches("button")) return;
+    event.preventDefault();
+    keys[event.key]();
+  });
+}
+
+const clickReach = 4; // pixels that a click may move before it is a drag
+
+/** A click chooses the model under the pointer; with Shift, its box counts and not its shape. */
+export function setUpPointer(app) {
+  const { stage } = app;
+  if (!stage) return;
+  let down = null;
+  stage.canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
+  stage.canvas.addEventListener("pointerup", (event) => {
+    if (!down || event.button !== 0) return;
+    const moved = Math.hypot(event.clientX - down[0], event.clientY - down[1]);
+    down = null;
+    if (moved > clickReach) return;
+    const model = stage.modelAt(event.clientX, event.clientY, () => true, event.shiftKey || !app.show.shapes);
+    app.choose(model < 0 ? [] : [model], { look: false });
+    if (model >= 0) openTab("models");
+  });
+  stage.canvas.addEventListener("dblclick", () => app.lookAtChosen());
+}

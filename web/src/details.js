@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The bottom of the panel: what is chosen. A pair: what its boxes share. A model: its partners, and why others are none.
+
+import { byId, button, fillWith, make } from "./dom.js";
+import { cornersOf, counted, grouped, measure, reasonText } from "./format.js";
+import { tagsOf } from "./lists.js";
+import { VirtualList } from "./list.js";
+import { sharedExtents } from "./pairs.js";
+import { distanceOf, explainAny } from "./rules.js";
+
+export class Details {
+  constructor(app) {
+    this.app = app;
+    this.element = byId("details");
+    app.addEventListener("choice", () => this.update());
+    this.update();
+  }
+
+  update() {
+    const { app } = this;
+    this.element.hidden = app.models.length === 0;
+    if (app.models.length === 0) return fillWith(this.element);
+    if (app.chosenPair) return this.showPair(...app.chosenPair);
+    return this.showModel(app.models[0]);
+  }
+
+  head(...content) {
+    const close = button("×", () => this.app.choose([]), { title: "Choose nothing (Esc)", className: "close" });
+    close.setAttribute("aria-label", "Choose nothing");
+    return make("header", "", make("h2", "", ...content), close);
+  }
+
+  modelButton(model, className) {
+    const name = this.app.scene.nameOf(model);
+    return button(name, () => this.app.choose([model]), { className: `link ${className}`, title: `${name}: show the model` });
+  }
+
+  showPair(first, second) {
+    const { scene, frame } = this.app;
+    const isSelf = first === second;
+    const reason = explainAny(scene, frame, first, second);
+    const isPair = reason.verdict === "pair";
+    const names = make("p", "names", this.modelButton(first, "first"));
+    if (!isSelf) names.append(make("span", "and", isPair ? "may touch" : "and"), this.modelButton(second, "second"));
+    const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${reasonText(reason)}.`) : isPair ? "" : `No pair: ${reasonText(reason)}.`;
+    fillWith(this.element, this.head(isSelf ? "Self pair" : "Pair"), names, ...(verdict ? [make("p", "verdict", verdict)] : []), this.pairFacts(first, second));
+  }
+
+  pairFacts(first, second) {
+    const { scene, frame } = this.app;
+    const extents = sharedExtents(frame.boxes, first, second);
+    const table = make("dl", "facts-small");
+    const add = (label, value, id) => {
+      const cell = make("dd", "", value);
+      if (id) cell.id = id;
+      table.append(make("dt", "", label), cell);
+    };
+    if (first === second) {
+      this.addBox(add, "Box", first);
+      return table;
+    }
+    const gap = Math.max(...extents.map((extent) => -extent));
+    if (gap > 0) add("Apart by", `${measure(gap)} on ${"xyz"[extents.indexOf(-gap)]}`, "pair-gap");
+    else add("Volume shared", measure(extents[0] * extents[1] * extents[2]), "pair-volume");
+    add("Overlap x, y, z", extents.map(measure).join(", "), "pair-extents");
+    add("Counts as near at", measure(distanceOf(scene, Math.max(first, second), Math.min(first, second))));
+    this.addBox(add, "First box", first);
+    this.addBox(add, "Second box", second);
+    return table;
+  }
+
+  addBox(add, label, model) {
+    add(label, cornersOf(this.app.frame.boxes, model).join(" to "));
+  }
+
+  showModel(model) {
+    const { scene, frame, table } = this.app;
+    const facts = make("dl", "facts-small");
+    const add = (label, value) => facts.append(make("dt", "", label), make("dd", "", value));
+    add("Type", `${scene.typeNames[scene.types[model]]}, ${counted(scene.elements[model], "element")}`);
+    this.addBox(add, "Box", model);
+    if (scene.contactDistances[model] !== 0) add("Contact distance", measure(scene.contactDistances[model]));
+    const tags = tagsOf(this.app, model).map((tag) => make("span", "tag", tag));
+    const name = make("p", "names", make("span", "model-name", scene.nameOf(model)), ...tags);
+    const partners = new Set(table.entriesOf(model).map((e) => (table.first(e) === model ? table.second(e) : table.first(e))));
+    fillWith(this.element, this.head("Model"), name, facts, ...this.others(model, partners, frame));
+  }
+
+  /** Partners first, then all others with the reason, nearest first. */
+  others(model, partners, frame) {
+    const { scene } = this.app;
+    const rows = [...partners].sort((a, b) => a - b).map((other) => ({ other, text: other === model ? "itself" : "partner", isPartner: true }));
+    const reasons = [];
+    for (let other = 0; other < scene.models; ++other) {
+      if (partners.has(other)) continue;
+      const reason = explainAny(scene, frame, model, other);
+      reasons.push({ other, text: reasonText(reason), gap: reason.verdict === "apart" ? reason.gap : other === model ? -2 : -1 });
+    }
+    reasons.sort((a, b) => a.gap - b.gap || a.other - b.other);
+    rows.push(...reasons);
+    const heading = make("h3", "", counted(partners.size, "partner"));
+    heading.id = "partner-count";
+    heading.append(make("span", "note", ` and why ${grouped(reasons.length)} ${reasons.length === 1 ? "is" : "are"} none`));
+    const list = make("div", "reasons");
+    const virtual = new VirtualList(list, {
+      label: "Partners, and why others are none",
+      fill: (row, index) => this.fillReason(row, rows[index]),
+      choose: (index) => this.app.choose([model, rows[index].other]),
+    });
+    virtual.setLength(rows.length);
+    return [heading, list];
+  }
+
+  fillReason(row, { other, text, isPartner }) {
+    const name = this.app.scene.nameOf(other);
+    row.classList.add(isPartner ? "pair" : "free");
+    row.title = `${name}: ${text}`;
+    row.append(make("span", "dot"), make("span", "names", make("span", "name", name)), make("span", "reason", text));
+  }
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Numbers and reasons as words.
+
+const grouping = new Intl.NumberFormat("en-US");
+
+/** 1234567 as 1,234,567. */
+export const grouped = (number) => grouping.format(number);
+
+/** "1 pair", "3 pairs", "2 boxes". */
+export const counted = (number, one, more = `${one}s`) => `${grouped(number)} ${number === 1 ? one : more}`;
+
+/** A length or volume with as many digits as anybody reads. */
+export function measure(value) {
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  const text = String(Number(value.toPrecision(5)));
+  return text.replace("-", "−");
+}
+
+export function seconds(value) {
+  if (value < 1e-3) return `${measure(Number((value * 1e6).toPrecision(3)))} µs`;
+  if (value < 1) return `${measure(Number((value * 1e3).toPrecision(3)))} ms`;
+  return `${measure(Number(value.toPrecision(3)))} s`;
+}
+
+export function percent(part) {
+  const value = 100 * part;
+  return `${value.toFixed(value > 99.9 && value < 100 ? 3 : 1)} %`;
+}
+
+const axisNames = ["x", "y", "z"];
+
+const sentences = {
+  pair: () => "a pair",
+  inactive: () => "one of the two is inactive",
+  "no-elements": () => "one of the two has no elements",
+  outside: () => "outside the region",
+  "not-simulated": () => "neither is simulated",
+  "same-owner": () => "parts of one body",
+  "same-group": (reason) => `both in group ${reason.group}`,
+  apart: (reason) => (reason.axis < 0 ? "a box is empty" : `apart by ${measure(reason.gap)} on ${axisNames[reason.axis]}`),
+  "no-self": () => "may not collide with itself",
+  flat: () => "too flat to touch itself",
+};
+
+/** Why two models are a pair or none, in words. */
+export const reasonText = (reason) => sentences[reason.verdict](reason);
+
+/** A box as two corners. */
+export function cornersOf(boxes, i) {
+  const numbers = Array.from(boxes.subarray(6 * i, 6 * i + 6), measure);
+  return [numbers.slice(0, 3).join(", "), numbers.slice(3).join(", ")];
+}

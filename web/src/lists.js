@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// The two lists of the panel: pairs and models, with search, order and filters.
+
+import { byId, button, fillWith, make } from "./dom.js";
+import { counted, grouped, measure } from "./format.js";
+import { VirtualList } from "./list.js";
+import { kind } from "./pairs.js";
+import { flag } from "./rules.js";
+
+export const kindNames = ["free", "pair", "self", "excluded", "out"];
+
+/** Which models' names have a word in them, for each word. */
+function masksOf(scene, query) {
+  const words = query.toLowerCase().split(/\s+/).filter(Boolean);
+  return words.map((word) => Uint8Array.from({ length: scene.models }, (_, i) => (scene.nameOf(i).toLowerCase().includes(word) ? 1 : 0)));
+}
+
+/** Button with a count that switches a filter on and off. */
+function chip(label, count, className, state, changed) {
+  const element = button("", () => {
+    state.on = !state.on;
+    element.setAttribute("aria-pressed", state.on);
+    changed();
+  });
+  element.className = `chip ${className}`;
+  element.setAttribute("aria-pressed", state.on);
+  element.append(make("span", "dot"), `${label} `, make("b", "", grouped(count)));
+  return element;
+}
+
+class Panel {
+  constructor(app, name) {
+    this.app = app;
+    this.name = name;
+    this.search = byId(`${name}-search`);
+    this.sort = byId(`${name}-sort`);
+    this.chips = byId(`${name}-chips`);
+    this.status = byId(`${name}-status`);
+    this.filters = new Map();
+    this.items = [];
+    this.list = new VirtualList(byId(`${name}-list`), {
+      label: name,
+      fill: (row, index) => this.fill(row, this.items[index]),
+      choose: (index) => this.chooseItem(this.items[index]),
+    });
+    this.search.addEventListener("input", () => this.update());
+    this.sort.addEventListener("change", () => this.update());
+    app.addEventListener("frame", () => this.renew());
+    app.addEventListener("choice", () => this.mark());
+  }
+
+  filter(key) {
+    if (!this.filters.has(key)) this.filters.set(key, { on: true });
+    return this.filters.get(key);
+  }
+
+  renew() {
+    fillWith(this.chips, ...this.makeChips());
+    this.update();
+  }
+
+  update() {
+    this.items = this.select(masksOf(this.app.scene, this.search.value));
+    this.list.setLength(this.items.length);
+    this.status.textContent = this.items.length === 0 ? "none" : this.statusText();
+    this.mark();
+  }
+
+  mark() {
+    const item = this.chosenItem();
+    this.list.setCurrent(item === -1 ? -1 : this.items.indexOf(item), !this.isChoosing);
+  }
+
+  chooseItem(item) {
+    this.isChoosing = true; // the row is in sight already: don't move the list under the pointer
+    this.app.choose(this.modelsOf(item));
+    this.isChoosing = false;
+  }
+
+  /** Chooses the next item, or with -1 the one before. */
+  step(by) {
+    if (this.items.length === 0) return;
+    const at = this.items.indexOf(this.chosenItem());
+    const next = at < 0 ? (by > 0 ? 0 : this.items.length - 1) : (at + by + this.items.length) % this.items.length;
+    this.app.choose(this.modelsOf(this.items[next]));
+  }
+}
+
+export class PairPanel extends Panel {
+  constructor(app) {
+    super(app, "pairs");
+    this.renew();
+  }
+
+  makeChips() {
+    const { counts } = this.app;
+    return [["touching", kind.pair], ["self", kind.self], ["excluded", kind.excluded]]
+      .filter(([, is]) => counts[is] > 0)
+      .map(([label, is]) => chip(label, counts[is], kindNames[is], this.filter(is), () => this.update()));
+  }
+
+  select(masks) {
+    const { table } = this.app;
+    const items = [];
+    for (let entry = 0; entry < table.size; ++entry) {
+      if (!this.filter(table.kindOf(entry)).on) continue;
+      const a = table.first(entry);
+      const b = table.second(entry);
+      if (masks.every((mask) => mask[a] || mask[b])) items.push(entry);
+    }
+    return this.ordered(items);
+  }
+
+  ordered(items) {
+    const { table, scene } = this.app;
+    if (this.sort.value === "volume") {
+      const volumes = Float64Array.from({ length: table.size }, (_, e) => table.volume(e));
+      return items.sort((a, b) => volumes[b] - volumes[a] || a - b);
+    }
+    if (this.sort.value === "name") {
+      const order = namesInOrder(scene);
+      return items.sort((a, b) => order[table.first(a)] - order[table.first(b)] || order[table.second(a)] - order[table.second(b)]);
+    }
+    return items;
+  }
+
+  statusText() {
+    return counted(this.items.length, "entry", "entries");
+  }
+
+  chosenItem() {
+    return this.app.entry ?? -1;
+  }
+
+  modelsOf(entry) {
+    return [this.app.table.first(entry), this.app.table.second(entry)];
+  }
+
+  fill(row, entry) {
+    const { table, scene } = this.app;
+    const is = table.kindOf(entry);
+    const [first, second] = this.modelsOf(entry).map((model) => scene.nameOf(model));
+    row.classList.add(kindNames[is]);
+    const names = is === kind.self ? [make("span", "name", first), make("span", "with", "with itself")] : [make("span", "name", first), make("span", "name", second)];
+    row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", measure(table.volume(entry))));
+    row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
+  }
+}
+
+/** The place of each model when all are ordered by name, "part 9" before "part 10". */
+function namesInOrder(scene) {
+  if (!scene.nameOrder) {
+    const compare = new Intl.Collator(undefined, { numeric: true }).compare;
+    const models = Array.from({ length: scene.models }, (_, i) => i);
+    models.sort((a, b) => compare(scene.nameOf(a), scene.nameOf(b)) || a - b);
+    scene.nameOrder = new Uint32Array(scene.models);
+    models.forEach((model, place) => (scene.nameOrder[model] = place));
+  }
+  return scene.nameOrder;
+}
+
+/** The flags and groups of a model, in words. */
+export function tagsOf(app, model) {
+  const { scene, frame } = app;
+  const flags = frame.flags[model];
+  const tags = [];
+  if (!(flags & flag.active)) tags.push("inactive");
+  if (flags & flag.noElements) tags.push("no elements");
+  if (flags & flag.outside) tags.push("outside");
+  if (!(flags & flag.simulated)) tags.push("not simulated");
+  if (!(flags & flag.moving)) tags.push("static");
+  if (flags & flag.selfCollision) tags.push("self");
+  const groups = scene.groupSets[scene.groups[model]];
+  if (groups.length > 0) tags.push(`group ${groups.join(", ")}`);
+  return tags;
+}
+
+export class ModelPanel extends Panel {
+  constructor(app) {
+    super(app, "models");
+    this.renew();
+  }
+
+  makeChips() {
+    const counts = new Map();
+    for (const is of this.app.kinds) counts.set(is, (counts.get(is) ?? 0) + 1);
+    const labels = [["in pairs", kind.pair], ["self only", kind.self], ["excluded", kind.excluded], ["free", kind.free], ["left out", kind.out]];
+    return labels
+      .filter(([, is]) => counts.has(is))
+      .map(([label, is]) => chip(label, counts.get(is), kindNames[is], this.filter(is), () => this.update()));
+  }
+
+  select(masks) {
+    const { scene, kinds, partners } = this.app;
+    const items = [];
+    for (let i = 0; i < scene.models; ++i) {
+      if (this.filter(kinds[i]).on && masks.every((mask) => mask[i])) items.push(i);
+    }
+    if (this.sort.value === "name") items.sort((a, b) => namesInOrder(scene)[a] - namesInOrder(scene)[b]);
+    if (this.sort.value === "partners") items.sort((a, b) => partners[b] - partners[a] || a - b);
+    return items;
+  }
+
+  statusText() {
+    return counted(this.items.length, "model");
+  }
+
+  chosenItem() {
+    return this.app.models.length === 1 ? this.app.models[0] : -1;
+  }
+
+  modelsOf(model) {
+    return [model];
+  }
+
+  fill(row, model) {
+    const { app } = this;
+    row.classList.add(kindNames[app.kinds[model]]);
+    const tags = tagsOf(app, model).map((tag) => make("span", "tag", tag));
+    const name = app.scene.nameOf(model);
+    row.append(make("span", "dot"), make("span", "names", make("span", "name", name), ...tags), make("span", "value", grouped(app.partners[model])));
+    row.title = `${name}\n${app.scene.typeNames[app.scene.types[model]]}, model ${model}`;
+  }
+}

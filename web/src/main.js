@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+import { App } from "./app.js";
+import { openTab, setUpKeys, setUpPointer, setUpTabs, setUpToolbar, Theme } from "./controls.js";
+import { readScene } from "./data.js";
+import { Details } from "./details.js";
+import { byId } from "./dom.js";
+import { ModelPanel, PairPanel } from "./lists.js";
+import { Stage } from "./stage.js";
+import { showSummary } from "./summary.js";
+import { Timeline } from "./timeline.js";
+
+/** The picture, or null with a word on why there is none: lists and details work without it. */
+function makeStage(scene) {
+  try {
+    return new Stage(byId("canvas"), scene);
+  } catch (problem) {
+    byId("no-picture").hidden = false;
+    byId("no-picture").textContent = `No picture: this browser has no WebGL 2 (${problem.message}).`;
+    return null;
+  }
+}
+
+/** Notes, for whoever measures, when the lists and when the picture were there: milliseconds from the page's start. */
+function note(what) {
+  document.documentElement.dataset[what] = Math.round(performance.now());
+}
+
+function showPicture(app, theme) {
+  const stage = makeStage(app.scene);
+  if (stage) {
+    theme.apply = (name) => stage.setTheme(name);
+    theme.update();
+    stage.resize();
+    stage.lookAt(stage.whole);
+    app.attach(stage);
+    setUpPointer(app);
+  }
+  requestAnimationFrame(() => setTimeout(() => note("ready")));
+}
+
+function start() {
+  const scene = readScene(document);
+  if (!scene) {
+    byId("title").textContent = "No scene: this is the empty page that `allpairs view` fills.";
+    return;
+  }
+  document.title = `${scene.title} – Allpairs`;
+  byId("version").textContent = `Allpairs ${scene.version}`;
+  const app = new App(scene);
+  const theme = new Theme(() => {});
+  showSummary(app);
+  const panels = { pairs: new PairPanel(app), models: new ModelPanel(app) };
+  new Details(app);
+  const timeline = new Timeline(app);
+  setUpTabs();
+  setUpToolbar(app, theme);
+  setUpKeys(app, panels, timeline, theme);
+  if (app.table.size === 0) openTab("models");
+  requestAnimationFrame(() => setTimeout(() => {
+    note("loaded");
+    showPicture(app, theme);
+  }));
+}
+
+start();

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The pairs of a frame: entries are numbered, those that were found first, then those that a rule excludes.
+
+import { isEmpty } from "./rules.js";
+
+/** What a model or an entry is shown as. The numbers are places in the palette; see palette.js. */
+export const kind = { free: 0, pair: 1, self: 2, excluded: 3, out: 4 };
+
+export class PairTable {
+  constructor(frame) {
+    this.frame = frame;
+    this.found = frame.pairs.length / 2;
+    this.size = this.found + frame.excluded.length / 2;
+  }
+
+  first(entry) {
+    return entry < this.found ? this.frame.pairs[2 * entry] : this.frame.excluded[2 * (entry - this.found)];
+  }
+
+  second(entry) {
+    return entry < this.found ? this.frame.pairs[2 * entry + 1] : this.frame.excluded[2 * (entry - this.found) + 1];
+  }
+
+  kindOf(entry) {
+    if (entry >= this.found) return kind.excluded;
+    return this.first(entry) === this.second(entry) ? kind.self : kind.pair;
+  }
+
+  /** How many entries there are of each kind. */
+  counts() {
+    const counts = { [kind.pair]: 0, [kind.self]: 0, [kind.excluded]: this.size - this.found };
+    for (let entry = 0; entry < this.found; ++entry) ++counts[this.kindOf(entry)];
+    return counts;
+  }
+
+  /** The volume that the two boxes share; of a self pair that of its box. */
+  volume(entry) {
+    const extents = sharedExtents(this.frame.boxes, this.first(entry), this.second(entry));
+    return Math.max(0, extents[0]) * Math.max(0, extents[1]) * Math.max(0, extents[2]);
+  }
+
+  /** The entry of two models, in either order, or -1. */
+  find(a, b) {
+    for (let entry = 0; entry < this.size; ++entry) {
+      const first = this.first(entry);
+      const second = this.second(entry);
+      if ((first === a && second === b) || (first === b && second === a)) return entry;
+    }
+    return -1;
+  }
+
+  /** The entries, found ones only, that have a model in them. */
+  entriesOf(model) {
+    const entries = [];
+    for (let entry = 0; entry < this.found; ++entry) {
+      if (this.first(entry) === model || this.second(entry) === model) entries.push(entry);
+    }
+    return entries;
+  }
+}
+
+/** How far two boxes reach into each other, per axis; negative where they are apart. */
+export function sharedExtents(boxes, a, b) {
+  return [0, 1, 2].map((k) => Math.min(boxes[6 * a + 3 + k], boxes[6 * b + 3 + k]) - Math.max(boxes[6 * a + k], boxes[6 * b + k]));
+}
+
+const outFlags = 16 | 32;
+
+/** The kind of each model: of its pairs the strongest. */
+export function modelKinds(table, count) {
+  const { frame } = table;
+  const kinds = new Uint8Array(count);
+  for (let i = 0; i < count; ++i) {
+    const flags = frame.flags[i];
+    if (!(flags & 1) || flags & outFlags || isEmpty(frame.boxes, i)) kinds[i] = kind.out;
+  }
+  const raise = (model, to, below) => {
+    if (below.includes(kinds[model])) kinds[model] = to;
+  };
+  for (let entry = table.size - 1; entry >= 0; --entry) {
+    const is = table.kindOf(entry);
+    const below = is === kind.pair ? [kind.free, kind.self, kind.excluded] : is === kind.self ? [kind.free, kind.excluded] : [kind.free];
+    raise(table.first(entry), is, below);
+    raise(table.second(entry), is, below);
+  }
+  return kinds;
+}
+
+/** How many partners each model has; itself counts as one. */
+export function partnerCounts(table, count) {
+  const counts = new Uint32Array(count);
+  for (let entry = 0; entry < table.found; ++entry) {
+    ++counts[table.first(entry)];
+    if (table.first(entry) !== table.second(entry)) ++counts[table.second(entry)];
+  }
+  return counts;
+}
+
+const keyOf = (pairs, i, count) => Math.max(pairs[2 * i], pairs[2 * i + 1]) * count + Math.min(pairs[2 * i], pairs[2 * i + 1]);
+
+function sortedKeys(pairs, count) {
+  const keys = Float64Array.from({ length: pairs.length / 2 }, (_, i) => keyOf(pairs, i, count));
+  return keys.sort();
+}
+
+/** The pairs of one frame that another does not have, as [first, second] lists. */
+export function pairsWithout(pairs, others, count) {
+  const keys = sortedKeys(pairs, count);
+  const known = sortedKeys(others, count);
+  const result = [];
+  for (let i = 0, k = 0; i < keys.length; ++i) {
+    while (k < known.length && known[k] < keys[i]) ++k;
+    if (known[k] !== keys[i]) result.push([Math.floor(keys[i] / count), keys[i] % count]);
+  }
+  return result;
+}

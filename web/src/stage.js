@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// The 3D picture: what is in it, the camera, and when to draw. It draws only when something has changed.
+
+import {
+  Box3, Box3Helper, BoxGeometry, BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { BoxCloud } from "./boxes.js";
+import { drawable, wholeOf, wideEnough } from "./extent.js";
+import { paletteOf, tone } from "./palette.js";
+import { pick } from "./pick.js";
+import { Sharpness } from "./sharpness.js";
+import { makeShapes } from "./shapes.js";
+import { ModelStyles } from "./styles.js";
+
+const sizeOf = (corners) => Math.hypot(...[0, 1, 2].map((k) => corners[k + 3] - corners[k]));
+
+const manyModels = 5000; // of more, some may be missing while the picture moves
+
+const emptyBox = () => new Box3(new Vector3(0, 0, 0), new Vector3(0, 0, 0));
+
+export class Stage {
+  constructor(canvas, scene) {
+    this.canvas = canvas;
+    this.data = scene;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(40, 1, 0.1, 1000);
+    this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1);
+    this.styles = new ModelStyles(scene.models);
+    const palette = Array.from({ length: 11 }, () => new Color());
+    this.shared = { styles: { value: this.styles.texture }, palette: { value: palette } };
+    this.whole = wholeOf(scene);
+    this.build();
+    this.setUp("z");
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  build() {
+    this.boxes = new BoxCloud(this.data.models, this.shared);
+    this.shapes = makeShapes(this.data.mesh, this.shared);
+    this.region = new Box3Helper(emptyBox(), tone.region);
+    this.links = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+    this.flashes = [tone.began, tone.ended].map(() => new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false })));
+    this.overlap = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ transparent: true, opacity: 0.5, depthTest: false }));
+    this.overlapEdges = new Box3Helper(emptyBox(), 0xffffff);
+    this.overlapEdges.material.depthTest = false;
+    this.chosen = [tone.first, tone.second].map(() => new Box3Helper(emptyBox(), 0xffffff));
+    const marks = [this.region, this.links, ...this.flashes, this.overlap, this.overlapEdges, ...this.chosen];
+    marks.forEach((mark, i) => {
+      mark.visible = false;
+      mark.frustumCulled = false;
+      mark.renderOrder = 10 + i;
+    });
+    this.scene.add(...this.boxes.objects, ...this.shapes, ...marks);
+    if (this.data.region) this.place(this.region, drawable(this.data.region, this.data.origin, wideEnough(this.data, this.whole)));
+  }
+
+  place(helper, corners) {
+    helper.box.min.fromArray(corners, 0);
+    helper.box.max.fromArray(corners, 3);
+    helper.visible = true;
+    helper.updateMatrixWorld(true);
+  }
+
+  setTheme(theme) {
+    const { background, tones } = paletteOf(theme);
+    this.scene.background = new Color(background);
+    this.shared.palette.value.forEach((colour, i) => colour.setStyle(tones[i], "srgb-linear"));
+    const paint = (object, i) => object.material.color.set(tones[i]);
+    paint(this.region, tone.region);
+    paint(this.links, 1);
+    paint(this.flashes[0], tone.began);
+    paint(this.flashes[1], tone.ended);
+    paint(this.overlap, tone.overlap);
+    paint(this.overlapEdges, tone.overlap);
+    paint(this.chosen[0], tone.first);
+    paint(this.chosen[1], tone.second);
+    this.invalidate();
+  }
+
+  /** Takes the boxes of a frame. */
+  setFrame(frame) {
+    this.drawn = drawable(frame.boxes, this.data.origin, this.whole);
+    this.boxes.setBoxes(this.drawn);
+    this.invalidate();
+  }
+
+  boxOf(model) {
+    return this.drawn.subarray(6 * model, 6 * model + 6);
+  }
+
+  /** Draws the boxes of up to two models bold, and what they share. */
+  setChosen(models) {
+    this.chosen.forEach((helper, i) => {
+      helper.visible = models[i] !== undefined && this.boxOf(models[i])[0] <= this.boxOf(models[i])[3];
+      if (helper.visible) this.place(helper, this.boxOf(models[i]));
+    });
+    const isPair = models.length === 2 && models[0] !== models[1];
+    this.overlap.visible = this.overlapEdges.visible = isPair && this.placeOverlap(...models.map((m) => this.boxOf(m)));
+    this.invalidate();
+  }
+
+  placeOverlap(a, b) {
+    const shared = [0, 1, 2].map((k) => Math.max(a[k], b[k])).concat([3, 4, 5].map((k) => Math.min(a[k], b[k])));
+    if ([0, 1, 2].some((k) => shared[k] > shared[k + 3])) return false;
+    this.overlap.position.set(...[0, 1, 2].map((k) => (shared[k] + shared[k + 3]) / 2));
+    this.overlap.scale.set(...[0, 1, 2].map((k) => Math.max(shared[k + 3] - shared[k], 1e-9)));
+    this.place(this.overlapEdges, shared);
+    return true;
+  }
+
+  /** Lines between the middles of pairs of models. */
+  setLines(object, pairs) {
+    const points = new Float32Array(6 * pairs.length);
+    pairs.forEach((pair, p) => pair.forEach((model, end) => {
+      const box = this.boxOf(model);
+      for (let k = 0; k < 3; ++k) points[6 * p + 3 * end + k] = (box[k] + box[k + 3]) / 2;
+    }));
+    object.geometry.dispose();
+    object.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
+    object.visible = pairs.length > 0;
+    this.invalidate();
+  }
+
+  /** Which axis points up: "z" or "y". Looks at everything again. */
+  setUp(axis) {
+    this.up = axis;
+    this.camera.up.set(0, axis === "y" ? 1 : 0, axis === "z" ? 1 : 0);
+    this.controls?.dispose();
+    this.controls = this.makeControls();
+    const direction = axis === "z" ? new Vector3(0.75, -1, 0.65) : new Vector3(0.75, 0.65, 1);
+    this.lookAt(this.whole, direction);
+  }
+
+  makeControls() {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.zoomToCursor = true;
+    controls.addEventListener("change", () => this.invalidate());
+    controls.addEventListener("start", () => this.sharpness.hold(true));
+    controls.addEventListener("end", () => this.sharpness.hold(false));
+    return controls;
+  }
+
+  /** Moves the camera so that a box, six numbers, fills the picture; keeps its direction unless one is given. */
+  lookAt(corners, direction = this.camera.position.clone().sub(this.controls.target)) {
+    const wholeSize = sizeOf(this.whole) || 1;
+    const slack = Math.max(1e-5 * wholeSize, 0.15 * sizeOf(corners)) / 2;
+    const centre = new Vector3(...[0, 1, 2].map((k) => (corners[k] + corners[k + 3]) / 2));
+    const back = direction.clone().normalize();
+    const distance = this.distanceToFit(corners, centre, back) + slack;
+    this.controls.target.copy(centre);
+    this.camera.position.copy(centre).addScaledVector(back, distance);
+    this.camera.near = Math.min(distance, wholeSize) / 500;
+    this.camera.far = distance + 20 * wholeSize;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** How far from its centre the camera must be for all corners of a box to be in the picture. */
+  distanceToFit(corners, centre, back) {
+    const right = new Vector3().crossVectors(this.camera.up, back).normalize();
+    const up = new Vector3().crossVectors(back, right);
+    const slope = Math.tan((this.camera.fov * Math.PI) / 360) * 0.94;
+    let distance = 0;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new Vector3(...[0, 1, 2].map((k) => corners[k + (i >> k & 1 ? 3 : 0)])).sub(centre);
+      const across = Math.max(Math.abs(corner.dot(right)) / this.camera.aspect, Math.abs(corner.dot(up)));
+      distance = Math.max(distance, corner.dot(back) + across / slope);
+    }
+    return distance;
+  }
+
+  /** The model at a place of the window, or -1. */
+  modelAt(clientX, clientY, isShown, onlyBoxes) {
+    const area = this.canvas.getBoundingClientRect();
+    const place = new Vector2(((clientX - area.left) / area.width) * 2 - 1, 1 - ((clientY - area.top) / area.height) * 2);
+    const caster = new Raycaster();
+    this.camera.updateMatrixWorld();
+    caster.setFromCamera(place, this.camera);
+    const ray = { origin: caster.ray.origin.toArray(), direction: caster.ray.direction.toArray() };
+    return pick({ ...ray, drawn: this.drawn, count: this.data.models, mesh: this.data.mesh, isShown, onlyBoxes });
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.size = [clientWidth, clientHeight];
+    this.invalidate();
+  }
+
+  /** Draws soon, once, and not before the last picture is done. */
+  invalidate() {
+    if (this.fence) this.isStale = true;
+    else this.pending ??= requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    this.pending = undefined;
+    if (!this.size) return;
+    const scale = this.sharpness.next();
+    const ratio = Math.min(window.devicePixelRatio, 2) * Math.max(scale, 0.5);
+    this.boxes.setDetail(this.data.models > manyModels ? scale * scale : 1);
+    if (this.renderer.getPixelRatio() !== ratio || this.drawnSize !== this.size) {
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(...this.size, false);
+      this.drawnSize = this.size;
+    }
+    const begin = performance.now();
+    this.renderer.render(this.scene, this.camera);
+    this.awaitGraphics(begin);
+  }
+
+  /** Browsers queue pictures; a slow renderer would lag behind the pointer by seconds. */
+  awaitGraphics(begin) {
+    const gl = this.renderer.getContext();
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (this.fence && gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) return requestAnimationFrame(look);
+      gl.deleteSync(this.fence);
+      this.fence = null;
+      this.sharpness.took(performance.now() - begin);
+      if (this.isStale) this.invalidate();
+      this.isStale = false;
+    };
+    requestAnimationFrame(look);
+  }
+}

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// What a page shows is what `detect` finds; names are text; nothing overlaps.
+
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { allpairs, dataFolder, detect, folder, npy, number, open, ownText, root, screenshot, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+
+before(startBrowser);
+after(stopBrowser);
+
+const demo = join(root, "examples/scenes/demo.scn");
+
+function volumeOf(a, b) {
+  return [0, 1, 2].reduce((volume, k) => volume * Math.max(0, Math.min(a.box[1][k], b.box[1][k]) - Math.max(a.box[0][k], b.box[0][k])), 1);
+}
+
+const close = (a, b) => assert.ok(Math.abs(a - b) <= 1e-4 * Math.max(Math.abs(a), Math.abs(b)), `${a} and ${b}`);
+const toNumber = (text) => Number(text.replace("−", "-").replaceAll(",", ""));
+const isSelf = ([a, b]) => a === b;
+
+/** The names of the pairs in the list's rows, "itself" for the second of a self pair. */
+const rowsOf = (page, list) => page.$$eval(`#${list} .row`, (rows) => rows.sort((a, b) => a.dataset.index - b.dataset.index).map((row) => [...row.querySelectorAll(".name")].map((name) => name.textContent)));
+const namesOf = (result, [a, b]) => (a === b ? [result.models[a].name] : [result.models[a].name, result.models[b].name]);
+
+async function compareSummary(page, result) {
+  assert.equal(await number(page, "#fact-models"), result.models.length);
+  assert.equal(await number(page, "#fact-pairs"), result.pairs.length);
+  const counts = Object.fromEntries((await texts(page, "#pairs-chips .chip")).map((text) => text.split(" ")).map(([label, count]) => [label, toNumber(count)]));
+  assert.equal(counts.touching ?? 0, result.pairs.filter((pair) => !isSelf(pair)).length);
+  assert.equal(counts.self ?? 0, result.pairs.filter(isSelf).length);
+}
+
+test("the demo: summary, list, search, order, choice and reasons are those of detect", async () => {
+  const result = detect(demo);
+  const page = await view("demo", [demo]);
+  await compareSummary(page, result);
+  const rows = await rowsOf(page, "pairs-list");
+  assert.ok(rows.length >= 8);
+  assert.deepEqual(rows, result.pairs.slice(0, rows.length).map((pair) => namesOf(result, pair)));
+  await screenshot(page, "demo");
+
+  await page.keyboard.press("/");
+  await page.keyboard.type("hammer beech");
+  const excluded = await page.$eval("#pairs-chips .excluded", (chip) => chip.click() ?? chip.getAttribute("aria-pressed"));
+  assert.equal(excluded, "false");
+  const matching = result.pairs.filter((pair) => ["hammer", "beech"].every((word) => namesOf(result, pair).some((name) => name.toLowerCase().includes(word))));
+  assert.ok(matching.length > 0);
+  assert.deepEqual(await rowsOf(page, "pairs-list"), matching.map((pair) => namesOf(result, pair)));
+  await page.fill("#pairs-search", "");
+
+  await page.selectOption("#pairs-sort", "volume");
+  const best = Math.max(...result.pairs.map(([a, b]) => volumeOf(result.models[a], result.models[b])));
+  close(toNumber(await page.textContent("#pairs-list .row .value")), best);
+  await page.selectOption("#pairs-sort", "found");
+
+  const chosen = result.pairs.findIndex(([a, b]) => a !== b && volumeOf(result.models[a], result.models[b]) > 0);
+  await page.click(`#pairs-list .row[data-index="${chosen}"]`);
+  assert.deepEqual(await texts(page, "#details .link"), namesOf(result, result.pairs[chosen]));
+  close(toNumber(await page.textContent("#pair-volume")), volumeOf(...result.pairs[chosen].map((i) => result.models[i])));
+  await screenshot(page, "demo-pair");
+
+  await page.click("#details .link.first");
+  const model = result.pairs[chosen][0];
+  const partners = result.pairs.filter((pair) => pair.includes(model)).length;
+  assert.equal(Number((await ownText(page, "#partner-count")).split(" ")[0]), partners);
+  const reasons = await texts(page, "#details .row .reason");
+  assert.equal(reasons.filter((text) => text === "partner" || text === "itself").length, Math.min(partners, reasons.length));
+  assert.ok(reasons.some((text) => text.startsWith("apart by")));
+  await page.keyboard.press("m");
+  await screenshot(page, "demo-model");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("keys choose, leave, switch and explain", async () => {
+  const page = await view("keys", [demo], { colorScheme: "dark" });
+  assert.equal(await page.getAttribute("html", "data-theme"), "dark");
+  await page.keyboard.press("j");
+  assert.equal(await page.$$eval("#pairs-list [aria-selected=true]", (rows) => rows.length), 1);
+  await page.keyboard.press("j");
+  assert.equal(await page.getAttribute("#pairs-list [aria-selected=true]", "data-index"), "1");
+  await page.keyboard.press("Escape");
+  assert.equal(await page.isVisible("#details"), false);
+  await page.keyboard.press("t");
+  assert.equal(await page.getAttribute("html", "data-theme"), "light");
+  for (const [key, id] of [["b", "show-boxes"], ["g", "show-shapes"], ["l", "show-links"], ["r", "show-region"]]) {
+    const was = await page.getAttribute(`#${id}`, "aria-pressed");
+    await page.keyboard.press(key);
+    assert.notEqual(await page.getAttribute(`#${id}`, "aria-pressed"), was, key);
+  }
+  await page.keyboard.press("?");
+  assert.equal(await page.isVisible("#help"), true);
+  await screenshot(page, "help");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("a click into the picture chooses the model that is there", async () => {
+  const input = write("one.csv", "0,0,0,1,1,1\n");
+  const page = await view("one", [input]);
+  const area = await page.locator("#canvas").boundingBox();
+  await page.mouse.click(area.x + area.width / 2, area.y + area.height / 2);
+  assert.equal(await page.textContent("#details .model-name"), "0");
+  await page.mouse.click(area.x + 3, area.y + 3);
+  assert.equal(await page.isVisible("#details"), false);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+const data = dataFolder();
+test("a real scene has the numbers of detect", { skip: data ? false : "no folder of data" }, async () => {
+  const input = [join(data, "scenes/examples/Demos/chainAll.scn"), "--data", join(data, "scenes"), "--data", join(data, "scenes/examples")];
+  const result = detect(...input);
+  const page = await view("chain", input, { colorScheme: "dark", viewport: { width: 1920, height: 1080 } });
+  await compareSummary(page, result);
+  await page.focus("#pairs-list");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("End");
+  const rows = await rowsOf(page, "pairs-list");
+  const excluded = toNumber((await texts(page, "#pairs-chips .excluded b"))[0] ?? "0");
+  assert.equal(await page.getAttribute("#pairs-list [aria-selected=true]", "aria-posinset"), String(result.pairs.length + excluded));
+  assert.ok(rows.length > 10);
+  await screenshot(page, "chain");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+/** Boxes that move back and forth: some pairs begin and some end. */
+function movingBoxes(frames, count) {
+  const rows = [];
+  for (let t = 0; t < frames; ++t) {
+    rows.push(Array.from({ length: count }, (_, i) => {
+      const x = 3 * Math.sin(i * 7.3) + 1.5 * Math.sin(t * 0.4 + i);
+      const y = 3 * Math.sin(i * 3.1 + 1) + 1.5 * Math.cos(t * 0.3 + 2 * i);
+      return [x, y, 0, x + 0.8, y + 0.8, 1];
+    }));
+  }
+  return rows;
+}
+
+test("a sequence of frames has the pairs of each frame, and what began and ended", async () => {
+  const frames = movingBoxes(12, 30);
+  const sequence = write("frames.npy", npy([12, 30, 6], frames.flat(2)));
+  const pairs = frames.map((boxes, t) => detect(write(`frame${t}.npy`, npy([30, 6], boxes.flat()))).pairs.map(String));
+  const page = await view("frames", [sequence]);
+  for (let t = 0; t < frames.length; ++t) {
+    assert.equal(await page.textContent("#time-frame"), `Frame ${t + 1} of 12`);
+    assert.equal(await number(page, "#fact-pairs"), pairs[t].length, `frame ${t}`);
+    if (t > 0) {
+      const began = pairs[t].filter((pair) => !pairs[t - 1].includes(pair)).length;
+      const ended = pairs[t - 1].filter((pair) => !pairs[t].includes(pair)).length;
+      assert.equal(toNumber(await page.textContent("#time-began b")), began);
+      assert.equal(toNumber(await page.textContent("#time-ended b")), -ended);
+    }
+    if (t === 6) await screenshot(page, "frames");
+    await page.keyboard.press(".");
+  }
+  await page.keyboard.press(" ");
+  await page.waitForFunction(() => document.getElementById("time-frame").textContent === "Frame 3 of 12");
+  await page.keyboard.press(" ");
+  assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("names from files are text, in the page and in the report", async () => {
+  const name = "<img src=x onerror=alert(1)></script><script>alert(2)</script>";
+  const input = write("evil.obj", `o ${name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nv 0 0 0\nv 1 0 1\nv 0 1 0\nf 4 5 6\n`);
+  const page = await view("evil", [input]);
+  assert.equal(await page.textContent("#pairs-list .row .name:nth-of-type(2)"), name);
+  await page.click("#pairs-list .row");
+  await page.click("#details .link.second");
+  assert.equal(await page.textContent("#details .model-name"), name);
+  assert.equal(await page.$$eval("img", (images) => images.length), 0);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  allpairs("report", input, "-o", join(folder, "evil"));
+  const report = await open(join(folder, "evil/index.html"));
+  assert.equal(await report.textContent(".second"), name);
+  assert.equal(await report.$$eval("img", (images) => images.length), 1);
+  assert.deepEqual(report.problems, []);
+  await report.close();
+});
+
+test("ten thousand models with fifty thousand pairs are all there", async () => {
+  const boxes = write("many.npy", "");
+  allpairs("generate", "uniform", "-n", "10000", "-o", boxes);
+  const input = [boxes, "--margin", "0.014"];
+  const result = detect(...input);
+  assert.ok(result.pairs.length >= 50_000);
+  const page = await view("many", input);
+  const times = await page.evaluate(() => ({ ...document.documentElement.dataset }));
+  console.log(`# ${result.pairs.length} pairs: lists after ${times.loaded} ms, picture after ${times.ready} ms`);
+  await compareSummary(page, result);
+  await screenshot(page, "many");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("the report shows a picture of each pair", async () => {
+  allpairs("report", demo, "-o", join(folder, "report"));
+  const page = await open(join(folder, "report/index.html"));
+  await page.$$eval("img", (images) => images.forEach((image) => (image.loading = "eager")));
+  await page.waitForFunction(() => [...document.images].every((image) => image.naturalWidth === 640));
+  assert.equal(await page.$$eval("figure", (figures) => figures.length), detect(demo).pairs.length);
+  await screenshot(page, "report");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+/** Pairs of the page's parts that cover each other, and parts that are wider than the page. */
+function collisions() {
+  const parts = [".toolbar", ".canvas-holder", ".legend", "#timeline", ".summary", ".tabs", ".panel:not([hidden])", "#details", "footer"];
+  const boxes = parts.map((part) => [part, document.querySelector(part)]).filter(([, element]) => element && element.getClientRects().length > 0).map(([part, element]) => [part, element.getBoundingClientRect()]);
+  const found = document.documentElement.scrollWidth > innerWidth ? ["wider than the page"] : [];
+  for (const [a, one] of boxes) {
+    for (const [b, other] of boxes) {
+      const across = Math.min(one.right, other.right) - Math.max(one.left, other.left);
+      const down = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
+      if (a < b && across > 1 && down > 1) found.push(`${a} and ${b}`);
+    }
+  }
+  return found;
+}
+
+test("nothing covers anything else, on small and wide screens and with large text", async () => {
+  for (const [width, height, font] of [[1280, 800, "16px"], [1280, 800, "32px"], [2560, 1080, "16px"], [700, 900, "20px"]]) {
+    const page = await view("layout", [demo], { viewport: { width, height } });
+    await page.evaluate((size) => (document.documentElement.style.fontSize = size), font);
+    await page.keyboard.press("j");
+    await page.waitForTimeout(100);
+    assert.deepEqual(await page.evaluate(collisions), [], `${width}x${height}, ${font}`);
+    await screenshot(page, `layout-${width}x${height}-${font}`);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// What the tests run: the program, and Debian's Chromium on the pages that it writes.
+
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readdirSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+export const folder = mkdtempSync(join(tmpdir(), "allpairs-page-"));
+const pages = process.env.ALLPAIRS_PAGES ?? folder;
+const program = process.env.ALLPAIRS ?? join(root, "build/dev/bin/allpairs");
+const many = { encoding: "utf8", maxBuffer: 1 << 30 };
+
+export const allpairs = (...args) => execFileSync(program, args, many);
+export const verdicts = (...args) => execFileSync(process.env.ALLPAIRS_VERDICTS ?? join(root, "build/dev/bin/dump_verdicts"), args, many);
+export const detect = (...args) => JSON.parse(allpairs("detect", "--format", "json", ...args));
+export const screenshot = (page, name) => page.screenshot({ path: join(pages, `${name}.png`) });
+
+/** The folder of real data with known answers, or null; the project carries none of it. */
+export function dataFolder() {
+  const data = process.env.ALLPAIRS_DATA ?? join(root, "../shared/data");
+  return existsSync(join(data, "scenes")) ? data : null;
+}
+
+/** All scenes below a folder. */
+export function scenesIn(data) {
+  return readdirSync(join(data, "scenes/examples"), { recursive: true }).filter((name) => name.endsWith(".scn")).map((name) => join(data, "scenes/examples", name));
+}
+
+/** The bytes of a float64 .npy file. */
+export function npy(shape, numbers) {
+  let header = `{'descr': '<f8', 'fortran_order': False, 'shape': (${shape.join(", ")}), }`;
+  header = `${header.padEnd(63 - ((header.length + 10) % 64) + header.length)}\n`;
+  const head = Buffer.from(`\x93NUMPY\x01\x00\x00\x00${header}`, "latin1");
+  head.writeUInt16LE(header.length, 8);
+  return Buffer.concat([head, Buffer.from(Float64Array.from(numbers).buffer)]);
+}
+
+export function write(name, bytes) {
+  const path = join(folder, name);
+  writeFileSync(path, bytes);
+  return path;
+}
+
+const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+let browser;
+export const startBrowser = async () => (browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args, timeout: 120_000 }));
+export const stopBrowser = () => browser?.close();
+
+/** Opens a file as a page; what it complains about, and what it asks of the network, is kept in `page.problems`. */
+export async function open(path, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  page.setDefaultTimeout(120_000);
+  page.problems = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.problems.push(message.text()));
+  page.on("pageerror", (problem) => page.problems.push(problem.message));
+  page.on("dialog", (dialog) => page.problems.push(`dialog: ${dialog.message()}`) && dialog.dismiss());
+  page.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && page.problems.push(request.url()));
+  await page.goto(`file://${path}`, { timeout: 120_000 });
+  return page;
+}
+
+/** Writes the page of some inputs, opens it and waits for its picture. */
+export async function view(name, inputs, options = {}) {
+  const path = join(folder, `${name}.html`);
+  allpairs("view", ...inputs, "-o", path);
+  const page = await open(path, options);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  return page;
+}
+
+/** The text of an element, without that of elements in it. */
+export const ownText = (page, selector) => page.$eval(selector, (element) => element.firstChild?.textContent ?? "");
+export const number = async (page, selector) => Number((await ownText(page, selector)).replaceAll(",", ""));
+export const texts = (page, selector) => page.$$eval(selector, (elements) => elements.map((element) => element.textContent));
