@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include <Allpairs/ModelPool.h>
+#include <sofa/component/collision/geometry/CubeCollisionModel.h>
+#include <sofa/component/collision/geometry/LineCollisionModel.h>
+#include <sofa/component/collision/geometry/PointCollisionModel.h>
+#include <sofa/component/collision/geometry/SphereCollisionModel.h>
+#include <sofa/component/collision/geometry/TetrahedronCollisionModel.h>
+#include <sofa/component/collision/geometry/TriangleCollisionModel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace allpairs::plugin {
+namespace {
+
+namespace geometry = sofa::component::collision::geometry;
+using sofa::defaulttype::Rigid3Types;
+using sofa::defaulttype::Vec3Types;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Box kEverything{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+
+/// A model whose type is not known here: it may have rules of its own about whom it collides with, and is asked.
+class AskingModel final : public collision::HostedModel {
+ public:
+  [[nodiscard]] bool canCollideWith(collision::CollisionModel* other) override {
+    return hostOf(*this)->getLast()->canCollideWith(hostOf(*other)->getLast());
+  }
+};
+
+/// Whether a type is one of SOFA's own, and no subclass: then sofa::core::CollisionModel::canCollideWith() is not
+/// overridden, and its rule is also that of our models.
+bool isPlainType(const std::type_info& type) {
+  return type == typeid(geometry::TriangleCollisionModel<Vec3Types>) ||
+         type == typeid(geometry::LineCollisionModel<Vec3Types>) ||
+         type == typeid(geometry::PointCollisionModel<Vec3Types>) ||
+         type == typeid(geometry::SphereCollisionModel<Vec3Types>) ||
+         type == typeid(geometry::SphereCollisionModel<Rigid3Types>) ||
+         type == typeid(geometry::TetrahedronCollisionModel) || type == typeid(geometry::CubeCollisionModel);
+}
+
+/// Whether the box is one that our layer takes as SOFA does: no NaN, and not reversed.
+bool isProper(const Box& box) {
+  return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
+}
+
+void copyGroups(const std::set<int>& groups, collision::HostedModel& model) {
+  const std::vector<int>& known = model.getGroups();
+  if (std::equal(groups.begin(), groups.end(), known.begin(), known.end())) return;
+  model.setGroups({groups.begin(), groups.end()});
+}
+
+}  // namespace
+
+void ModelPool::clear() {
+  m_plainUsed = 0;
+  m_askingUsed = 0;
+  m_firstBox = nullptr;
+  m_anyOddRoot = false;
+  m_anySelfCollision = false;
+}
+
+collision::HostedModel& ModelPool::add(sofa::core::CollisionModel& host) {
+  sofa::core::CollisionModel& last = *host.getLast();
+  collision::HostedModel& model = takeFor(last);
+  model.setHost(&host);
+  model.setSimulated(host.isSimulated());
+  model.setSelfCollision(last.getSelfCollision());
+  model.setOwner(last.getContext());
+  copyGroups(last.getGroups(), model);
+  readRoot(host, model);
+  m_anySelfCollision = m_anySelfCollision || model.getSelfCollision();
+  return model;
+}
+
+collision::HostedModel& ModelPool::takeFor(const sofa::core::CollisionModel& last) {
+  if (hasDefaultRules(last)) {
+    if (m_plainUsed == m_plain.size()) m_plain.push_back(std::make_unique<collision::HostedModel>());
+    return *m_plain[m_plainUsed++];
+  }
+  m_anySelfCollision = true;  // it may let itself
+  if (m_askingUsed == m_asking.size()) m_asking.push_back(std::make_unique<AskingModel>());
+  return *m_asking[m_askingUsed++];
+}
+
+bool ModelPool::hasDefaultRules(const sofa::core::CollisionModel& last) {
+  const std::type_info& type = typeid(last);
+  if (&type != m_lastType) {
+    m_lastType = &type;
+    m_lastTypeHasDefaultRules = isPlainType(type);
+  }
+  return m_lastTypeHasDefaultRules;
+}
+
+void ModelPool::readRoot(sofa::core::CollisionModel& host, collision::HostedModel& model) {
+  Box box = kEverything;
+  double distance = 0.0;
+  bool odd = true;
+  if (typeid(host) == typeid(geometry::CubeCollisionModel)) {
+    const auto& cube = static_cast<const geometry::CubeCollisionModel&>(host).getCubeData(0);
+    for (sofa::Size axis = 0; axis < 3; ++axis) {
+      box.min[axis] = static_cast<double>(cube.minBBox[axis]);
+      box.max[axis] = static_cast<double>(cube.maxBBox[axis]);
+    }
+    distance = static_cast<double>(host.getContactDistance());
+    if (m_firstBox == nullptr) m_firstBox = &host;
+    odd = !isProper(box) || !std::isfinite(distance);
+  }
+  if (odd) {
+    box = kEverything;
+    distance = 0.0;
+    m_anyOddRoot = true;
+  }
+  if (distance != model.getContactDistance()) model.setContactDistance(distance);
+  model.setBox(box);
+}
+
+}  // namespace allpairs::plugin
