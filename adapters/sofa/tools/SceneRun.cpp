@@ -70,6 +70,7 @@ SceneRun::SceneRun(const Settings& settings, const std::string& broadPhaseClass)
   auto& plugins = sofa::helper::system::PluginManager::getInstance();
   for (const std::string& plugin : settings.plugins) {
     if (!isLoaded(plugins.loadPlugin(plugin))) throw std::runtime_error("SOFA can't load the plugin " + plugin);
+    sofa::core::ObjectFactory::getInstance()->registerObjectsFromPlugin(plugin);
   }
   m_root = sofa::simulation::node::load(settings.scene);
   if (!m_root) throw std::runtime_error("SOFA can't load " + settings.scene);

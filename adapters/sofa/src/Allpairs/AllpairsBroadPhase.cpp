@@ -40,8 +40,8 @@ struct AllpairsBroadPhase::State {
   ModelPool models;
   MethodBridge methods;
   collision::BruteForceBroadPhase phase;
-  std::vector<collision::HostedModel*> added;
-  std::size_t collected = 0;  // how many of the phase's pairs are in the component's list
+  std::vector<sofa::core::CollisionModel*> taking;  // of the models that are being added, those that take part
+  std::size_t collected = 0;                        // how many of the phase's pairs are in the component's list
   CubeCollisionModel::SPtr region;
   int threads = 1;
   std::unique_ptr<Executor> executor;
@@ -132,13 +132,14 @@ void AllpairsBroadPhase::addAll(sofa::core::CollisionModel* const* models, std::
     msg_error() << "there is no intersection method: no pairs are found";
     return;
   }
-  state.added.clear();
+  state.taking.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    if (models[i] == nullptr || models[i]->empty() || !isInRegion(*models[i])) continue;
-    state.added.push_back(&state.models.add(*models[i]));
+    const bool takesPart = models[i] != nullptr && !models[i]->empty() && isInRegion(*models[i]);
+    if (takesPart) state.taking.push_back(models[i]);
   }
+  const auto added = state.models.add(state.taking);
   state.phase.setIntersectionMethod(&state.methods.choose(*intersectionMethod, state.models));
-  for (collision::HostedModel* model : state.added) state.phase.addCollisionModel(model);
+  for (collision::HostedModel* model : added) state.phase.addCollisionModel(model);
   collectPairs();
   if (!state.stock) return;
   state.stock->setIntersectionMethod(intersectionMethod);

@@ -62,21 +62,41 @@ void ModelPool::clear() {
   m_anySelfCollision = false;
 }
 
-collision::HostedModel& ModelPool::add(sofa::core::CollisionModel& host) {
-  sofa::core::CollisionModel& last = *host.getLast();
-  collision::HostedModel& model = takeFor(last);
-  model.setHost(&host);
-  model.setSimulated(host.isSimulated());
-  model.setSelfCollision(last.getSelfCollision());
-  model.setOwner(last.getContext());
-  copyGroups(last.getGroups(), model);
-  readRoot(host, model);
-  m_anySelfCollision = m_anySelfCollision || model.getSelfCollision();
-  return model;
+std::span<collision::HostedModel* const> ModelPool::add(std::span<sofa::core::CollisionModel* const> hosts) {
+  readAll(hosts);
+  m_added.clear();
+  for (const Note& note : m_notes) {
+    collision::HostedModel& model = takeFor(note);
+    model.setHost(note.host);
+    model.setOwner(note.owner);
+    model.setSimulated(note.simulated);
+    model.setSelfCollision(note.selfCollision);
+    if (note.hasGroups || !model.getGroups().empty()) copyGroups(*note.groups, model);
+    if (note.contactDistance != model.getContactDistance()) model.setContactDistance(note.contactDistance);
+    model.setBox(note.box);
+    m_anySelfCollision = m_anySelfCollision || note.selfCollision;
+    m_added.push_back(&model);
+  }
+  return m_added;
 }
 
-collision::HostedModel& ModelPool::takeFor(const sofa::core::CollisionModel& last) {
-  if (hasDefaultRules(last)) {
+/// SOFA's models are kilobytes each and lie far apart: a step mostly waits for memory. Short loops, each over all models,
+/// let the processor wait for several of them at once.
+void ModelPool::readAll(std::span<sofa::core::CollisionModel* const> hosts) {
+  m_notes.resize(hosts.size());
+  for (std::size_t i = 0; i < hosts.size(); ++i) m_notes[i].host = hosts[i];
+  for (Note& note : m_notes) note.last = note.host->getLast();
+  for (Note& note : m_notes) note.simulated = note.host->isSimulated();
+  for (Note& note : m_notes) note.selfCollision = note.last->getSelfCollision();
+  for (Note& note : m_notes) note.hasDefaultRules = hasDefaultRules(*note.last);
+  for (Note& note : m_notes) note.owner = note.last->getContext();
+  for (Note& note : m_notes) note.groups = &note.last->getGroups();
+  for (Note& note : m_notes) note.hasGroups = !note.groups->empty();
+  for (Note& note : m_notes) readRoot(note);
+}
+
+collision::HostedModel& ModelPool::takeFor(const Note& note) {
+  if (note.hasDefaultRules) {
     if (m_plainUsed == m_plain.size()) m_plain.push_back(std::make_unique<collision::HostedModel>());
     return *m_plain[m_plainUsed++];
   }
@@ -94,27 +114,22 @@ bool ModelPool::hasDefaultRules(const sofa::core::CollisionModel& last) {
   return m_lastTypeHasDefaultRules;
 }
 
-void ModelPool::readRoot(sofa::core::CollisionModel& host, collision::HostedModel& model) {
-  Box box = kEverything;
-  double distance = 0.0;
+void ModelPool::readRoot(Note& note) {
   bool odd = true;
-  if (typeid(host) == typeid(geometry::CubeCollisionModel)) {
-    const auto& cube = static_cast<const geometry::CubeCollisionModel&>(host).getCubeData(0);
+  if (typeid(*note.host) == typeid(geometry::CubeCollisionModel)) {
+    const auto& cube = static_cast<const geometry::CubeCollisionModel&>(*note.host).getCubeData(0);
     for (sofa::Size axis = 0; axis < 3; ++axis) {
-      box.min[axis] = static_cast<double>(cube.minBBox[axis]);
-      box.max[axis] = static_cast<double>(cube.maxBBox[axis]);
+      note.box.min[axis] = static_cast<double>(cube.minBBox[axis]);
+      note.box.max[axis] = static_cast<double>(cube.maxBBox[axis]);
     }
-    distance = static_cast<double>(host.getContactDistance());
-    if (m_firstBox == nullptr) m_firstBox = &host;
-    odd = !isProper(box) || !std::isfinite(distance);
+    note.contactDistance = static_cast<double>(note.host->getContactDistance());
+    odd = !isProper(note.box) || !std::isfinite(note.contactDistance);
+    if (m_firstBox == nullptr) m_firstBox = note.host;
   }
-  if (odd) {
-    box = kEverything;
-    distance = 0.0;
-    m_anyOddRoot = true;
-  }
-  if (distance != model.getContactDistance()) model.setContactDistance(distance);
-  model.setBox(box);
+  if (!odd) return;
+  note.box = kEverything;
+  note.contactDistance = 0.0;
+  m_anyOddRoot = true;
 }
 
 }  // namespace allpairs::plugin

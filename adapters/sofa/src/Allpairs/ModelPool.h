@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <set>
+#include <span>
 #include <typeinfo>
 #include <vector>
 
@@ -23,8 +25,8 @@ class ModelPool {
   /// Begins a step: all models are free again.
   void clear();
 
-  /// A model that stands for one of SOFA's as that is now. Valid until clear().
-  [[nodiscard]] collision::HostedModel& add(sofa::core::CollisionModel& host);
+  /// Adds models that stand for SOFA's as those are now, and gives them in their order; valid until the next addition.
+  [[nodiscard]] std::span<collision::HostedModel* const> add(std::span<sofa::core::CollisionModel* const> hosts);
 
   /// Whether a model of this step has a root that only SOFA can test: no box, a NaN, or min > max on some axis.
   [[nodiscard]] bool anyOddRoot() const { return m_anyOddRoot; }
@@ -36,10 +38,27 @@ class ModelPool {
   [[nodiscard]] bool anySelfCollision() const { return m_anySelfCollision; }
 
  private:
-  [[nodiscard]] collision::HostedModel& takeFor(const sofa::core::CollisionModel& last);
-  [[nodiscard]] bool hasDefaultRules(const sofa::core::CollisionModel& last);
-  void readRoot(sofa::core::CollisionModel& host, collision::HostedModel& model);
+  /// What is read of one of SOFA's models before it is written to ours.
+  struct Note {
+    sofa::core::CollisionModel* host = nullptr;
+    sofa::core::CollisionModel* last = nullptr;
+    const void* owner = nullptr;
+    const std::set<int>* groups = nullptr;
+    double contactDistance = 0.0;
+    Box box;
+    bool simulated = false;
+    bool selfCollision = false;
+    bool hasDefaultRules = false;
+    bool hasGroups = false;
+  };
 
+  void readAll(std::span<sofa::core::CollisionModel* const> hosts);
+  void readRoot(Note& note);
+  [[nodiscard]] collision::HostedModel& takeFor(const Note& note);
+  [[nodiscard]] bool hasDefaultRules(const sofa::core::CollisionModel& last);
+
+  std::vector<Note> m_notes;
+  std::vector<collision::HostedModel*> m_added;
   std::vector<std::unique_ptr<collision::HostedModel>> m_plain;
   std::vector<std::unique_ptr<collision::HostedModel>> m_asking;
   std::size_t m_plainUsed = 0;

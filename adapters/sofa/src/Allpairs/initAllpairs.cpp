@@ -2,7 +2,6 @@
 // What SOFA's plugin manager looks for in a plugin.
 #include <Allpairs/config.h>
 #include <sofa/core/ObjectFactory.h>
-#include <sofa/helper/system/PluginManager.h>
 
 namespace allpairs::plugin {
 
@@ -12,13 +11,7 @@ void registerAllpairsBroadPhase(sofa::core::ObjectFactory* factory);
 
 extern "C" {
 
-ALLPAIRS_SOFA_API void initExternalModule() {
-  static const bool once = [] {
-    sofa::helper::system::PluginManager::getInstance().registerPlugin("Allpairs");
-    return true;
-  }();
-  static_cast<void>(once);
-}
+ALLPAIRS_SOFA_API void initExternalModule() {}  // nothing to prepare, but a plugin must have it
 
 ALLPAIRS_SOFA_API const char* getModuleName() { return "Allpairs"; }
 ALLPAIRS_SOFA_API const char* getModuleVersion() { return ALLPAIRS_SOFA_VERSION; }
