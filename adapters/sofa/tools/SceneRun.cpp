@@ -122,7 +122,9 @@ sofa::core::collision::Intersection* SceneRun::intersectionMethod() const {
 sofa::type::vector<sofa::core::CollisionModel*> SceneRun::activeRoots() const {
   sofa::type::vector<sofa::core::CollisionModel*> roots;
   for (sofa::core::CollisionModel* model : m_root->getTreeObjects<sofa::core::CollisionModel>()) {
-    if (model->isActive()) roots.push_back(model->getFirst());
+    if (!model->isActive()) continue;
+    if (model->getPrevious() == nullptr) model->computeBoundingTree(0);  // a scene without a pipeline
+    roots.push_back(model->getFirst());
   }
   return roots;
 }
