@@ -47,7 +47,8 @@ class World {
     return addBody(root, std::make_unique<Elements>());
   }
 
-  Body& addBody(std::shared_ptr<sofa::core::CollisionModel> root, std::unique_ptr<sofa::core::CollisionModel> elements) {
+  Body& addBody(std::shared_ptr<sofa::core::CollisionModel> root,
+                std::unique_ptr<sofa::core::CollisionModel> elements) {
     Body& body = m_bodies.emplace_back(Body{std::move(root), std::move(elements)});
     body.elements->resize(1);
     body.elements->setContext(&m_nodes.emplace_back());
