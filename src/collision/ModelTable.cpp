@@ -9,6 +9,7 @@
 #include "allpairs/collision/BoundingBoxModel.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/CapsuleModel.h"
+#include "allpairs/collision/HostedModel.h"
 #include "allpairs/collision/LineModel.h"
 #include "allpairs/collision/OrientedBoxModel.h"
 #include "allpairs/collision/PointModel.h"
@@ -23,7 +24,7 @@ namespace {
 bool isLibraryType(const std::type_info& type) {
   return type == typeid(BoxModel) || type == typeid(TriangleModel) || type == typeid(LineModel) ||
          type == typeid(PointModel) || type == typeid(SphereModel) || type == typeid(OrientedBoxModel) ||
-         type == typeid(CapsuleModel) || type == typeid(TetrahedronModel);
+         type == typeid(CapsuleModel) || type == typeid(TetrahedronModel) || type == typeid(HostedModel);
 }
 
 }  // namespace

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "SceneRun.h"
+
+#include <sofa/core/ObjectFactory.h>
+#include <sofa/core/objectmodel/BaseObjectDescription.h>
+#include <sofa/helper/system/FileRepository.h>
+#include <sofa/helper/system/PluginManager.h>
+#include <sofa/simulation/Simulation.h>
+#include <sofa/simulation/common/init.h>
+#include <sofa/simulation/graph/DAGSimulation.h>
+#include <sofa/simulation/graph/init.h>
+
+#include <stdexcept>
+
+namespace allpairs::tools {
+namespace {
+
+using sofa::core::objectmodel::BaseComponent;
+
+/// The value of the option at i, which is moved on to it.
+std::string valueOf(int argc, char** argv, int& i) {
+  if (i + 1 >= argc) throw std::invalid_argument(std::string(argv[i]) + " needs a value");
+  return argv[++i];
+}
+
+bool isLoaded(sofa::helper::system::PluginManager::PluginLoadStatus status) {
+  using Status = sofa::helper::system::PluginManager::PluginLoadStatus;
+  return status == Status::SUCCESS || status == Status::ALREADY_LOADED;
+}
+
+BroadPhase::SPtr makeBroadPhase(sofa::core::objectmodel::BaseContext& context, const std::string& name,
+                                const std::string& className) {
+  sofa::core::objectmodel::BaseObjectDescription description(name.c_str(), className.c_str());
+  const BaseComponent::SPtr made = sofa::core::ObjectFactory::CreateObject(&context, &description);
+  auto* phase = dynamic_cast<BroadPhase*>(made.get());
+  if (phase == nullptr) throw std::runtime_error("SOFA can't make a broad phase of the class " + className);
+  return phase;
+}
+
+}  // namespace
+
+Settings readSettings(int argc, char** argv) {
+  Settings settings;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--steps") {
+      settings.steps = std::stoi(valueOf(argc, argv, i));
+    } else if (argument == "--plugin") {
+      settings.plugins.push_back(valueOf(argc, argv, i));
+    } else if (argument == "--data") {
+      settings.dataFolders.push_back(valueOf(argc, argv, i));
+    } else if (argument == "--broad-phase") {
+      settings.broadPhases.push_back(valueOf(argc, argv, i));
+    } else if (settings.scene.empty() && argument.front() != '-') {
+      settings.scene = argument;
+    } else {
+      throw std::invalid_argument("unknown argument " + argument);
+    }
+  }
+  if (settings.scene.empty()) throw std::invalid_argument("which scene?");
+  return settings;
+}
+
+SceneRun::SceneRun(const Settings& settings, const std::string& broadPhaseClass) {
+  sofa::simulation::common::init();
+  sofa::simulation::graph::init();
+  for (const std::string& folder : settings.dataFolders) {
+    sofa::helper::system::DataRepository.addFirstPath(folder);
+  }
+  auto& plugins = sofa::helper::system::PluginManager::getInstance();
+  for (const std::string& plugin : settings.plugins) {
+    if (!isLoaded(plugins.loadPlugin(plugin))) throw std::runtime_error("SOFA can't load the plugin " + plugin);
+    sofa::core::ObjectFactory::getInstance()->registerObjectsFromPlugin(plugin);
+  }
+  m_root = sofa::simulation::node::load(settings.scene);
+  if (!m_root) throw std::runtime_error("SOFA can't load " + settings.scene);
+  if (!broadPhaseClass.empty()) {
+    for (BroadPhase* phase : broadPhases()) replace(*phase, broadPhaseClass);
+  }
+  sofa::simulation::node::initRoot(m_root.get());
+}
+
+SceneRun::~SceneRun() {
+  if (m_root) sofa::simulation::node::unload(m_root);
+}
+
+void SceneRun::replace(BroadPhase& old, const std::string& broadPhaseClass) {
+  const BroadPhase::SPtr keptAlive = &old;
+  auto* context = old.getContext();
+  context->removeObject(keptAlive);
+  const BroadPhase::SPtr made = makeBroadPhase(*context, old.getName(), broadPhaseClass);
+  auto* from = old.findData("box");
+  auto* to = made->findData("box");
+  if (from != nullptr && to != nullptr && from->isSet()) to->copyValueFrom(from);
+  for (BaseComponent* component : m_root->getTreeObjects<BaseComponent>()) {
+    auto* link = component->findLink("broadPhaseDetection");
+    if (link != nullptr && link->getSize() > 0 && link->getLinkedBase() == &old) {
+      link->read("@" + made->getPathName());
+    }
+  }
+}
+
+void SceneRun::step() { sofa::simulation::node::animate(m_root.get()); }
+
+BroadPhase& SceneRun::make(const std::string& broadPhaseClass) {
+  BroadPhase& phase = *makeBroadPhase(*m_root, "measured" + broadPhaseClass, broadPhaseClass);
+  phase.init();
+  return phase;
+}
+
+std::vector<BroadPhase*> SceneRun::broadPhases() const { return m_root->getTreeObjects<BroadPhase>(); }
+
+std::vector<sofa::core::behavior::BaseMechanicalState*> SceneRun::states() const {
+  return m_root->getTreeObjects<sofa::core::behavior::BaseMechanicalState>();
+}
+
+sofa::core::collision::Intersection* SceneRun::intersectionMethod() const {
+  const auto methods = m_root->getTreeObjects<sofa::core::collision::Intersection>();
+  return methods.empty() ? nullptr : methods.front();
+}
+
+sofa::type::vector<sofa::core::CollisionModel*> SceneRun::activeRoots() const {
+  sofa::type::vector<sofa::core::CollisionModel*> roots;
+  for (sofa::core::CollisionModel* model : m_root->getTreeObjects<sofa::core::CollisionModel>()) {
+    if (!model->isActive()) continue;
+    if (model->getPrevious() == nullptr) model->computeBoundingTree(0);  // a scene without a pipeline
+    roots.push_back(model->getFirst());
+  }
+  return roots;
+}
+
+}  // namespace allpairs::tools

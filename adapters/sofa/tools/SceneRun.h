@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sofa/core/CollisionModel.h>
+#include <sofa/core/behavior/BaseMechanicalState.h>
+#include <sofa/core/collision/BroadPhaseDetection.h>
+#include <sofa/core/collision/Intersection.h>
+#include <sofa/simulation/Node.h>
+
+#include <string>
+#include <vector>
+
+namespace allpairs::tools {
+
+using BroadPhase = sofa::core::collision::BroadPhaseDetection;
+
+/// What the programs of this folder are told.
+struct Settings {
+  std::string scene;
+  std::vector<std::string> plugins;
+  std::vector<std::string> dataFolders;
+  std::vector<std::string> broadPhases;
+  int steps = 200;
+};
+
+/// Reads: SCENE [--steps N] [--plugin NAME]... [--data FOLDER]... [--broad-phase CLASS]...
+///
+/// Bad input: throws std::invalid_argument that names the argument.
+[[nodiscard]] Settings readSettings(int argc, char** argv);
+
+/// A scene of SOFA, loaded, with other broad phases than its own, and run step by step.
+class SceneRun {
+ public:
+  /// Loads a scene. With a class, every broad phase of the scene is replaced by one of it, under the same name, with the
+  /// same box, before the scene is initialised.
+  ///
+  /// Bad input: a scene or a class that SOFA can't make throws std::runtime_error.
+  SceneRun(const Settings& settings, const std::string& broadPhaseClass = {});
+  SceneRun(const SceneRun&) = delete;
+  SceneRun& operator=(const SceneRun&) = delete;
+  SceneRun(SceneRun&&) = delete;
+  SceneRun& operator=(SceneRun&&) = delete;
+  ~SceneRun();
+
+  void step();
+
+  /// Makes another broad phase in the scene's root; the pipeline doesn't know it.
+  [[nodiscard]] BroadPhase& make(const std::string& broadPhaseClass);
+
+  [[nodiscard]] std::vector<BroadPhase*> broadPhases() const;
+  [[nodiscard]] std::vector<sofa::core::behavior::BaseMechanicalState*> states() const;
+  [[nodiscard]] sofa::core::collision::Intersection* intersectionMethod() const;
+
+  /// The roots of the models that take part, in the order in which the pipeline hands them over.
+  [[nodiscard]] sofa::type::vector<sofa::core::CollisionModel*> activeRoots() const;
+
+ private:
+  void replace(BroadPhase& old, const std::string& broadPhaseClass);
+
+  sofa::simulation::Node::SPtr m_root;
+};
+
+}  // namespace allpairs::tools

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "allpairs/collision/CollisionModel.h"
+
+namespace allpairs::collision {
+
+/// A model that stands for one of another system: its root box is set from outside, and it remembers whom it stands for.
+///
+/// With it an adapter lends another system's models to the broad phase: flags, groups, owner and distance by the setters
+/// of CollisionModel, the box by setBox(). A subclass may override canCollideWith() to ask the other system.
+/// Geometry:  a closed box; min > max on an axis means empty; infinite bounds are allowed.
+/// Bad input: a NaN in the box throws InvalidBox.
+class HostedModel : public CollisionModel {
+ public:
+  explicit HostedModel(void* host = nullptr) : m_host(host) {}
+
+  /// Whom the model stands for, as it was set. Never looked into.
+  [[nodiscard]] void* host() const { return m_host; }
+  void setHost(void* host) { m_host = host; }
+
+  /// The root box of a step. To be set after the contact distance, which says that the box is out of date.
+  void setBox(const Box& box) {
+    setRoot(box);
+    m_box = box;
+  }
+
+  [[nodiscard]] std::size_t getSize() const override { return 1; }
+  [[nodiscard]] Box elementBox(std::size_t /*index*/) const override { return m_box; }
+  [[nodiscard]] std::string_view typeName() const override { return "HostedModel"; }
+
+ private:
+  Box m_box = kEmptyBox;
+  void* m_host = nullptr;
+};
+
+}  // namespace allpairs::collision
