@@ -23,6 +23,9 @@ constexpr std::size_t kCountersPerPair = 8;
 
 /// Up to about so many pairs of a key are put in order by insertion.
 constexpr std::size_t kFewPairs = 12;
+
+/// More pairs of one key than this are sorted on their own.
+constexpr std::size_t kLongRow = 32;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
 /// Bits of a digit, and so how many keys share a bucket at most.
@@ -106,6 +109,20 @@ void sortByInsertion(Pair* pairs, std::size_t size) {
   }
 }
 
+/// Sorts the pairs of the keys that have many, which insertion would take long for. Each key's pairs end at its place.
+template <bool kBySecond>
+void sortLongRows(Pair* pairs, const Places& ends, std::size_t keys) {
+  std::size_t begin = 0;
+  for (std::size_t key = 0; key < keys; ++key) {
+    const std::size_t end = ends[key];
+    if (end - begin > kLongRow) {
+      std::sort(pairs + begin, pairs + end,
+                [](Pair a, Pair b) { return indexOf<!kBySecond>(a) < indexOf<!kBySecond>(b); });
+    }
+    begin = end;
+  }
+}
+
 /// Sorts a bucket in which a key has a few pairs: each goes to its key's, in any order, and is then put in its place.
 template <bool kBySecond>
 void sortByKeys(const Kernels& kernels, const Pair* from, Pair* to, std::size_t size, unsigned keyBits) {
@@ -113,8 +130,10 @@ void sortByKeys(const Kernels& kernels, const Pair* from, Pair* to, std::size_t 
   const std::uint32_t mask = (1U << keyBits) - 1;
   std::fill_n(places.begin(), std::size_t{mask} + 1, 0U);
   for (std::size_t i = 0; i < size; ++i) ++places[indexOf<kBySecond>(from[i]) & mask];
+  const std::uint32_t longest = *std::max_element(places.begin(), places.begin() + mask + 1);
   placesOf(places.data(), std::size_t{mask} + 1);
   for (std::size_t i = 0; i < size; ++i) to[places[indexOf<kBySecond>(from[i]) & mask]++] = from[i];
+  if (longest > kLongRow) sortLongRows<kBySecond>(to, places, std::size_t{mask} + 1);
   kernels.exchangeNeighbours(to, size, kBySecond);
   sortByInsertion<kBySecond>(to, size);
 }

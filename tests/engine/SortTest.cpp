@@ -45,7 +45,6 @@ class PairSortOf : public testing::TestWithParam<std::string> {
     ASSERT_TRUE(sortedBy(order, given) == pairs) << size << " pairs of " << keys;
   }
 
- private:
   OverlapOptions m_options;
 };
 
@@ -60,6 +59,18 @@ TEST_P(PairSortOf, SortsSparseAndDensePairsByEitherIndex) {
         expectSorted(size, keys, order, threads);
       }
     }
+  }
+}
+
+TEST_P(PairSortOf, SortsPairsOfWhichOneIndexHasThousands) {
+  std::vector<Pair> given = randomPairs(60000, 90000);
+  for (std::size_t i = 0; i < given.size(); i += 13) given[i].first = 4711;
+  for (std::size_t i = 1; i < given.size(); i += 13) given[i].second = 815;
+  SerialExecutor serial;
+  for (const Order order : {Order::ByFirst, Order::BySecond}) {
+    std::vector<Pair> pairs = given;
+    PairSort().sort(pairs, {90000, 90000, order, &chooseKernels(m_options), {}}, serial);
+    ASSERT_TRUE(sortedBy(order, given) == pairs);
   }
 }
 
