@@ -100,8 +100,17 @@ std::string boxMethod(const DetectionOptions& options) {
   return text;
 }
 
-void writeExact(const scene::ResultView& result, const ExactReport& exact, const TableNotes& notes,
-                const std::string& format, Output& output) {
+/// A detection and all that is needed to write it down.
+struct Outcome {
+  Detection detection{};
+  scene::ResultView result{};
+  TableNotes notes{};
+  std::optional<ExactReport> exact{};
+};
+
+void writeExact(const Outcome& outcome, const std::string& format, Output& output) {
+  const scene::ResultView& result = outcome.result;
+  const ExactReport& exact = *outcome.exact;
   const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
   if (format == "json") {
     writeExactJson(result, exact, sink);
@@ -113,17 +122,9 @@ void writeExact(const scene::ResultView& result, const ExactReport& exact, const
     found.pairs = kept;
     scene::writeNpy(found, sink);
   } else {
-    writeExactTable(result, exact, notes, sink);
+    writeExactTable(result, exact, outcome.notes, sink);
   }
 }
-
-/// A detection and all that is needed to write it down.
-struct Outcome {
-  Detection detection{};
-  scene::ResultView result{};
-  TableNotes notes{};
-  std::optional<ExactReport> exact{};
-};
 
 Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
   const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
@@ -180,7 +181,7 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   outcome.result.statistics = outcome.detection.statistics;
   outcome.result.statistics.readSeconds = readSeconds;
   if (outcome.exact) {
-    writeExact(outcome.result, *outcome.exact, outcome.notes, settings.format, output);
+    writeExact(outcome, settings.format, output);
   } else {
     write(outcome.result, outcome.notes, settings.format, output);
   }

@@ -18,7 +18,6 @@ class FallingBodies {
  public:
   FallingBodies(btBroadphaseInterface& broadphase, int columns, int height)
       : m_dispatcher(&m_configuration),
-        m_broadphase(broadphase),
         m_world(&m_dispatcher, &broadphase, &m_solver, &m_configuration) {
     m_world.setGravity({0, btScalar(-9.81), 0});
     add(m_floor, 0, {0, -1, 0});
@@ -97,7 +96,6 @@ class FallingBodies {
 
   btDefaultCollisionConfiguration m_configuration;
   btCollisionDispatcher m_dispatcher;
-  btBroadphaseInterface& m_broadphase;
   btSequentialImpulseConstraintSolver m_solver;
   btDiscreteDynamicsWorld m_world;
   btBoxShape m_floor{btVector3(60, 1, 60)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <limits>
 
 #include "Clash.h"
 #include "ClashPicture.h"
@@ -45,7 +45,7 @@ TEST(Raster, WhatLiesOutsideIsCutOff) {
   EXPECT_EQ(raster.at(0, 0), kRed);
   EXPECT_EQ(raster.at(9, 9), kRed);
   Raster empty(4, 4, kWhite);
-  empty.triangle({{{NAN, 0, 0}, {4, 0, 0}, {0, 4, 0}}}, kRed);
+  empty.triangle({{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {4, 0, 0}, {0, 4, 0}}}, kRed);
   EXPECT_EQ(empty.at(1, 1), kWhite);
 }
 

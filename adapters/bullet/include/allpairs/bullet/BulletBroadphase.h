@@ -55,6 +55,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   BulletBroadphase& operator=(BulletBroadphase&&) = delete;
   ~BulletBroadphase() override = default;
 
+  // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int /*shapeType*/, void* userPtr,
                                  int collisionFilterGroup, int collisionFilterMask,
                                  btDispatcher* /*dispatcher*/) override {
@@ -91,6 +92,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   }
 
   /// Calls the callback for each box that the ray, or the given box along the ray, meets: from near to far.
+  // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
     const BoxSweep sweep{.box = toBox(rayFrom + aabbMin, rayFrom + aabbMax), .motion = toArray(rayTo - rayFrom)};

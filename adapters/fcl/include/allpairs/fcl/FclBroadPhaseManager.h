@@ -244,6 +244,7 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   }
 
   /// Asks the callback about the objects of this manager that are nearer to one of another than the least distance.
+  // NOLINTNEXTLINE(readability-function-size): the order, and what FCL hands on.
   bool nearer(Object* object, Order order, DistanceCallBack callback, void* data, S& least) const {
     const auto ask = [&](BoxId id) {
       Object* const own = m_objects[id].object;
