@@ -17,8 +17,7 @@ namespace {
 class FallingBodies {
  public:
   FallingBodies(btBroadphaseInterface& broadphase, int columns, int height)
-      : m_dispatcher(&m_configuration),
-        m_world(&m_dispatcher, &broadphase, &m_solver, &m_configuration) {
+      : m_dispatcher(&m_configuration), m_world(&m_dispatcher, &broadphase, &m_solver, &m_configuration) {
     m_world.setGravity({0, btScalar(-9.81), 0});
     add(m_floor, 0, {0, -1, 0});
     for (const btScalar side : {btScalar(-1), btScalar(1)}) {
