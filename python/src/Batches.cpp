@@ -27,7 +27,8 @@ std::unique_ptr<PairArray> Batches::next() {
     const py::gil_scoped_release release;
     batch = m_stream->next();
   }
-  return batch ? toPython(std::move(*batch)) : nullptr;
+  if (!batch) return nullptr;
+  return toPython(std::move(*batch));
 }
 
 void Batches::close() {
