@@ -41,7 +41,7 @@ bool overlapsMuch(const LaneReader& reader, double share) {
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
   }
-  return static_cast<double>(hits) > share * (kSample * (kSample - 1) / 2);
+  return static_cast<double>(hits) > share * 0.5 * static_cast<double>(kSample * (kSample - 1));
 }
 
 /// Reads whole blocks of a tile's boxes by a kernel; returns where it stopped.

@@ -55,7 +55,8 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
     if (in > enter) enter = in;
     if (out < leave) leave = out;
   }
-  return enter <= leave ? enter : kFar;
+  if (enter > leave) return kFar;
+  return enter;
 }
 
 /// The Euclidean distance of a point from a box.
