@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include <cstring>
+
 #include "Handles.h"
 
 namespace allpairs::c {
 namespace {
 
-Strategy strategyOf(allpairs_strategy strategy) {
+/// The number that a caller in C has put where an enumerator is: if it is none of them, C++ may not read it as one.
+template <class Enumerator>
+int numberIn(const Enumerator& place) {
+  static_assert(sizeof(Enumerator) == sizeof(int));
+  int number = 0;
+  std::memcpy(&number, &place, sizeof number);
+  return number;
+}
+
+Strategy strategyOf(int strategy) {
   switch (strategy) {
     case ALLPAIRS_AUTOMATIC:
       return Strategy::Automatic;
@@ -13,10 +24,10 @@ Strategy strategyOf(allpairs_strategy strategy) {
     case ALLPAIRS_BLOCKED:
       return Strategy::Blocked;
   }
-  throw InvalidArgument("no strategy " + std::to_string(static_cast<int>(strategy)));
+  throw InvalidArgument("no strategy " + std::to_string(strategy));
 }
 
-Order orderOf(allpairs_order order) {
+Order orderOf(int order) {
   switch (order) {
     case ALLPAIRS_BY_FIRST:
       return Order::ByFirst;
@@ -25,7 +36,7 @@ Order orderOf(allpairs_order order) {
     case ALLPAIRS_UNORDERED:
       return Order::Unordered;
   }
-  throw InvalidArgument("no order " + std::to_string(static_cast<int>(order)));
+  throw InvalidArgument("no order " + std::to_string(order));
 }
 
 /// What a filter's array is about: C says nothing of its length, which is the set's.
@@ -39,8 +50,8 @@ FilterBits bitsOf(const allpairs_filter& filter, const BoxSet& boxes) {
 
 OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
   OverlapOptions options;
-  options.strategy = strategyOf(given.strategy);
-  options.order = orderOf(given.order);
+  options.strategy = strategyOf(numberIn(given.strategy));
+  options.order = orderOf(numberIn(given.order));
   options.distance = given.distance;
   if (given.region != nullptr) options.region = boxOf(given.region);
   if (given.accept != nullptr) {
