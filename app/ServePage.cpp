@@ -2,6 +2,7 @@
 #include "ServePage.h"
 
 #include <httplib.h>
+#include <sys/socket.h>
 
 #include "allpairs/Error.h"
 
@@ -15,7 +16,14 @@ bool isLocal(const std::string& host) {
   return name == kHost || name == "localhost";
 }
 
+/// A port that another program serves is refused; the library would share it.
+void refuseSharedPorts(int socket) {
+  const int yes = 1;
+  ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+}
+
 void setUp(httplib::Server& server, const std::string& page) {
+  server.set_socket_options(refuseSharedPorts);
   server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
     if (isLocal(request.get_header_value("Host"))) return httplib::Server::HandlerResponse::Unhandled;
     response.status = 403;
