@@ -156,7 +156,7 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   outcome.result.ignored = scene.remarks;
   for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
-  outcome.result.model = [&models](std::size_t i) { return modelRecord(*models[i]); };
+  outcome.result.model = [&models](std::size_t i) { return scene::modelRecord(*models[i]); };
   return outcome;
 }
 

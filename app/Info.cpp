@@ -101,12 +101,12 @@ std::string describe(scene::Scene& scene) {
   std::size_t elements = 0;
   for (const auto& model : scene.models) {
     if (!model->empty()) model->computeBoundingTree();
-    whole = merge(whole, modelRecord(*model).box);
+    whole = merge(whole, scene::modelRecord(*model).box);
     elements += model->getSize();
   }
   std::string text = fmt::format("models   {}, with {}\n", grouped(scene.models.size()), counted(elements, "element"));
   text += fmt::format("method   {}\nbox      {}\n\n", methodText(scene), boxText(whole));
-  text += tableOf(scene.models.size(), [&scene](std::size_t i) { return modelRecord(*scene.models[i]); });
+  text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(*scene.models[i]); });
   text += scene.remarks.empty() ? "\nnothing was ignored\n" : "\nignored\n";
   for (const scene::Remark& remark : scene.remarks) text += remarkText(remark);
   return text;

@@ -80,7 +80,7 @@ void addColumns(const scene::Scene& from, view::ViewScene& to) {
   Numbering<const void*> owners;
   groups.numberOf({});
   for (const auto& model : from.models) {
-    const scene::ModelRecord record = modelRecord(*model);
+    const scene::ModelRecord record = scene::modelRecord(*model);
     to.names.push_back(record.name);
     to.types.push_back(types.numberOf(record.type));
     to.groups.push_back(groups.numberOf(record.groups));
@@ -97,7 +97,7 @@ view::ViewFrame frameOf(const scene::Scene& scene, const Detection& detection) {
   ModelProbe probe(scene);
   view::ViewFrame frame;
   for (const auto& model : scene.models) {
-    frame.boxes.push_back(modelRecord(*model).box);
+    frame.boxes.push_back(scene::modelRecord(*model).box);
     frame.flags.push_back(probe.flagsOf(*model));
   }
   frame.pairs.assign(detection.pairs.begin(), detection.pairs.end());

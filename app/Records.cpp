@@ -9,21 +9,6 @@ scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {
   return {.name = boxes.name(i), .type = "BoxModel", .elements = 1, .box = boxes.boxes()[i]};
 }
 
-scene::ModelRecord modelRecord(const collision::CollisionModel& model) {
-  const collision::CollisionModel& elements = *model.getLast();
-  const bool hasRoot = !elements.empty() && elements.hasBoundingTree();
-  return {.name = elements.getName(),
-          .type = std::string(elements.typeName()),
-          .elements = elements.getSize(),
-          .box = hasRoot ? elements.getFirst()->elementBox(0) : kEmptyBox,
-          .active = elements.isActive(),
-          .simulated = elements.isSimulated(),
-          .moving = elements.isMoving(),
-          .selfCollision = elements.getSelfCollision(),
-          .groups = elements.getGroups(),
-          .contactDistance = elements.getContactDistance()};
-}
-
 std::string methodText(const scene::Scene& scene) {
   const std::string method(scene.intersection->typeName());
   std::string text = fmt::format("{}, alarm distance {}", method, scene.intersection->getAlarmDistance());

@@ -13,9 +13,6 @@ namespace allpairs::app {
 /// What a result says about box i.
 [[nodiscard]] scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i);
 
-/// What a result says about a model whose bounding tree was made.
-[[nodiscard]] scene::ModelRecord modelRecord(const collision::CollisionModel& model);
-
 /// How a scene's models are tested, in words: the method and its alarm distance.
 [[nodiscard]] std::string methodText(const scene::Scene& scene);
 

@@ -43,21 +43,6 @@ Content read(const std::filesystem::path& path, const scene::ReadOptions& option
   return withRootBoxes(scene::readInput(path, options));
 }
 
-scene::ModelRecord recordOf(const CollisionModel& model) {
-  const CollisionModel& elements = *model.getLast();
-  const bool hasRoot = !elements.empty() && elements.hasBoundingTree();
-  return {.name = elements.getName(),
-          .type = std::string(elements.typeName()),
-          .elements = elements.getSize(),
-          .box = hasRoot ? elements.getFirst()->elementBox(0) : kEmptyBox,
-          .active = elements.isActive(),
-          .simulated = elements.isSimulated(),
-          .moving = elements.isMoving(),
-          .selfCollision = elements.getSelfCollision(),
-          .groups = elements.getGroups(),
-          .contactDistance = elements.getContactDistance()};
-}
-
 /// The six columns of a file's boxes as they lie in memory: the max corners are behind the min corners in each.
 template <class T>
 py::buffer_info columnsOf(const BoxSet::Corners<T>& corners, std::size_t size) {
@@ -142,7 +127,7 @@ LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOpt
   const auto* scene = std::get_if<scene::Scene>(&m_content);
   if (scene == nullptr) return;
   for (const auto& model : scene->models) {
-    const Box box = recordOf(*model).box;
+    const Box box = scene::modelRecord(*model).box;
     m_rootBoxes.insert(m_rootBoxes.end(), box.min.begin(), box.min.end());
     m_rootBoxes.insert(m_rootBoxes.end(), box.max.begin(), box.max.end());
   }
@@ -158,7 +143,7 @@ scene::ModelRecord LoadedScene::model(std::size_t index) const {
   if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) {
     return {.name = boxes->name(index), .type = "BoxModel", .elements = 1, .box = boxes->boxes()[index]};
   }
-  return recordOf(*std::get<scene::Scene>(m_content).models[index]);
+  return scene::modelRecord(*std::get<scene::Scene>(m_content).models[index]);
 }
 
 std::span<const scene::Remark> LoadedScene::remarks() const {

@@ -67,7 +67,7 @@ void exchangeNeighbours(Pair*, std::size_t, bool) {}
 
 #else
 
-/// Pairs as numbers that compare as the order does, and back: `high` says which index comes first.
+/// Pairs as numbers that compare as the order does, and back.
 template <bool kBySecond, class D>
 HWY_INLINE hn::Vec<D> turnPairs(D d, hn::Vec<D> pairs) {
   if constexpr (kBySecond) return pairs;

@@ -23,6 +23,19 @@ constexpr std::size_t kDenseColumns = 512;
 /// A row is dense if one of so many columns is a hit.
 constexpr std::size_t kDenseRow = 3;
 
+/// The columns that a row is tested against.
+struct Range {
+  std::size_t begin;
+  std::size_t end;
+
+  [[nodiscard]] HWY_INLINE std::size_t size() const { return end - std::min(begin, end); }
+};
+
+HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
+  return {search.tested == Columns::Following ? row + 1 : 0,
+          search.tested == Columns::Preceding ? row : search.columns.size};
+}
+
 /// One row against the columns [begin, end), tile by tile.
 template <Density kDensity, class Taker>
 HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end, Hits& hits) {
@@ -80,10 +93,9 @@ HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, std::
 /// Rows of which most columns are hits: their pairs are written at once. Returns where rows are no longer like that.
 std::size_t writeRows(const FlatSearch& search, std::size_t row, Hits& hits) {
   for (bool dense = true; dense && row < search.rowEnd; ++row) {
-    const std::size_t begin = search.tested == Columns::Following ? row + 1 : 0;
-    const std::size_t end = search.tested == Columns::Preceding ? row : search.columns.size;
-    dense = begin < end && kDenseRow * writeRow(search, row, begin, end, hits) > end - begin;
-    hits.boxTests += end - std::min(begin, end);
+    const Range columns = columnsOf(search, row);
+    dense = columns.size() != 0 && kDenseRow * writeRow(search, row, columns.begin, columns.end, hits) > columns.size();
+    hits.boxTests += columns.size();
   }
   return row;
 }
@@ -91,13 +103,12 @@ std::size_t writeRows(const FlatSearch& search, std::size_t row, Hits& hits) {
 template <Density kDensity, class Taker>
 void searchRows(const FlatSearch& search, Hits& hits) {
   for (std::size_t row = search.rowBegin; row < search.rowEnd; ++row) {
-    const std::size_t begin = search.tested == Columns::Following ? row + 1 : 0;
-    const std::size_t end = search.tested == Columns::Preceding ? row : search.columns.size;
+    const Range columns = columnsOf(search, row);
     const std::size_t size = hits.size;
-    searchRow<kDensity, Taker>(search, row, begin, end, hits);
-    hits.boxTests += end - std::min(begin, end);
+    searchRow<kDensity, Taker>(search, row, columns.begin, columns.end, hits);
+    hits.boxTests += columns.size();
     if (hits.roomForPairs != nullptr && hits.size > size + kDenseColumns / kDenseRow &&
-        kDenseRow * (hits.size - size) > end - begin) {
+        kDenseRow * (hits.size - size) > columns.size()) {
       row = writeRows(search, row + 1, hits) - 1;
     }
   }

@@ -143,10 +143,7 @@ template <bool kBySecond>
 void sortBucket(const Kernels& kernels, Pair* from, Pair* to, std::size_t size, unsigned keyBits, unsigned otherBits) {
   if (size > std::numeric_limits<std::uint32_t>::max()) {
     std::copy_n(from, size, to);
-    std::sort(to, to + size, [](Pair a, Pair b) {
-      return std::pair(indexOf<kBySecond>(a), indexOf<!kBySecond>(a)) <
-             std::pair(indexOf<kBySecond>(b), indexOf<!kBySecond>(b));
-    });
+    std::sort(to, to + size, [](Pair a, Pair b) { return rankOf<kBySecond>(a) < rankOf<kBySecond>(b); });
     return;
   }
   if (keyBits <= kMaxDigitBits && size < (kFewPairs << keyBits)) {

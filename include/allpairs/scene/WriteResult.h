@@ -12,6 +12,7 @@
 #include "allpairs/Box.h"
 #include "allpairs/FunctionRef.h"
 #include "allpairs/Pair.h"
+#include "allpairs/collision/CollisionModel.h"
 #include "allpairs/scene/Scene.h"
 
 namespace allpairs::scene {
@@ -29,6 +30,9 @@ struct ModelRecord {
   std::vector<int> groups{};
   double contactDistance = 0.0;
 };
+
+/// What a result says about a model whose bounding tree was made.
+[[nodiscard]] ModelRecord modelRecord(const collision::CollisionModel& model);
 
 /// How a detection went: the last part of a result.
 struct DetectionStatistics {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/scene/WriteResult.h"
+
+namespace allpairs::scene {
+
+ModelRecord modelRecord(const collision::CollisionModel& model) {
+  const collision::CollisionModel& elements = *model.getLast();
+  const bool hasRoot = !elements.empty() && elements.hasBoundingTree();
+  return {.name = elements.getName(),
+          .type = std::string(elements.typeName()),
+          .elements = elements.getSize(),
+          .box = hasRoot ? elements.getFirst()->elementBox(0) : kEmptyBox,
+          .active = elements.isActive(),
+          .simulated = elements.isSimulated(),
+          .moving = elements.isMoving(),
+          .selfCollision = elements.getSelfCollision(),
+          .groups = elements.getGroups(),
+          .contactDistance = elements.getContactDistance()};
+}
+
+}  // namespace allpairs::scene
