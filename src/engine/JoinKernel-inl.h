@@ -22,7 +22,7 @@ namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
 /// A tile of candidates is full when another block might not fit.
-constexpr std::size_t kFullTile = LaneTile::kCapacity - kFanOut;
+constexpr std::size_t kFullTile = CandidateTile::kCapacity - kFanOut;
 
 /// How many blocks ahead the members of a partner are asked for.
 constexpr std::size_t kPrefetchDistance = 4;
@@ -33,7 +33,7 @@ HWY_INLINE void prefetchBlock(const LaneBlock& block) {
 
 /// A tile that is being filled.
 struct TileFiller {
-  LaneTile& tile;
+  CandidateTile& tile;
   std::size_t size = 0;
 
   /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole vectors.
@@ -43,7 +43,7 @@ struct TileFiller {
     for (std::size_t row = 0; row < 6; ++row) {
       hn::StoreU(hn::Compress(hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
     }
-    const auto nodes = hn::Iota(di, static_cast<std::uint32_t>(firstNode + lane));
+    const auto nodes = numbersFrom(firstNode + lane);
     hn::StoreU(hn::Compress(nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
     size += hn::CountTrue(d, mask);
   }
@@ -119,7 +119,7 @@ class JoinRun {
     JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
     const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
     const Query q = spread(bounds);
-    scratch.partners.require(scratch.tileCount * LaneTile::kCapacity + 1 + Hits::kSlack);
+    scratch.partners.require(scratch.tileCount * CandidateTile::kCapacity + 1 + Hits::kSlack);
     PartnerWriter partners{scratch.partners.data(), 0};
     std::size_t begin = 0;
     if (m_task.withItself) {
@@ -159,10 +159,10 @@ class JoinRun {
     std::size_t size = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       prefetchBlock(source[blocks[std::min(i + kPrefetchDistance, blocks.size() - 1)]]);
-      const std::uint32_t first = blocks[i] * static_cast<std::uint32_t>(kFanOut);
+      const std::size_t first = blocks[i] * kFanOut;
       for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
         const auto touching = hn::RebindMask(d, overlapping(q, source[blocks[i]].bound, lane));
-        const auto place = hn::Iota(d, first + static_cast<std::uint32_t>(lane));
+        const auto place = numbersFrom(first + lane);
         hn::StoreU(hn::Compress(place, touching), d, places + size);
         size += hn::CountTrue(d, touching);
       }

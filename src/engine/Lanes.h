@@ -48,12 +48,13 @@ struct alignas(64) LaneBlock {
   }
 };
 
-/// Up to 1,024 boxes with their ids, an array for each bound: what stays in the first-level cache while it is tested.
+/// Up to so many boxes with their ids, an array for each bound: what stays in the first-level cache while it is tested.
 ///
 /// The distance between the arrays is a constant, so that kernels reach them all from one register.
 /// There is room behind the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
-struct alignas(64) LaneTile {
-  static constexpr std::size_t kCapacity = 1024;
+template <std::size_t kBoxes>
+struct alignas(64) LaneTileOf {
+  static constexpr std::size_t kCapacity = kBoxes;
   static constexpr std::size_t kPadding = 64;
 
   std::array<std::array<float, kCapacity + kPadding>, 6> bound;
@@ -69,6 +70,10 @@ struct alignas(64) LaneTile {
     return box;
   }
 };
+
+/// A tile of an exhaustive search, and a smaller one for the candidates of a join, which are seldom many.
+using LaneTile = LaneTileOf<1024>;
+using CandidateTile = LaneTileOf<512>;
 
 /// Any number of boxes, in tiles of which only the last may be partly filled.
 struct LaneList {

@@ -105,7 +105,7 @@ HWY_INLINE void meetItself(const Leaf& leaf, const LeafVectors& vectors, Hits& h
 template <class Taker>
 HWY_INLINE void meetOthers(const LeafVectors& vectors, const Hierarchy& other, std::span<const std::uint32_t> places,
                            Hits& hits) {
-  constexpr std::size_t kStretch = 128;
+  constexpr std::size_t kStretch = 64;
   const LaneBlock* blocks = other.level[0].blocks;
   const std::uint32_t* ids = other.ids;
   for (std::size_t i = 0; i < places.size();) {

@@ -10,7 +10,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
-constexpr std::size_t kHitCapacity = 4096;
+constexpr std::size_t kHitCapacity = 2048;
 
 }  // namespace
 

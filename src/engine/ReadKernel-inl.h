@@ -123,7 +123,7 @@ bool readTile32(const float* rows, std::size_t size, std::uint32_t firstId, Lane
     const RowBlockResult read = readRun(from, tile.bound, i);
     exact = exact && read.exact;
     for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(IdTag())) {
-      hn::Store(hn::Iota(IdTag(), firstId + static_cast<std::uint32_t>(i + lane)), IdTag(), &tile.id[i + lane]);
+      hn::Store(numbersFrom(firstId + i + lane), IdTag(), &tile.id[i + lane]);
     }
     for (std::uint32_t empty = read.emptyLanes; empty != 0; empty &= empty - 1) {
       const std::size_t lane = i + static_cast<std::size_t>(std::countr_zero(empty));

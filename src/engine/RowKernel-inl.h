@@ -51,8 +51,8 @@ struct PartnerWriter {
 };
 
 /// The hits of a query in the vector at i, of which only the columns in [begin, end) count.
-template <class Taker>
-HWY_INLINE void takePart(const Query& q, const LaneTile& columns, std::size_t i, std::size_t begin, std::size_t end,
+template <class Tile, class Taker>
+HWY_INLINE void takePart(const Query& q, const Tile& columns, std::size_t i, std::size_t begin, std::size_t end,
                          Taker& taker) {
   const FloatTag d;
   const std::size_t lanes = hn::Lanes(d);
@@ -63,8 +63,8 @@ HWY_INLINE void takePart(const Query& q, const LaneTile& columns, std::size_t i,
 }
 
 /// Four whole vectors from i on, with one branch for the four of them, since most often none has a hit.
-template <class Taker>
-HWY_INLINE void takeFour(const Query& q, const LaneTile& columns, std::size_t i, Taker& taker) {
+template <class Tile, class Taker>
+HWY_INLINE void takeFour(const Query& q, const Tile& columns, std::size_t i, Taker& taker) {
   const FloatTag d;
   const std::size_t lanes = hn::Lanes(d);
   const FloatMask m0 = overlapping(q, columns.bound, i);
@@ -82,8 +82,8 @@ HWY_INLINE void takeFour(const Query& q, const LaneTile& columns, std::size_t i,
 enum class Density { Sparse, Dense };
 
 /// All hits of a query among the columns [begin, end) of a tile, in order.
-template <Density kDensity, class Taker>
-HWY_INLINE void takeRow(const Query& q, const LaneTile& columns, std::size_t begin, std::size_t end, Taker& taker) {
+template <Density kDensity, class Tile, class Taker>
+HWY_INLINE void takeRow(const Query& q, const Tile& columns, std::size_t begin, std::size_t end, Taker& taker) {
   const FloatTag d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = begin / lanes * lanes;
