@@ -44,7 +44,7 @@ std::size_t sampleSize(std::size_t boxes) {
 
 /// As many cells as boxes, and then four times as many along each axis, for sets that are crowded in places.
 unsigned bitsFor(std::size_t boxes) {
-  return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 2, CurveGrid::kMaxBitsPerAxis);
+  return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 1, CurveGrid::kMaxBitsPerAxis);
 }
 
 struct Range {

@@ -8,6 +8,8 @@
 #define ALLPAIRS_CURVE_KERNEL_INL_H
 #endif
 
+#include <span>
+
 #include "CurveGrid.h"
 #include "LaneTest-inl.h"
 
@@ -47,56 +49,89 @@ HWY_INLINE void turnAxis(hn::Vec<IdTag>& first, hn::Vec<IdTag>& axis, hn::Vec<Id
   axis = hn::Xor(axis, swapped);
 }
 
-/// The place of a cell along Hilbert's curve, still as three numbers whose bits are to be interleaved.
+/// The way of some cells to their places along Hilbert's curve.
 ///
 /// Reference: J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004.
-HWY_INLINE void turnCells(hn::Vec<IdTag>& x, hn::Vec<IdTag>& y, hn::Vec<IdTag>& z, unsigned bits) {
-  const IdTag d;
-  for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1) {
-    const auto q = hn::Set(d, bit);
-    const auto below = hn::Set(d, bit - 1);
-    x = hn::Xor(x, hn::IfThenElseZero(hn::TestBit(x, q), below));
-    turnAxis(x, y, q, below);
-    turnAxis(x, z, q, below);
+struct Turn {
+  hn::Vec<IdTag> x, y, z;
+
+  HWY_INLINE Turn(const LaneBlock& block, std::size_t lane, const CurveGrid& grid)
+      : x(cells(block, lane, grid.axes[0], grid)),
+        y(cells(block, lane, grid.axes[1], grid)),
+        z(cells(block, lane, grid.axes[2], grid)) {}
+
+  /// The step of one bit; steps go from the highest bit down to the second.
+  HWY_INLINE void step(hn::Vec<IdTag> bit, hn::Vec<IdTag> below) {
+    x = hn::Xor(x, hn::IfThenElseZero(hn::TestBit(x, bit), below));
+    turnAxis(x, y, bit, below);
+    turnAxis(x, z, bit, below);
   }
-  y = hn::Xor(y, x);
-  z = hn::Xor(z, y);
-  auto parity = hn::ShiftRight<1>(z);
-  parity = hn::Xor(parity, hn::ShiftRight<1>(parity));
-  parity = hn::Xor(parity, hn::ShiftRight<2>(parity));
-  parity = hn::Xor(parity, hn::ShiftRight<4>(parity));
-  parity = hn::Xor(parity, hn::ShiftRight<8>(parity));
-  x = hn::Xor(x, parity);
-  y = hn::Xor(y, parity);
-  z = hn::Xor(z, parity);
-}
+
+  /// To be called after all steps: the key.
+  [[nodiscard]] HWY_INLINE hn::Vec<IdTag> key() const {
+    const auto gray = hn::Xor(y, x);
+    const auto last = hn::Xor(z, gray);
+    auto parity = hn::ShiftRight<1>(last);
+    parity = hn::Xor(parity, hn::ShiftRight<1>(parity));
+    parity = hn::Xor(parity, hn::ShiftRight<2>(parity));
+    parity = hn::Xor(parity, hn::ShiftRight<4>(parity));
+    parity = hn::Xor(parity, hn::ShiftRight<8>(parity));
+    const auto xy = hn::Or(hn::ShiftLeft<2>(spreadBits(hn::Xor(x, parity))),
+                           hn::ShiftLeft<1>(spreadBits(hn::Xor(gray, parity))));
+    return hn::Or(xy, spreadBits(hn::Xor(last, parity)));
+  }
+};
 
 HWY_INLINE FloatVector extents(const LaneBlock& block, std::size_t lane, std::size_t axis) {
   const FloatTag d;
   return hn::Sub(hn::Load(d, &block.bound[axis + 3][lane]), hn::Load(d, &block.bound[axis][lane]));
 }
 
-void curveKeys(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys) {
-  const FloatTag d;
-  const IdTag di;
-  bool anyLarge = false;
-  for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(d)) {
-    auto x = cells(block, lane, grid.axes[0], grid);
-    auto y = cells(block, lane, grid.axes[1], grid);
-    auto z = cells(block, lane, grid.axes[2], grid);
-    turnCells(x, y, z, grid.bitsPerAxis);
-    const auto xy = hn::Or(hn::ShiftLeft<2>(spreadBits(x)), hn::ShiftLeft<1>(spreadBits(y)));
-    hn::StoreU(hn::Or(xy, spreadBits(z)), di, keys + lane);
-    const auto longest = hn::Max(extents(block, lane, 0), hn::Max(extents(block, lane, 1), extents(block, lane, 2)));
-    anyLarge = anyLarge || !hn::AllFalse(d, hn::Gt(longest, hn::Set(d, grid.largeExtent)));
+/// The keys of kBlocks blocks at once: each step waits for the one before, of one block's boxes, and not of another's.
+template <std::size_t kBlocks>
+HWY_INLINE void writeKeys(const LaneBlock* blocks, std::size_t lane, const CurveGrid& grid, std::uint32_t* keys) {
+  static_assert(kBlocks == 1 || kBlocks == 2);
+  const IdTag d;
+  Turn first(blocks[0], lane, grid);
+  Turn second = first;
+  if constexpr (kBlocks == 2) second = Turn(blocks[1], lane, grid);
+  for (std::uint32_t bit = 1U << (grid.bitsPerAxis - 1); bit > 1; bit >>= 1) {
+    const auto q = hn::Set(d, bit);
+    const auto below = hn::Set(d, bit - 1);
+    first.step(q, below);
+    if constexpr (kBlocks == 2) second.step(q, below);
   }
-  if (!anyLarge) return;
+  hn::StoreU(first.key(), d, keys + lane);
+  if constexpr (kBlocks == 2) hn::StoreU(second.key(), d, keys + kFanOut + lane);
+}
+
+/// Adds their class to the keys of large boxes.
+HWY_INLINE void classify(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys) {
+  const FloatTag d;
+  auto longest = hn::Zero(d);
+  for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(d)) {
+    const auto xy = hn::Max(extents(block, lane, 0), extents(block, lane, 1));
+    longest = hn::Max(longest, hn::Max(xy, extents(block, lane, 2)));
+  }
+  if (hn::AllFalse(d, hn::Gt(longest, hn::Set(d, grid.largeExtent)))) return;
   for (std::size_t lane = 0; lane < kFanOut; ++lane) {
     const LaneBox box = block.get(lane);
-    const float longest =
+    const float extent =
         HWY_MAX(box.bound[3] - box.bound[0], HWY_MAX(box.bound[4] - box.bound[1], box.bound[5] - box.bound[2]));
-    if (longest > grid.largeExtent) keys[lane] |= grid.classOf(box) << grid.classShift();
+    if (extent > grid.largeExtent) keys[lane] |= grid.classOf(box) << grid.classShift();
   }
+}
+
+void curveKeys(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys) {
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  std::size_t b = 0;
+  for (; b + 2 <= blocks.size(); b += 2) {
+    for (std::size_t lane = 0; lane < kFanOut; lane += lanes) writeKeys<2>(&blocks[b], lane, grid, keys + b * kFanOut);
+  }
+  for (; b < blocks.size(); ++b) {
+    for (std::size_t lane = 0; lane < kFanOut; lane += lanes) writeKeys<1>(&blocks[b], lane, grid, keys + b * kFanOut);
+  }
+  for (b = 0; b < blocks.size(); ++b) classify(blocks[b], grid, keys + b * kFanOut);
 }
 
 }  // namespace

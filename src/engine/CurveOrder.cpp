@@ -30,6 +30,9 @@ constexpr std::size_t kBucketsPerTask = 2;
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 14;
 
+/// Blocks whose keys are computed together.
+constexpr std::size_t kBlocksAtOnce = 4;
+
 /// Gathers boxes into a block and writes their keys when it is full.
 class KeyWriter {
  public:
@@ -44,17 +47,22 @@ class KeyWriter {
     if (++m_fill == kFanOut) write();
   }
 
-  /// Takes whole blocks from `begin` on as long as there are any before `end`; returns where they stop.
+  /// Takes whole groups of blocks from `begin` on as long as there are any before `end`; returns where they stop.
   std::size_t takeBlocks(const BlockReader& reader, std::size_t begin, std::size_t end, bool& exact) {
-    std::array<std::uint32_t, kFanOut> keys;
-    for (; begin + kFanOut <= end; begin += kFanOut) {
-      const RowBlockResult read = reader.readRun(begin, m_block);
-      exact &= read.exact;
-      m_kernels.curveKeys(m_block, m_grid, keys.data());
-      for (std::size_t lane = 0; lane < kFanOut; ++lane) {
-        m_allKeys |= keys[lane];
-        *m_out = (std::uint64_t{keys[lane]} << kIndexBits) | (begin + lane);
-        m_out += 1U - ((read.emptyLanes >> lane) & 1U);
+    std::array<LaneBlock, kBlocksAtOnce> blocks;
+    std::array<std::uint32_t, kBlocksAtOnce * kFanOut> keys;
+    std::array<std::uint32_t, kBlocksAtOnce> empty;
+    for (; begin + keys.size() <= end; begin += keys.size()) {
+      for (std::size_t b = 0; b < kBlocksAtOnce; ++b) {
+        const RowBlockResult read = reader.readRun(begin + b * kFanOut, blocks[b]);
+        exact &= read.exact;
+        empty[b] = read.emptyLanes;
+      }
+      m_kernels.curveKeys(blocks, m_grid, keys.data());
+      for (std::size_t i = 0; i < keys.size(); ++i) {
+        m_allKeys |= keys[i];
+        *m_out = (std::uint64_t{keys[i]} << kIndexBits) | (begin + i);
+        m_out += 1U - ((empty[i / kFanOut] >> (i % kFanOut)) & 1U);
       }
     }
     return begin;
@@ -72,7 +80,7 @@ class KeyWriter {
  private:
   void write() {
     std::array<std::uint32_t, kFanOut> keys;
-    m_kernels.curveKeys(m_block, m_grid, keys.data());
+    m_kernels.curveKeys({&m_block, 1}, m_grid, keys.data());
     for (std::size_t i = 0; i < m_fill; ++i) {
       m_allKeys |= keys[i];
       *m_out++ = (std::uint64_t{keys[i]} << kIndexBits) | m_index[i];

@@ -35,8 +35,8 @@ struct Kernels {
   /// Brings pairs that lie a few places from where they belong nearer to it; others may stay where they are.
   void (*exchangeNeighbours)(Pair* pairs, std::size_t size, bool bySecond);
 
-  /// The keys of the sixteen boxes of a block.
-  void (*curveKeys)(const LaneBlock& block, const CurveGrid& grid, std::uint32_t* keys);
+  /// The keys of the boxes of some blocks, sixteen of each.
+  void (*curveKeys)(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys);
 
   /// Reads sixteen boxes, or the first boxes of a tile, from rows that follow each other.
   RowBlockResult (*readRun32)(const float* rows, LaneBlock& block);

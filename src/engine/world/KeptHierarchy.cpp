@@ -128,7 +128,7 @@ void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& 
           if (lane < fill) static_cast<void>(lanesOf(ids[i + lane], lanes));
           block.set(lane, lanes);
         }
-        tools.kernels.curveKeys(block, m_grid, keys.data());
+        tools.kernels.curveKeys({&block, 1}, m_grid, keys.data());
         for (std::size_t lane = 0; lane < fill; ++lane) {
           m_spare[i + lane] = (std::uint64_t{keys[lane]} << kIndexBits) | ids[i + lane];
         }
