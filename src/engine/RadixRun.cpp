@@ -23,6 +23,10 @@ constexpr std::size_t kLongRun = 1536;
 constexpr unsigned kLongDigitBits = 11;
 constexpr std::size_t kVeryLongRun = 8192;
 
+/// From this length on the places that a pass writes to, one for each digit, had better lie in the first-level cache.
+constexpr unsigned kFewDigitBits = 8;
+constexpr std::size_t kLongestRun = 65536;
+
 using Places = std::array<std::uint32_t, std::size_t{1} << kLongDigitBits>;
 
 /// Digits of a key, from the lowest up, all of the same length.
@@ -34,7 +38,8 @@ struct Digits {
   unsigned passes;
 
   Digits(unsigned keyBegin, unsigned keyEnd, std::size_t size) : begin(keyBegin) {
-    const unsigned most = size < kVeryLongRun ? kMaxDigitBits : kLongDigitBits;
+    unsigned most = size < kVeryLongRun ? kMaxDigitBits : kLongDigitBits;
+    if (size >= kLongestRun && keyEnd - keyBegin <= kMaxPasses * kFewDigitBits) most = kFewDigitBits;
     passes = (keyEnd - keyBegin + most - 1) / most;
     bits = (keyEnd - keyBegin + passes - 1) / passes;
   }

@@ -32,17 +32,6 @@ HWY_INLINE FloatVector finite(FloatVector value, bool& same) {
   return inside;
 }
 
-/// float32 as it is, kept within the finite ones; returns whether that changed nothing.
-HWY_INLINE bool readColumn(const float* column, const std::int32_t* offsets, float* to) {
-  const FloatTag d;
-  const hn::RebindToSigned<FloatTag> di;
-  bool same = true;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    hn::Store(finite(hn::GatherIndex(d, column, hn::LoadU(di, offsets + i)), same), d, to + i);
-  }
-  return same;
-}
-
 /// The lanes of a mask as bits.
 template <class D, class M>
 HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
@@ -95,6 +84,57 @@ HWY_INLINE bool readRows(const float* rows, Rows& bound, std::size_t at) {
     hn::Store(finite(min, same), d, &bound[axis][at]);
     hn::Store(finite(max, same), d, &bound[axis + 3][at]);
   }
+  return same;
+}
+
+#endif
+
+#if HWY_TARGET == HWY_SCALAR
+
+/// One box from wherever its row is.
+HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, LaneBlock& block, std::size_t at) {
+  return readRows(rows + offsets[0], block.bound, at);
+}
+
+#else
+
+/// Four values that follow each other of every fourth box: those of box 4k are in block k of 128 bits.
+template <class D>
+HWY_INLINE hn::Vec<D> everyFourth(D d, const float* values, const std::int32_t* offsets) {
+  constexpr std::size_t kLanes = hn::MaxLanes(D());
+  if constexpr (kLanes == 4) {
+    return hn::LoadU(d, values + offsets[0]);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, everyFourth(half, values, offsets + kLanes / 2), everyFourth(half, values, offsets));
+  }
+}
+
+/// Two vectors of a value each from four of two values each.
+HWY_INLINE void zip(FloatVector first, FloatVector second, FloatVector& lower, FloatVector& upper) {
+  const FloatTag d;
+  const hn::Repartition<double, FloatTag> pairs;
+  lower = hn::BitCast(d, hn::InterleaveLower(pairs, hn::BitCast(pairs, first), hn::BitCast(pairs, second)));
+  upper = hn::BitCast(d, hn::InterleaveUpper(pairs, hn::BitCast(pairs, first), hn::BitCast(pairs, second)));
+}
+
+/// As many boxes as a vector has lanes, from wherever their rows are; returns whether they are finite.
+///
+/// Rows are loaded and transposed, which takes half the time of gathering each bound.
+HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, LaneBlock& block, std::size_t at) {
+  const FloatTag d;
+  FloatVector first[4];
+  FloatVector last[4];
+  for (std::size_t j = 0; j < 4; ++j) {
+    first[j] = everyFourth(d, rows, offsets + j);
+    last[j] = everyFourth(d, rows + 2, offsets + j);
+  }
+  FloatVector bound[6];
+  zip(hn::InterleaveLower(d, first[0], first[1]), hn::InterleaveLower(d, first[2], first[3]), bound[0], bound[1]);
+  zip(hn::InterleaveUpper(d, first[0], first[1]), hn::InterleaveUpper(d, first[2], first[3]), bound[2], bound[3]);
+  zip(hn::InterleaveUpper(d, last[0], last[1]), hn::InterleaveUpper(d, last[2], last[3]), bound[4], bound[5]);
+  bool same = true;
+  for (std::size_t row = 0; row < 6; ++row) hn::Store(finite(bound[row], same), d, &block.bound[row][at]);
   return same;
 }
 
@@ -160,7 +200,7 @@ HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
 
 RowBlockResult readFloat32(const float* rows, const std::int32_t* offsets, LaneBlock& block) {
   bool exact = true;
-  for (std::size_t row = 0; row < 6; ++row) exact &= readColumn(rows + row, offsets, block.bound[row].data());
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) exact &= readScattered(rows, offsets + i, block, i);
   return {exact, emptyLanes(block.bound, 0)};
 }
 
