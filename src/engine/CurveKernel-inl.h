@@ -76,8 +76,8 @@ struct Turn {
     parity = hn::Xor(parity, hn::ShiftRight<2>(parity));
     parity = hn::Xor(parity, hn::ShiftRight<4>(parity));
     parity = hn::Xor(parity, hn::ShiftRight<8>(parity));
-    const auto xy = hn::Or(hn::ShiftLeft<2>(spreadBits(hn::Xor(x, parity))),
-                           hn::ShiftLeft<1>(spreadBits(hn::Xor(gray, parity))));
+    const auto xy =
+        hn::Or(hn::ShiftLeft<2>(spreadBits(hn::Xor(x, parity))), hn::ShiftLeft<1>(spreadBits(hn::Xor(gray, parity))));
     return hn::Or(xy, spreadBits(hn::Xor(last, parity)));
   }
 };

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "Memory.h"
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -20,78 +23,148 @@ std::size_t roundUp(std::size_t bytes, std::size_t unit) { return (bytes + unit 
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// From half a large page on, a large one costs less to touch than as many small ones.
-bool isLarge(std::size_t bytes) { return bytes >= kLargePage / 2; }
+/// Blocks from this size on are mapped, in sizes that are powers of two up to the second one.
+constexpr std::size_t kSmallestMapped = std::size_t{1} << 16;
+constexpr std::size_t kLargestKept = std::size_t{1} << 26;
 
-/// Touches the pages of a block all at once, where the system can: one by one they take twice the time. No more than
-/// advice.
+bool isMapped(std::size_t bytes) { return bytes >= kSmallestMapped; }
+
+/// What is mapped for so many bytes. Of a large block only the pages that are used take memory.
+std::size_t mappedSize(std::size_t bytes) {
+  return bytes <= kLargestKept ? std::bit_ceil(bytes) : roundUp(bytes, kLargePage);
+}
+
+/// Blocks that have been freed, kept with their pages for the next who needs one: a search that is made, used and thrown
+/// away would otherwise spend up to a third of its time on page faults.
+class SpareBlocks {
+ public:
+  SpareBlocks() = default;
+  SpareBlocks(const SpareBlocks&) = delete;
+  SpareBlocks& operator=(const SpareBlocks&) = delete;
+  ~SpareBlocks() {
+    for (const Block& block : m_blocks) {
+      if (block.memory != nullptr) munmap(block.memory, block.size);
+    }
+  }
+
+  /// A block of that size, or null.
+  void* take(std::size_t size) {
+    for (Block& block : m_blocks) {
+      if (block.memory == nullptr || block.size != size) continue;
+      m_total -= size;
+      return std::exchange(block.memory, nullptr);
+    }
+    return nullptr;
+  }
+
+  /// Whether the block has been kept.
+  bool keep(void* memory, std::size_t size) {
+    if (m_total + size > kLargestKept) return false;
+    for (Block& block : m_blocks) {
+      if (block.memory != nullptr) continue;
+      block = {memory, size};
+      m_total += size;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Block {
+    void* memory = nullptr;
+    std::size_t size = 0;
+  };
+  std::array<Block, 16> m_blocks;
+  std::size_t m_total = 0;
+};
+
+/// Each thread has its own, so that nobody waits.
+SpareBlocks& spareBlocks() {
+  thread_local SpareBlocks blocks;
+  return blocks;
+}
+
+/// Touches the first pages of a block all at once, where the system can: one by one they take twice the time. No more
+/// than advice.
 void touchPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_POPULATE_WRITE)
   constexpr std::size_t kPage = 4096;
-  constexpr std::size_t kWorthACall = 16 * kPage;
-  if (bytes < kWorthACall) return;
-  const std::uintptr_t begin = roundUp(reinterpret_cast<std::uintptr_t>(memory), kPage);
-  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
-  static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE));
+  static_cast<void>(madvise(memory, roundUp(bytes, kPage), MADV_POPULATE_WRITE));
 #endif
 }
 
-/// Address space that begins at a large page.
-char* reserve(std::size_t bytes, int protection) {
-  const std::size_t taken = bytes + kLargePage;
-  void* mapped = mmap(nullptr, taken, protection, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapped == MAP_FAILED) return nullptr;
+void* map(std::size_t size) {
+  void* mapped = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  return mapped == MAP_FAILED ? nullptr : mapped;
+}
+
+/// Memory that begins at a large page.
+void* mapLarge(std::size_t size) {
+  void* mapped = map(size + kLargePage);
+  if (mapped == nullptr) return nullptr;
   auto* begin = static_cast<char*>(mapped);
   const std::size_t before =
       roundUp(reinterpret_cast<std::uintptr_t>(begin), kLargePage) - reinterpret_cast<std::uintptr_t>(begin);
   if (before != 0) munmap(begin, before);
-  if (before != kLargePage) munmap(begin + before + bytes, kLargePage - before);
+  if (before != kLargePage) munmap(begin + before + size, kLargePage - before);
+  // Advice only: where it is not taken, the memory is as good, only slower to touch for the first time.
+  static_cast<void>(madvise(begin + before, size, MADV_HUGEPAGE));
   return begin + before;
 }
 
-void* allocateLarge(std::size_t bytes) {
-  const std::size_t mapped = roundUp(bytes, kLargePage);
-  char* memory = reserve(mapped, PROT_READ | PROT_WRITE);
-  // Advice only: where it is not taken, the memory is as good, only slower to touch for the first time.
-  if (memory != nullptr) static_cast<void>(madvise(memory, mapped, MADV_HUGEPAGE));
+void* allocateMapped(std::size_t bytes) {
+  const std::size_t size = mappedSize(bytes);
+  if (void* spare = spareBlocks().take(size); spare != nullptr) return spare;
+  if (size >= kLargePage) return mapLarge(size);
+  void* memory = map(size);
+  if (memory != nullptr) touchPages(memory, bytes);
   return memory;
 }
 
-/// Moves the pages, not the contents: from one large page's border to another's, so that they stay large.
-void* growLarge(void* memory, std::size_t bytes, std::size_t newBytes) {
-  const std::size_t mapped = roundUp(newBytes, kLargePage);
-  char* place = reserve(mapped, PROT_NONE);
-  if (place == nullptr) return nullptr;
-  void* moved = mremap(memory, roundUp(bytes, kLargePage), mapped, MREMAP_MAYMOVE | MREMAP_FIXED, place);
-  if (moved != MAP_FAILED) return moved;
-  munmap(place, mapped);
-  return nullptr;
+void freeMapped(void* memory, std::size_t bytes) {
+  const std::size_t size = mappedSize(bytes);
+  if (!spareBlocks().keep(memory, size)) munmap(memory, size);
 }
 
-void freeLarge(void* memory, std::size_t bytes) { munmap(memory, roundUp(bytes, kLargePage)); }
+/// Moves pages, not contents. What has grown before is made of several mappings, of which each is moved on its own.
+// Each call halves the size.
+// NOLINTNEXTLINE(misc-no-recursion)
+bool movePages(char* from, char* to, std::size_t size) {
+  if (mremap(from, size, size, MREMAP_MAYMOVE | MREMAP_FIXED, to) != MAP_FAILED) return true;
+  const std::size_t half = roundUp(size / 2, kLargePage);
+  if (half == size) return false;
+  return movePages(from, to, half) && movePages(from + half, to + half, size - half);
+}
+
+void* growMapped(void* memory, std::size_t bytes, std::size_t newBytes) {
+  const std::size_t size = mappedSize(bytes);
+  if (size == mappedSize(newBytes)) return memory;
+  void* larger = allocateMapped(newBytes);
+  if (larger == nullptr) return nullptr;
+  // From one large page's border to another's, so that they stay large.
+  if (size >= kLargePage && movePages(static_cast<char*>(memory), static_cast<char*>(larger), size)) return larger;
+  std::memcpy(larger, memory, bytes);
+  freeMapped(memory, bytes);
+  return larger;
+}
 
 #else
 
-bool isLarge(std::size_t) { return false; }
-void touchPages(void*, std::size_t) {}
-void* allocateLarge(std::size_t) { return nullptr; }
-void* growLarge(void*, std::size_t, std::size_t) { return nullptr; }
-void freeLarge(void*, std::size_t) {}
+bool isMapped(std::size_t) { return false; }
+void* allocateMapped(std::size_t) { return nullptr; }
+void* growMapped(void*, std::size_t, std::size_t) { return nullptr; }
+void freeMapped(void*, std::size_t) {}
 
 #endif
 
 }  // namespace
 
 void* allocateMemory(std::size_t bytes) noexcept {
-  return isLarge(bytes) ? allocateLarge(bytes) : std::aligned_alloc(kAlignment, roundUp(bytes, kAlignment));
-}
-
-void touchMemory(void* memory, std::size_t bytes) noexcept {
-  if (!isLarge(bytes)) touchPages(memory, bytes);
+  return isMapped(bytes) ? allocateMapped(bytes) : std::aligned_alloc(kAlignment, roundUp(bytes, kAlignment));
 }
 
 void* growMemory(void* memory, std::size_t bytes, std::size_t newBytes) noexcept {
-  if (isLarge(bytes)) return growLarge(memory, bytes, newBytes);
+  if (isMapped(bytes)) return growMapped(memory, bytes, newBytes);
   void* larger = allocateMemory(newBytes);
   if (larger == nullptr) return nullptr;
   std::memcpy(larger, memory, bytes);
@@ -100,7 +173,7 @@ void* growMemory(void* memory, std::size_t bytes, std::size_t newBytes) noexcept
 }
 
 void freeMemory(void* memory, std::size_t bytes) noexcept {
-  isLarge(bytes) ? freeLarge(memory, bytes) : std::free(memory);
+  isMapped(bytes) ? freeMapped(memory, bytes) : std::free(memory);
 }
 
 std::size_t& bufferAllocations() noexcept {

@@ -31,8 +31,8 @@ constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
-/// Whether about that share of all pairs overlaps, by a few of them.
-bool overlapsMuch(const LaneReader& reader, double share) {
+/// About what share of all pairs overlaps, by a few of them.
+double shareOfOverlaps(const LaneReader& reader) {
   constexpr std::size_t kSample = 24;
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
@@ -41,7 +41,7 @@ bool overlapsMuch(const LaneReader& reader, double share) {
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
   }
-  return static_cast<double>(hits) > share * 0.5 * static_cast<double>(kSample * (kSample - 1));
+  return static_cast<double>(hits) / (0.5 * static_cast<double>(kSample * (kSample - 1)));
 }
 
 /// Reads whole blocks of a tile's boxes by a kernel; returns where it stopped.
@@ -85,13 +85,18 @@ bool readList(const LaneReader& reader, const Kernels& kernels, Buffer<LaneTile>
 
 }  // namespace
 
-bool Search::prefersFlat(const Sets& sets, const OverlapOptions& options) {
-  if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
-  if (static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs) return true;
-  if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return true;
-  return sets.one && sets.first.size() <= kMostOverlapping &&
-         overlapsMuch(LaneReader(sets.first, options),
-                      options.order == Order::Unordered ? kMuchUnordered : kMuchOrdered);
+Search::Choice Search::choose(const Sets& sets, const OverlapOptions& options) {
+  const std::size_t likely = std::min(kLikelyPairs * sets.first.size(), kMostLikelyPairs);
+  if (options.strategy != Strategy::Automatic) return {options.strategy == Strategy::Exhaustive, likely};
+  if (static_cast<double>(sets.first.size()) * static_cast<double>(sets.second.size()) <= kFlatPairs) {
+    return {true, likely};
+  }
+  if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return {true, likely};
+  if (!sets.one || sets.first.size() > kMostOverlapping) return {false, likely};
+  const double share = shareOfOverlaps(LaneReader(sets.first, options));
+  if (share <= (options.order == Order::Unordered ? kMuchUnordered : kMuchOrdered)) return {false, likely};
+  const auto size = static_cast<double>(sets.first.size());
+  return {true, std::max(likely, static_cast<std::size_t>(share * 0.5 * size * size))};
 }
 
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
@@ -108,8 +113,9 @@ Search::Plan Search::plan(const Sets& sets, const OverlapOptions& options, PairT
   plan.rules.kernels = m_kernels;
   plan.rules.test = &test;
   plan.rules.maxPairs = options.maxPairs;
-  plan.rules.likelyPairs = std::min({kLikelyPairs * sets.first.size(), kMostLikelyPairs, options.maxPairs});
-  plan.blocked = !prefersFlat(sets, options);
+  const Choice choice = choose(sets, options);
+  plan.blocked = !choice.flat;
+  plan.rules.likelyPairs = std::min(choice.likelyPairs / m_executor->concurrency(), options.maxPairs);
   if (plan.blocked) {
     planBlocked(sets, options, test, plan);
   } else {

@@ -61,6 +61,12 @@ class Search {
     PairRules rules;
   };
 
+  /// Whether to test all pairs, and about how many there will be, which is known only where they are many.
+  struct Choice {
+    bool flat = false;
+    std::size_t likelyPairs = 0;
+  };
+
   void begin(const Sets& sets, const OverlapOptions& options);
   Plan plan(const Sets& sets, const OverlapOptions& options, PairTest& test);
   void planFlat(const Sets& sets, const OverlapOptions& options, PairTest& test, Plan& plan);
@@ -74,7 +80,7 @@ class Search {
   void join(const Plan& plan);
   void sortPairs(const Sets& sets, Order order);
 
-  static bool prefersFlat(const Sets& sets, const OverlapOptions& options);
+  static Choice choose(const Sets& sets, const OverlapOptions& options);
   void streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visitor);
   void streamInRanges(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
   bool findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end);

@@ -42,7 +42,7 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
   begin(sets, options);
   OverlapOptions unlimited = options;
   unlimited.maxPairs = kNoLimit;
-  if (options.order != Order::Unordered && !prefersFlat(sets, options)) {
+  if (options.order != Order::Unordered && !choose(sets, options).flat) {
     streamInRanges(sets, unlimited, visitor);
     return;
   }
