@@ -61,44 +61,6 @@ void writePairs(const Hits& hits, PairSide side, Pair* pairs) {
   }
 }
 
-#if HWY_TARGET == HWY_SCALAR
-
-void exchangeNeighbours(Pair*, std::size_t, bool) {}
-
-#else
-
-/// Pairs as numbers that compare as the order does, and back.
-template <bool kBySecond, class D>
-HWY_INLINE hn::Vec<D> turnPairs(D d, hn::Vec<D> pairs) {
-  if constexpr (kBySecond) return pairs;
-  return hn::BitCast(
-      d, hn::Reverse2(hn::Repartition<std::uint32_t, D>(), hn::BitCast(hn::Repartition<std::uint32_t, D>(), pairs)));
-}
-
-template <bool kBySecond>
-void exchange(std::uint32_t* pairs, std::size_t size) {
-  constexpr std::size_t kPasses = 6;
-  const hn::CappedTag<std::uint64_t, kFanOut / 2> d;
-  const hn::Repartition<std::uint32_t, decltype(d)> du;
-  for (std::size_t pass = 0; pass < kPasses; ++pass) {
-    for (std::size_t i = pass % 2; i + hn::Lanes(d) <= size; i += hn::Lanes(d)) {
-      const auto ranks = turnPairs<kBySecond>(d, hn::BitCast(d, hn::LoadU(du, pairs + 2 * i)));
-      const auto others = hn::Reverse2(d, ranks);
-      const auto ordered = hn::OddEven(hn::Max(ranks, others), hn::Min(ranks, others));
-      hn::StoreU(hn::BitCast(du, turnPairs<kBySecond>(d, ordered)), du, pairs + 2 * i);
-    }
-  }
-}
-
-/// Exchanges neighbours that are in the wrong order, in several passes: what lies a few places from its own goes there,
-/// without a branch.
-void exchangeNeighbours(Pair* pairs, std::size_t size, bool bySecond) {
-  auto* values = reinterpret_cast<std::uint32_t*>(pairs);
-  bySecond ? exchange<true>(values, size) : exchange<false>(values, size);
-}
-
-#endif
-
 }  // namespace
 }  // namespace allpairs::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -14,6 +14,7 @@
 #include "JoinKernel-inl.h"
 #include "Kernels.h"
 #include "ReadKernel-inl.h"
+#include "SortKernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
@@ -25,7 +26,7 @@ const Kernels* kernelTable() {
                              &join,
                              &boundBlocks,
                              &writePairs,
-                             &exchangeNeighbours,
+                             &finishBucket,
                              &curveKeys,
                              &readRun32,
                              &readTile32,

@@ -11,6 +11,7 @@
 #include "Hits.h"
 #include "Join.h"
 #include "Lanes.h"
+#include "PackedBucket.h"
 #include "RowBlock.h"
 #include "allpairs/Pair.h"
 
@@ -32,8 +33,9 @@ struct Kernels {
   /// Turns hits into pairs.
   void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
 
-  /// Brings pairs that lie a few places from where they belong nearer to it; others may stay where they are.
-  void (*exchangeNeighbours)(Pair* pairs, std::size_t size, bool bySecond);
+  /// Puts the numbers of a bucket in order and writes them as pairs. Keys with more pairs than a network takes must be in
+  /// order.
+  void (*finishBucket)(const PackedBucket& bucket);
 
   /// The keys of the boxes of some blocks, sixteen of each.
   void (*curveKeys)(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys);

@@ -21,11 +21,6 @@ constexpr std::size_t kMinBuckets = 256;
 constexpr std::size_t kMostCounters = std::size_t{1} << 17;
 constexpr std::size_t kCountersPerPair = 8;
 
-/// Up to about so many pairs of a key are put in order by insertion.
-constexpr std::size_t kFewPairs = 12;
-
-/// More pairs of one key than this are sorted on their own.
-constexpr std::size_t kLongRow = 32;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
 /// Bits of a digit, and so how many keys share a bucket at most.
@@ -91,67 +86,95 @@ std::pair<Pair*, Pair*> sortByDigits(Pair* from, Pair* to, std::size_t size, con
   return {from, to};
 }
 
+/// What the sorts of buckets share.
+struct SortTools {
+  const Kernels& kernels;
+  unsigned keyBits;    ///< Keys of a bucket differ in these low bits.
+  unsigned otherBits;  ///< Bits of the other index.
+};
+
 /// The two indices as one number that compares as the pair does in the order.
 template <bool kBySecond>
 std::uint64_t rankOf(Pair pair) {
   return std::uint64_t{indexOf<kBySecond>(pair)} << 32U | indexOf<!kBySecond>(pair);
 }
 
-/// Pairs of which few lie far from their place.
-template <bool kBySecond>
-void sortByInsertion(Pair* pairs, std::size_t size) {
-  for (std::size_t i = 1; i < size; ++i) {
-    const Pair pair = pairs[i];
-    const std::uint64_t rank = rankOf<kBySecond>(pair);
-    std::size_t hole = i;
-    for (; hole > 0 && rankOf<kBySecond>(pairs[hole - 1]) > rank; --hole) pairs[hole] = pairs[hole - 1];
-    pairs[hole] = pair;
+/// Where the pairs of a key end, for the keys of a bucket.
+using Ends = std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>;
+
+/// Sorts a long row of other indices; `spare` has as much room.
+void sortLongRow(std::uint32_t* values, std::uint32_t* spare, std::size_t size, unsigned bits) {
+  constexpr unsigned kDigitBits = 8;
+  constexpr std::uint32_t kMask = (1U << kDigitBits) - 1;
+  std::uint32_t* from = values;
+  std::uint32_t* to = spare;
+  for (unsigned shift = 0; shift < bits; shift += kDigitBits) {
+    std::array<std::uint32_t, std::size_t{1} << kDigitBits> places{};
+    for (std::size_t i = 0; i < size; ++i) ++places[(from[i] >> shift) & kMask];
+    placesOf(places.data(), places.size());
+    for (std::size_t i = 0; i < size; ++i) to[places[(from[i] >> shift) & kMask]++] = from[i];
+    std::swap(from, to);
   }
+  if (from != values) std::copy_n(from, size, values);
 }
 
-/// Sorts the pairs of the keys that have many, which insertion would take long for. Each key's pairs end at its place.
-template <bool kBySecond>
-void sortLongRows(Pair* pairs, const Places& ends, std::size_t keys) {
-  std::size_t begin = 0;
+using Rows = std::array<PackedBucket::Row, std::size_t{1} << kMaxDigitBits>;
+
+/// Sorts the rows that are longer than most, and lists those that a network is to sort; returns how many these are.
+std::size_t sortLongRows(const PackedBucket& bucket, const Ends& ends, std::size_t keys, std::uint32_t* spare,
+                         Rows& rows) {
+  std::size_t listed = 0;
+  std::uint32_t begin = 0;
   for (std::size_t key = 0; key < keys; ++key) {
-    const std::size_t end = ends[key];
-    if (end - begin > kLongRow) {
-      std::sort(pairs + begin, pairs + end,
-                [](Pair a, Pair b) { return indexOf<!kBySecond>(a) < indexOf<!kBySecond>(b); });
-    }
-    begin = end;
+    const std::uint32_t size = ends[key] - begin;
+    rows[listed] = {begin, size};
+    listed += size > kMostExchanged && size <= kMostInNetwork ? 1U : 0U;
+    if (size > kMostInNetwork) sortLongRow(bucket.values + begin, spare, size, bucket.otherBits);
+    begin = ends[key];
   }
+  return listed;
 }
 
-/// Sorts a bucket in which a key has a few pairs: each goes to its key's, in any order, and is then put in its place.
+/// Sorts the pairs of a bucket, from `from` into `to`, as numbers of 32 bits, which lie in the first half of `to`.
 template <bool kBySecond>
-void sortByKeys(const Kernels& kernels, const Pair* from, Pair* to, std::size_t size, unsigned keyBits) {
-  Places places;
-  const std::uint32_t mask = (1U << keyBits) - 1;
-  std::fill_n(places.begin(), std::size_t{mask} + 1, 0U);
-  for (std::size_t i = 0; i < size; ++i) ++places[indexOf<kBySecond>(from[i]) & mask];
-  const std::uint32_t longest = *std::max_element(places.begin(), places.begin() + mask + 1);
-  placesOf(places.data(), std::size_t{mask} + 1);
-  for (std::size_t i = 0; i < size; ++i) to[places[indexOf<kBySecond>(from[i]) & mask]++] = from[i];
-  if (longest > kLongRow) sortLongRows<kBySecond>(to, places, std::size_t{mask} + 1);
-  kernels.exchangeNeighbours(to, size, kBySecond);
-  sortByInsertion<kBySecond>(to, size);
+void sortPacked(const SortTools& tools, Pair* from, Pair* to, std::size_t size) {
+  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
+  const std::size_t keys = std::size_t{1} << tools.keyBits;
+  const auto mask = static_cast<std::uint32_t>(keys - 1);
+  Ends ends;
+  std::fill_n(ends.begin(), keys, 0U);
+  for (std::size_t i = 0; i < size; ++i) ++ends[indexOf<kBySecond>(from[i]) & mask];
+  placesOf(ends.data(), keys);
+  PackedBucket bucket;
+  bucket.values = reinterpret_cast<std::uint32_t*>(to);
+  bucket.size = size;
+  bucket.pairs = to;
+  bucket.firstKey = indexOf<kBySecond>(from[0]) & ~mask;
+  bucket.otherBits = tools.otherBits;
+  bucket.bySecond = kBySecond;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t key = indexOf<kBySecond>(from[i]) & mask;
+    bucket.values[ends[key]++] = key << tools.otherBits | indexOf<!kBySecond>(from[i]);
+  }
+  Rows rows;
+  bucket.rows = {rows.data(), sortLongRows(bucket, ends, keys, reinterpret_cast<std::uint32_t*>(from), rows)};
+  tools.kernels.finishBucket(bucket);
 }
 
 /// Sorts the pairs of one bucket from `from` into `to`; `from` is lost. Keys of a bucket differ in their low bits only.
 template <bool kBySecond>
-void sortBucket(const Kernels& kernels, Pair* from, Pair* to, std::size_t size, unsigned keyBits, unsigned otherBits) {
-  if (size > std::numeric_limits<std::uint32_t>::max()) {
+void sortBucket(const SortTools& tools, Pair* from, Pair* to, std::size_t size) {
+  if (size <= kMostInNetwork || size > std::numeric_limits<std::uint32_t>::max()) {
     std::copy_n(from, size, to);
     std::sort(to, to + size, [](Pair a, Pair b) { return rankOf<kBySecond>(a) < rankOf<kBySecond>(b); });
     return;
   }
-  if (keyBits <= kMaxDigitBits && size < (kFewPairs << keyBits)) {
-    sortByKeys<kBySecond>(kernels, from, to, size, keyBits);
+  if (tools.keyBits <= kMaxDigitBits && tools.otherBits < 32 && tools.keyBits + tools.otherBits <= 32) {
+    sortPacked<kBySecond>(tools, from, to, size);
     return;
   }
-  const auto byOther = sortByDigits<!kBySecond>(from, to, size, digitsFor(otherBits));
-  const auto byBoth = sortByDigits<kBySecond>(byOther.first, byOther.second, size, digitsFor(keyBits));
+  const auto byOther = sortByDigits<!kBySecond>(from, to, size, digitsFor(tools.otherBits));
+  const auto byBoth = sortByDigits<kBySecond>(byOther.first, byOther.second, size, digitsFor(tools.keyBits));
   if (byBoth.first != to) std::copy_n(byBoth.first, size, to);
 }
 
@@ -226,11 +249,10 @@ void PairSort::sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std:
   while (((keys - 1) >> m_keyBits) >= kMaxBuckets) ++m_keyBits;
   m_buckets = ((keys - 1) >> m_keyBits) + 1;
   scatter<kBySecond>(pairs.data(), other, pairs.size(), executor);
-  const auto otherBits = static_cast<unsigned>(std::bit_width(others - 1));
+  const SortTools tools{kernels, m_keyBits, static_cast<unsigned>(std::bit_width(others - 1))};
   executor.run(m_buckets, [&](std::size_t b) {
     const std::size_t begin = m_bucketBegin[b];
-    sortBucket<kBySecond>(kernels, other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin, m_keyBits,
-                          otherBits);
+    sortBucket<kBySecond>(tools, other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin);
   });
 }
 
