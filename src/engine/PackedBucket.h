@@ -27,6 +27,7 @@ struct PackedBucket {
   std::uint32_t* values = nullptr;
   std::size_t size = 0;
   std::span<const Row> rows;
+  bool isOrdered = false;  ///< Whether they are in order already; then no room is needed.
 
   /// Where they go as pairs, in order: to the place where the numbers begin, or to another.
   Pair* pairs = nullptr;

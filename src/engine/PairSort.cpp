@@ -7,12 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "BucketSort.h"
+
 namespace allpairs::engine {
 namespace {
 
 /// Pairs that a bucket should hold, so that sorting it stays in the first-level cache.
 constexpr std::size_t kPairsPerBucket = 4096;
-constexpr std::size_t kMaxBuckets = 2048;
 
 /// With fewer buckets, neighbouring pairs would often go to the same one and wait for its counter.
 constexpr std::size_t kMinBuckets = 256;
@@ -52,12 +53,6 @@ Digits digitsFor(unsigned bits) {
   return digits;
 }
 
-/// Turns counts into where each digit begins.
-void placesOf(std::uint32_t* counts, std::size_t size) {
-  std::uint32_t place = 0;
-  for (std::size_t digit = 0; digit < size; ++digit) place += std::exchange(counts[digit], place);
-}
-
 template <bool kSecond>
 void countDigits(const Pair* pairs, std::size_t size, const Digits& digits, std::array<Places, kMaxPasses>& places) {
   for (unsigned pass = 0; pass < digits.passes; ++pass) {
@@ -86,95 +81,22 @@ std::pair<Pair*, Pair*> sortByDigits(Pair* from, Pair* to, std::size_t size, con
   return {from, to};
 }
 
-/// What the sorts of buckets share.
-struct SortTools {
-  const Kernels& kernels;
-  unsigned keyBits;    ///< Keys of a bucket differ in these low bits.
-  unsigned otherBits;  ///< Bits of the other index.
-};
-
-/// The two indices as one number that compares as the pair does in the order.
+/// Sorts the pairs of one bucket from `from` into `to`; `from` is lost.
 template <bool kBySecond>
-std::uint64_t rankOf(Pair pair) {
-  return std::uint64_t{indexOf<kBySecond>(pair)} << 32U | indexOf<!kBySecond>(pair);
-}
-
-/// Where the pairs of a key end, for the keys of a bucket.
-using Ends = std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>;
-
-/// Sorts a long row of other indices; `spare` has as much room.
-void sortLongRow(std::uint32_t* values, std::uint32_t* spare, std::size_t size, unsigned bits) {
-  constexpr unsigned kDigitBits = 8;
-  constexpr std::uint32_t kMask = (1U << kDigitBits) - 1;
-  std::uint32_t* from = values;
-  std::uint32_t* to = spare;
-  for (unsigned shift = 0; shift < bits; shift += kDigitBits) {
-    std::array<std::uint32_t, std::size_t{1} << kDigitBits> places{};
-    for (std::size_t i = 0; i < size; ++i) ++places[(from[i] >> shift) & kMask];
-    placesOf(places.data(), places.size());
-    for (std::size_t i = 0; i < size; ++i) to[places[(from[i] >> shift) & kMask]++] = from[i];
-    std::swap(from, to);
-  }
-  if (from != values) std::copy_n(from, size, values);
-}
-
-using Rows = std::array<PackedBucket::Row, std::size_t{1} << kMaxDigitBits>;
-
-/// Sorts the rows that are longer than most, and lists those that a network is to sort; returns how many these are.
-std::size_t sortLongRows(const PackedBucket& bucket, const Ends& ends, std::size_t keys, std::uint32_t* spare,
-                         Rows& rows) {
-  std::size_t listed = 0;
-  std::uint32_t begin = 0;
-  for (std::size_t key = 0; key < keys; ++key) {
-    const std::uint32_t size = ends[key] - begin;
-    rows[listed] = {begin, size};
-    listed += size > kMostExchanged && size <= kMostInNetwork ? 1U : 0U;
-    if (size > kMostInNetwork) sortLongRow(bucket.values + begin, spare, size, bucket.otherBits);
-    begin = ends[key];
-  }
-  return listed;
-}
-
-/// Sorts the pairs of a bucket, from `from` into `to`, as numbers of 32 bits, which lie in the first half of `to`.
-template <bool kBySecond>
-void sortPacked(const SortTools& tools, Pair* from, Pair* to, std::size_t size) {
-  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
-  const std::size_t keys = std::size_t{1} << tools.keyBits;
-  const auto mask = static_cast<std::uint32_t>(keys - 1);
-  Ends ends;
-  std::fill_n(ends.begin(), keys, 0U);
-  for (std::size_t i = 0; i < size; ++i) ++ends[indexOf<kBySecond>(from[i]) & mask];
-  placesOf(ends.data(), keys);
-  PackedBucket bucket;
-  bucket.values = reinterpret_cast<std::uint32_t*>(to);
-  bucket.size = size;
-  bucket.pairs = to;
-  bucket.firstKey = indexOf<kBySecond>(from[0]) & ~mask;
-  bucket.otherBits = tools.otherBits;
-  bucket.bySecond = kBySecond;
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint32_t key = indexOf<kBySecond>(from[i]) & mask;
-    bucket.values[ends[key]++] = key << tools.otherBits | indexOf<!kBySecond>(from[i]);
-  }
-  Rows rows;
-  bucket.rows = {rows.data(), sortLongRows(bucket, ends, keys, reinterpret_cast<std::uint32_t*>(from), rows)};
-  tools.kernels.finishBucket(bucket);
-}
-
-/// Sorts the pairs of one bucket from `from` into `to`; `from` is lost. Keys of a bucket differ in their low bits only.
-template <bool kBySecond>
-void sortBucket(const SortTools& tools, Pair* from, Pair* to, std::size_t size) {
+void sortBucket(const BucketRule& rule, Pair* from, Pair* to, std::size_t size) {
   if (size <= kMostInNetwork || size > std::numeric_limits<std::uint32_t>::max()) {
     std::copy_n(from, size, to);
-    std::sort(to, to + size, [](Pair a, Pair b) { return rankOf<kBySecond>(a) < rankOf<kBySecond>(b); });
+    std::sort(to, to + size, [&](Pair a, Pair b) { return rule.rankOf(a) < rule.rankOf(b); });
     return;
   }
-  if (tools.keyBits <= kMaxDigitBits && tools.otherBits < 32 && tools.keyBits + tools.otherBits <= 32) {
-    sortPacked<kBySecond>(tools, from, to, size);
+  if (rule.packs()) {
+    BucketSort sort(rule, {to, size});
+    sort.add({from, size});
+    sort.finish();
     return;
   }
-  const auto byOther = sortByDigits<!kBySecond>(from, to, size, digitsFor(tools.otherBits));
-  const auto byBoth = sortByDigits<kBySecond>(byOther.first, byOther.second, size, digitsFor(tools.keyBits));
+  const auto byOther = sortByDigits<!kBySecond>(from, to, size, digitsFor(rule.otherBits));
+  const auto byBoth = sortByDigits<kBySecond>(byOther.first, byOther.second, size, digitsFor(rule.keyBits));
   if (byBoth.first != to) std::copy_n(byBoth.first, size, to);
 }
 
@@ -244,15 +166,16 @@ void PairSort::sortBy(std::span<Pair> pairs, Pair* other, std::size_t keys, std:
     return;
   }
   std::size_t wanted = 1;
-  if (pairs.size() > kPairsPerBucket) wanted = std::clamp(pairs.size() / kPairsPerBucket, kMinBuckets, kMaxBuckets);
-  m_keyBits = static_cast<unsigned>(std::bit_width((keys - 1) / wanted));
-  while (((keys - 1) >> m_keyBits) >= kMaxBuckets) ++m_keyBits;
-  m_buckets = ((keys - 1) >> m_keyBits) + 1;
+  if (pairs.size() > kPairsPerBucket) {
+    wanted = std::clamp(pairs.size() / kPairsPerBucket, kMinBuckets, BucketRule::kMostBuckets);
+  }
+  const BucketRule rule(keys, others, wanted, kBySecond ? Order::BySecond : Order::ByFirst, kernels);
+  m_keyBits = rule.keyBits;
+  m_buckets = rule.buckets;
   scatter<kBySecond>(pairs.data(), other, pairs.size(), executor);
-  const SortTools tools{kernels, m_keyBits, static_cast<unsigned>(std::bit_width(others - 1))};
   executor.run(m_buckets, [&](std::size_t b) {
     const std::size_t begin = m_bucketBegin[b];
-    sortBucket<kBySecond>(tools, other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin);
+    sortBucket<kBySecond>(rule, other + begin, pairs.data() + begin, m_bucketBegin[b + 1] - begin);
   });
 }
 

@@ -83,6 +83,19 @@ bool readList(const LaneReader& reader, const Kernels& kernels, Buffer<LaneTile>
   return exact;
 }
 
+/// For fewer boxes of both sides there are too few pairs in a bucket; a sort of all of them is faster.
+constexpr std::size_t kFewForBuckets = std::size_t{1} << 14;
+
+/// Buckets of so many boxes that most of them have some thousand pairs.
+BucketRule bucketRule(const Sets& sets, Order order, const Kernels& kernels) {
+  constexpr std::size_t kKeysPerBucket = 256;
+  const bool bySecond = order == Order::BySecond;
+  const std::size_t keys = (bySecond ? sets.second : sets.first).size();
+  const std::size_t others = (bySecond ? sets.first : sets.second).size();
+  const std::size_t wanted = std::clamp<std::size_t>(keys / kKeysPerBucket, 1, BucketRule::kMostBuckets);
+  return {keys, others, wanted, order, kernels};
+}
+
 }  // namespace
 
 Search::Choice Search::choose(const Sets& sets, const OverlapOptions& options) {
@@ -176,9 +189,18 @@ void Search::runPart(const Plan& plan, std::size_t begin, std::size_t end, Worke
   m_kernels->join(task, worker.receiver.hits());
 }
 
-void Search::startWorkers(std::size_t count, const PairRules& rules) {
+void Search::startWorkers(std::size_t count, const Plan& plan) {
   while (m_workers.size() < count) m_workers.push_back(std::make_unique<Worker>());
-  for (const std::unique_ptr<Worker>& worker : m_workers) worker->receiver.start(rules);
+  for (const std::unique_ptr<Worker>& worker : m_workers) {
+    worker->receiver.start(plan.rules);
+    if (plan.buckets == nullptr) continue;
+    worker->buckets.start(*plan.buckets);
+    const auto toBuckets = [](void* context, PairReceiver& receiver) {
+      static_cast<PairBuckets*>(context)->add({receiver.pairs().data(), receiver.size()});
+      receiver.drop(receiver.size());
+    };
+    worker->receiver.whenAdded(toBuckets, &worker->buckets);
+  }
 }
 
 std::size_t Search::claimWorker() {
@@ -192,7 +214,7 @@ std::size_t Search::claimWorker() {
 
 void Search::runAll(const Plan& plan) {
   const std::size_t threads = m_executor->concurrency();
-  startWorkers(threads, plan.rules);
+  startWorkers(threads, plan);
   const TaskCut cut = plan.blocked ? TaskCut::ofLeaves(plan.units, plan.firstLarge, threads)
                                    : TaskCut::ofRows(plan.units, plan.flat.columns.size, threads);
   const std::size_t tasks = cut.tasks();
@@ -249,11 +271,42 @@ void Search::join(const Plan& plan) {
 std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options) {
   begin(sets, options);
   PairTest test(sets.first, sets.second, options, sets.one);
-  const Plan search = plan(sets, options, test);
+  Plan search = plan(sets, options, test);
+  if (search.blocked && findInBuckets(sets, options, search)) return m_pairs;
   runAll(search);
   join(search);
   if (search.blocked) sortPairs(sets, options.order);
   return m_pairs;
+}
+
+bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+  if (options.order == Order::Unordered || plan.units == 0) return false;
+  if (sets.first.size() + sets.second.size() < kFewForBuckets) return false;
+  const BucketRule rule = bucketRule(sets, options.order, *m_kernels);
+  if (!rule.packs()) return false;
+  plan.buckets = &rule;
+  plan.rules.likelyPairs = 0;
+  runAll(plan);
+  sortBuckets(rule);
+  return true;
+}
+
+void Search::sortBuckets(const BucketRule& rule) {
+  m_joined.require(m_statistics.pairs);
+  m_pairs = {m_joined.data(), m_statistics.pairs};
+  m_places.resize(rule.buckets + 1);
+  m_places[0] = 0;
+  for (std::size_t b = 0; b < rule.buckets; ++b) {
+    m_places[b + 1] = m_places[b];
+    for (const std::unique_ptr<Worker>& worker : m_workers) m_places[b + 1] += worker->buckets.size(b);
+  }
+  m_executor->run(rule.buckets, [&](std::size_t b) {
+    BucketSort sort(rule, m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]));
+    for (const std::unique_ptr<Worker>& worker : m_workers) {
+      worker->buckets.forEachPart(b, [&](std::span<const Pair> part) { sort.add(part); });
+    }
+    sort.finish();
+  });
 }
 
 void Search::sortPairs(const Sets& sets, Order order) {

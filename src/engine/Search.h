@@ -11,6 +11,7 @@
 #include "FlatSearch.h"
 #include "HierarchyBuilder.h"
 #include "Join.h"
+#include "PairBuckets.h"
 #include "PairReceiver.h"
 #include "PairSort.h"
 #include "allpairs/BoxSet.h"
@@ -40,6 +41,7 @@ class Search {
   /// What a thread works with; as many as there are threads.
   struct Worker {
     PairReceiver receiver;
+    PairBuckets buckets;
     JoinScratch scratch;
     std::atomic_flag busy;
   };
@@ -59,6 +61,7 @@ class Search {
     std::size_t units = 0;
     std::size_t firstLarge = 0;  ///< Rows, or leaf blocks: what tasks are cut from.
     PairRules rules;
+    const BucketRule* buckets = nullptr;  ///< If set, pairs go to the workers' buckets.
   };
 
   /// Whether to test all pairs, and about how many there will be, which is known only where they are many.
@@ -75,10 +78,14 @@ class Search {
   void runPart(const Plan& plan, std::size_t begin, std::size_t end, Worker& worker);
   void runAll(const Plan& plan);
   std::size_t claimWorker();
-  void startWorkers(std::size_t count, const PairRules& rules);
+  void startWorkers(std::size_t count, const Plan& plan);
   void collect();
   void join(const Plan& plan);
   void sortPairs(const Sets& sets, Order order);
+
+  /// Finds pairs and orders them by buckets, where that pays; else false, and nothing is done.
+  bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  void sortBuckets(const BucketRule& rule);
 
   static Choice choose(const Sets& sets, const OverlapOptions& options);
   void streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visitor);

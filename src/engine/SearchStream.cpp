@@ -51,7 +51,7 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
 }
 
 void Search::streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visitor) {
-  startWorkers(1, plan.rules);
+  startWorkers(1, plan);
   Worker& worker = *m_workers[0];
   Batcher batcher{batchSize, visitor};
   worker.receiver.whenAdded(

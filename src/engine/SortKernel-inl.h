@@ -163,7 +163,7 @@ void unpack(const PackedBucket& bucket) {
 }
 
 void finishBucket(const PackedBucket& bucket) {
-  orderRows(bucket);
+  if (!bucket.isOrdered) orderRows(bucket);
   unpack(bucket);
 }
 
