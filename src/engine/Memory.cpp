@@ -24,7 +24,7 @@ std::size_t roundUp(std::size_t bytes, std::size_t unit) { return (bytes + unit 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
 /// Blocks from this size on are mapped, in sizes that are powers of two up to the second one.
-constexpr std::size_t kSmallestMapped = std::size_t{1} << 16;
+constexpr std::size_t kSmallestMapped = std::size_t{1} << 13;
 constexpr std::size_t kLargestKept = std::size_t{1} << 26;
 
 bool isMapped(std::size_t bytes) { return bytes >= kSmallestMapped; }
@@ -74,7 +74,7 @@ class SpareBlocks {
     void* memory = nullptr;
     std::size_t size = 0;
   };
-  std::array<Block, 16> m_blocks;
+  std::array<Block, 32> m_blocks;
   std::size_t m_total = 0;
 };
 
