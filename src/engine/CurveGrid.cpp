@@ -69,11 +69,8 @@ Range rangeOf(std::span<float> values) {
   return all;
 }
 
-}  // namespace
-
-CurveGrid CurveGrid::fit(const LaneReader& reader) {
-  Sample sample;
-  sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample.take(box); });
+/// The grid for so many boxes of which these are some.
+CurveGrid fitTo(Sample& sample, std::size_t boxes) {
   CurveGrid grid;
   if (sample.size == 0) return grid;
   std::array<float, 3> widths;
@@ -87,11 +84,32 @@ CurveGrid CurveGrid::fit(const LaneReader& reader) {
   };
   std::sort(grid.axes.begin(), grid.axes.end(), isNarrower);
   const float width = widths[grid.axes[2]];
-  grid.bitsPerAxis = bitsFor(reader.size());
+  grid.bitsPerAxis = bitsFor(boxes);
   const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
   if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
   grid.largeExtent = kLargeFactor * nth({sample.extents.data(), sample.size}, sample.size / 2);
   return grid;
+}
+
+}  // namespace
+
+CurveGrid CurveGrid::fit(const LaneReader& reader) {
+  Sample sample;
+  sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample.take(box); });
+  return fitTo(sample, reader.size());
+}
+
+CurveGrid CurveGrid::fit(const LaneReader& reader, std::span<const KeyedBox> boxes) {
+  Sample sample;
+  const std::size_t size = sampleSize(boxes.size());
+  reader.withLanes([&](const auto& lanesOf) {
+    LaneBox lanes;
+    for (std::size_t part = 0; part < size; ++part) {
+      static_cast<void>(lanesOf(indexOf(boxes[sampleIndex(part, size, boxes.size())]), lanes));
+      sample.take(lanes);
+    }
+  });
+  return fitTo(sample, boxes.size());
 }
 
 std::uint32_t CurveGrid::classOf(const LaneBox& box) const noexcept {

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "KeyedBox.h"
 #include "LaneReader.h"
 
 namespace allpairs::engine {
@@ -32,6 +34,9 @@ struct CurveGrid {
 
   /// Fits a grid to a sample of the boxes.
   [[nodiscard]] static CurveGrid fit(const LaneReader& reader);
+
+  /// Fits a grid to a sample of these boxes.
+  [[nodiscard]] static CurveGrid fit(const LaneReader& reader, std::span<const KeyedBox> boxes);
 
   /// The class of a box that is longer than largeExtent, from 1 on: which axis it is long in, or how large it is.
   [[nodiscard]] std::uint32_t classOf(const LaneBox& box) const noexcept;

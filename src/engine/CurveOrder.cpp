@@ -98,6 +98,57 @@ class KeyWriter {
   std::uint32_t m_allKeys = 0;
 };
 
+/// Boxes of one key that are worth an order of their own: blocks of them would be as wide as their cell.
+constexpr std::size_t kCrowd = 64;
+
+/// A grid within a cell within a cell: cells get narrower by some hundred times each time.
+constexpr unsigned kMostGrids = 4;
+
+std::uint64_t keyOf(KeyedBox box) { return box >> kIndexBits; }
+
+/// Calls take(boxes) for runs of about kCrowd or more boxes with the same key, of sorted boxes.
+template <class Take>
+void forEachCrowd(std::span<KeyedBox> boxes, Take&& take) {
+  for (std::size_t i = 0; i + kCrowd <= boxes.size();) {
+    const std::uint64_t key = keyOf(boxes[i]);
+    if (keyOf(boxes[i + kCrowd - 1]) != key) {
+      i += kCrowd / 2;
+      continue;
+    }
+    std::size_t begin = i;
+    while (begin > 0 && keyOf(boxes[begin - 1]) == key) --begin;
+    const auto isSame = [&](KeyedBox box) { return keyOf(box) == key; };
+    const auto rest = boxes.subspan(i);
+    const auto end = static_cast<std::size_t>(std::partition_point(rest.begin(), rest.end(), isSame) - boxes.begin());
+    take(boxes.subspan(begin, end - begin));
+    i = end;
+  }
+}
+
+/// Orders boxes that share a cell by a grid of their own, and again those that share a cell of that one.
+// Each call goes one grid deeper, of kMostGrids.
+// NOLINTNEXTLINE(misc-no-recursion)
+void orderCrowd(std::span<KeyedBox> crowd, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
+                unsigned grids) {
+  const CurveGrid grid = CurveGrid::fit(reader, crowd);
+  KeyWriter writer(kernels, grid, spare);
+  reader.withLanes([&](const auto& lanesOf) {
+    LaneBox lanes;
+    for (const KeyedBox box : crowd) {
+      static_cast<void>(lanesOf(indexOf(box), lanes));
+      writer.take(indexOf(box), lanes);
+    }
+  });
+  writer.finish();
+  const unsigned bits = std::max(kIndexBits, static_cast<unsigned>(std::bit_width(writer.allKeys())));
+  sortRun(spare, crowd.data(), crowd.size(), bits, kIndexBits);
+  if (grids == kMostGrids || keyOf(crowd.front()) == keyOf(crowd.back())) return;
+  KeyedBox* const begin = crowd.data();
+  forEachCrowd(crowd, [&](std::span<KeyedBox> inner) {
+    orderCrowd(inner, spare + (inner.data() - begin), reader, kernels, grids + 1);
+  });
+}
+
 }  // namespace
 
 std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
@@ -177,6 +228,17 @@ void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigne
   });
 }
 
+void CurveOrder::refine(std::span<KeyedBox> boxes, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
+                        Executor& executor) {
+  m_crowds.clear();
+  forEachCrowd(boxes, [&](std::span<KeyedBox> crowd) { m_crowds.push_back(crowd); });
+  if (m_crowds.empty()) return;
+  executor.run(m_crowds.size(), [&](std::size_t i) {
+    const std::span<KeyedBox> crowd = m_crowds[i];
+    orderCrowd(crowd, spare + (crowd.data() - boxes.data()), reader, kernels, 1);
+  });
+}
+
 OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spare, const Kernels& kernels,
                               Executor& executor) {
   m_boxes.require(reader.size());
@@ -194,6 +256,7 @@ OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spar
   const auto isUsual = [this](KeyedBox box) { return box >> m_classShift == 0; };
   result.firstLarge = static_cast<std::size_t>(std::partition_point(result.boxes.begin(), result.boxes.end(), isUsual) -
                                                result.boxes.begin());
+  refine({boxes, result.boxes.size()}, spare.data(), reader, kernels, executor);
   return result;
 }
 

@@ -7,19 +7,12 @@
 #include <vector>
 
 #include "Kernels.h"
+#include "KeyedBox.h"
 #include "LaneReader.h"
 #include "Memory.h"
 #include "allpairs/Executor.h"
 
 namespace allpairs::engine {
-
-/// A box in the order: its key in the upper half, its index in the lower, so that numbers compare as boxes do.
-using KeyedBox = std::uint64_t;
-
-/// Keys are above the index.
-inline constexpr unsigned kIndexBits = 32;
-
-[[nodiscard]] inline std::uint32_t indexOf(KeyedBox box) noexcept { return static_cast<std::uint32_t>(box); }
 
 /// Boxes in an order in which those that are near each other in space, and alike in size and shape, follow each other.
 struct OrderedBoxes {
@@ -29,6 +22,8 @@ struct OrderedBoxes {
 };
 
 /// Sorts boxes along a space-filling curve, by key and then by index.
+///
+/// Where many boxes share a cell of the grid, they are ordered again on a grid of their own.
 ///
 /// A radix sort. A set that fits no cache, or that several threads share, is first cut into runs by the highest bits.
 /// Cost:    8 bytes a box, and 8 more of `spare` memory while it sorts.
@@ -52,11 +47,14 @@ class CurveOrder {
   OrderedBoxes readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed, Executor& executor);
   void sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigned bits, Executor& executor);
   [[nodiscard]] unsigned usedBits() const;
+  void refine(std::span<KeyedBox> boxes, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
+              Executor& executor);
 
   std::vector<Chunk> m_chunks;
   std::size_t m_chunkCount = 0;
   unsigned m_classShift = 0;  ///< Where the class of a keyed box begins.
   std::vector<std::uint32_t> m_bucketEnds;
+  std::vector<std::span<KeyedBox>> m_crowds;
   Buffer<KeyedBox> m_boxes;
 };
 

@@ -348,5 +348,34 @@ TEST(Overlaps, BlockedMakesFarFewerTests) {
   EXPECT_LT(search.statistics().boxTests + search.statistics().groupTests, 20000U * 200U);
 }
 
+/// Half of the boxes in a corner, which is `scale` of the others' space in size, and half of those in a corner of that.
+std::vector<BoxF> crowds(std::size_t size, float scale) {
+  std::vector<BoxF> boxes = test::randomBoxes(size, 11);
+  for (std::size_t i = 0; i < size; ++i) {
+    const float factor = i % 2 == 0 ? 1.0F : (i % 4 == 1 ? scale : scale * scale);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[i].min[axis] *= factor;
+      boxes[i].max[axis] *= factor;
+    }
+  }
+  return boxes;
+}
+
+TEST(Overlaps, CrowdsInACornerOfTheSceneAreAsCheapAsTheRest) {
+  constexpr std::size_t kBoxes = 20000;
+  OverlapOptions blocked;
+  blocked.strategy = Strategy::Blocked;
+  for (const float scale : {0.03F, 0.001F}) {
+    EXPECT_LT(testsFor(crowds(kBoxes, scale), blocked), kBoxes * 200U) << scale;
+  }
+}
+
+TEST(Overlaps, CrowdsInACornerOfTheSceneMissNoPair) {
+  OverlapOptions blocked;
+  blocked.strategy = Strategy::Blocked;
+  const std::vector<BoxF> boxes = crowds(3000, 0.002F);
+  EXPECT_EQ(overlaps(boxes, blocked), test::oracle(test::toDouble(boxes)));
+}
+
 }  // namespace
 }  // namespace allpairs
