@@ -12,6 +12,14 @@
 #include <sys/mman.h>
 #endif
 
+#if defined(__SANITIZE_ADDRESS__)
+#define ALLPAIRS_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ALLPAIRS_ADDRESS_SANITIZER
+#endif
+#endif
+
 namespace allpairs::engine {
 namespace {
 
@@ -23,8 +31,13 @@ std::size_t roundUp(std::size_t bytes, std::size_t unit) { return (bytes + unit 
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// Blocks from this size on are mapped, in sizes that are powers of two up to the second one.
+/// Blocks from this size on are mapped, in sizes that are powers of two up to the second one. An address sanitizer does
+/// not see the end of a mapped block.
+#if defined(ALLPAIRS_ADDRESS_SANITIZER)
+constexpr std::size_t kSmallestMapped = std::size_t{1} << 20;
+#else
 constexpr std::size_t kSmallestMapped = std::size_t{1} << 13;
+#endif
 constexpr std::size_t kLargestKept = std::size_t{1} << 26;
 
 bool isMapped(std::size_t bytes) { return bytes >= kSmallestMapped; }
