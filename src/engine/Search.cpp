@@ -279,7 +279,7 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
   return m_pairs;
 }
 
-bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan plan) {
   if (options.order == Order::Unordered || plan.units == 0) return false;
   if (sets.first.size() + sets.second.size() < kFewForBuckets) return false;
   const BucketRule rule = bucketRule(sets, options.order, *m_kernels);

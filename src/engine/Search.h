@@ -84,7 +84,7 @@ class Search {
   void sortPairs(const Sets& sets, Order order);
 
   /// Finds pairs and orders them by buckets, where that pays; else false, and nothing is done.
-  bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan plan);
   void sortBuckets(const BucketRule& rule);
 
   static Choice choose(const Sets& sets, const OverlapOptions& options);
