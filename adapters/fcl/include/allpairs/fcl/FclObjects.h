@@ -3,6 +3,7 @@
 
 #include <fcl/narrowphase/collision_object.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -73,15 +74,17 @@ class FclObjects {
     const Bounds& now = object->getAABB();
     S* const row = m_rows.data() + std::size_t{6} * number;
     bool isSame = true;
-    for (int axis = 0; axis < 3; ++axis) isSame &= (row[axis] == now.min_[axis]) & (row[3 + axis] == now.max_[axis]);
-    if (isSame) return false;
-    if (!(now.min_ == now.min_) || !(now.max_ == now.max_)) {
-      throw InvalidBox(number, "the box of object " + std::to_string(number) + " has a NaN");
+    bool isBox = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      isSame &= (row[axis] == now.min_[axis]) & (row[3 + axis] == now.max_[axis]);
+      isBox &= now.min_[axis] <= now.max_[axis];
     }
+    if (isSame) return false;
     for (int axis = 0; axis < 3; ++axis) {
       row[axis] = now.min_[axis];
       row[3 + axis] = now.max_[axis];
     }
+    if (!isBox) empty(number);
     return true;
   }
 
@@ -107,6 +110,14 @@ class FclObjects {
  private:
   static constexpr S kMost = std::numeric_limits<S>::max();
   static constexpr std::array<S, 6> kNothing{kMost, kMost, kMost, -kMost, -kMost, -kMost};
+
+  /// All empty boxes are one, of which nothing is left when it is rounded.
+  void empty(BoxId number) {
+    const Bounds bounds = this->bounds(number);
+    std::copy(kNothing.begin(), kNothing.end(), m_rows.begin() + std::ptrdiff_t{6} * number);
+    if (bounds.min_ == bounds.min_ && bounds.max_ == bounds.max_) return;
+    throw InvalidBox(number, "the box of object " + std::to_string(number) + " has a NaN");
+  }
 
   std::vector<Object*> m_objects;
   std::vector<S> m_rows;

@@ -15,7 +15,8 @@ namespace allpairs {
 /// The overlapping pairs of boxes that lie in rows of six and change between searches, in whichever of two ways is the
 /// faster: a world that knows the pairs of before, while few boxes change, else a search of all.
 ///
-/// Geometry:  boxes are closed, in the precision of T; an empty box overlaps nothing.
+/// Geometry:  boxes are closed, in the precision of T. An empty box overlaps nothing; it has all minima at the greatest
+///            finite number, all maxima at the least.
 /// Bad input: a NaN throws InvalidBox.
 /// Threads:   one call at a time per object; parallel inside when there is an executor.
 template <class T>
@@ -30,10 +31,9 @@ class RowSearch {
   /// Says that a row is new or has changed; of a row that nobody speaks of, what it was before may be used.
   void note(BoxId row) {
     if (m_isPending.size() <= row) m_isPending.resize(std::size_t{row} + 1, 0);
-    ++m_changes;
-    if (m_isPending[row] != 0) return;
     m_isPending[row] = 1;
-    m_pending.push_back(row);
+    m_isBehind = true;
+    ++m_changes;
   }
 
   /// All pairs, in which the first is the smaller number; valid until the next call of this after a change.
@@ -50,12 +50,13 @@ class RowSearch {
   Overlaps m_search;
   World m_world;
 
-  std::vector<BoxId> m_pending;  ///< Rows that the world hasn't heard of yet, or that were other when it did.
-  std::vector<std::uint8_t> m_isPending;
-  std::size_t m_changes = 0;  ///< How many there were since the last search.
-  bool m_isCalm = false;      ///< Whether there were few before that.
+  std::vector<std::uint8_t> m_isPending;  ///< By row: whether the world hasn't heard of it as it is now.
+  std::size_t m_changes = 0;              ///< How many there were since the last search.
+  bool m_isCalm = false;                  ///< Whether there were few before that.
+  bool m_isBehind = false;                ///< Whether the world may have something to hear.
 
   std::vector<float> m_rounded;
+  std::vector<BoxId> m_ids;
   std::vector<T> m_moved;
   std::vector<Pair> m_exact;
   std::span<const Pair> m_pairs;
