@@ -68,6 +68,8 @@ class FclObjects {
   void clear() { *this = {}; }
 
   /// Reads the box of the object with this number, if there is one, and says whether it has changed.
+  ///
+  /// Bad input: a NaN throws InvalidBox with the number; the box stays what it was.
   bool read(BoxId number) {
     const Object* const object = m_objects[number];
     if (object == nullptr) return false;
@@ -80,11 +82,11 @@ class FclObjects {
       isBox &= now.min_[axis] <= now.max_[axis];
     }
     if (isSame) return false;
+    if (!isBox) return readEmpty(number, now);
     for (int axis = 0; axis < 3; ++axis) {
       row[axis] = now.min_[axis];
       row[3 + axis] = now.max_[axis];
     }
-    if (!isBox) empty(number);
     return true;
   }
 
@@ -112,11 +114,14 @@ class FclObjects {
   static constexpr std::array<S, 6> kNothing{kMost, kMost, kMost, -kMost, -kMost, -kMost};
 
   /// All empty boxes are one, of which nothing is left when it is rounded.
-  void empty(BoxId number) {
-    const Bounds bounds = this->bounds(number);
-    std::copy(kNothing.begin(), kNothing.end(), m_rows.begin() + std::ptrdiff_t{6} * number);
-    if (bounds.min_ == bounds.min_ && bounds.max_ == bounds.max_) return;
-    throw InvalidBox(number, "the box of object " + std::to_string(number) + " has a NaN");
+  bool readEmpty(BoxId number, const Bounds& now) {
+    if (!(now.min_ == now.min_) || !(now.max_ == now.max_)) {
+      throw InvalidBox(number, "the box of object " + std::to_string(number) + " has a NaN");
+    }
+    const auto row = m_rows.begin() + std::ptrdiff_t{6} * number;
+    if (std::equal(kNothing.begin(), kNothing.end(), row)) return false;
+    std::copy(kNothing.begin(), kNothing.end(), row);
+    return true;
   }
 
   std::vector<Object*> m_objects;
