@@ -1,9 +1,13 @@
 # Debian packages of what is installed, by `cpack -G DEB` in the build folder or ./dev package: allpairs (the command and
 # shared libraries), liballpairs-dev, python3-allpairs.
 
+# A Debian package names whom to write to; whoever hands packages out sets it. example.org is nobody's (RFC 2606).
+set(ALLPAIRS_PACKAGE_CONTACT "Allpairs developers <allpairs@example.org>"
+    CACHE STRING "The maintainer that packages name: a name and an address")
+
 set(CPACK_PACKAGE_NAME allpairs)
 set(CPACK_PACKAGE_VENDOR Allpairs)
-set(CPACK_PACKAGE_CONTACT "Allpairs <allpairs@localhost>")
+set(CPACK_PACKAGE_CONTACT "${ALLPAIRS_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_GENERATOR DEB)

@@ -294,9 +294,133 @@ typedef struct allpairs_hit {
   double t;
 } allpairs_hit;
 
-/// The first box that a ray meets; id is ALLPAIRS_NO_BOX where there is none.
+/// The first box that a ray meets, of several at the same t the one with the least id; id is ALLPAIRS_NO_BOX where there
+/// is none.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_first(allpairs_world* world, const allpairs_ray* ray,
                                                          const allpairs_query_filter* filter, allpairs_hit* hit);
+
+/// Hits that belong to the world that gave them.
+typedef struct allpairs_hits {
+  const allpairs_hit* data;
+  size_t count;
+} allpairs_hits;
+
+/// All boxes that a ray meets, by ascending (t, id); valid until the next call of this or of allpairs_world_sweep_all().
+ALLPAIRS_C_API allpairs_status allpairs_world_find_all(allpairs_world* world, const allpairs_ray* ray,
+                                                       const allpairs_query_filter* filter, allpairs_hits* hits);
+
+/// A box of six numbers on its way: moved by t * motion with 0 <= t <= length.
+typedef struct allpairs_sweep {
+  double box[6];
+  double motion[3];
+  double length;
+} allpairs_sweep;
+
+/// What find_first and find_all are for a ray, for a box that moves.
+ALLPAIRS_C_API allpairs_status allpairs_world_sweep_first(allpairs_world* world, const allpairs_sweep* sweep,
+                                                          const allpairs_query_filter* filter, allpairs_hit* hit);
+ALLPAIRS_C_API allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_sweep* sweep,
+                                                        const allpairs_query_filter* filter, allpairs_hits* hits);
+
+/// A box and its Euclidean distance from a point; 0 for a point in it.
+typedef struct allpairs_neighbor {
+  uint32_t id;
+  double distance;
+} allpairs_neighbor;
+
+/// Neighbors that belong to the world that gave them.
+typedef struct allpairs_neighbors {
+  const allpairs_neighbor* data;
+  size_t count;
+} allpairs_neighbors;
+
+/// A point of three numbers, and how many of the boxes nearest to it are wanted.
+typedef struct allpairs_nearest {
+  double point[3];
+  size_t count;
+} allpairs_nearest;
+
+/// The boxes nearest to a point, or all if there are fewer, by ascending (distance, id); valid until the next such query.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest(allpairs_world* world, const allpairs_nearest* nearest,
+                                                           const allpairs_query_filter* filter,
+                                                           allpairs_neighbors* neighbors);
+
+/// All pairs of a box of `world` (first) and one of `other` that overlap at the mean of the distances of the two; ordered,
+/// and valid until the next such query of `world`.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_between(allpairs_world* world, allpairs_world* other,
+                                                           allpairs_pairs* pairs);
+
+// Deforming triangle meshes.
+
+/// How many vertices a mesh has, and which of them its triangles join: rows of 3 indices.
+typedef struct allpairs_mesh {
+  size_t vertex_count;
+  const uint32_t* triangles;
+  size_t triangle_count;
+} allpairs_mesh;
+
+/// Which candidates are wanted, and how they are found. All zeros, but for struct_size, are the defaults.
+typedef struct allpairs_elements_options {
+  size_t struct_size;  ///< sizeof(allpairs_elements_options)
+  double margin;       ///< Elements whose boxes are at most this far apart on every axis are candidates.
+  bool skip_within;    ///< No two elements of one mesh.
+  bool skip_between;   ///< No two elements of different meshes.
+  allpairs_order order;
+  size_t threads;  ///< As in allpairs_options.
+} allpairs_elements_options;
+
+/// Which two kinds of element make a candidate.
+typedef enum allpairs_candidates {
+  ALLPAIRS_VERTEX_FACE = 0,  ///< (vertex, triangle).
+  ALLPAIRS_EDGE_EDGE = 1,    ///< (edge, edge), first < second.
+  ALLPAIRS_FACE_FACE = 2     ///< (triangle, triangle), first < second.
+} allpairs_candidates;
+
+/// The pairs of elements of meshes that may touch while vertices move on straight lines through a step.
+///
+/// Elements are numbered through: those of the first mesh, then those of the second, and so on. Triangles keep their
+/// order; edges are unique, ascending by their two vertices.
+/// Geometry:  the box of an element is that of its vertices at start and end, compared exactly, in double. Two elements
+///            that have a vertex in common are no candidates.
+/// Bad input: positions that are not finite, and a vertex or mesh that isn't there, are an ALLPAIRS_INVALID_ARGUMENT.
+typedef struct allpairs_elements allpairs_elements;
+
+/// The meshes are read now, and need not outlive the call. Null options are the defaults.
+ALLPAIRS_C_API allpairs_status allpairs_elements_create(const allpairs_mesh* meshes, size_t count,
+                                                        const allpairs_elements_options* options,
+                                                        allpairs_elements** elements);
+ALLPAIRS_C_API void allpairs_elements_destroy(allpairs_elements* elements);
+
+/// How many elements of each kind there are, or come before a mesh.
+typedef struct allpairs_element_counts {
+  size_t vertices;
+  size_t edges;
+  size_t triangles;
+} allpairs_element_counts;
+
+/// How many elements come before those of a mesh; with the number of meshes, how many there are in all.
+ALLPAIRS_C_API allpairs_status allpairs_elements_before(const allpairs_elements* elements, size_t mesh,
+                                                        allpairs_element_counts* counts);
+
+/// The edges as two vertices each, the smaller first; valid as long as the handle.
+ALLPAIRS_C_API allpairs_status allpairs_elements_edges(const allpairs_elements* elements, allpairs_pairs* edges);
+
+/// Says where the vertices of a mesh are at the start and at the end of the step, in rows of 3, as many as it has
+/// vertices. They are read now. Meshes that are not mentioned stay where they were.
+ALLPAIRS_C_API allpairs_status allpairs_elements_move_f32(allpairs_elements* elements, size_t mesh, const float* start,
+                                                          const float* end);
+ALLPAIRS_C_API allpairs_status allpairs_elements_move_f64(allpairs_elements* elements, size_t mesh, const double* start,
+                                                          const double* end);
+
+/// All candidates of a kind, each once; valid until the next search for the same kind or the end of the handle.
+ALLPAIRS_C_API allpairs_status allpairs_elements_find(allpairs_elements* elements, allpairs_candidates kind,
+                                                      allpairs_pairs* pairs);
+
+/// How many there are, and all of them by batches, in memory that does not depend on their number.
+ALLPAIRS_C_API allpairs_status allpairs_elements_count(allpairs_elements* elements, allpairs_candidates kind,
+                                                       uint64_t* count);
+ALLPAIRS_C_API allpairs_status allpairs_elements_stream(allpairs_elements* elements, allpairs_candidates kind,
+                                                        allpairs_visitor visitor);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Self-collision of many objects in FCL: our manager beside DynamicAABBTreeCollisionManager, on the same objects in the
-// same run, with a callback that only counts. Objects that move every step, some that move, and none.
+// Self-collision of many objects in FCL: our manager beside DynamicAABBTreeCollisionManager and its _Array sister, on the
+// same objects in turns, step by step. What is timed is what a program does in a step, update() and collide(), with a
+// callback that counts and that no compiler can see into; which pairs it gets is compared outside of the time.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/box.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <random>
@@ -20,13 +24,14 @@
 namespace {
 
 using Object = fcl::CollisionObjectd;
+using Manager = fcl::BroadPhaseCollisionManagerd;
 
-/// Boxes that drift through a cube so large that each meets about five others.
+/// Boxes that drift through a cube; `room` is how much of it there is for each, in volumes of about one box.
 class Swarm {
  public:
-  explicit Swarm(std::size_t count) {
+  Swarm(std::size_t count, double room) {
     const auto shape = std::make_shared<fcl::Boxd>(0.8, 1.0, 1.2);
-    const double side = std::cbrt(static_cast<double>(count) * 4.0);
+    const double side = std::cbrt(static_cast<double>(count) * room);
     std::uniform_real_distribution<double> place(0.0, side);
     for (std::size_t i = 0; i < count; ++i) {
       m_owned.push_back(std::make_unique<Object>(shape));
@@ -37,10 +42,10 @@ class Swarm {
     }
   }
 
-  /// Moves one object in `stride` a little.
+  /// Moves one object in `stride` a little; with 0, none.
   void drift(std::size_t stride) {
     std::uniform_real_distribution<double> motion(-0.05, 0.05);
-    for (std::size_t i = 0; i < m_objects.size(); i += stride) {
+    for (std::size_t i = 0; stride != 0 && i < m_objects.size(); i += stride) {
       const fcl::Vector3d by(motion(m_random), motion(m_random), motion(m_random));
       m_objects[i]->setTranslation(m_objects[i]->getTranslation() + by);
       m_objects[i]->computeAABB();
@@ -55,94 +60,132 @@ class Swarm {
   std::vector<Object*> m_objects;
 };
 
-struct Timing {
-  double update = 0.0;
-  double collide = 0.0;
-  std::uint64_t pairs = 0;
-};
-
-bool countPair(Object*, Object*, void* count) {
+[[gnu::noinline, gnu::noclone]] bool countPair(Object*, Object*, void* count) {
   ++*static_cast<std::uint64_t*>(count);
   return false;
 }
 
-/// The least times of a step; stride 0 moves nothing.
-template <class Manager>
-Timing measure(std::size_t count, std::size_t stride) {
-  Swarm swarm(count);
-  Manager manager;
-  manager.registerObjects(swarm.objects());
-  manager.setup();
-  Timing best;
+/// Read anew for each query, so that none is compiled for the callback that it gets.
+fcl::CollisionCallBack<double> volatile callback = countPair;
+
+using Pairs = std::vector<std::pair<Object*, Object*>>;
+
+Pairs pairsOf(const Manager& manager) {
+  Pairs pairs;
+  manager.collide(&pairs, [](Object* a, Object* b, void* data) {
+    static_cast<Pairs*>(data)->emplace_back(std::minmax(a, b));
+    return false;
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// Seconds of one step.
+struct Step {
+  double update = 0.0;
+  double collide = 0.0;
+  std::uint64_t pairs = 0;
+
+  [[nodiscard]] double total() const { return update + collide; }
+};
+
+/// The step in the middle, by its whole time.
+Step median(std::vector<Step> steps) {
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end(),
+                   [](const Step& a, const Step& b) { return a.total() < b.total(); });
+  return *middle;
+}
+
+template <class Prepare>
+Step timeStep(Manager& manager, const Prepare& prepare) {
+  Step step;
+  const double start = processorSeconds();
+  prepare(manager);
+  const double middle = processorSeconds();
+  manager.collide(&step.pairs, callback);
+  step.update = middle - start;
+  step.collide = processorSeconds() - middle;
+  return step;
+}
+
+constexpr std::array<const char*, 3> kNames{"DynamicAABBTree", "DynamicAABBTree_Array", "FclBroadPhaseManager"};
+using Steps = std::array<std::vector<Step>, kNames.size()>;
+using Managers = std::array<std::unique_ptr<Manager>, kNames.size()>;
+
+Managers makeManagers() {
+  return {std::make_unique<fcl::DynamicAABBTreeCollisionManagerd>(),
+          std::make_unique<fcl::DynamicAABBTreeCollisionManager_Arrayd>(),
+          std::make_unique<allpairs::FclBroadPhaseManagerd>()};
+}
+
+void report(const std::string& name, const Steps& steps, bool isSame) {
+  std::array<Step, kNames.size()> medians;
+  for (std::size_t i = 0; i < medians.size(); ++i) {
+    medians[i] = median(steps[i]);
+    fmt::print("{:<20} {:<21} {:8.3f} ms a step ({:.3f} update, {:.3f} collide), {} pairs\n", name, kNames[i],
+               medians[i].total() * 1e3, medians[i].update * 1e3, medians[i].collide * 1e3, steps[i].back().pairs);
+  }
+  fmt::print("{:<20} ratio {:.2f}, with the array {:.2f}{}\n", name, medians[0].total() / medians[2].total(),
+             medians[1].total() / medians[2].total(), isSame ? "" : "; THE PAIRS DIFFER");
+}
+
+bool agree(const Managers& managers) {
+  const Pairs pairs = pairsOf(*managers[0]);
+  return pairs == pairsOf(*managers[1]) && pairs == pairsOf(*managers[2]);
+}
+
+/// Step by step: one object in `stride` moves, and each manager follows and finds the pairs.
+void compare(const std::string& name, Swarm& swarm, std::size_t stride) {
   constexpr int kSteps = 60;
-  double total = 0.0;
+  const Managers managers = makeManagers();
+  for (const auto& manager : managers) {
+    manager->registerObjects(swarm.objects());
+    manager->setup();
+  }
+  Steps steps;
+  bool isSame = true;
   for (int step = 0; step < kSteps; ++step) {
-    if (stride != 0) swarm.drift(stride);
-    std::uint64_t pairs = 0;
-    const double start = processorSeconds();
-    if (stride != 0) manager.update();
-    const double middle = processorSeconds();
-    manager.collide(&pairs, countPair);
-    const double end = processorSeconds();
-    if (step == 0 || end - start < total) {
-      total = end - start;
-      best = {middle - start, end - middle, pairs};
+    swarm.drift(stride);
+    for (std::size_t i = 0; i < managers.size(); ++i) {
+      steps[i].push_back(timeStep(*managers[i], [&](Manager& manager) {
+        if (stride != 0) manager.update();
+      }));
     }
-    best.pairs = pairs;
+    if (step % 10 == 0) isSame = agree(managers) && isSame;
   }
-  return best;
+  report(name, steps, isSame);
 }
 
-/// The least time from objects without a manager to all pairs.
-template <class Manager>
-Timing measureFresh(std::size_t count) {
-  const Swarm swarm(count);
-  Timing best;
-  constexpr int kRuns = 20;
+/// From objects without a manager to all pairs.
+void compareFresh(const std::string& name, const Swarm& swarm) {
+  constexpr int kRuns = 21;
+  Steps steps;
+  bool isSame = true;
   for (int run = 0; run < kRuns; ++run) {
-    std::uint64_t pairs = 0;
-    const double start = processorSeconds();
-    Manager manager;
-    manager.registerObjects(swarm.objects());
-    manager.setup();
-    const double middle = processorSeconds();
-    manager.collide(&pairs, countPair);
-    const double end = processorSeconds();
-    if (run == 0 || end - start < best.update + best.collide) best = {middle - start, end - middle, pairs};
+    const Managers managers = makeManagers();
+    for (std::size_t i = 0; i < managers.size(); ++i) {
+      steps[i].push_back(timeStep(*managers[i], [&](Manager& manager) {
+        manager.registerObjects(swarm.objects());
+        manager.setup();
+      }));
+    }
+    if (run == 0) isSame = agree(managers);
   }
-  return best;
-}
-
-void report(const std::string& name, const Timing& tree, const Timing& array, const Timing& ours) {
-  const auto total = [](const Timing& timing) { return (timing.update + timing.collide) * 1e3; };
-  for (const auto& [who, t] : {std::pair("DynamicAABBTree", tree), std::pair("DynamicAABBTree_Array", array),
-                               std::pair("FclBroadPhaseManager", ours)}) {
-    fmt::print("{:<11} {:<21} {:8.3f} ms a step ({:.3f} update, {:.3f} collide), {} pairs\n", name, who, total(t),
-               t.update * 1e3, t.collide * 1e3, t.pairs);
-  }
-  fmt::print("{:<11} ratio {:.2f}, with the array {:.2f}{}\n", name, total(tree) / total(ours),
-             total(array) / total(ours),
-             tree.pairs == ours.pairs && array.pairs == ours.pairs ? "" : "; THE PAIRS DIFFER");
-}
-
-using Tree = fcl::DynamicAABBTreeCollisionManagerd;
-using ArrayTree = fcl::DynamicAABBTreeCollisionManager_Arrayd;
-using Ours = allpairs::FclBroadPhaseManagerd;
-
-void compare(const std::string& name, std::size_t count, std::size_t stride) {
-  report(name, measure<Tree>(count, stride), measure<ArrayTree>(count, stride), measure<Ours>(count, stride));
-}
-
-void compareFresh(std::size_t count) {
-  report("fresh", measureFresh<Tree>(count), measureFresh<ArrayTree>(count), measureFresh<Ours>(count));
+  report(name, steps, isSame);
 }
 
 }  // namespace
 
 int main(int argumentCount, char** arguments) {
   const std::size_t count = argumentCount > 1 ? static_cast<std::size_t>(std::atoi(arguments[1])) : 10000;
-  compareFresh(count);
-  compare("all move", count, 1);
-  compare("a tenth", count, 10);
-  compare("none moves", count, 0);
+  for (const auto& [density, room] : {std::pair("sparse", 20.0), std::pair("denser", 4.0), std::pair("dense", 1.0)}) {
+    Swarm swarm(count, room);
+    const std::string scene = density;
+    compare(scene + ", all move", swarm, 1);
+    compare(scene + ", a tenth", swarm, 10);
+    compare(scene + ", 1 in 100", swarm, 100);
+    compare(scene + ", none moves", swarm, 0);
+    compareFresh(scene + ", afresh", swarm);
+  }
 }

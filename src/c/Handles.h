@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -78,7 +81,36 @@ template <class T>
 /// Threads to run on, or null for the calling one.
 [[nodiscard]] std::unique_ptr<Executor> executorFor(std::size_t threads);
 
+/// The number that a caller in C has put where an enumerator is: if it is none of them, C++ may not read it as one.
+template <class Enumerator>
+[[nodiscard]] int numberIn(const Enumerator& place) {
+  static_assert(sizeof(Enumerator) == sizeof(int));
+  int number = 0;
+  std::memcpy(&number, &place, sizeof number);
+  return number;
+}
+
+/// Bad input: a number that is none of the orders throws InvalidArgument.
+[[nodiscard]] Order orderOf(int order);
+
+[[nodiscard]] inline World& worldOf(allpairs_world* world) { return required(world, "world").world; }
+
 [[nodiscard]] allpairs_pairs toC(std::span<const Pair> pairs);
 [[nodiscard]] Box boxOf(const double* bounds);
+
+/// A visitor of the engine that asks the caller's.
+class Visitor {
+ public:
+  explicit Visitor(const allpairs_visitor& visitor) : m_visitor(visitor) {
+    if (visitor.visit == nullptr) throw InvalidArgument("visitor.visit is null");
+  }
+
+  void operator()(std::span<const Pair> batch) {
+    if (!m_visitor.visit(m_visitor.context, toC(batch))) throw Stopped();
+  }
+
+ private:
+  allpairs_visitor m_visitor;
+};
 
 }  // namespace allpairs::c

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <cstring>
-
 #include "Handles.h"
 
 namespace allpairs::c {
 namespace {
-
-/// The number that a caller in C has put where an enumerator is: if it is none of them, C++ may not read it as one.
-template <class Enumerator>
-int numberIn(const Enumerator& place) {
-  static_assert(sizeof(Enumerator) == sizeof(int));
-  int number = 0;
-  std::memcpy(&number, &place, sizeof number);
-  return number;
-}
 
 Strategy strategyOf(int strategy) {
   switch (strategy) {
@@ -25,18 +14,6 @@ Strategy strategyOf(int strategy) {
       return Strategy::Blocked;
   }
   throw InvalidArgument("no strategy " + std::to_string(strategy));
-}
-
-Order orderOf(int order) {
-  switch (order) {
-    case ALLPAIRS_BY_FIRST:
-      return Order::ByFirst;
-    case ALLPAIRS_BY_SECOND:
-      return Order::BySecond;
-    case ALLPAIRS_UNORDERED:
-      return Order::Unordered;
-  }
-  throw InvalidArgument("no order " + std::to_string(order));
 }
 
 /// What a filter's array is about: C says nothing of its length, which is the set's.
@@ -83,21 +60,6 @@ Overlaps& prepared(allpairs_search* search, const allpairs_set* first, const all
   handle.overlaps.setOptions(std::move(options));
   return handle.overlaps;
 }
-
-/// A visitor of the engine that asks the caller's.
-class Visitor {
- public:
-  explicit Visitor(const allpairs_visitor& visitor) : m_visitor(visitor) {
-    if (visitor.visit == nullptr) throw InvalidArgument("visitor.visit is null");
-  }
-
-  void operator()(std::span<const Pair> batch) {
-    if (!m_visitor.visit(m_visitor.context, toC(batch))) throw Stopped();
-  }
-
- private:
-  allpairs_visitor m_visitor;
-};
 
 }  // namespace
 }  // namespace allpairs::c

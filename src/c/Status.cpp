@@ -61,6 +61,19 @@ T known(const T* options) {
 
 template allpairs_options known(const allpairs_options* options);
 template allpairs_world_options known(const allpairs_world_options* options);
+template allpairs_elements_options known(const allpairs_elements_options* options);
+
+Order orderOf(int order) {
+  switch (order) {
+    case ALLPAIRS_BY_FIRST:
+      return Order::ByFirst;
+    case ALLPAIRS_BY_SECOND:
+      return Order::BySecond;
+    case ALLPAIRS_UNORDERED:
+      return Order::Unordered;
+  }
+  throw InvalidArgument("no order " + std::to_string(order));
+}
 
 std::unique_ptr<Executor> executorFor(std::size_t threads) {
   if (threads <= 1) return nullptr;

@@ -10,11 +10,6 @@ BoxProperties propertiesOf(const allpairs_properties& given) {
   return {given.category, given.mask, given.group, given.owner, given.margin, given.is_static};
 }
 
-QueryFilter filterOf(const allpairs_query_filter* given) {
-  if (given == nullptr) return {};
-  return {given->category, given->mask, !given->skip_static, !given->skip_moving};
-}
-
 WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor) {
   WorldOptions options;
   options.distance = given.distance;
@@ -27,15 +22,7 @@ WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor) 
   return options;
 }
 
-World& worldOf(allpairs_world* world) { return required(world, "world").world; }
-
 std::span<const BoxId> idsOf(const allpairs_ids& ids) { return requiredSpan(ids.data, ids.count, "ids.data"); }
-
-Ray rayOf(const allpairs_ray& ray) {
-  return {{ray.origin[0], ray.origin[1], ray.origin[2]},
-          {ray.direction[0], ray.direction[1], ray.direction[2]},
-          ray.length};
-}
 
 }  // namespace
 }  // namespace allpairs::c
@@ -116,24 +103,6 @@ allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step) 
     allpairs_step& result = required(step, "step");
     const allpairs::StepResult found = worldOf(world).step();
     result = {toC(found.pairs), toC(found.began), toC(found.persisted), toC(found.ended)};
-  });
-}
-
-allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
-                                                const allpairs_query_filter* filter, allpairs_ids* ids) {
-  return guarded([&] {
-    allpairs_ids& result = required(ids, "ids");
-    const auto found = worldOf(world).findOverlapping(boxOf(&required(box, "box")), filterOf(filter));
-    result = {found.data(), found.size()};
-  });
-}
-
-allpairs_status allpairs_world_find_first(allpairs_world* world, const allpairs_ray* ray,
-                                          const allpairs_query_filter* filter, allpairs_hit* hit) {
-  return guarded([&] {
-    allpairs_hit& result = required(hit, "hit");
-    const allpairs::SweepHit found = worldOf(world).findFirst(rayOf(required(ray, "ray")), filterOf(filter));
-    result = {found.id, found.t};
   });
 }
 

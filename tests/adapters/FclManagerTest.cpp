@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
@@ -247,21 +248,117 @@ TYPED_TEST(FclManager, ListsItsObjectsAndIsEmptyWithoutAny) {
   EXPECT_TRUE(this->collisions(this->m_ours).empty());
 }
 
-TYPED_TEST(FclManager, GivesEachPairOnceInTheOrderOfRegistration) {
-  const auto objects = this->addObjects(60, TypeParam(5));
-  this->m_ours.registerObjects(objects);
-  typename TestFixture::Pairs given;
-  this->m_ours.collide(&given, [](auto* a, auto* b, void* data) {
-    static_cast<typename TestFixture::Pairs*>(data)->emplace_back(a, b);
+/// Which objects a manager hands to a callback, as it does.
+template <class S>
+std::vector<std::pair<::fcl::CollisionObject<S>*, ::fcl::CollisionObject<S>*>> candidates(
+    const ::fcl::BroadPhaseCollisionManager<S>& manager) {
+  using Object = ::fcl::CollisionObject<S>;
+  std::vector<std::pair<Object*, Object*>> given;
+  manager.collide(&given, [](Object* a, Object* b, void* data) {
+    static_cast<decltype(given)*>(data)->emplace_back(a, b);
     return false;
   });
-  typename TestFixture::Pairs expected;
+  return given;
+}
+
+/// The pairs of objects whose boxes overlap, by FCL's own test, in the order of the list.
+template <class S>
+auto overlapping(const std::vector<::fcl::CollisionObject<S>*>& objects) {
+  std::vector<std::pair<::fcl::CollisionObject<S>*, ::fcl::CollisionObject<S>*>> pairs;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     for (std::size_t j = i + 1; j < objects.size(); ++j) {
-      if (objects[i]->getAABB().overlap(objects[j]->getAABB())) expected.emplace_back(objects[i], objects[j]);
+      if (objects[i]->getAABB().overlap(objects[j]->getAABB())) pairs.emplace_back(objects[i], objects[j]);
     }
   }
-  EXPECT_EQ(given, expected);
+  return pairs;
+}
+
+TYPED_TEST(FclManager, GivesEachPairOnceAndTheObjectThatCameFirstAsTheFirst) {
+  const auto objects = this->addObjects(400, TypeParam(10));
+  this->m_ours.registerObjects(objects);
+  EXPECT_THAT(candidates(this->m_ours), ::testing::UnorderedElementsAreArray(overlapping(objects)));
+  EXPECT_EQ(candidates(this->m_ours), candidates(this->m_ours));
+}
+
+TYPED_TEST(FclManager, GivesThePairsInTheOrderOfRegistrationIfAsked) {
+  FclBroadPhaseManager<TypeParam> ordered({.isOrdered = true});
+  const auto objects = this->addObjects(400, TypeParam(10));
+  ordered.registerObjects(objects);
+  EXPECT_EQ(candidates(ordered), overlapping(objects));
+}
+
+TYPED_TEST(FclManager, FindsTheSamePairsWhetherFewObjectsMoveOrMany) {
+  const auto objects = this->addObjects(500, TypeParam(10));
+  this->m_ours.registerObjects(objects);
+  for (const std::size_t stride : {100U, 1U, 100U, 100U, 250U, 2U, 100U, 500U, 3U, 3U}) {
+    for (std::size_t i = 0; i < objects.size(); i += stride) this->place(*objects[i], TypeParam(10));
+    this->m_ours.update();
+    EXPECT_THAT(candidates(this->m_ours), ::testing::UnorderedElementsAreArray(overlapping(objects)))
+        << "seed " << kSeed << ", every " << stride;
+  }
+}
+
+/// An object whose box is as given.
+template <class S>
+class BoxedObject : public ::fcl::CollisionObject<S> {
+ public:
+  BoxedObject(S min, S max) : ::fcl::CollisionObject<S>(std::make_shared<::fcl::Sphere<S>>(S(1))) { set(min, max); }
+
+  /// From min to max on every axis.
+  void set(S min, S max) {
+    this->aabb.min_.setConstant(min);
+    this->aabb.max_.setConstant(max);
+  }
+};
+
+TYPED_TEST(FclManager, BoxesThatTouchAreAPairAndTheNextNumberIsApart) {
+  using S = TypeParam;
+  const S next = std::nextafter(S(1), S(2));  // in double the same as 1 when it is rounded to float
+  const S most = std::numeric_limits<S>::max();
+  const S infinity = std::numeric_limits<S>::infinity();
+  BoxedObject<S> low(S(0), S(1));
+  BoxedObject<S> touching(S(1), S(2));
+  BoxedObject<S> apart(next, S(2));
+  BoxedObject<S> far(most, infinity);
+  BoxedObject<S> nearlyFar(std::nextafter(most, S(0)), std::nextafter(most, S(0)));
+  BoxedObject<S> everywhere(-infinity, infinity);
+  const std::vector<::fcl::CollisionObject<S>*> objects{&low, &touching, &apart, &far, &nearlyFar, &everywhere};
+  this->m_ours.registerObjects(objects);
+  for (int step = 0; step < 3; ++step) {
+    EXPECT_THAT(candidates(this->m_ours), ::testing::UnorderedElementsAreArray(overlapping(objects)));
+  }
+  EXPECT_EQ(overlapping(objects).size(), 7U);
+}
+
+TYPED_TEST(FclManager, AnEmptyBoxOverlapsNothing) {
+  using S = TypeParam;
+  BoxedObject<S> big(S(-9), S(9));
+  BoxedObject<S> empty(std::nextafter(S(1), S(2)), S(1));
+  this->m_ours.registerObjects({&big, &empty});
+  EXPECT_TRUE(candidates(this->m_ours).empty());
+  empty.set(S(1), S(1));
+  this->m_ours.update(&empty);
+  EXPECT_EQ(candidates(this->m_ours).size(), 1U);
+}
+
+TYPED_TEST(FclManager, NamesTheObjectWhoseBoxHasANan) {
+  using S = TypeParam;
+  BoxedObject<S> good(S(0), S(1));
+  BoxedObject<S> bad(S(0), S(1));
+  this->m_ours.registerObjects({&good, &bad});
+  this->m_ours.setup();
+  good.set(S(3), S(4));
+  bad.set(std::numeric_limits<S>::quiet_NaN(), S(1));
+  try {
+    this->m_ours.update();
+    FAIL() << "a NaN was taken";
+  } catch (const InvalidBox& error) {
+    EXPECT_EQ(error.index(), 1U);
+  }
+  EXPECT_TRUE(candidates(this->m_ours).empty()) << "the other has moved, this one is where it was";
+  bad.set(S(4), S(5));
+  this->m_ours.update();
+  EXPECT_EQ(candidates(this->m_ours).size(), 1U);
 }
 
 }  // namespace

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "Shapes.h"
 #include "allpairs/Error.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
@@ -227,6 +231,54 @@ TEST(FclNarrowPhase, TakesTheCandidatesOfThePipelineInTheirOrder) {
   ASSERT_EQ(narrowPhase.pairs().size(), 3U);
   EXPECT_EQ(narrowPhase.pairs()[0].state, ExactState::Apart);
   EXPECT_EQ(narrowPhase.pairs()[1].state, ExactState::Overlapping);
+}
+
+TEST(FclNarrowPhase, FinelyCutCubesAreAsDeepAsPlainOnes) {
+  const auto cube = fineCube({0.0, 0.0, 0.0}, 32);
+  const auto face = examine(*cube, *fineCube({0.90625, 0.015625, 0.25}, 32));
+  EXPECT_EQ(face.state, ExactState::Overlapping);
+  EXPECT_THAT(face.depth, depthOf(0.09375));
+  EXPECT_THAT(examine(*cube, *unitCube({0.5, 0.5, 0.5})).depth, depthOf(0.5));
+  EXPECT_THAT(examine(*cube, *cuboid({0.25, 0.375, -1.0}, {0.75, 0.625, 2.0})).depth, depthOf(0.375));
+}
+
+double squaredDistance(const Vec3& a, const Vec3& b) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+}
+
+/// How far a point is from the nearest of the middles of a ball's many small triangles.
+double distanceFromSurface(const Vec3& point, const TriangleModel& ball) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : ball.triangles()) {
+    Vec3 middle{};
+    for (const auto vertex : {a, b, c}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] += ball.positions()[vertex][axis] / 3.0;
+    }
+    least = std::min(least, squaredDistance(point, middle));
+  }
+  return std::sqrt(least);
+}
+
+/// The depth of the deepest vertex of one ball around `centre` with radius 1 below the surface of another.
+double deepestVertex(const TriangleModel& outer, const Vec3& centre, const TriangleModel& inner) {
+  double deepest = 0.0;
+  for (const Vec3& vertex : inner.positions()) {
+    if (squaredDistance(vertex, centre) < 0.9) deepest = std::max(deepest, distanceFromSurface(vertex, outer));
+  }
+  return deepest;
+}
+
+TEST(FclNarrowPhase, BallsOfManyTrianglesAreAsDeepAsTheirDeepestVertex) {
+  const auto first = ball({0.0, 0.0, 0.0}, 1.0, 32);
+  for (const Vec3& centre : {Vec3{0.0, 0.0, 1.0}, Vec3{0.4, 0.0, 0.0}, Vec3{0.3, -0.7, 0.5}, Vec3{1.1, 1.1, 0.2}}) {
+    const auto second = ball(centre, 1.0, 32);
+    const auto pair = examine(*first, *second);
+    const double deepest =
+        std::max(deepestVertex(*first, {0.0, 0.0, 0.0}, *second), deepestVertex(*second, centre, *first));
+    EXPECT_THAT(pair.depth, Optional(DoubleNear(deepest, 0.03)));
+    const double shown = std::sqrt(squaredDistance(pair.pointOnFirst, pair.pointOnSecond));
+    EXPECT_THAT(pair.depth, Optional(DoubleNear(shown, kClose)));
+  }
 }
 
 }  // namespace

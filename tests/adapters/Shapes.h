@@ -34,6 +34,31 @@ inline std::unique_ptr<TriangleModel> unitCube(const Vec3& at) {
   return cuboid(at, {at[0] + 1.0, at[1] + 1.0, at[2] + 1.0});
 }
 
+/// A unit cube of which each face is cut into n times n squares.
+inline std::unique_ptr<TriangleModel> fineCube(const Vec3& at, std::uint32_t n) {
+  std::vector<Vec3> points;
+  std::vector<TriangleModel::Quad> quads;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double side : {0.0, 1.0}) {
+      const auto first = static_cast<std::uint32_t>(points.size());
+      for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j <= n; ++j) {
+          points.push_back(at);
+          points.back()[axis] += side;
+          points.back()[(axis + 1) % 3] += double(i) / n;
+          points.back()[(axis + 2) % 3] += double(j) / n;
+        }
+      }
+      for (std::uint32_t i = first; i < first + n * (n + 1); ++i) {
+        if ((i - first) % (n + 1) == n) continue;
+        const TriangleModel::Quad outward{i, i + n + 1, i + n + 2, i + 1};
+        quads.push_back(side > 0.0 ? outward : TriangleModel::Quad{outward[3], outward[2], outward[1], outward[0]});
+      }
+    }
+  }
+  return std::make_unique<TriangleModel>("fine cube", points, std::vector<TriangleModel::Triangle>{}, quads);
+}
+
 /// The triangles of several models as one model.
 inline std::unique_ptr<TriangleModel> together(const std::vector<const TriangleModel*>& models) {
   std::vector<Vec3> points;

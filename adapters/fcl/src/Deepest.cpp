@@ -5,8 +5,11 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "Inside.h"
+#include "PointTriangle.h"
 #include "Polygon.h"
 
 namespace allpairs::exact {
@@ -53,8 +56,14 @@ std::vector<Point> samples(const ExactPart& outer, const ExactPart& inner, const
   return points;
 }
 
-/// How deep a point can lie at most: a surface is no further than the side of the box around it.
-double deepestPossible(const Box& box, const Point& point) {
+/// A point that may be the deepest, and how deep it can lie at most.
+struct Candidate {
+  Point point;
+  double limit = 0.0;
+};
+
+/// A surface is no further than the side of the box around it.
+double limitWithin(const Box& box, const Point& point) {
   double depth = box.max[0] - box.min[0];
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
@@ -63,31 +72,106 @@ double deepestPossible(const Box& box, const Point& point) {
   return depth;
 }
 
-/// Replaces `deepest` if the point is deeper.
-void consider(const ExactPart& outer, const Point& point, Deepest& deepest) {
-  if (deepest.found && deepestPossible(outer.box(), point) <= deepest.depth) return;
-  const ::fcl::Sphered ball(0.0);
-  ::fcl::Transform3d pose = ::fcl::Transform3d::Identity();
-  pose.translation() = point;
-  const ::fcl::DistanceRequestd request(true);
-  ::fcl::DistanceResultd result;
-  const double distance =
-      ::fcl::distance(&outer.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result);
-  const bool isOnSurface = distance <= 0.0;
-  if (deepest.found && distance <= deepest.depth) return;
-  deepest = {.found = true,
-             .depth = isOnSurface ? 0.0 : distance,
-             .point = point,
-             .surface = isOnSurface ? point : Point(result.nearest_points[0])};
-}
+/// Finds the deepest of many points without measuring them all. To measure is to ask FCL how far the surface is. From one
+/// that was measured follows how deep its neighbours can lie at most: no deeper than the triangle that is nearest to it,
+/// and by no more than they are away. What can't be the deepest is dropped; the rest is halved, and halves measured.
+class DeepestSearch {
+ public:
+  explicit DeepestSearch(const ExactPart& outer) : m_outer(outer) {}
+
+  Deepest among(std::span<const Point> points) {
+    std::vector<Candidate> candidates;
+    for (const Point& point : points) candidates.push_back({point, limitWithin(m_outer.box(), point)});
+    // A few from all over give a depth with which much can be dropped at once.
+    const std::size_t stride = candidates.size() / kFirstMeasured + 1;
+    for (std::size_t i = stride / 2; i < candidates.size(); i += stride) measure(candidates[i]);
+    search(candidates);
+    return m_deepest;
+  }
+
+ private:
+  static constexpr std::size_t kFirstMeasured = 16;
+
+  /// How far the surface is from a candidate, and the number of its nearest triangle, below 0 where that is not told.
+  struct Surface {
+    double distance = 0.0;
+    std::ptrdiff_t triangle = -1;
+  };
+
+  Surface measure(const Candidate& candidate) {
+    const ::fcl::Sphered ball(0.0);
+    ::fcl::Transform3d pose = ::fcl::Transform3d::Identity();
+    pose.translation() = candidate.point;
+    const ::fcl::DistanceRequestd request(true);
+    ::fcl::DistanceResultd result;
+    const double distance = std::max(
+        0.0, ::fcl::distance(&m_outer.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result));
+    if (!m_deepest.found || distance > m_deepest.depth) {
+      m_deepest = {.found = true,
+                   .depth = distance,
+                   .point = candidate.point,
+                   .surface = distance > 0.0 ? Point(result.nearest_points[0]) : candidate.point};
+    }
+    return {distance, std::ptrdiff_t{result.b1}};
+  }
+
+  void search(std::span<Candidate> candidates) {
+    candidates = dropShallow(candidates);
+    if (candidates.empty()) return;
+    const auto middle = halve(candidates);
+    const Candidate measured = candidates[middle];
+    const Surface surface = measure(measured);
+    for (Candidate& candidate : candidates) {
+      candidate.limit = std::min(candidate.limit, surface.distance + (candidate.point - measured.point).norm());
+      if (surface.triangle < 0) continue;
+      const Corners& nearest = m_outer.triangles()[static_cast<std::size_t>(surface.triangle)];
+      candidate.limit = std::min(candidate.limit, (candidate.point - nearestPoint(nearest, candidate.point)).norm());
+    }
+    search(candidates.first(middle));
+    search(candidates.subspan(middle + 1));
+  }
+
+  /// Those that can be deeper than what was found.
+  std::span<Candidate> dropShallow(std::span<Candidate> candidates) const {
+    const auto isShallow = [&](const Candidate& candidate) {
+      return m_deepest.found && candidate.limit <= m_deepest.depth * (1.0 + kRounding);
+    };
+    const auto end = std::remove_if(candidates.begin(), candidates.end(), isShallow);
+    return candidates.first(static_cast<std::size_t>(end - candidates.begin()));
+  }
+
+  /// Brings the candidates of either side of a plane together, and says which one lies in it.
+  static std::size_t halve(std::span<Candidate> candidates) {
+    Box box = kEmptyBox;
+    for (const Candidate& candidate : candidates) include(box, candidate.point);
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis) {
+      if (sideOf(box, axis) > sideOf(box, longest)) longest = axis;
+    }
+    const auto middle = candidates.begin() + static_cast<std::ptrdiff_t>(candidates.size() / 2);
+    std::nth_element(candidates.begin(), middle, candidates.end(), [&](const Candidate& a, const Candidate& b) {
+      return std::pair(a.point[longest], toVec3(a.point)) < std::pair(b.point[longest], toVec3(b.point));
+    });
+    return candidates.size() / 2;
+  }
+
+  static double sideOf(const Box& box, int axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    return box.max[a] - box.min[a];
+  }
+
+  /// Points that are deeper by less are as deep: a face that lies flat in the other has many.
+  static constexpr double kRounding = 1e-12;
+
+  const ExactPart& m_outer;
+  Deepest m_deepest;
+};
 
 }  // namespace
 
 Deepest deepestWithin(const ExactPart& outer, const ExactPart& inner, const std::vector<TrianglePair>& innerAndOuter) {
-  Deepest deepest;
-  if (outer.volume() == Volume::None) return deepest;
-  for (const Point& point : pointsInside(outer, samples(outer, inner, innerAndOuter))) consider(outer, point, deepest);
-  return deepest;
+  if (outer.volume() == Volume::None) return {};
+  return DeepestSearch(outer).among(pointsInside(outer, samples(outer, inner, innerAndOuter)));
 }
 
 }  // namespace allpairs::exact

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcl/narrowphase/collision_object.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/Error.h"
+#include "allpairs/Pair.h"
+
+namespace allpairs {
+
+/// The objects of an FclBroadPhaseManager by number, and their boxes as they were last read, one after the other in
+/// memory: objects lie wherever their owner put them.
+template <class S>
+class FclObjects {
+ public:
+  using Object = ::fcl::CollisionObject<S>;
+  using Bounds = ::fcl::AABB<S>;
+
+  /// The number of an object; kNoBox if it has none.
+  [[nodiscard]] BoxId numberOf(Object* object) const {
+    const auto found = m_numbers.find(object);
+    return found == m_numbers.end() ? kNoBox : found->second;
+  }
+
+  void reserve(std::size_t objects) {
+    m_numbers.reserve(objects);
+    m_objects.reserve(objects);
+    m_rows.reserve(6 * objects);
+  }
+
+  /// Gives an object a number, or finds the one that it has.
+  BoxId add(Object* object) {
+    const BoxId next = m_free.empty() ? static_cast<BoxId>(m_objects.size()) : m_free.back();
+    const auto [place, isNew] = m_numbers.try_emplace(object, next);
+    if (!isNew) return place->second;
+    if (m_free.empty()) {
+      m_objects.push_back(object);
+      m_rows.insert(m_rows.end(), kNothing.begin(), kNothing.end());
+    } else {
+      m_free.pop_back();
+      m_objects[next] = object;
+    }
+    return next;
+  }
+
+  /// Takes an object out, and returns the number that it had; its box becomes empty.
+  BoxId remove(Object* object) {
+    const auto found = m_numbers.find(object);
+    if (found == m_numbers.end()) return kNoBox;
+    const BoxId number = found->second;
+    m_numbers.erase(found);
+    m_objects[number] = nullptr;
+    std::copy(kNothing.begin(), kNothing.end(), m_rows.begin() + std::ptrdiff_t{6} * number);
+    m_free.push_back(number);
+    return number;
+  }
+
+  void clear() { *this = {}; }
+
+  /// Reads the box of the object with this number, if there is one, and says whether it has changed.
+  ///
+  /// Bad input: a NaN throws InvalidBox with the number; the box stays what it was.
+  bool read(BoxId number) {
+    const Object* const object = m_objects[number];
+    if (object == nullptr) return false;
+    const Bounds& now = object->getAABB();
+    S* const row = m_rows.data() + std::size_t{6} * number;
+    bool isSame = true;
+    bool isBox = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      isSame &= (row[axis] == now.min_[axis]) & (row[3 + axis] == now.max_[axis]);
+      isBox &= now.min_[axis] <= now.max_[axis];
+    }
+    if (isSame) return false;
+    if (!isBox) return readEmpty(number, now);
+    for (int axis = 0; axis < 3; ++axis) {
+      row[axis] = now.min_[axis];
+      row[3 + axis] = now.max_[axis];
+    }
+    return true;
+  }
+
+  /// The object with this number; null where it has left.
+  [[nodiscard]] Object* operator[](BoxId number) const { return m_objects[number]; }
+
+  /// The box of an object as it was last read.
+  [[nodiscard]] Bounds bounds(BoxId number) const {
+    const S* const row = m_rows.data() + std::size_t{6} * number;
+    Bounds bounds;
+    bounds.min_ = {row[0], row[1], row[2]};
+    bounds.max_ = {row[3], row[4], row[5]};
+    return bounds;
+  }
+
+  /// All boxes by number: minx miny minz maxx maxy maxz. Where an object has left it is an empty one.
+  [[nodiscard]] std::span<const S> rows() const { return m_rows; }
+
+  /// How many objects there are; all their numbers are below bound().
+  [[nodiscard]] std::size_t size() const { return m_numbers.size(); }
+  [[nodiscard]] BoxId bound() const { return static_cast<BoxId>(m_objects.size()); }
+
+ private:
+  static constexpr S kMost = std::numeric_limits<S>::max();
+  static constexpr std::array<S, 6> kNothing{kMost, kMost, kMost, -kMost, -kMost, -kMost};
+
+  /// All empty boxes are one, of which nothing is left when it is rounded.
+  bool readEmpty(BoxId number, const Bounds& now) {
+    if (!(now.min_ == now.min_) || !(now.max_ == now.max_)) {
+      throw InvalidBox(number, "the box of object " + std::to_string(number) + " has a NaN");
+    }
+    const auto row = m_rows.begin() + std::ptrdiff_t{6} * number;
+    if (std::equal(kNothing.begin(), kNothing.end(), row)) return false;
+    std::copy(kNothing.begin(), kNothing.end(), row);
+    return true;
+  }
+
+  std::vector<Object*> m_objects;
+  std::vector<S> m_rows;
+  std::unordered_map<Object*, BoxId> m_numbers;
+  std::vector<BoxId> m_free;
+};
+
+}  // namespace allpairs
