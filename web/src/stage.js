@@ -85,7 +85,13 @@ export class Stage extends EventTarget {
   setFrame(frame) {
     this.drawn = drawable(frame.boxes, this.data.origin, this.whole);
     this.boxes.setBoxes(this.drawn);
+    if (this.data.sequence) this.moveShapes(frame.index);
     this.invalidate();
+  }
+
+  moveShapes(index) {
+    this.data.sequence.place(this.data.mesh.vertices, index, this.data.origin);
+    for (const shape of this.shapes) shape.geometry.getAttribute("position").needsUpdate = true;
   }
 
   boxOf(model) {

@@ -2,9 +2,10 @@
 // What a page shows is what `detect` finds; names are text; nothing overlaps.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { allpairs, dataFolder, detect, folder, npy, number, open, ownText, root, screenshot, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { allpairs, clothFrames, dataFolder, detect, folder, npy, number, open, ownText, pages, root, screenshot, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(startBrowser);
 after(stopBrowser);
@@ -160,6 +161,35 @@ test("a sequence of frames has the pairs of each frame, and what began and ended
   await page.waitForFunction(() => document.getElementById("time-frame").textContent === "Frame 3 of 12");
   await page.keyboard.press(" ");
   assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("meshes that move have the pairs of track, frame by frame, and are drawn where they are", async () => {
+  const files = clothFrames(5);
+  const track = JSON.parse(allpairs("track", ...files, "--format", "json"));
+  const page = await view("cloth", ["--sequence", ...files]);
+  assert.equal(await number(page, "#fact-models"), track.boxes);
+  assert.ok(new Set(track.pairs).size > 2);
+  for (let t = 0; t < files.length; ++t) {
+    assert.equal(await number(page, "#fact-pairs"), track.pairs[t], `frame ${t}`);
+    if (t > 0) {
+      assert.equal(toNumber(await page.textContent("#time-began b")), track.began[t]);
+      assert.equal(toNumber(await page.textContent("#time-ended b")), -track.ended[t]);
+    }
+    await screenshot(page, `cloth-${t}`);
+    if (t + 1 < files.length) await page.keyboard.press(".");
+  }
+  const [first, last] = [0, 4].map((t) => readFileSync(join(pages, `cloth-${t}.png`)));
+  assert.ok(!first.equals(last));
+  await page.fill("#pairs-search", "onerror");
+  await page.click("#pairs-list .row");
+  await page.click("#details .link.first");
+  assert.match(await page.textContent("#details .model-name"), /^<img src=x onerror=alert\(1\)>: triangle [0-3]$/);
+  const partners = Number((await ownText(page, "#partner-count")).split(" ")[0]);
+  await page.$eval("#details .list", (list, part) => (list.scrollTop = part * list.scrollHeight), partners / track.boxes);
+  await page.waitForFunction(() => [...document.querySelectorAll("#details .reason")].some((reason) => reason.textContent === "they share a vertex"));
+  await screenshot(page, "cloth-model");
   assert.deepEqual(page.problems, []);
   await page.close();
 });
