@@ -65,13 +65,22 @@ std::string temporaryFile() {
   return name;
 }
 
+/// While a page is served, it is no failure that it opens nowhere by itself.
+void tryToOpen(const std::string& address) {
+  try {
+    openInBrowser(address);
+  } catch (const Error& problem) {
+    fmt::print(stderr, "allpairs: {}\n", problem.what());
+  }
+}
+
 void serve(const view::ViewScene& scene, const ViewSettings& settings) {
   std::string page;
   view::writePage(scene, [&page](std::string_view bytes) { page += bytes; });
   servePage(page, settings.port, [&settings](const std::string& address) {
     fmt::print("{} (end with Ctrl+C)\n", address);
     std::fflush(stdout);
-    if (settings.open) openInBrowser(address);
+    if (settings.open) tryToOpen(address);
   });
 }
 

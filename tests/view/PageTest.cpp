@@ -164,17 +164,5 @@ TEST(PageSize, CountsPositionsAsFloatsWhereTheyAreAndBoxesWhereThereAreNone) {
   EXPECT_EQ(view::bytesOf(frame, 0), 3 * 8U + 3U);
 }
 
-TEST(View, IsServedToThisMachineAlone) {
-  const ProgramRun run = runScript(
-      "\"$0\" view " ALLPAIRS_SOURCE_DIR
-      "/examples/boxes.csv --serve > /dev/null 2>&1 & child=$!\n"
-      "wait_for() { for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.2; grep -q . /proc/$child/net/tcp && return; done; }\n"
-      "wait_for; inodes=$(ls -l /proc/$child/fd 2>/dev/null | sed -n 's/.*socket:\\[\\([0-9]*\\)\\]/\\1/p')\n"
-      "for n in $inodes; do awk -v n=$n '$10 == n && $4 == \"0A\" { print $2 }' /proc/net/tcp; done\n"
-      "kill $child");
-  if (run.out.empty()) GTEST_SKIP() << "the system does not show its sockets";
-  EXPECT_EQ(run.out.substr(0, 9), "0100007F:") << run.out;
-}
-
 }  // namespace
 }  // namespace allpairs::test
