@@ -97,6 +97,31 @@ test("keys choose, leave, switch and explain", async () => {
   await page.close();
 });
 
+test("Tab reaches everything in order, and one sees where it is", async () => {
+  const page = await view("tab", [demo]);
+  const reached = [];
+  for (let i = 0; i < 30; ++i) {
+    await page.keyboard.press("Tab");
+    const at = await page.evaluate(() => {
+      const { activeElement: element } = document;
+      return { name: element.id || element.className, outline: getComputedStyle(element).outlineStyle };
+    });
+    if (at.name === reached[0]) break;
+    if (at.name) assert.notEqual(at.outline, "none", at.name);
+    reached.push(at.name);
+  }
+  const wanted = ["canvas", "show-boxes", "box-mode", "show-shapes", "show-links", "frame-all", "up-axis", "theme", "help-button", "tab-pairs", "pairs-search", "pairs-sort", "pairs-list"];
+  assert.deepEqual(reached.filter((name) => wanted.includes(name)), wanted);
+  await page.focus("#tab-pairs");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.isVisible("#panel-models"), true);
+  await page.focus("#models-list");
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await page.isVisible("#details .model-name"), true);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("a click into the picture chooses the model that is there", async () => {
   const input = write("one.csv", "0,0,0,1,1,1\n");
   const page = await view("one", [input]);
@@ -213,17 +238,40 @@ test("names from files are text, in the page and in the report", async () => {
   await report.close();
 });
 
+/** Counts, in the page, what is drawn. */
+function countDraws() {
+  window.drawn = { frames: 0, draws: 0 };
+  const { prototype } = WebGL2RenderingContext;
+  const count = (name, what) => {
+    const original = prototype[name];
+    prototype[name] = function (...words) {
+      ++window.drawn[what];
+      return original.apply(this, words);
+    };
+  };
+  for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) count(name, "draws");
+  count("fenceSync", "frames");
+}
+
 test("ten thousand models with fifty thousand pairs are all there", async () => {
   const boxes = write("many.npy", "");
   allpairs("generate", "uniform", "-n", "10000", "-o", boxes);
   const input = [boxes, "--margin", "0.014"];
   const result = detect(...input);
   assert.ok(result.pairs.length >= 50_000);
-  const page = await view("many", input);
+  const page = await view("many", input, { init: countDraws });
   const times = await page.evaluate(() => ({ ...document.documentElement.dataset }));
   console.log(`# ${result.pairs.length} pairs: lists after ${times.loaded} ms, picture after ${times.ready} ms`);
   await compareSummary(page, result);
   await screenshot(page, "many");
+  const elements = await page.$$eval("*", (all) => all.length);
+  assert.ok(elements < 600, `${elements} elements: only the rows in sight are in the document`);
+  const { frames, draws } = await page.evaluate(() => window.drawn);
+  assert.ok(draws <= 4 * frames, `${draws} draws in ${frames} pictures: all boxes are one`);
+  await page.waitForTimeout(1500);
+  const settled = await page.evaluate(() => window.drawn.frames);
+  await page.waitForTimeout(500);
+  assert.equal(await page.evaluate(() => window.drawn.frames), settled, "nothing is drawn while nothing moves");
   assert.deepEqual(page.problems, []);
   await page.close();
 });
@@ -255,11 +303,12 @@ function collisions() {
 }
 
 test("nothing covers anything else, on small and wide screens and with large text", async () => {
-  for (const [width, height, font] of [[1280, 800, "16px"], [1280, 800, "32px"], [2560, 1080, "16px"], [700, 900, "20px"]]) {
+  for (const [width, height, font] of [[1280, 800, "16px"], [1280, 800, "32px"], [2560, 1080, "16px"], [700, 900, "20px"], [853, 533, "16px"]]) {
     const page = await view("layout", [demo], { viewport: { width, height } });
     await page.evaluate((size) => (document.documentElement.style.fontSize = size), font);
     await page.keyboard.press("j");
     await page.waitForTimeout(100);
+    if (width > 800 && font === "16px") assert.ok((await page.locator("#details .link.first").boundingBox()).y < height, "what is chosen is in sight");
     assert.deepEqual(await page.evaluate(collisions), [], `${width}x${height}, ${font}`);
     await screenshot(page, `layout-${width}x${height}-${font}`);
     assert.deepEqual(page.problems, []);

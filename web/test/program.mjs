@@ -71,8 +71,9 @@ export const startBrowser = async () => (browser = await chromium.launch({ execu
 export const stopBrowser = () => browser?.close();
 
 /** Opens a file as a page; what it complains about, and what it asks of the network, is kept in `page.problems`. */
-export async function open(path, options = {}) {
+export async function open(path, { init, ...options } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  if (init) await page.addInitScript(init);
   page.setDefaultTimeout(120_000);
   page.problems = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.problems.push(message.text()));
