@@ -7,6 +7,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <chrono>
+#include <thread>
 
 #include "allpairs/Error.h"
 
@@ -19,9 +22,8 @@ constexpr const char* kOpener = "open";
 constexpr const char* kOpener = "xdg-open";
 #endif
 
-}  // namespace
-
-void openInBrowser(const std::string& target) {
+/// Starts the opener, without a word of its own on the terminal; 0, or why it did not start.
+int start(const std::string& target, pid_t& child) {
   std::string program = kOpener;
   std::string argument = target;
   const std::array<char*, 3> words{program.data(), argument.data(), nullptr};  // no shell: names are never commands
@@ -29,12 +31,31 @@ void openInBrowser(const std::string& target) {
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
   const int problem = ::posix_spawnp(&child, kOpener, &actions, nullptr, words.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
+  return problem;
+}
+
+/// Whether it ended at once and badly. One that goes on is the browser itself, which nobody waits for.
+bool hasFailed(pid_t child) {
+  constexpr std::chrono::milliseconds kPatience{2000};
+  constexpr std::chrono::milliseconds kStep{20};
   int status = 0;
-  if (problem == 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw Error(std::string(kOpener) + " cannot open " + target + ": open it in a browser yourself");
+  for (auto waited = kStep; waited < kPatience; waited += kStep) {
+    if (::waitpid(child, &status, WNOHANG) == child) return !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+    std::this_thread::sleep_for(kStep);
+  }
+  return false;
+}
+
+}  // namespace
+
+void openInBrowser(const std::string& target) {
+  const std::string advice = ": open " + target + " in a browser yourself";
+  pid_t child = 0;
+  const int problem = start(target, child);
+  if (problem == ENOENT) throw Error(std::string("there is no ") + kOpener + " here" + advice);
+  if (problem != 0 || hasFailed(child)) throw Error(std::string(kOpener) + " found no way to open it" + advice);
 }
 
 }  // namespace allpairs::app

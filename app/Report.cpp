@@ -10,9 +10,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "Bcf.h"
 #include "Clash.h"
@@ -21,16 +22,13 @@
 #include "ExitStatus.h"
 #include "InputOptions.h"
 #include "MakeViewScene.h"
-#include "Output.h"
 #include "Png.h"
 #include "Progress.h"
+#include "ReportFolder.h"
 #include "SearchArguments.h"
-#include "allpairs/Error.h"
 
 namespace allpairs::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ReportSettings {
   InputSettings input;
@@ -48,18 +46,6 @@ Examples:
   allpairs report assembly.glb --margin 0.01 -o report --pictures 100
   allpairs report parts/ --metres-per-unit 0.001 -o report)";
 
-void writeFile(const fs::path& path, std::string_view bytes) {
-  Output output(path);
-  output.write(bytes);
-  output.commit();
-}
-
-void makeFolder(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) throw FileError(folder, "cannot make this folder: " + problem.message());
-}
-
 /// Now, or the moment that builds which must repeat exactly give in SOURCE_DATE_EPOCH.
 std::string dateText() {
   std::time_t moment = std::time(nullptr);
@@ -71,41 +57,45 @@ std::string dateText() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
 }
 
-/// The pictures of the first clashes as files, by number.
-std::vector<std::string> writePictures(const view::ViewScene& scene, std::span<const view::Clash> clashes,
-                                       const fs::path& folder) {
+/// The pictures of the first clashes as PNG files, by number.
+std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<const view::Clash> clashes) {
   ProgressLine line;
   std::vector<std::string> pictures;
   for (const view::Clash& clash : clashes) {
     line.show(fmt::format("drawing {} of {}", clash.number, clashes.size()));
     pictures.push_back(view::encodePng(view::pictureOf(scene, clash, view::cameraOf(scene, clash))));
-    writeFile(folder / view::pictureName(clash), pictures.back());
   }
   return pictures;
 }
 
-void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
-  const fs::path folder = settings.folder;
-  const std::vector<view::Clash> clashes = view::clashesOf(scene);
-  const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
-  makeFolder(folder / "pictures");
-  const std::vector<std::string> pictures = writePictures(scene, pictured, folder);
+std::string bcfOf(const view::ViewScene& scene, std::span<const view::Clash> pictured,
+                  const std::vector<std::string>& pictures, double metresPerUnit) {
   view::BcfOptions options;
   options.date = dateText();
-  options.metresPerUnit = settings.metresPerUnit;
+  options.metresPerUnit = metresPerUnit;
   options.picture = [&pictures](const view::Clash& clash) { return pictures[clash.number - 1]; };
-  writeFile(folder / "clashes.bcf", view::makeBcf(scene, pictured, options));
-  Output csv(folder / "clashes.csv");
-  view::writeReportCsv(scene, clashes, [&csv](std::string_view bytes) { csv.write(bytes); });
-  csv.commit();
-  Output page(folder / "index.html");  // last, so that what it refers to is there
-  view::writeReportPage(scene, clashes, pictured.size(), [&page](std::string_view bytes) { page.write(bytes); });
-  page.commit();
+  return view::makeBcf(scene, pictured, options);
+}
+
+/// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind.
+void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
+  const std::vector<view::Clash> clashes = view::clashesOf(scene);
+  const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
+  const std::vector<std::string> pictures = drawPictures(scene, pictured);
+  const std::string bcf = bcfOf(scene, pictured, pictures, settings.metresPerUnit);
+  ReportFolder folder(settings.folder);
+  for (const view::Clash& clash : pictured) folder.write(view::pictureName(clash.number), pictures[clash.number - 1]);
+  folder.write("clashes.bcf", bcf);
+  folder.write("clashes.csv", [&](scene::ByteSink sink) { view::writeReportCsv(scene, clashes, sink); });
+  folder.write("index.html",  // last, so that what it refers to is there
+               [&](scene::ByteSink sink) { view::writeReportPage(scene, clashes, pictured.size(), sink); });
+  folder.commit(pictured.size());
 }
 
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("-o DIR is needed: the folder to write into");
   if (!(settings.metresPerUnit > 0.0)) throw UsageError("--metres-per-unit: a number above 0 is needed");
+  checkReportFolder(settings.folder);
   const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
   if (scene.frames.size() > 1) throw UsageError("a report is of one moment: the input has several frames");
   writeReport(scene, settings);

@@ -22,6 +22,7 @@
 #include "OutputOption.h"
 #include "SearchArguments.h"
 #include "ServePage.h"
+#include "ViewFrames.h"
 #include "WritePage.h"
 #include "allpairs/Error.h"
 
@@ -32,6 +33,7 @@ struct ViewSettings {
   InputSettings input;
   SearchArguments search;
   std::string output;
+  bool sequence = false;
   bool open = false;
   bool serve = false;
   int port = 0;
@@ -43,6 +45,7 @@ constexpr const char* kExamples =
 Examples:
   allpairs view scene.scn -o scene.html
   allpairs view parts/ --margin 0.5 --open
+  allpairs view --sequence cloth_*.ply -o cloth.html
   allpairs view boxes.npy --serve)";
 
 void writeFile(const view::ViewScene& scene, const std::optional<std::filesystem::path>& path) {
@@ -62,18 +65,29 @@ std::string temporaryFile() {
   return name;
 }
 
+/// While a page is served, it is no failure that it opens nowhere by itself.
+void tryToOpen(const std::string& address) {
+  try {
+    openInBrowser(address);
+  } catch (const Error& problem) {
+    fmt::print(stderr, "allpairs: {}\n", problem.what());
+  }
+}
+
 void serve(const view::ViewScene& scene, const ViewSettings& settings) {
   std::string page;
   view::writePage(scene, [&page](std::string_view bytes) { page += bytes; });
   servePage(page, settings.port, [&settings](const std::string& address) {
     fmt::print("{} (end with Ctrl+C)\n", address);
     std::fflush(stdout);
-    if (settings.open) openInBrowser(address);
+    if (settings.open) tryToOpen(address);
   });
 }
 
 void runView(const ViewSettings& settings) {
-  const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
+  const DetectionOptions options = detectionOptions(settings.search);
+  const view::ViewScene scene =
+      settings.sequence ? makeViewFrames(settings.input, options) : makeViewScene(settings.input, options);
   std::optional<std::filesystem::path> path;
   if (!settings.output.empty()) path = settings.output;
   if (!path && settings.open && !settings.serve) path = temporaryFile();
@@ -90,6 +104,8 @@ void addView(CLI::App& program) {
   command->footer(kExamples);
   addInputOptions(*command, settings->input);
   addSearchOptions(*command, settings->search);
+  command->add_flag("--sequence", settings->sequence,
+                    "Each INPUT is a moment of the same meshes, as for track: pairs of triangles, frame by frame");
   addOutputOption(*command, settings->output);
   command->add_flag("--open", settings->open, "Open the page in the browser");
   command->add_flag("--serve", settings->serve, "Serve the page on this machine alone until the program is ended");

@@ -32,7 +32,7 @@ _allpairs() {
         words='--margin --box --strategy --threads --verify --exact --format -o --output --partial --data -h --help'
         ;;
       info) words='--partial --data -h --help' ;;
-      view) words='--margin --box --partial --data -o --output --open --serve --port -h --help' ;;
+      view) words='--sequence --margin --box --partial --data -o --output --open --serve --port -h --help' ;;
       report) words='--margin --box --partial --data -o --output --pictures --metres-per-unit -h --help' ;;
       track) words='--margin --threads --verify --format -o --output -h --help' ;;
       elements) words='--margin --between --threads --format -o --output -h --help' ;;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "allpairs/Overlaps.h"
 
@@ -92,13 +93,20 @@ Explanation explain(const ViewScene& scene, const ViewFrame& frame, std::uint32_
   if (newer == older) return explainSelf(frame, newer);
   const Explanation byFlags = explainFlags(scene, frame, newer, older);
   if (byFlags.verdict != Verdict::Pair) return byFlags;
+  if (!scene.corners.empty() && shareVertex(scene, newer, older)) return {.verdict = Verdict::SharesVertex};
   return explainBoxes(frame.boxes[newer], frame.boxes[older], distanceOf(scene, newer, older));
 }
 
+bool shareVertex(const ViewScene& scene, std::uint32_t a, std::uint32_t b) {
+  const auto ofA = std::span(scene.corners).subspan(3 * std::size_t{a}, 3);
+  const auto ofB = std::span(scene.corners).subspan(3 * std::size_t{b}, 3);
+  return std::find_first_of(ofA.begin(), ofA.end(), ofB.begin(), ofB.end()) != ofA.end();
+}
+
 std::string_view verdictName(Verdict verdict) {
-  static constexpr std::array<std::string_view, 10> kNames{"pair",          "inactive",   "no-elements", "outside",
-                                                           "not-simulated", "same-owner", "same-group",  "apart",
-                                                           "no-self",       "flat"};
+  static constexpr std::array<std::string_view, 11> kNames{
+      "pair",       "inactive",      "no-elements", "outside", "not-simulated", "same-owner",
+      "same-group", "shares-vertex", "apart",       "no-self", "flat"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

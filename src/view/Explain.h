@@ -17,9 +17,10 @@ enum class Verdict : std::uint8_t {
   NotSimulated,  ///< Neither of the two is simulated.
   SameOwner,     ///< Parts of one body, of which not both may collide with it.
   SameGroup,
-  Apart,   ///< The boxes are further apart than counts, or one of them is empty.
-  NoSelf,  ///< A model with itself: it may not collide with itself.
-  Flat,    ///< A model with itself: too flat to touch itself.
+  SharesVertex,  ///< Triangles of a mesh that have one in common.
+  Apart,         ///< The boxes are further apart than counts, or one of them is empty.
+  NoSelf,        ///< A model with itself: it may not collide with itself.
+  Flat,          ///< A model with itself: too flat to touch itself.
 };
 
 struct Explanation {
@@ -37,6 +38,9 @@ struct Explanation {
 
 /// The distance at which two models' boxes are near, the newer first.
 [[nodiscard]] double distanceOf(const ViewScene& scene, std::uint32_t newer, std::uint32_t older);
+
+/// Whether two models, triangles of meshes, have a vertex in common.
+[[nodiscard]] bool shareVertex(const ViewScene& scene, std::uint32_t a, std::uint32_t b);
 
 /// "pair", "inactive", "no-elements": the verdict's name in tests and tables.
 [[nodiscard]] std::string_view verdictName(Verdict verdict);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Xml.h"
 
 namespace allpairs::view {
@@ -27,6 +29,8 @@ td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-spa
 @media print{figure{break-inside:avoid}}
 )";
 
+constexpr std::size_t kMostRows = 10'000;  // of more, browsers take seconds to lay out the page
+
 std::string namesOf(const ViewScene& scene, const Clash& clash) {
   std::string text = fmt::format("<span class=\"first\">{}</span>", escapeXml(scene.name(clash.first)));
   if (clash.isSelf()) return text + " with itself";
@@ -35,7 +39,7 @@ std::string namesOf(const ViewScene& scene, const Clash& clash) {
 
 std::string figureOf(const ViewScene& scene, const Clash& clash) {
   std::string text = fmt::format("<figure id=\"clash-{}\"><img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" ",
-                                 clash.number, pictureName(clash), escapeXml(titleOf(scene, clash)));
+                                 clash.number, pictureName(clash.number), escapeXml(titleOf(scene, clash)));
   text += fmt::format("loading=\"lazy\"><figcaption>{}. {}", clash.number, namesOf(scene, clash));
   if (!clash.isSelf()) {
     text += fmt::format("<br><span class=\"fact\">overlap {:.4g} × {:.4g} × {:.4g}, volume {:.4g}</span>",
@@ -62,18 +66,29 @@ std::string quoted(const std::string& text) {
 std::string introduction(const ViewScene& scene, std::size_t count, std::size_t pictured) {
   std::string text = fmt::format("<h1>{}</h1>\n<p>{} models, {} pairs. {}.</p>\n", escapeXml(scene.title),
                                  scene.modelCount, count, escapeXml(scene.method));
+  if (count == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
   text +=
       "<p>A pair is two models whose axis-aligned bounding boxes are near enough: they may touch, and only a look at "
       "their shapes says whether they do. Red is what the two boxes share. The largest comes first; models that may "
       "touch themselves come last.</p>\n";
   text += "<p>Also in this folder: <a href=\"clashes.csv\">clashes.csv</a>, <a href=\"clashes.bcf\">clashes.bcf</a>.";
   if (pictured < count) text += fmt::format(" The first {} have pictures and are in the BCF file.", pictured);
+  if (kMostRows < count) text += fmt::format(" The table here has the first {}, clashes.csv has all.", kMostRows);
   return text + "</p>\n";
+}
+
+void writeTable(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {
+  if (clashes.empty()) return;
+  sink("<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th><th>first</th><th>second</th>");
+  sink("<th class=\"number\">x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
+  sink("<th class=\"number\">volume</th></tr></thead>\n<tbody>\n");
+  for (const Clash& clash : clashes) sink(rowOf(scene, clash));
+  sink("</tbody>\n</table></div>\n");
 }
 
 }  // namespace
 
-std::string pictureName(const Clash& clash) { return fmt::format("pictures/{:04}.png", clash.number); }
+std::string pictureName(std::size_t number) { return fmt::format("pictures/{:04}.png", number); }
 
 void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured,
                      scene::ByteSink sink) {
@@ -86,12 +101,9 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
   sink(introduction(scene, clashes.size(), pictured));
   sink("<section class=\"clashes\">\n");
   for (const Clash& clash : clashes.first(pictured)) sink(figureOf(scene, clash));
-  sink(
-      "</section>\n<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th><th>first</th><th>second</th>");
-  sink("<th class=\"number\">x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
-  sink("<th class=\"number\">volume</th></tr></thead>\n<tbody>\n");
-  for (const Clash& clash : clashes) sink(rowOf(scene, clash));
-  sink("</tbody>\n</table></div>\n</main>\n</body>\n</html>\n");
+  sink("</section>\n");
+  writeTable(scene, clashes.first(std::min(clashes.size(), kMostRows)), sink);
+  sink("</main>\n</body>\n</html>\n");
 }
 
 void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {

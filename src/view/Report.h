@@ -9,7 +9,7 @@
 namespace allpairs::view {
 
 /// Where a clash's picture lies in the folder of a report: pictures/0001.png.
-[[nodiscard]] std::string pictureName(const Clash& clash);
+[[nodiscard]] std::string pictureName(std::size_t number);
 
 /// Writes the page of a report. The first `pictured` clashes have pictures beside it.
 void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured,

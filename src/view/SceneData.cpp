@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "Base64.h"
-#include "allpairs/Error.h"
+#include "PageSize.h"
 
 namespace allpairs::view {
 namespace {
@@ -18,8 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "the page reads its arrays as little-endian");
-
-constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // as base64, about what browsers take for one text
 
 /// Arrays one after the other, each at a multiple of eight bytes, and the list that says where.
 class ArrayWriter {
@@ -51,6 +49,10 @@ class ArrayWriter {
 void append(std::vector<double>& numbers, const Box& box) {
   numbers.insert(numbers.end(), box.min.begin(), box.min.end());
   numbers.insert(numbers.end(), box.max.begin(), box.max.end());
+}
+
+void append(std::vector<double>& numbers, const std::vector<Box>& boxes) {
+  for (const Box& box : boxes) append(numbers, box);
 }
 
 void append(std::vector<std::uint32_t>& numbers, const std::vector<Pair>& pairs) {
@@ -96,7 +98,7 @@ void addFrames(const ViewScene& scene, ArrayWriter& arrays) {
   std::vector<std::uint32_t> excluded;
   std::vector<std::uint32_t> excludedEnds;
   for (const ViewFrame& frame : scene.frames) {
-    for (const Box& box : frame.boxes) append(boxes, box);
+    if (frame.positions.empty()) append(boxes, frame.boxes);
     flags.insert(flags.end(), frame.flags.begin(), frame.flags.end());
     append(pairs, frame.pairs);
     append(excluded, frame.excluded);
@@ -109,6 +111,20 @@ void addFrames(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("pairEnds", pairEnds);
   arrays.add("excluded", excluded);
   arrays.add("excludedEnds", excludedEnds);
+}
+
+/// Where the vertices of a sequence of meshes are, frame by frame: in float32 where that holds them exactly.
+void addPositions(const ViewScene& scene, ArrayWriter& arrays) {
+  std::vector<double> positions;
+  for (const ViewFrame& frame : scene.frames) {
+    positions.insert(positions.end(), frame.positions.begin(), frame.positions.end());
+  }
+  if (areFloats(positions)) {
+    arrays.add("positions", std::vector<float>(positions.begin(), positions.end()));
+  } else {
+    arrays.add("positions", positions);
+  }
+  arrays.add("corners", scene.corners);
 }
 
 void addModels(const ViewScene& scene, ArrayWriter& arrays) {
@@ -164,6 +180,7 @@ SceneData::SceneData(const ViewScene& scene) {
   addModels(scene, arrays);
   addFrames(scene, arrays);
   addMesh(scene.mesh, origin, arrays);
+  addPositions(scene, arrays);
   Json json{{"format", 1},
             {"version", ALLPAIRS_VERSION},
             {"title", scene.title},
@@ -180,10 +197,7 @@ SceneData::SceneData(const ViewScene& scene) {
             {"arrays", arrays.list()}};
   m_json = scriptSafe(json);
   m_bytes = arrays.bytes();
-  if (m_json.size() + m_bytes.size() > kMostBytes) {
-    throw Error(std::to_string(scene.modelCount) + " models and their pairs are too much for one page: " +
-                std::to_string((m_json.size() + m_bytes.size()) >> 20U) + " MiB");
-  }
+  checkPageSize(scene, m_json.size() + m_bytes.size());
 }
 
 void SceneData::writeBase64(scene::ByteSink sink) const { view::writeBase64(m_bytes, sink); }

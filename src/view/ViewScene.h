@@ -41,7 +41,8 @@ struct ViewFrame {
   std::vector<Box> boxes;
   std::vector<std::uint8_t> flags;
   std::vector<Pair> pairs;
-  std::vector<Pair> excluded;  ///< (newer, older): the boxes are near enough, and a rule says no.
+  std::vector<Pair> excluded;       ///< (newer, older): the boxes are near enough, and a rule says no.
+  std::vector<double> positions{};  ///< Of a sequence of meshes: x y z of each vertex; its boxes are the triangles'.
 };
 
 /// All that a page or a report shows: models, what the rules read of them, and what was found, frame by frame.
@@ -61,7 +62,8 @@ struct ViewScene {
   std::vector<std::uint32_t> elements;
   std::vector<double> contactDistances;
   ViewMesh mesh;
-  std::vector<ViewFrame> frames;  ///< At least one.
+  std::vector<std::uint32_t> corners;  ///< Of a sequence of meshes, whose models are triangles: three vertices each.
+  std::vector<ViewFrame> frames;       ///< At least one.
   std::vector<scene::Remark> ignored;
   scene::DetectionStatistics statistics;
 

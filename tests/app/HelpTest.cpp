@@ -48,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values(std::vector<std::string>{}, std::vector<std::string>{"detect"},
                                          std::vector<std::string>{"info"}, std::vector<std::string>{"track"},
                                          std::vector<std::string>{"elements"}, std::vector<std::string>{"generate"},
-                                         std::vector<std::string>{"bench"}));
+                                         std::vector<std::string>{"bench"}, std::vector<std::string>{"view"},
+                                         std::vector<std::string>{"report"}));
 
 TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
   const std::set<std::string> options = optionsOf(runProgram({"detect", "--help"}).out);

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/MakeViewScene.h"
+#include "app/ViewFrames.h"
 #include "support/Data.h"
 #include "support/TempFolder.h"
 
@@ -46,22 +49,11 @@ Verdict verdictOf(const ViewScene& scene, const std::string& a, const std::strin
 }
 
 /// A model for each rule.
-std::string rulesScene(const TempFolder& folder) {
-  return folder.write("rules.scn", R"(<Node name="root"><DefaultPipeline/>
-<BruteForceBroadPhase box="-9 -9 -9 9 9 9"/><MinProximityIntersection alarmDistance="0.5"/>
-<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
-<Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
-<Node name="G"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" group="4 7"/></Node>
-<Node name="H"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" group="7 8"/></Node>
-<Node name="S"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" simulated="0"/></Node>
-<Node name="T"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1" simulated="0"/>
-<SphereCollisionModel name="t" radius="1" selfCollision="1"/></Node>
-<Node name="O"><MechanicalObject position="50 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)");
-}
+const std::string kRules = ALLPAIRS_SOURCE_DIR "/tests/view/rules.scn";
+const std::string kFlat = ALLPAIRS_SOURCE_DIR "/tests/view/flat.scn";
 
 TEST(Explain, NamesTheRuleThatKeepsTwoModelsApart) {
-  const TempFolder folder;
-  const ViewScene scene = sceneOf(rulesScene(folder));
+  const ViewScene scene = sceneOf(kRules);
   EXPECT_EQ(verdictOf(scene, "/A/s", "/G/s"), Verdict::Pair);
   EXPECT_EQ(verdictOf(scene, "/A/s", "/B/s"), Verdict::Apart);
   EXPECT_EQ(verdictOf(scene, "/G/s", "/H/s"), Verdict::SameGroup);
@@ -70,11 +62,15 @@ TEST(Explain, NamesTheRuleThatKeepsTwoModelsApart) {
   EXPECT_EQ(verdictOf(scene, "/A/s", "/O/s"), Verdict::Outside);
   EXPECT_EQ(verdictOf(scene, "/A/s", "/A/s"), Verdict::NoSelf);
   EXPECT_EQ(verdictOf(scene, "/T/t", "/T/t"), Verdict::Pair);
+  EXPECT_EQ(verdictOf(scene, "/A/s", "/I/s"), Verdict::Inactive);
+  EXPECT_EQ(verdictOf(scene, "/A/s", "/E/p"), Verdict::NoElements);
+  const ViewScene flat = sceneOf(kFlat);
+  EXPECT_EQ(verdictOf(flat, "/Flat/t", "/Flat/t"), Verdict::Flat);
+  EXPECT_EQ(verdictOf(flat, "/Bent/t", "/Bent/t"), Verdict::Pair);
 }
 
 TEST(Explain, TellsTheWidestGapAndItsAxisAndTheSmallestCommonGroup) {
-  const TempFolder folder;
-  const ViewScene scene = sceneOf(rulesScene(folder));
+  const ViewScene scene = sceneOf(kRules);
   const auto apart = explain(scene, scene.frames.front(), 1, 0);
   EXPECT_EQ(apart.axis, 0);
   EXPECT_DOUBLE_EQ(apart.gap, 1.0);
@@ -82,14 +78,45 @@ TEST(Explain, TellsTheWidestGapAndItsAxisAndTheSmallestCommonGroup) {
 }
 
 TEST(Explain, GivesThePairsOfTheBroadPhaseInItsOrder) {
-  const TempFolder folder;
-  const std::vector<std::string> paths{rulesScene(folder), ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn",
+  const std::vector<std::string> paths{kRules, kFlat, ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn",
                                        ALLPAIRS_SOURCE_DIR "/examples/boxes.csv"};
   for (const std::string& path : paths) {
     const ViewScene scene = sceneOf(path);
     EXPECT_FALSE(scene.frames.front().pairs.empty()) << path;
     EXPECT_EQ(pairsByVerdict(scene, scene.frames.front()), scene.frames.front().pairs) << path;
   }
+}
+
+/// A strip of squares, two triangles each, folded about its middle by `angle`.
+std::string foldedStrip(double angle) {
+  std::ostringstream text;
+  for (int i = 0; i <= 8; ++i) {
+    const double along = i - 4;
+    const double x = along > 0 ? along * std::cos(angle) : along;
+    const double z = along > 0 ? along * std::sin(angle) : 0.0;
+    text << "v " << x << " 0 " << z << "\nv " << x << " 1 " << z << '\n';
+  }
+  for (int i = 1; i < 16; i += 2) {
+    text << "f " << i << ' ' << i + 2 << ' ' << i + 1 << "\nf " << i + 1 << ' ' << i + 2 << ' ' << i + 3 << '\n';
+  }
+  return text.str();
+}
+
+TEST(Explain, GivesThePairsOfEachFrameOfAMeshAndSaysWhichTrianglesShareAVertex) {
+  const TempFolder folder;
+  app::InputSettings input;
+  for (const double angle : {0.1, 1.5, 3.1}) {
+    const std::string name = std::to_string(input.paths.size()) + ".obj";
+    input.paths.push_back(folder.write(name, foldedStrip(angle)));
+  }
+  app::DetectionOptions options;
+  options.margin = 0.25;
+  const ViewScene scene = makeViewFrames(input, options);
+  ASSERT_EQ(scene.frames.size(), 3U);
+  for (const view::ViewFrame& frame : scene.frames) EXPECT_EQ(pairsByVerdict(scene, frame), frame.pairs);
+  EXPECT_EQ(explain(scene, scene.frames[0], 1, 0).verdict, Verdict::SharesVertex);
+  EXPECT_EQ(explain(scene, scene.frames[0], 15, 0).verdict, Verdict::Apart);
+  EXPECT_EQ(explain(scene, scene.frames[2], 15, 0).verdict, Verdict::Pair);
 }
 
 TEST(Explain, FollowsMarginAndRegionOfBoxes) {
@@ -114,15 +141,15 @@ TEST(Explain, GivesThePairsOfRealScenes) {
 }
 
 TEST(ExcludedPairs, AreThoseThatTouchAndThatARuleKeepsApart) {
-  const TempFolder folder;
-  for (const std::string& path : {rulesScene(folder), std::string(ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn")}) {
+  for (const std::string& path : {kRules, std::string(ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn")}) {
     const ViewScene scene = sceneOf(path);
     const view::ViewFrame& frame = scene.frames.front();
     std::vector<Pair> expected;
     for (std::uint32_t newer = 0; newer < scene.modelCount; ++newer) {
       for (std::uint32_t older = 0; older < newer; ++older) {
         const Verdict verdict = explain(scene, frame, newer, older).verdict;
-        const bool takePart = verdict != Verdict::Outside && verdict != Verdict::Inactive;
+        const bool takePart =
+            verdict != Verdict::Outside && verdict != Verdict::Inactive && verdict != Verdict::NoElements;
         const bool areNear = overlap(frame.boxes[newer], frame.boxes[older], distanceOf(scene, newer, older));
         if (takePart && areNear && verdict != Verdict::Pair) expected.push_back({newer, older});
       }

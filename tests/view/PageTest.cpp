@@ -3,10 +3,13 @@
 
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "Base64.h"
+#include "PageSize.h"
 #include "Xml.h"
+#include "allpairs/Error.h"
 #include "app/Expect.h"
 #include "support/Npy.h"
 #include "support/TempFolder.h"
@@ -91,16 +94,74 @@ TEST(View, BoxesOverTimeGiveFramesAndStandAlone) {
   expectFailure(runProgram({"report", input, "-o", folder.path() / "r"}), 2, "a report is of one moment");
 }
 
-TEST(View, IsServedToThisMachineAlone) {
-  const ProgramRun run = runScript(
-      "\"$0\" view " ALLPAIRS_SOURCE_DIR
-      "/examples/boxes.csv --serve > /dev/null 2>&1 & child=$!\n"
-      "wait_for() { for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.2; grep -q . /proc/$child/net/tcp && return; done; }\n"
-      "wait_for; inodes=$(ls -l /proc/$child/fd 2>/dev/null | sed -n 's/.*socket:\\[\\([0-9]*\\)\\]/\\1/p')\n"
-      "for n in $inodes; do awk -v n=$n '$10 == n && $4 == \"0A\" { print $2 }' /proc/net/tcp; done\n"
-      "kill $child");
-  if (run.out.empty()) GTEST_SKIP() << "the system does not show its sockets";
-  EXPECT_EQ(run.out.substr(0, 9), "0100007F:") << run.out;
+constexpr const char* kTwoTriangles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {}\nv 1 0 {}\nv 0 1 {}\nf 1 2 3\nf 4 5 6\n";
+
+std::string twoTriangles(const std::string& height) {
+  return std::regex_replace(std::string(kTwoTriangles), std::regex("\\{\\}"), height);
+}
+
+TEST(View, MeshesOverTimeHaveThePairsThatTrackCounts) {
+  const TempFolder folder;
+  std::vector<std::string> words{"view", "--sequence", "--margin", "0.1"};
+  for (const char* height : {"1", "0.05", "0", "0.3"}) {
+    words.push_back(folder.write(std::to_string(words.size()) + ".obj", twoTriangles(height)));
+  }
+  const ProgramRun run = runProgram(words);
+  expectSuccess(run);
+  const Json scene = Json::parse(scriptOf(run.out, "allpairs-scene"));
+  EXPECT_EQ(scene["models"], 2);
+  EXPECT_EQ(scene["frames"], 4);
+  EXPECT_EQ(scene["names"], (std::vector<std::string>{"triangle 0", "triangle 1"}));
+  words[0] = "track";
+  words[1] = "--format=json";
+  const Json track = Json::parse(runProgram(words).out);
+  EXPECT_EQ(track["pairs"], (std::vector<int>{0, 1, 1, 0}));
+  const auto arrayOf = [&scene](const std::string& name) {
+    for (const Json& array : scene["arrays"]) {
+      if (array["name"] == name) return array;
+    }
+    return Json();
+  };
+  EXPECT_EQ(arrayOf("pairs")["length"], 4);
+  EXPECT_EQ(arrayOf("boxes")["length"], 0) << "the page makes them from the positions";
+  EXPECT_EQ(arrayOf("positions")["length"], 4 * 6 * 3);
+  EXPECT_EQ(arrayOf("positions")["type"], "Float64") << "0.05 is no float32";
+}
+
+TEST(View, SaysWhatIsWrongWithMeshesOverTime) {
+  const TempFolder folder;
+  const std::string two = folder.write("two.obj", twoTriangles("1"));
+  const std::string one = folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expectFailure(runProgram({"view", "--sequence", two, one}), 3, "one.obj");
+  expectFailure(runProgram({"view", "--sequence", two, "--partial"}), 2, "--partial and --data do not go with");
+}
+
+TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {
+  view::ViewScene scene;
+  scene.modelCount = 7;
+  view::checkPageSize(scene, 1U << 20U);
+  const auto complaint = [&scene] {
+    try {
+      view::checkPageSize(scene, std::size_t{1} << 30U);
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_NE(complaint().find("a smaller margin, or fewer inputs"), std::string::npos) << complaint();
+  scene.frames.resize(2);
+  EXPECT_NE(complaint().find("fewer frames, or a smaller margin"), std::string::npos) << complaint();
+}
+
+TEST(PageSize, CountsPositionsAsFloatsWhereTheyAreAndBoxesWhereThereAreNone) {
+  view::ViewFrame frame;
+  frame.boxes.resize(3);
+  frame.flags.resize(3);
+  EXPECT_EQ(view::bytesOf(frame, 2), 3 * 48U + 3U + 2 * 8U);
+  frame.positions = {1.0, 2.5, -0.125};
+  EXPECT_EQ(view::bytesOf(frame, 0), 3 * 4U + 3U);
+  frame.positions[1] = 0.1;
+  EXPECT_EQ(view::bytesOf(frame, 0), 3 * 8U + 3U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -66,6 +67,8 @@ void expectMarkup(const std::string& text, const std::string& folder) {
   EXPECT_EQ(childrenOf(markup), (Names{"Header", "Topic", "Viewpoints"}));
   const pugi::xml_node topic = markup.child("Topic");
   EXPECT_EQ(topic.attribute("Guid").value(), folder);
+  EXPECT_EQ(childrenOf(markup.child("Header")), (Names{"File"}));
+  EXPECT_EQ(childrenOf(markup.child("Header").child("File")), (Names{"Filename"}));
   EXPECT_EQ(childrenOf(topic), (Names{"Title", "Index", "CreationDate", "CreationAuthor", "Description"}));
   EXPECT_TRUE(std::regex_match(topic.child_value("CreationDate"),
                                std::regex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z")));
@@ -83,10 +86,18 @@ void expectViewpoint(const std::string& text) {
   EXPECT_TRUE(isGuid(info.attribute("Guid").value()));
   EXPECT_EQ(childrenOf(info), (Names{"Components", "OrthogonalCamera"}));
   EXPECT_EQ(childrenOf(info.child("Components")), (Names{"Selection", "Visibility"}));
+  for (const pugi::xml_node& component : info.child("Components").child("Selection").children()) {
+    EXPECT_STREQ(component.name(), "Component");
+    EXPECT_EQ(childrenOf(component), (Names{"OriginatingSystem", "AuthoringToolId"}));
+  }
+  EXPECT_FALSE(info.child("Components").child("Visibility").attribute("DefaultVisibility").empty());
   const pugi::xml_node camera = info.child("OrthogonalCamera");
   EXPECT_EQ(childrenOf(camera), (Names{"CameraViewPoint", "CameraDirection", "CameraUpVector", "ViewToWorldScale"}));
   for (const char* part : {"CameraViewPoint", "CameraDirection", "CameraUpVector"}) {
     EXPECT_EQ(childrenOf(camera.child(part)), (Names{"X", "Y", "Z"}));
+    for (const pugi::xml_node& coordinate : camera.child(part).children()) {
+      EXPECT_TRUE(std::isfinite(coordinate.text().as_double(NAN))) << part;
+    }
   }
   EXPECT_GT(camera.child("ViewToWorldScale").text().as_double(), 0.0);
 }
@@ -97,6 +108,7 @@ TEST(Report, BcfHasATopicAViewpointAndAPictureForEachPairInTheFormOfVersion21) {
   const auto files = filesOf(folder.path() / "out/clashes.bcf");
   const pugi::xml_document version = parse(files.at("bcf.version"));
   EXPECT_STREQ(version.child("Version").attribute("VersionId").value(), "2.1");
+  EXPECT_EQ(childrenOf(version.child("Version")), (Names{"DetailedVersion"}));
   std::size_t topics = 0;
   for (const auto& [name, bytes] : files) {
     if (!name.ends_with("/markup.bcf")) continue;
@@ -154,10 +166,57 @@ TEST(Report, NamesAreTextInThePageAndInBcf) {
   }
 }
 
+std::vector<std::string> filesIn(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    files.push_back(entry.path().lexically_relative(folder));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(Report, WithoutPairsSaysSo) {
+  const TempFolder folder;
+  const std::string input = folder.write("a.csv", "0,0,0,1,1,1\n5,5,5,6,6,6\n");
+  expectSuccess(runProgram({"report", input, "-o", folder.path() / "out"}));
+  const std::string page = readBytes(folder.path() / "out/index.html");
+  EXPECT_NE(page.find("No two models are near enough to touch"), std::string::npos);
+  EXPECT_EQ(page.find("<table"), std::string::npos);
+  EXPECT_EQ(readBytes(folder.path() / "out/clashes.csv"),
+            "number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
+  EXPECT_EQ(filesOf(folder.path() / "out/clashes.bcf").size(), 1U);
+}
+
+TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
+  const TempFolder folder;
+  const std::string out = folder.path() / "out";
+  const std::string three = folder.write("a.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n0,0,0,2,2,1\n");
+  expectSuccess(runProgram({"report", three, "-o", out}));
+  folder.write("out/pictures/mine.png", "");
+  folder.write("out/pictures/0009.png", "");
+  const std::string two = folder.write("b.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n");
+  expectSuccess(runProgram({"report", two, "-o", out}));
+  EXPECT_EQ(filesIn(out), (Names{"clashes.bcf", "clashes.csv", "index.html", "pictures", "pictures/0001.png",
+                                 "pictures/0009.png", "pictures/mine.png"}));
+}
+
+TEST(Report, ThatCannotBeWrittenLeavesNothingBehind) {
+  const TempFolder folder;
+  fs::create_directories(folder.path() / "out/index.html/x");  // no file can be put there
+  const ProgramRun run = runProgram({"report", kDemo, "-o", folder.path() / "out", "--pictures", "3"});
+  expectFailure(run, 3, "index.html");
+  EXPECT_EQ(filesIn(folder.path()), (Names{"out", "out/index.html", "out/index.html/x"}));
+  expectFailure(runProgram({"report", "missing.obj", "-o", folder.path() / "a/b"}), 3, "missing.obj");
+  EXPECT_FALSE(fs::exists(folder.path() / "a"));
+  expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "a/b/", "--pictures", "1"}));
+  EXPECT_TRUE(fs::exists(folder.path() / "a/b/pictures/0001.png"));
+}
+
 TEST(Report, SaysWhatIsWrong) {
   const TempFolder folder;
   const std::string file = folder.write("file", "");
   expectFailure(runProgram({"report", kDemo, "-o", file + "/out"}), 3, "cannot make this folder");
+  expectFailure(runProgram({"report", kDemo, "-o", file}), 3, "is a file, and -o names a folder");
   expectFailure(runProgram({"report", kDemo}), 2, "-o DIR is needed");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
                 "a number above 0");

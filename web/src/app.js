@@ -12,7 +12,7 @@ export class App extends EventTarget {
     super();
     this.scene = scene;
     this.stage = null; // until there is a picture; for good where the browser has no WebGL
-    this.show = { boxes: true, shapes: true, links: false, excluded: true, region: scene.region !== null };
+    this.show = { boxes: scene.sequence === null, shapes: true, links: false, excluded: true, region: scene.region !== null };
     this.boxMode = scene.models > 3000 ? "solid" : "outlines";
     this.models = []; // chosen: none, one, or the two of a pair
     this.setFrame(0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The scene as the program wrote it into the page: words as JSON, numbers as little-endian arrays in base64.
 
+import { MeshSequence } from "./sequence.js";
+
 const kinds = { Float64: Float64Array, Float32: Float32Array, Uint32: Uint32Array, Uint8: Uint8Array };
 
 function bytesOf(base64) {
@@ -11,16 +13,16 @@ function bytesOf(base64) {
   return bytes;
 }
 
-function frameOf(scene, arrays, index) {
+function frameOf(scene, arrays, sequence, index) {
   const n = scene.models;
   const part = (list, ends) => list.subarray(index === 0 ? 0 : 2 * ends[index - 1], 2 * ends[index]);
-  return {
-    index,
-    boxes: arrays.boxes.subarray(6 * n * index, 6 * n * (index + 1)),
+  const parts = {
     flags: arrays.flags.subarray(n * index, n * (index + 1)),
     pairs: part(arrays.pairs, arrays.pairEnds),
     excluded: part(arrays.excluded, arrays.excludedEnds),
   };
+  if (sequence) return sequence.frame(index, parts);
+  return { index, boxes: arrays.boxes.subarray(6 * n * index, 6 * n * (index + 1)), ...parts };
 }
 
 /** The scene of two texts: JSON, and base64 of the arrays that it lists. */
@@ -33,11 +35,12 @@ export function parseScene(json, base64) {
     arrays[name] = new kinds[type](buffer, bytes.byteOffset + offset, length);
   }
   const { types, groups, owners, elements, contactDistances, origin } = arrays;
-  const frames = Array.from({ length: scene.frames }, (_, i) => frameOf(scene, arrays, i));
+  const sequence = arrays.corners.length > 0 ? new MeshSequence(arrays.corners, arrays.positions, scene.frames) : null;
+  const frames = Array.from({ length: scene.frames }, (_, i) => frameOf(scene, arrays, sequence, i));
   const region = arrays.region.length === 6 ? arrays.region : null;
   const distance = arrays.distance[0];
   const nameOf = scene.names.length > 0 ? (i) => scene.names[i] : String;
-  return { ...scene, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, mesh: arrays };
+  return { ...scene, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
 }
 
 /** The scene in a document, or null where the page is an empty template. */

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: MIT
 // What of a box can be drawn: coordinates from the middle of the scene, infinite sides cut, empty boxes marked.
 
+const nowhere = () => [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+
+function wholeOfVertices({ positions }, origin) {
+  const whole = nowhere();
+  for (let i = 0; i < positions.length; ++i) {
+    const value = positions[i] - origin[i % 3];
+    whole[i % 3] = Math.min(whole[i % 3], value);
+    whole[3 + (i % 3)] = Math.max(whole[3 + (i % 3)], value);
+  }
+  return whole;
+}
+
 /** The smallest box around all finite boxes of all frames, from the scene's origin. */
 export function wholeOf(scene) {
-  const whole = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+  if (scene.sequence) return wholeOfVertices(scene.sequence, scene.origin);
+  const whole = nowhere();
   for (const { boxes } of scene.frames) {
     for (let i = 0; i < scene.models; ++i) {
       const box = boxes.subarray(6 * i, 6 * i + 6);

@@ -37,6 +37,7 @@ const sentences = {
   "not-simulated": () => "neither is simulated",
   "same-owner": () => "parts of one body",
   "same-group": (reason) => `both in group ${reason.group}`,
+  "shares-vertex": () => "they share a vertex",
   apart: (reason) => (reason.axis < 0 ? "a box is empty" : `apart by ${measure(reason.gap)} on ${axisNames[reason.axis]}`),
   "no-self": () => "may not collide with itself",
   flat: () => "too flat to touch itself",

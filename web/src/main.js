@@ -34,8 +34,10 @@ function showPicture(app, theme) {
     stage.lookAt(stage.whole);
     app.attach(stage);
     setUpPointer(app);
+    stage.addEventListener("drawn", () => note("ready"), { once: true });
+  } else {
+    note("ready");
   }
-  requestAnimationFrame(() => setTimeout(() => note("ready")));
 }
 
 function start() {

@@ -100,7 +100,7 @@ const keyOf = (pairs, i, count) => Math.max(pairs[2 * i], pairs[2 * i + 1]) * co
 
 function sortedKeys(pairs, count) {
   const keys = Float64Array.from({ length: pairs.length / 2 }, (_, i) => keyOf(pairs, i, count));
-  return keys.sort();
+  return keys.every((key, i) => i === 0 || keys[i - 1] <= key) ? keys : keys.sort(); // as sequences have them, they are
 }
 
 /** The pairs of one frame that another does not have, as [first, second] lists. */

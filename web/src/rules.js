@@ -71,6 +71,7 @@ export function explain(scene, frame, newer, older) {
   if ((a | b) & flag.outside) return { verdict: "outside" };
   if (newer === older) return explainSelf(frame, newer);
   const byFlags = explainFlags(scene, frame, newer, older);
+  if (byFlags.verdict === "pair" && scene.sequence?.shareVertex(newer, older)) return { verdict: "shares-vertex" };
   return byFlags.verdict === "pair" ? explainBoxes(scene, frame, newer, older) : byFlags;
 }
 

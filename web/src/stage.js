@@ -20,8 +20,9 @@ const manyModels = 5000; // of more, some may be missing while the picture moves
 
 const emptyBox = () => new Box3(new Vector3(0, 0, 0), new Vector3(0, 0, 0));
 
-export class Stage {
+export class Stage extends EventTarget {
   constructor(canvas, scene) {
+    super();
     this.canvas = canvas;
     this.data = scene;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
@@ -84,7 +85,13 @@ export class Stage {
   setFrame(frame) {
     this.drawn = drawable(frame.boxes, this.data.origin, this.whole);
     this.boxes.setBoxes(this.drawn);
+    if (this.data.sequence) this.moveShapes(frame.index);
     this.invalidate();
+  }
+
+  moveShapes(index) {
+    this.data.sequence.place(this.data.mesh.vertices, index, this.data.origin);
+    for (const shape of this.shapes) shape.geometry.getAttribute("position").needsUpdate = true;
   }
 
   boxOf(model) {
@@ -225,6 +232,7 @@ export class Stage {
       gl.deleteSync(this.fence);
       this.fence = null;
       this.sharpness.took(performance.now() - begin);
+      this.dispatchEvent(new Event("drawn"));
       if (this.isStale) this.invalidate();
       this.isStale = false;
     };

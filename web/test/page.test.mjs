@@ -2,9 +2,10 @@
 // What a page shows is what `detect` finds; names are text; nothing overlaps.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { allpairs, dataFolder, detect, folder, npy, number, open, ownText, root, screenshot, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { allpairs, clothFrames, dataFolder, detect, folder, npy, number, open, ownText, pages, root, screenshot, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(startBrowser);
 after(stopBrowser);
@@ -96,6 +97,31 @@ test("keys choose, leave, switch and explain", async () => {
   await page.close();
 });
 
+test("Tab reaches everything in order, and one sees where it is", async () => {
+  const page = await view("tab", [demo]);
+  const reached = [];
+  for (let i = 0; i < 30; ++i) {
+    await page.keyboard.press("Tab");
+    const at = await page.evaluate(() => {
+      const { activeElement: element } = document;
+      return { name: element.id || element.className, outline: getComputedStyle(element).outlineStyle };
+    });
+    if (at.name === reached[0]) break;
+    if (at.name) assert.notEqual(at.outline, "none", at.name);
+    reached.push(at.name);
+  }
+  const wanted = ["canvas", "show-boxes", "box-mode", "show-shapes", "show-links", "frame-all", "up-axis", "theme", "help-button", "tab-pairs", "pairs-search", "pairs-sort", "pairs-list"];
+  assert.deepEqual(reached.filter((name) => wanted.includes(name)), wanted);
+  await page.focus("#tab-pairs");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.isVisible("#panel-models"), true);
+  await page.focus("#models-list");
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await page.isVisible("#details .model-name"), true);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("a click into the picture chooses the model that is there", async () => {
   const input = write("one.csv", "0,0,0,1,1,1\n");
   const page = await view("one", [input]);
@@ -164,6 +190,35 @@ test("a sequence of frames has the pairs of each frame, and what began and ended
   await page.close();
 });
 
+test("meshes that move have the pairs of track, frame by frame, and are drawn where they are", async () => {
+  const files = clothFrames(5);
+  const track = JSON.parse(allpairs("track", ...files, "--format", "json"));
+  const page = await view("cloth", ["--sequence", ...files]);
+  assert.equal(await number(page, "#fact-models"), track.boxes);
+  assert.ok(new Set(track.pairs).size > 2);
+  for (let t = 0; t < files.length; ++t) {
+    assert.equal(await number(page, "#fact-pairs"), track.pairs[t], `frame ${t}`);
+    if (t > 0) {
+      assert.equal(toNumber(await page.textContent("#time-began b")), track.began[t]);
+      assert.equal(toNumber(await page.textContent("#time-ended b")), -track.ended[t]);
+    }
+    await screenshot(page, `cloth-${t}`);
+    if (t + 1 < files.length) await page.keyboard.press(".");
+  }
+  const [first, last] = [0, 4].map((t) => readFileSync(join(pages, `cloth-${t}.png`)));
+  assert.ok(!first.equals(last));
+  await page.fill("#pairs-search", "onerror");
+  await page.click("#pairs-list .row");
+  await page.click("#details .link.first");
+  assert.match(await page.textContent("#details .model-name"), /^<img src=x onerror=alert\(1\)>: triangle [0-3]$/);
+  const partners = Number((await ownText(page, "#partner-count")).split(" ")[0]);
+  await page.$eval("#details .list", (list, part) => (list.scrollTop = part * list.scrollHeight), partners / track.boxes);
+  await page.waitForFunction(() => [...document.querySelectorAll("#details .reason")].some((reason) => reason.textContent === "they share a vertex"));
+  await screenshot(page, "cloth-model");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("names from files are text, in the page and in the report", async () => {
   const name = "<img src=x onerror=alert(1)></script><script>alert(2)</script>";
   const input = write("evil.obj", `o ${name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nv 0 0 0\nv 1 0 1\nv 0 1 0\nf 4 5 6\n`);
@@ -183,17 +238,40 @@ test("names from files are text, in the page and in the report", async () => {
   await report.close();
 });
 
+/** Counts, in the page, what is drawn. */
+function countDraws() {
+  window.drawn = { frames: 0, draws: 0 };
+  const { prototype } = WebGL2RenderingContext;
+  const count = (name, what) => {
+    const original = prototype[name];
+    prototype[name] = function (...words) {
+      ++window.drawn[what];
+      return original.apply(this, words);
+    };
+  };
+  for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) count(name, "draws");
+  count("fenceSync", "frames");
+}
+
 test("ten thousand models with fifty thousand pairs are all there", async () => {
   const boxes = write("many.npy", "");
   allpairs("generate", "uniform", "-n", "10000", "-o", boxes);
   const input = [boxes, "--margin", "0.014"];
   const result = detect(...input);
   assert.ok(result.pairs.length >= 50_000);
-  const page = await view("many", input);
+  const page = await view("many", input, { init: countDraws });
   const times = await page.evaluate(() => ({ ...document.documentElement.dataset }));
   console.log(`# ${result.pairs.length} pairs: lists after ${times.loaded} ms, picture after ${times.ready} ms`);
   await compareSummary(page, result);
   await screenshot(page, "many");
+  const elements = await page.$$eval("*", (all) => all.length);
+  assert.ok(elements < 600, `${elements} elements: only the rows in sight are in the document`);
+  const { frames, draws } = await page.evaluate(() => window.drawn);
+  assert.ok(draws <= 4 * frames, `${draws} draws in ${frames} pictures: all boxes are one`);
+  await page.waitForTimeout(1500);
+  const settled = await page.evaluate(() => window.drawn.frames);
+  await page.waitForTimeout(500);
+  assert.equal(await page.evaluate(() => window.drawn.frames), settled, "nothing is drawn while nothing moves");
   assert.deepEqual(page.problems, []);
   await page.close();
 });
@@ -225,11 +303,12 @@ function collisions() {
 }
 
 test("nothing covers anything else, on small and wide screens and with large text", async () => {
-  for (const [width, height, font] of [[1280, 800, "16px"], [1280, 800, "32px"], [2560, 1080, "16px"], [700, 900, "20px"]]) {
+  for (const [width, height, font] of [[1280, 800, "16px"], [1280, 800, "32px"], [2560, 1080, "16px"], [700, 900, "20px"], [853, 533, "16px"]]) {
     const page = await view("layout", [demo], { viewport: { width, height } });
     await page.evaluate((size) => (document.documentElement.style.fontSize = size), font);
     await page.keyboard.press("j");
     await page.waitForTimeout(100);
+    if (width > 800 && font === "16px") assert.ok((await page.locator("#details .link.first").boundingBox()).y < height, "what is chosen is in sight");
     assert.deepEqual(await page.evaluate(collisions), [], `${width}x${height}, ${font}`);
     await screenshot(page, `layout-${width}x${height}-${font}`);
     assert.deepEqual(page.problems, []);

@@ -10,7 +10,7 @@ import { chromium } from "playwright-core";
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const folder = mkdtempSync(join(tmpdir(), "allpairs-page-"));
-const pages = process.env.ALLPAIRS_PAGES ?? folder;
+export const pages = process.env.ALLPAIRS_PAGES ?? folder;
 const program = process.env.ALLPAIRS ?? join(root, "build/dev/bin/allpairs");
 const many = { encoding: "utf8", maxBuffer: 1 << 30 };
 
@@ -45,14 +45,35 @@ export function write(name, bytes) {
   return path;
 }
 
+const clothSide = 9;
+
+/** A cloth that falls on a tetrahedron whose name would be markup. */
+function clothAt(time) {
+  const lines = ["o cloth"];
+  for (let i = 0; i < clothSide ** 2; ++i) {
+    const [x, y] = [(i % clothSide) / (clothSide - 1) - 0.5, Math.floor(i / clothSide) / (clothSide - 1) - 0.5];
+    lines.push(`v ${x} ${y} ${0.7 - 0.1 * time - 0.1 * time * (x * x + y * y)}`);
+  }
+  for (let i = 1; i < clothSide * (clothSide - 1); ++i) {
+    if (i % clothSide !== 0) lines.push(`f ${i} ${i + 1} ${i + clothSide}`, `f ${i + 1} ${i + clothSide + 1} ${i + clothSide}`);
+  }
+  lines.push("o <img src=x onerror=alert(1)>", "v -0.2 -0.2 0", "v 0.2 -0.2 0", "v 0 0.25 0", "v 0 0 0.45");
+  for (const corners of [[1, 3, 2], [1, 2, 4], [2, 3, 4], [3, 1, 4]]) lines.push(`f ${corners.map((c) => c + clothSide ** 2).join(" ")}`);
+  return `${lines.join("\n")}\n`;
+}
+
+/** Mesh files, one for each moment. */
+export const clothFrames = (count) => Array.from({ length: count }, (_, time) => write(`cloth${time}.obj`, clothAt(time)));
+
 const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
 let browser;
 export const startBrowser = async () => (browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args, timeout: 120_000 }));
 export const stopBrowser = () => browser?.close();
 
 /** Opens a file as a page; what it complains about, and what it asks of the network, is kept in `page.problems`. */
-export async function open(path, options = {}) {
+export async function open(path, { init, ...options } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  if (init) await page.addInitScript(init);
   page.setDefaultTimeout(120_000);
   page.problems = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.problems.push(message.text()));

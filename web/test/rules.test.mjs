@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { parseScene } from "../src/data.js";
 import { explain } from "../src/rules.js";
-import { allpairs, dataFolder, folder, root, scenesIn, verdicts, write } from "./program.mjs";
+import { allpairs, clothFrames, dataFolder, folder, root, scenesIn, verdicts, write } from "./program.mjs";
 
 function sceneOf(...args) {
   const path = join(folder, "rules.html");
@@ -17,12 +17,12 @@ function sceneOf(...args) {
   return parseScene(script("allpairs-scene"), script("allpairs-arrays"));
 }
 
-function pageVerdicts(scene) {
+function pageVerdicts(scene, frame) {
   const lines = [];
   for (let newer = 0; newer < scene.models; ++newer) {
-    for (let older = 0; older <= newer; ++older) lines.push({ newer, older, ...explain(scene, scene.frames[0], newer, older) });
+    for (let older = 0; older <= newer; ++older) lines.push({ newer, older, ...explain(scene, frame, newer, older) });
   }
-  return lines;
+  return lines.map((line) => (line.verdict === "flat" ? { newer: line.newer, older: line.older, verdict: "flat" } : line));
 }
 
 function programVerdicts(...args) {
@@ -37,14 +37,28 @@ function programVerdicts(...args) {
 
 function compare(...inputs) {
   const scene = sceneOf(...inputs);
-  const said = pageVerdicts(scene).map((line) => (line.verdict === "flat" ? { newer: line.newer, older: line.older, verdict: "flat" } : line));
-  assert.deepEqual(said, programVerdicts(...inputs));
-  const found = Array.from(scene.frames[0].pairs);
-  assert.deepEqual(said.filter((line) => line.verdict === "pair").map((line) => `${line.newer} ${line.older}`).sort(),
-    Array.from({ length: found.length / 2 }, (_, i) => `${found[2 * i]} ${found[2 * i + 1]}`).sort());
+  const said = scene.frames.map((frame) => pageVerdicts(scene, frame));
+  assert.deepEqual(said.flat(), programVerdicts(...inputs));
+  scene.frames.forEach((frame, index) => {
+    const found = Array.from({ length: frame.pairs.length / 2 }, (_, i) => `${frame.pairs[2 * i]} ${frame.pairs[2 * i + 1]}`);
+    const pairs = said[index].filter((line) => line.verdict === "pair").map((line) => `${line.newer} ${line.older}`);
+    assert.deepEqual(pairs.sort(), found.sort(), `frame ${index}`);
+  });
+  return new Set(said.flat().map((line) => line.verdict));
 }
 
 test("verdicts of the demo are the program's", () => compare(join(root, "examples/scenes/demo.scn")));
+
+test("verdicts of a scene with a model for each rule are the program's", () => {
+  const said = compare(join(root, "tests/view/rules.scn"));
+  assert.deepEqual([...said].sort(), ["apart", "inactive", "no-elements", "no-self", "not-simulated", "outside", "pair", "same-group", "same-owner"]);
+  assert.ok(compare(join(root, "tests/view/flat.scn")).has("flat"));
+});
+
+test("verdicts of each frame of meshes that move are the program's", () => {
+  const said = compare("--sequence", ...clothFrames(3));
+  assert.deepEqual([...said].sort(), ["apart", "no-self", "pair", "shares-vertex"]);
+});
 
 test("verdicts of boxes with gaps, empty and infinite ones are the program's", () => {
   compare(write("odd.csv", "0,0,0,1,1,1\n1,1,1,2,2,2\n5,0,0,6,1,1\n1,0,0,0,1,1\n-inf,0,0,inf,1,1\n0,0,3,1,1,inf\n"));

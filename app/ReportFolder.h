@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "allpairs/scene/WriteResult.h"
+
+namespace allpairs::app {
+
+/// Fails before the work that a report needs where the folder cannot be: a file is in its place.
+///
+/// Bad input: throws FileError.
+void checkReportFolder(const std::filesystem::path& folder);
+
+/// The files of a report. Each appears when it is complete; without commit(), those that were not there before are taken
+/// away again, and so are the folders that were made for them.
+///
+/// Bad input: a folder or file that cannot be made throws FileError.
+class ReportFolder {
+ public:
+  explicit ReportFolder(std::filesystem::path folder);
+  ~ReportFolder();
+  ReportFolder(const ReportFolder&) = delete;
+  ReportFolder& operator=(const ReportFolder&) = delete;
+  ReportFolder(ReportFolder&&) = delete;
+  ReportFolder& operator=(ReportFolder&&) = delete;
+
+  void write(const std::filesystem::path& name, std::string_view bytes);
+  void write(const std::filesystem::path& name, const std::function<void(scene::ByteSink)>& writer);
+
+  /// All is written. Pictures that an earlier, longer report left there are taken away.
+  void commit(std::size_t pictures);
+
+ private:
+  void makeFolder(const std::filesystem::path& folder);
+
+  std::filesystem::path m_folder;
+  bool m_hadReport;
+  std::vector<std::filesystem::path> m_new;  ///< In the order in which they were made.
+};
+
+}  // namespace allpairs::app

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/Expect.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBoxes = ALLPAIRS_SOURCE_DIR "/examples/boxes.csv";
+
+/// The program while it serves a page.
+class Served {
+ public:
+  explicit Served(std::vector<std::string> words = {}) {
+    words.insert(words.begin(), {ALLPAIRS_PROGRAM, "view", kBoxes, "--serve"});
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) throw std::runtime_error("cannot make a pipe");
+    m_child = ::fork();
+    if (m_child == 0) run(words, ends);
+    ::close(ends[1]);
+    m_out = ::fdopen(ends[0], "r");
+    std::array<char, 200> line{};
+    if (std::fgets(line.data(), line.size(), m_out) != nullptr) m_line = line.data();
+  }
+
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+  Served(Served&&) = delete;
+  Served& operator=(Served&&) = delete;
+
+  ~Served() {
+    if (m_child > 0) end(SIGKILL);
+    std::fclose(m_out);
+  }
+
+  [[nodiscard]] const std::string& line() const { return m_line; }
+  [[nodiscard]] int port() const { return std::stoi(m_line.substr(m_line.rfind(':') + 1)); }
+
+  /// Sends a signal, and gives that with which the program ended.
+  int end(int signal) {
+    ::kill(m_child, signal);
+    int status = 0;
+    ::waitpid(m_child, &status, 0);
+    m_child = -1;
+    return WIFSIGNALED(status) ? WTERMSIG(status) : -1;
+  }
+
+ private:
+  [[noreturn]] static void run(std::vector<std::string>& words, const std::array<int, 2>& ends) {
+    ::dup2(ends[1], STDOUT_FILENO);
+    ::close(ends[0]);
+    ::close(ends[1]);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    ::execv(pointers[0], pointers.data());
+    ::_exit(127);
+  }
+
+  pid_t m_child = -1;
+  std::FILE* m_out = nullptr;
+  std::string m_line;
+};
+
+TEST(Serve, GivesThePageAtTheAddressThatItPrintsAndNothingElse) {
+  const Served served;
+  EXPECT_TRUE(served.line().starts_with("http://127.0.0.1:")) << served.line();
+  EXPECT_TRUE(served.line().ends_with("/ (end with Ctrl+C)\n")) << served.line();
+  httplib::Client client("127.0.0.1", served.port());
+  const auto page = client.Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_EQ(page->get_header_value("Content-Type"), "text/html; charset=utf-8");
+  EXPECT_NE(page->body.find("id=\"allpairs-scene\""), std::string::npos);
+  EXPECT_TRUE(page->body.ends_with("</html>\n") || page->body.ends_with("</html>")) << page->body.size();
+  EXPECT_EQ(client.Get("/etc/passwd")->status, 404);
+}
+
+TEST(Serve, RefusesOtherNamesForThisMachine) {
+  const Served served;
+  httplib::Client client("127.0.0.1", served.port());
+  const std::string port = std::to_string(served.port());
+  EXPECT_EQ(client.Get("/", {{"Host", "localhost:" + port}})->status, 200);
+  EXPECT_EQ(client.Get("/", {{"Host", "evil.example:" + port}})->status, 403);
+}
+
+TEST(Serve, IsForThisMachineAlone) {
+  const Served served;
+  std::FILE* table = std::fopen("/proc/net/tcp", "r");
+  if (table == nullptr) GTEST_SKIP() << "the system does not show its sockets";
+  std::array<char, 300> line{};
+  std::array<char, 10> port{};
+  static_cast<void>(std::snprintf(port.data(), port.size(), ":%04X ", static_cast<unsigned>(served.port())));
+  std::vector<std::string> addresses;
+  while (std::fgets(line.data(), line.size(), table) != nullptr) {
+    const std::string text = line.data();
+    const std::size_t place = text.find(port.data());
+    const bool listens = text.find(" 0A ") != std::string::npos;
+    if (listens && place != std::string::npos && place < 20) addresses.push_back(text.substr(place - 8, 8));
+  }
+  std::fclose(table);
+  EXPECT_EQ(addresses, std::vector<std::string>{"0100007F"});
+}
+
+TEST(Serve, EndsWithCtrlC) {
+  Served served;
+  EXPECT_EQ(served.end(SIGINT), SIGINT);
+}
+
+TEST(Serve, RefusesAPortThatAnotherProgramServes) {
+  const Served served;
+  const std::string port = std::to_string(served.port());
+  expectFailure(runProgram({"view", kBoxes, "--serve", "--port", port}), 3,
+                "cannot listen at 127.0.0.1 on port " + port);
+}
+
+/// A folder with an xdg-open that notes what it is asked for, and ends with `status`.
+std::string fakeOpener(const TempFolder& folder, int status) {
+  const fs::path path = folder.write(
+      "xdg-open", "#!/bin/sh\nprintf '%s\\n' \"$@\" > \"${0%/*}/asked\"\nexit " + std::to_string(status) + "\n");
+  fs::permissions(path, fs::perms::owner_all);
+  return folder.path();
+}
+
+ProgramRun runWithPath(const std::string& path, const std::string& words) {
+  return runScript("PATH='" + path + "' TMPDIR='" + path + "' \"$0\" view '" + kBoxes + "' " + words);
+}
+
+TEST(Open, AsksTheDesktopForTheFileThatWasWritten) {
+  const TempFolder folder;
+  const std::string path = fakeOpener(folder, 0) + ":/usr/bin:/bin";
+  const std::string page = folder.path() / "a page.html";
+  const ProgramRun run = runWithPath(path, "-o '" + page + "' --open");
+  expectSuccess(run);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(readBytes(folder.path() / "asked"), page + "\n");
+  EXPECT_TRUE(fs::exists(page));
+}
+
+TEST(Open, WithoutANameWritesAFileOfItsOwnThatOnlyTheUserMayRead) {
+  const TempFolder folder;
+  fakeOpener(folder, 0);
+  const ProgramRun run = runScript("PATH='" + folder.path().string() + ":/usr/bin:/bin' TMPDIR='" +
+                                   folder.path().string() + "' \"$0\" view '" + kBoxes + "' --open");
+  expectSuccess(run);
+  std::string asked = readBytes(folder.path() / "asked");
+  asked.pop_back();
+  EXPECT_TRUE(asked.ends_with(".html")) << asked;
+  EXPECT_EQ(fs::path(asked).parent_path(), folder.path());
+  EXPECT_NE(readBytes(asked).find("allpairs-scene"), std::string::npos);
+  EXPECT_EQ(fs::status(asked).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(Open, SaysWhatToDoWhereNothingOpensIt) {
+  const TempFolder folder;
+  const std::string page = folder.path() / "page.html";
+  const ProgramRun none = runWithPath(folder.path(), "-o '" + page + "' --open");
+  expectFailure(none, 3, "there is no xdg-open here: open " + page + " in a browser yourself");
+  EXPECT_TRUE(fs::exists(page)) << "the page is there all the same";
+  const ProgramRun fails = runWithPath(fakeOpener(folder, 3) + ":/usr/bin:/bin", "-o '" + page + "' --open");
+  expectFailure(fails, 3, "xdg-open found no way to open it: open " + page + " in a browser yourself");
+}
+
+/// Serves and opens, with PATH as given, until the file `sign` is there and says something.
+ProgramRun serveAndOpen(const std::string& path, const std::string& sign) {
+  return runScript("PATH='" + path + "' \"$0\" view '" + kBoxes + "' --serve --open & child=$!; n=0\n" +
+                   "while [ ! -s '" + sign + "' ] && [ $n -lt 600 ]; do n=$((n + 1)); sleep 0.1; done\n" +
+                   "kill $child; wait");
+}
+
+TEST(Open, AsksForTheAddressThatIsServed) {
+  const TempFolder folder;
+  const std::string asked = folder.path() / "asked";
+  const ProgramRun run = serveAndOpen(fakeOpener(folder, 0) + ":/usr/bin:/bin", asked);
+  EXPECT_EQ(readBytes(asked), run.out.substr(0, run.out.find(' ')) + "\n");
+}
+
+TEST(Open, ServesOnWhereNothingOpensIt) {
+  const TempFolder folder;
+  const std::string err = folder.path() / "err";
+  const ProgramRun run =
+      runScript("PATH='" + folder.path().string() + "' \"$0\" view '" + kBoxes + "' --serve --open 2> '" + err +
+                "' & child=$!; n=0\n" + "while [ ! -s '" + err +
+                "' ] && [ $n -lt 600 ]; do n=$((n + 1)); sleep 0.1; done\n" + "kill $child && wait $child; echo $?");
+  EXPECT_TRUE(run.out.starts_with("http://127.0.0.1:")) << run.out;
+  EXPECT_TRUE(run.out.ends_with("\n143\n")) << "it was there until it was ended: " << run.out;
+  EXPECT_NE(readBytes(err).find("there is no xdg-open here: open http://127.0.0.1:"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace allpairs::test

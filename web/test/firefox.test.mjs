@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The page in Firefox, as far as it may differ from Chromium: it loads, draws, searches, plays and obeys keys.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { Firefox, hasFirefox } from "./firefox.mjs";
+import { allpairs, clothFrames, detect, folder, pages, root } from "./program.mjs";
+
+const skip = hasFirefox ? false : "Firefox or Xvfb is missing (scripts/packages.txt, group browser)";
+let browser;
+before(async () => (browser = skip ? null : await Firefox.start(1280, 900)));
+after(() => browser?.stop());
+
+const text = (selector) => browser.run(`return document.querySelector(${JSON.stringify(selector)}).textContent`);
+const count = async (selector) => Number((await browser.run(`return document.querySelector("${selector}").firstChild.textContent`)).replaceAll(",", ""));
+
+async function view(name, ...inputs) {
+  const path = join(folder, `${name}.html`);
+  allpairs("view", ...inputs, "-o", path);
+  await browser.open(path);
+  await browser.until("document.documentElement.dataset.ready");
+  assert.equal(await text("#no-picture"), "");
+}
+
+async function picture(name) {
+  const path = join(pages, `${name}.png`);
+  await browser.screenshot(path);
+  return readFileSync(path);
+}
+
+test("Firefox shows the numbers of detect, draws, and obeys keys", { skip }, async () => {
+  const demo = join(root, "examples/scenes/demo.scn");
+  const result = detect(demo);
+  await view("firefox-demo", demo);
+  assert.equal(await count("#fact-models"), result.models.length);
+  assert.equal(await count("#fact-pairs"), result.pairs.length);
+  const withBoxes = await picture("firefox-demo");
+  await browser.press("b");
+  await browser.until("document.querySelector('#show-boxes[aria-pressed=false]') !== null");
+  assert.ok(!withBoxes.equals(await picture("firefox-shapes")));
+  await browser.press("j");
+  await browser.until("document.querySelectorAll('#pairs-list [aria-selected=true]').length === 1");
+  assert.equal(await text("#details .link.first"), result.models[result.pairs[0][0]].name);
+  await picture("firefox-pair");
+});
+
+test("Firefox plays meshes that move, and shows names as text", { skip }, async () => {
+  const files = clothFrames(5);
+  const track = JSON.parse(allpairs("track", ...files, "--format", "json"));
+  await view("firefox-cloth", "--sequence", ...files);
+  for (const pairs of track.pairs) {
+    assert.equal(await count("#fact-pairs"), pairs);
+    await browser.press(".");
+  }
+  await browser.press(" ");
+  await browser.until("document.getElementById('time-frame').textContent === 'Frame 2 of 5'");
+  await browser.press(" ");
+  await picture("firefox-cloth");
+  assert.equal(await browser.run("return document.images.length"), 0);
+});
