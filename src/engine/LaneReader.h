@@ -24,8 +24,9 @@ namespace allpairs::engine {
   // One float32 further down is one less for a positive number's bits and one more for a negative one's. Zero never has
   // to go down: a negative value that is rounded to zero becomes -0.
   const auto bits = std::bit_cast<std::int32_t>(nearest);
-  const std::int32_t step = bits < 0 ? 1 : -1;
-  return std::bit_cast<float>(bits + (static_cast<double>(nearest) > inside ? step : 0));
+  const std::int32_t step = -1 - 2 * (bits >> 31);
+  const std::int32_t isAbove = -static_cast<std::int32_t>(static_cast<double>(nearest) > inside);
+  return std::bit_cast<float>(bits + (step & isAbove));
 }
 
 /// The least float32 that is not below the value, kept within the finite ones; the greatest for a NaN.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "SceneRun.h"
 
+#include <sofa/core/CollisionModel.h>
 #include <sofa/core/ObjectFactory.h>
 #include <sofa/core/objectmodel/BaseObjectDescription.h>
 #include <sofa/helper/system/FileRepository.h>
@@ -10,6 +11,7 @@
 #include <sofa/simulation/graph/DAGSimulation.h>
 #include <sofa/simulation/graph/init.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace allpairs::tools {
@@ -114,19 +116,10 @@ std::vector<sofa::core::behavior::BaseMechanicalState*> SceneRun::states() const
   return m_root->getTreeObjects<sofa::core::behavior::BaseMechanicalState>();
 }
 
-sofa::core::collision::Intersection* SceneRun::intersectionMethod() const {
-  const auto methods = m_root->getTreeObjects<sofa::core::collision::Intersection>();
-  return methods.empty() ? nullptr : methods.front();
-}
-
-sofa::type::vector<sofa::core::CollisionModel*> SceneRun::activeRoots() const {
-  sofa::type::vector<sofa::core::CollisionModel*> roots;
-  for (sofa::core::CollisionModel* model : m_root->getTreeObjects<sofa::core::CollisionModel>()) {
-    if (!model->isActive()) continue;
-    if (model->getPrevious() == nullptr) model->computeBoundingTree(0);  // a scene without a pipeline
-    roots.push_back(model->getFirst());
-  }
-  return roots;
+std::size_t SceneRun::countModels() const {
+  const auto levels = m_root->getTreeObjects<sofa::core::CollisionModel>();
+  const auto isLast = [](sofa::core::CollisionModel* level) { return level->getNext() == nullptr; };
+  return static_cast<std::size_t>(std::count_if(levels.begin(), levels.end(), isLast));
 }
 
 }  // namespace allpairs::tools

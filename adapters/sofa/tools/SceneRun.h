@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sofa/core/CollisionModel.h>
 #include <sofa/core/behavior/BaseMechanicalState.h>
 #include <sofa/core/collision/BroadPhaseDetection.h>
-#include <sofa/core/collision/Intersection.h>
 #include <sofa/simulation/Node.h>
 
 #include <string>
@@ -44,15 +42,14 @@ class SceneRun {
 
   void step();
 
-  /// Makes another broad phase in the scene's root; the pipeline doesn't know it.
+  /// Makes and initialises another broad phase in the scene's root; the pipelines don't know it.
   [[nodiscard]] BroadPhase& make(const std::string& broadPhaseClass);
 
   [[nodiscard]] std::vector<BroadPhase*> broadPhases() const;
   [[nodiscard]] std::vector<sofa::core::behavior::BaseMechanicalState*> states() const;
-  [[nodiscard]] sofa::core::collision::Intersection* intersectionMethod() const;
 
-  /// The roots of the models that take part, in the order in which the pipeline hands them over.
-  [[nodiscard]] sofa::type::vector<sofa::core::CollisionModel*> activeRoots() const;
+  /// How many collision models there are, whatever their levels.
+  [[nodiscard]] std::size_t countModels() const;
 
  private:
   void replace(BroadPhase& old, const std::string& broadPhaseClass);

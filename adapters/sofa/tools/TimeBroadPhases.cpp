@@ -1,69 +1,50 @@
 // SPDX-License-Identifier: MIT
-// Runs a scene of SOFA and, after each step, hands its models to several broad phases in turn: prints how long each of
-// them takes a step, in processor time of the calling thread and in elapsed time, and whether all give the same list.
-#include <ctime>
-
+// Runs a scene of SOFA with several broad phases in the place of its own, each first in its turn: prints how long each of
+// them takes a step, in processor time of the calling thread and in elapsed time, and whether all give the same lists.
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
-#include "SceneRun.h"
+#include "Contest.h"
 
 namespace {
 
-using allpairs::tools::BroadPhase;
+using allpairs::tools::Contest;
+using allpairs::tools::Contestant;
 using allpairs::tools::SceneRun;
-using Models = sofa::type::vector<sofa::core::CollisionModel*>;
 
-double now(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
-}
-
-/// A broad phase and the microseconds of its steps.
-struct Entry {
-  std::string name;
-  BroadPhase* phase = nullptr;
-  std::vector<double> processor;
-  std::vector<double> elapsed;
-  bool sameList = true;
-};
-
-void detect(Entry& entry, const Models& models) {
-  const double processorBefore = now(CLOCK_THREAD_CPUTIME_ID);
-  const double before = now(CLOCK_MONOTONIC);
-  entry.phase->beginBroadPhase();
-  entry.phase->addCollisionModels(models);
-  entry.phase->endBroadPhase();
-  entry.elapsed.push_back(now(CLOCK_MONOTONIC) - before);
-  entry.processor.push_back(now(CLOCK_THREAD_CPUTIME_ID) - processorBefore);
-}
-
-/// Each in its turn comes first after the step, when the models have left the caches.
-void detectAll(std::vector<Entry>& entries, const Models& models, std::size_t turn) {
-  for (std::size_t i = 0; i < entries.size(); ++i) detect(entries[(i + turn) % entries.size()], models);
-  const auto& expected = entries.front().phase->getCollisionModelPairs();
-  for (Entry& entry : entries) entry.sameList = entry.sameList && entry.phase->getCollisionModelPairs() == expected;
+/// All broad phases of the scene, which are contests, with the contestants entered.
+std::vector<Contest*> enterAll(SceneRun& run, const std::vector<std::string>& names) {
+  std::vector<Contest*> contests;
+  for (allpairs::tools::BroadPhase* phase : run.broadPhases()) contests.push_back(dynamic_cast<Contest*>(phase));
+  if (contests.empty()) throw std::runtime_error("the scene has no broad phase");
+  for (Contest* contest : contests) {
+    for (const std::string& name : names) contest->enter(name, run.make(name));
+  }
+  return contests;
 }
 
 std::pair<double, double> minimumAndMedian(std::vector<double> values) {
+  if (values.empty()) return {0.0, 0.0};
   std::sort(values.begin(), values.end());
   return {values.front(), values[values.size() / 2]};
 }
 
-void print(const std::vector<Entry>& entries, std::size_t models) {
-  std::printf("%zu models, %zu pairs, microseconds a step\n", models,
-              entries.front().phase->getCollisionModelPairs().size());
-  std::printf("%-32s %12s %12s %12s %12s  %s\n", "", "cpu min", "cpu median", "elapsed min", "elapsed med", "list");
-  for (const Entry& entry : entries) {
-    const auto [cpuMin, cpuMedian] = minimumAndMedian(entry.processor);
-    const auto [min, median] = minimumAndMedian(entry.elapsed);
-    std::printf("%-32s %12.1f %12.1f %12.1f %12.1f  %s\n", entry.name.c_str(), cpuMin, cpuMedian, min, median,
-                entry.sameList ? "same" : "DIFFERS");
-  }
+void print(const Contestant& contestant) {
+  const auto [cpuMin, cpuMedian] = minimumAndMedian(contestant.processor);
+  const auto [min, median] = minimumAndMedian(contestant.elapsed);
+  std::printf("%-32s %5zu %12.1f %12.1f %12.1f %12.1f  %s\n", contestant.name.c_str(), contestant.elapsed.size(), cpuMin,
+              cpuMedian, min, median, contestant.sameLists ? "same" : "DIFFERS");
+}
+
+void print(const Contest& contest) {
+  std::printf("%s: %zu models, %zu pairs, microseconds a step\n", contest.getPathName().c_str(), contest.models(),
+              contest.pairs());
+  std::printf("%-32s %5s %12s %12s %12s %12s  %s\n", "", "steps", "cpu min", "cpu median", "elapsed min", "elapsed med",
+              "lists");
+  for (const Contestant& contestant : contest.contestants()) print(contestant);
 }
 
 }  // namespace
@@ -71,18 +52,12 @@ void print(const std::vector<Entry>& entries, std::size_t models) {
 int main(int argc, char** argv) {
   try {
     const auto settings = allpairs::tools::readSettings(argc, argv);
-    SceneRun run(settings);
-    std::vector<Entry> entries;
-    for (const std::string& name : settings.broadPhases) {
-      entries.push_back({name, &run.make(name), {}, {}, true});
-      entries.back().phase->setIntersectionMethod(run.intersectionMethod());
-    }
-    if (entries.empty()) throw std::runtime_error("which --broad-phase?");
-    for (int step = 0; step < settings.steps; ++step) {
-      run.step();
-      detectAll(entries, run.activeRoots(), static_cast<std::size_t>(step));
-    }
-    print(entries, run.activeRoots().size());
+    if (settings.broadPhases.empty()) throw std::runtime_error("which --broad-phase?");
+    Contest::enterInFactory();
+    SceneRun run(settings, "Contest");
+    const std::vector<Contest*> contests = enterAll(run, settings.broadPhases);
+    for (int step = 0; step < settings.steps; ++step) run.step();
+    for (const Contest* contest : contests) print(*contest);
     return 0;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "time-broad-phases: %s\n", problem.what());

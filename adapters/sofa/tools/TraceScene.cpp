@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Runs a scene of SOFA, with its own broad phase or with another, and prints each step's pairs in order and the positions
-// at the end, all digits of them. Two runs that print the same have found the same.
+// at the end, all digits of them, in lines that begin with "step", "pair" and "state". Two runs that print the same such
+// lines have found the same.
+#include <sofa/core/CollisionModel.h>
+
 #include <cstdio>
 #include <exception>
 
@@ -16,7 +19,7 @@ void printPairs(int step, const SceneRun& run) {
     const auto& pairs = phase->getCollisionModelPairs();
     std::printf("step %d %s: %zu pairs\n", step, phase->getPathName().c_str(), pairs.size());
     for (const auto& [first, second] : pairs) {
-      std::printf("  %s %s\n", first->getLast()->getPathName().c_str(), second->getLast()->getPathName().c_str());
+      std::printf("pair %s %s\n", first->getLast()->getPathName().c_str(), second->getLast()->getPathName().c_str());
     }
   }
 }
@@ -26,7 +29,7 @@ void printPositions(const SceneRun& run) {
     const auto size = state->getMatrixSize() == 0 ? 0 : state->getSize() * state->getCoordDimension();
     std::vector<SReal> values(size);
     state->copyToBuffer(values.data(), sofa::core::vec_id::read_access::position, static_cast<unsigned>(size));
-    std::printf("%s:", state->getPathName().c_str());
+    std::printf("state %s:", state->getPathName().c_str());
     for (const SReal value : values) std::printf(" %a", static_cast<double>(value));
     std::printf("\n");
   }
@@ -43,6 +46,7 @@ int main(int argc, char** argv) {
       printPairs(step, run);
     }
     printPositions(run);
+    std::printf("models %zu\n", run.countModels());
     return 0;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "trace-scene: %s\n", problem.what());

@@ -80,19 +80,27 @@ std::span<collision::HostedModel* const> ModelPool::add(std::span<sofa::core::Co
   return m_added;
 }
 
-/// SOFA's models are kilobytes each and lie far apart: a step mostly waits for memory. Short loops, each over all models,
-/// let the processor wait for several of them at once.
+/// SOFA's models are kilobytes each and lie far apart: a step mostly waits for memory. Short loops over several models let
+/// the processor wait for all of them at once, and few enough of them that their pages are still known in the next loop.
 void ModelPool::readAll(std::span<sofa::core::CollisionModel* const> hosts) {
+  constexpr std::size_t kTogether = 16;
   m_notes.resize(hosts.size());
   for (std::size_t i = 0; i < hosts.size(); ++i) m_notes[i].host = hosts[i];
-  for (Note& note : m_notes) note.last = note.host->getLast();
-  for (Note& note : m_notes) note.simulated = note.host->isSimulated();
-  for (Note& note : m_notes) note.selfCollision = note.last->getSelfCollision();
-  for (Note& note : m_notes) note.hasDefaultRules = hasDefaultRules(*note.last);
-  for (Note& note : m_notes) note.owner = note.last->getContext();
-  for (Note& note : m_notes) note.groups = &note.last->getGroups();
-  for (Note& note : m_notes) note.hasGroups = !note.groups->empty();
-  for (Note& note : m_notes) readRoot(note);
+  const std::span<Note> notes = m_notes;
+  for (std::size_t i = 0; i < notes.size(); i += kTogether) {
+    read(notes.subspan(i, std::min(kTogether, notes.size() - i)));
+  }
+}
+
+void ModelPool::read(std::span<Note> notes) {
+  for (Note& note : notes) note.last = note.host->getLast();
+  for (Note& note : notes) note.simulated = note.host->isSimulated();
+  for (Note& note : notes) readRoot(note);
+  for (Note& note : notes) note.selfCollision = note.last->getSelfCollision();
+  for (Note& note : notes) note.hasDefaultRules = hasDefaultRules(*note.last);
+  for (Note& note : notes) note.owner = note.last->getContext();
+  for (Note& note : notes) note.groups = &note.last->getGroups();
+  for (Note& note : notes) note.hasGroups = !note.groups->empty();
 }
 
 collision::HostedModel& ModelPool::takeFor(const Note& note) {

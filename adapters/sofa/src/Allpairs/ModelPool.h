@@ -53,6 +53,7 @@ class ModelPool {
   };
 
   void readAll(std::span<sofa::core::CollisionModel* const> hosts);
+  void read(std::span<Note> notes);
   void readRoot(Note& note);
   [[nodiscard]] collision::HostedModel& takeFor(const Note& note);
   [[nodiscard]] bool hasDefaultRules(const sofa::core::CollisionModel& last);
