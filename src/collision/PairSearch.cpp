@@ -40,7 +40,7 @@ void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pair
 
 void PairSearch::askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
   Candidates withOlder = searchOlder(begin, statistics);
-  Candidates withNewer = searchNewer(begin, statistics);
+  Candidates withNewer = begin == 0 ? searchAll(statistics) : searchNewer(begin, statistics);
   statistics.candidates += withOlder.left.size() + withNewer.left.size();
   const bool plain = m_rules.arePlain();
   if (plain && begin == 0 && !m_models.anySelfPair()) {
@@ -94,6 +94,19 @@ PairSearch::Candidates PairSearch::searchOlder(std::size_t begin, BroadPhaseStat
       m_betweenNewerAndOlder.findBetween(boxSet(0, begin), boxSet(begin, m_models.size()));
   addTests(m_betweenNewerAndOlder.statistics(), statistics);
   return {found, 0, begin};
+}
+
+PairSearch::Candidates PairSearch::searchAll(BroadPhaseStatistics& statistics) {
+  const bool addsContactDistances = m_rules.addsContactDistances() && m_models.anyContactDistance();
+  const KeptSearch::Settings settings{searchDistance(), addsContactDistances, m_executor};
+  if (m_strategy == Strategy::Automatic && m_kept.isWorthIt(m_models, settings)) {
+    const std::span<const Pair> found = m_kept.find(m_models);
+    statistics.testsMade += m_kept.testsMade();
+    return {found, 0, 0};
+  }
+  const Candidates found = searchNewer(0, statistics);
+  m_kept.notePairs(found.left.size());
+  return found;
 }
 
 PairSearch::Candidates PairSearch::searchNewer(std::size_t begin, BroadPhaseStatistics& statistics) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "KeptSearch.h"
 #include "ModelTable.h"
 #include "PairRules.h"
 #include "allpairs/Overlaps.h"
@@ -40,6 +41,7 @@ class PairSearch {
   [[nodiscard]] BoxSet boxSet(std::size_t begin, std::size_t end) const;
   [[nodiscard]] Candidates searchOlder(std::size_t begin, BroadPhaseStatistics& statistics);
   [[nodiscard]] Candidates searchNewer(std::size_t begin, BroadPhaseStatistics& statistics);
+  [[nodiscard]] Candidates searchAll(BroadPhaseStatistics& statistics);
   [[nodiscard]] double searchDistance() const;
   [[nodiscard]] OverlapOptions options() const;
 
@@ -49,6 +51,7 @@ class PairSearch {
   Executor* m_executor = nullptr;
   Overlaps m_amongNewer;
   Overlaps m_betweenNewerAndOlder;
+  KeptSearch m_kept;
 };
 
 }  // namespace allpairs::collision
