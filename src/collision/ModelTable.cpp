@@ -32,8 +32,10 @@ bool isLibraryType(const std::type_info& type) {
 ModelTable::ModelTable() : m_rootTypes{typeid(BoundingBoxModel)} {}
 
 void ModelTable::clear() {
-  ++m_step;
-  m_sizeBefore = m_size;
+  if (m_size != 0) {
+    ++m_step;
+    m_sizeBefore = m_size;
+  }
   m_size = 0;
   m_changedCount = 0;
   m_groupLists.clear();
@@ -70,8 +72,7 @@ void ModelTable::add(CollisionModel* model, bool ours, bool selfPair) {
 }
 
 void ModelTable::noteChange(const Box& box, double contactDistance) {
-  const bool same =
-      m_size < m_sizeBefore && m_boxes[m_size] == box && m_contactDistances[m_size] == contactDistance;
+  const bool same = m_size < m_sizeBefore && m_boxes[m_size] == box && m_contactDistances[m_size] == contactDistance;
   m_changed[m_changedCount] = static_cast<std::uint32_t>(m_size);
   m_changedCount += same ? 0U : 1U;
 }

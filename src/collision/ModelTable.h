@@ -37,7 +37,7 @@ class ModelTable {
  public:
   ModelTable();
 
-  /// Begins a step: the rows of the last one are compared with those that come.
+  /// Begins a step: the rows of the last one are compared with those that come. One without rows is none.
   void clear();
 
   /// The number of the step, from 1 on.

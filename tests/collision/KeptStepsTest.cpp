@@ -8,6 +8,7 @@
 #include <random>
 
 #include "Fixture.h"
+#include "allpairs/collision/CollisionPipeline.h"
 
 namespace allpairs::test {
 namespace {
@@ -199,6 +200,39 @@ TEST_F(KeptStep, RulesAreAskedAgainThoughNothingMoves) {
   testsOfStep();
   EXPECT_EQ(m_phase.getCollisionModelPairs(),
             (std::vector<CollisionModelPair>{{m_models[40], m_models[39]}, {m_models[41], m_models[40]}}));
+}
+
+TEST_F(KeptStep, BeginningTwiceIsBeginningOnce) {
+  addRow(300);
+  for (int i = 0; i < 6; ++i) {
+    m_phase.beginBroadPhase();
+    testsOfStep();
+  }
+  EXPECT_EQ(m_phase.statistics().testsMade, 0U);
+}
+
+TEST_F(KeptStep, WithoutKeepingEachStepTestsAllAgain) {
+  addRow(300);
+  m_phase.setKeepsSearch(false);
+  const std::uint64_t first = testsOfStep();
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(testsOfStep(), first);
+  EXPECT_EQ(m_phase.getCollisionModelPairs().size(), 299U);
+}
+
+TEST_F(KeptStep, BoxesSweptOverTheStepAreKeptToo) {
+  addRow(300);
+  m_method.setContinuous(true);
+  collision::CollisionPipeline pipeline;
+  pipeline.setIntersectionMethod(&m_method);
+  pipeline.setBroadPhase(&m_phase);
+  for (int i = 0; i < 6; ++i) pipeline.step(m_models, 0.5);
+  dynamic_cast<BoxModel&>(*m_models[0]).setVelocities({{5.0, 0.0, 0.0}});
+  pipeline.step(m_models, 0.5);
+  EXPECT_LT(m_phase.statistics().testsMade, 300U);
+  const Numbers pairs = numbers(m_phase.getCollisionModelPairs());
+  // From 0 to 3.5: the first cube now touches the second, third and fourth besides.
+  EXPECT_EQ(Numbers(pairs.begin(), pairs.begin() + 6), (Numbers{{1, 0}, {2, 0}, {2, 1}, {3, 0}, {3, 2}, {4, 3}}));
+  EXPECT_EQ(pairs.size(), 301U);
 }
 
 TEST_F(KeptStep, AStepThatIsReadInPartsDoesNotDisturbTheNextStep) {
