@@ -13,6 +13,7 @@
 #include "FlatKernel-inl.h"
 #include "JoinKernel-inl.h"
 #include "Kernels.h"
+#include "QueryKernel-inl.h"
 #include "ReadKernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,7 +31,10 @@ const Kernels* kernelTable() {
                              &readRun32,
                              &readTile32,
                              &readFloat32,
-                             &readFloat64};
+                             &readFloat64,
+                             &touchingLanes,
+                             &meetingLanes,
+                             &nearLanes};
   return &table;
 }
 
