@@ -158,7 +158,8 @@ int main(int argc, char** argv) {
     std::vector<QueryContender> contenders = contendersFor(scene);
     std::printf("%-18s %-16s %-20s %10s %10s %8s\n", "query", "who", "how", "results", "ms", "ns each");
     bool right = true;
-    for (std::size_t kind = 0; kind < bench::kQueryKinds.size(); ++kind) right = run(kind, scene, contenders, file) && right;
+    for (std::size_t kind = 0; kind < bench::kQueryKinds.size(); ++kind)
+      right = run(kind, scene, contenders, file) && right;
     return right ? 0 : 1;
   } catch (const CLI::ParseError& error) {
     return app.exit(error);

@@ -55,6 +55,7 @@ struct World::State {
     search.update(store);
     queries.lookAt({&store,
                     {search.dynamicBoxes().levels().hierarchy(), search.staticBoxes().levels().hierarchy()},
+                    {search.dynamicBoxes().exact(), search.staticBoxes().exact()},
                     &kernels,
                     &search.executor()});
     return queries;

@@ -2,7 +2,6 @@
 // Ways down a hierarchy.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -10,10 +9,29 @@
 
 #include "Join.h"
 #include "Lanes.h"
+#include "allpairs/Box.h"
+#include "allpairs/WorldTypes.h"
 
 namespace allpairs::engine {
 
-/// Calls take(id) for all boxes that may be met, where lanesOf(block) has a bit for each lane of a block that may be.
+/// A box at which a descent has arrived.
+struct Arrival {
+  BoxId id = kNoBox;
+  const LaneBlock& block;
+  std::size_t lane = 0;
+
+  /// The bounds that the lane holds, in double.
+  [[nodiscard]] Box lanes() const noexcept {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = static_cast<double>(block.bound[axis][lane]);
+      box.max[axis] = static_cast<double>(block.bound[axis + 3][lane]);
+    }
+    return box;
+  }
+};
+
+/// Calls take(arrival) for all boxes that may be met, where lanesOf(block) has a bit for each lane that may be.
 template <class LanesOf, class Take>
 class Descent {
  public:
@@ -26,10 +44,12 @@ class Descent {
   // Depth is at most kMaxLevels, whatever the input.
   // NOLINTNEXTLINE(misc-no-recursion)
   void descend(std::size_t level, std::size_t block) const {
-    for (std::uint32_t bits = m_lanesOf(m_hierarchy.level[level].blocks[block]); bits != 0; bits &= bits - 1) {
-      const std::size_t child = block * kFanOut + static_cast<std::size_t>(std::countr_zero(bits));
+    const LaneBlock& lanes = m_hierarchy.level[level].blocks[block];
+    for (std::uint32_t bits = m_lanesOf(lanes); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const std::size_t child = block * kFanOut + lane;
       if (level == 0) {
-        m_take(m_hierarchy.ids[child]);
+        m_take(Arrival{m_hierarchy.ids[child], lanes, lane});
       } else {
         descend(level - 1, child);
       }
@@ -41,7 +61,7 @@ class Descent {
   const Take& m_take;
 };
 
-/// Calls take(id) for the boxes in about the order of a cost, as far as it is within a limit that take() may lower.
+/// Calls take(arrival) for the boxes in about the order of a cost, as far as it is within a limit that take() may lower.
 ///
 /// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
 /// lanes: no more than those of whatever they hold, and not negative.
@@ -54,37 +74,29 @@ class CheapestDescent {
   void run() const { descend(m_hierarchy.depth - 1, 0); }
 
  private:
-  /// Lanes by their costs: floats that are not negative compare as their bits do, and the lane is below them.
-  struct Children {
-    std::array<std::uint64_t, kFanOut> sorted;
-    std::size_t count = 0;
-
-    void insert(float cost, std::uint64_t lane) {
-      const std::uint64_t key = std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32U | lane;
-      std::size_t i = count++;
-      for (; i > 0 && sorted[i - 1] > key; --i) sorted[i] = sorted[i - 1];
-      sorted[i] = key;
+  /// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
+  static std::size_t cheapest(std::uint32_t bits, const std::array<float, kFanOut>& costs) {
+    auto best = static_cast<std::size_t>(std::countr_zero(bits));
+    for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      best = costs[lane] < costs[best] ? lane : best;
     }
-    [[nodiscard]] float cost(std::size_t i) const {
-      return std::bit_cast<float>(static_cast<std::uint32_t>(sorted[i] >> 32U));
-    }
-    [[nodiscard]] std::size_t lane(std::size_t i) const { return sorted[i] & 0xFFU; }
-  };
+    return best;
+  }
 
   // Depth is at most kMaxLevels, whatever the input.
   // NOLINTNEXTLINE(misc-no-recursion)
   void descend(std::size_t level, std::size_t block) const {
     std::array<float, kFanOut> costs;
-    Children children;
-    for (std::uint32_t bits = m_lanesOf(m_hierarchy.level[level].blocks[block], costs.data()); bits != 0;
-         bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      children.insert(costs[lane], lane);
-    }
-    for (std::size_t i = 0; i < children.count && children.cost(i) <= m_limit; ++i) {
-      const std::size_t child = block * kFanOut + children.lane(i);
+    const LaneBlock& lanes = m_hierarchy.level[level].blocks[block];
+    std::uint32_t bits = m_lanesOf(lanes, costs.data());
+    while (bits != 0) {
+      const std::size_t lane = cheapest(bits, costs);
+      if (costs[lane] > m_limit) return;
+      bits &= ~(1U << lane);
+      const std::size_t child = block * kFanOut + lane;
       if (level == 0) {
-        m_take(m_hierarchy.ids[child]);
+        m_take(Arrival{m_hierarchy.ids[child], lanes, lane});
       } else {
         descend(level - 1, child);
       }

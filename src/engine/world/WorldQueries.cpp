@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "QueryLanes.h"
-#include "world/Descent.h"
 #include "world/QueryTests.h"
 
 namespace allpairs::engine {
@@ -19,10 +18,49 @@ bool isCloser(const Neighbor& a, const Neighbor& b) noexcept {
   return std::tie(a.distance, a.id) < std::tie(b.distance, b.id);
 }
 
+bool isExactly(const LaneBox& lanes, const Box& box) noexcept {
+  bool exact = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    exact = exact && static_cast<double>(lanes.bound[axis]) == box.min[axis] &&
+            static_cast<double>(lanes.bound[axis + 3]) == box.max[axis];
+  }
+  return exact;
+}
+
 float asFloat(double value) noexcept {
   constexpr double kMost = 1e30;
   return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
+
+/// The `count` nearest of those that are taken, as a heap at the end of a list, with the farthest of them on top.
+class NearestHeap {
+ public:
+  NearestHeap(std::vector<Neighbor>& list, std::size_t count) : m_list(list), m_begin(list.size()), m_count(count) {}
+
+  /// Returns whether it is full and has changed.
+  bool take(const Neighbor& found) {
+    if (m_list.size() - m_begin == m_count) {
+      if (!isCloser(found, m_list[m_begin])) return false;
+      std::pop_heap(begin(), m_list.end(), isCloser);
+      m_list.pop_back();
+    }
+    m_list.push_back(found);
+    std::push_heap(begin(), m_list.end(), isCloser);
+    return m_list.size() - m_begin == m_count;
+  }
+
+  [[nodiscard]] double farthest() const { return m_list[m_begin].distance; }
+  void sort() { std::sort(begin(), m_list.end(), isCloser); }
+
+ private:
+  [[nodiscard]] std::vector<Neighbor>::iterator begin() const {
+    return m_list.begin() + static_cast<std::ptrdiff_t>(m_begin);
+  }
+
+  std::vector<Neighbor>& m_list;
+  std::size_t m_begin;
+  std::size_t m_count;
+};
 
 }  // namespace
 
@@ -36,15 +74,15 @@ bool WorldQueries::passes(BoxId id, const Rule& rule) const noexcept {
   return (row.category & rule.filter.mask) != 0 && (row.mask & rule.filter.category) != 0;
 }
 
-Box WorldQueries::widenedBox(BoxId id) const noexcept {
-  return widened(m_target.store->box(id), m_target.store->margin(id));
+Box WorldQueries::widenedBox(const Arrival& at, bool exact) const noexcept {
+  return exact ? at.lanes() : widened(m_target.store->box(at.id), m_target.store->margin(at.id));
 }
 
 template <class Visit>
 void WorldQueries::eachHierarchy(const QueryFilter& filter, const Visit& visit) const {
   const auto& [dynamicBoxes, staticBoxes] = m_target.hierarchies;
-  if (filter.dynamicBoxes && dynamicBoxes.depth != 0) visit(dynamicBoxes);
-  if (filter.staticBoxes && staticBoxes.depth != 0) visit(staticBoxes);
+  if (filter.dynamicBoxes && dynamicBoxes.depth != 0) visit(dynamicBoxes, m_target.exact[0]);
+  if (filter.staticBoxes && staticBoxes.depth != 0) visit(staticBoxes, m_target.exact[1]);
 }
 
 /// Calls answer(task, query) for all queries, those that are near each other in the same task, in their order in space.
@@ -94,11 +132,16 @@ ResultLists<T> WorldQueries::join(std::size_t queries, Lists<T>& lists) const {
 void WorldQueries::overlapping(const Box& query, const Rule& rule, std::vector<BoxId>& ids) const {
   const auto begin = static_cast<std::ptrdiff_t>(ids.size());
   const LaneBox lanes = lanesOf(query);
+  const bool queryIsExact = isExactly(lanes, query);
   const auto lanesIn = [&](const LaneBlock& block) { return m_target.kernels->touchingLanes(block, lanes); };
-  const auto take = [&](BoxId id) {
-    if (passes(id, rule) && overlap(m_target.store->box(id), query, m_target.store->margin(id))) ids.push_back(id);
-  };
-  eachHierarchy(rule.filter, [&](const Hierarchy& hierarchy) { Descent(hierarchy, lanesIn, take).run(); });
+  eachHierarchy(rule.filter, [&](const Hierarchy& hierarchy, bool exact) {
+    const auto take = [&](const Arrival& at) {
+      if (!passes(at.id, rule)) return;
+      const BoxStore& store = *m_target.store;
+      if ((exact && queryIsExact) || overlap(store.box(at.id), query, store.margin(at.id))) ids.push_back(at.id);
+    };
+    Descent(hierarchy, lanesIn, take).run();
+  });
   std::sort(ids.begin() + begin, ids.end());
 }
 
@@ -110,15 +153,16 @@ SweepHit WorldQueries::first(const BoxSweep& sweep, const Rule& rule) const {
   const auto lanesIn = [&](const LaneBlock& block, float* times) {
     return m_target.kernels->meetingLanes(block, lanes, limit, times);
   };
-  const auto take = [&](BoxId id) {
-    if (!passes(id, rule)) return;
-    const SweepHit hit{id, meetingTime(sweep, widenedBox(id))};
-    if (hit.t >= kFar || !isNearer(hit, best)) return;
-    best = hit;
-    limit = roundUpFar(hit.t);
-  };
-  eachHierarchy(rule.filter,
-                [&](const Hierarchy& hierarchy) { CheapestDescent(hierarchy, lanesIn, limit, take).run(); });
+  eachHierarchy(rule.filter, [&](const Hierarchy& hierarchy, bool exact) {
+    const auto take = [&](const Arrival& at) {
+      if (!passes(at.id, rule)) return;
+      const SweepHit hit{at.id, meetingTime(sweep, widenedBox(at, exact))};
+      if (hit.t >= kFar || !isNearer(hit, best)) return;
+      best = hit;
+      limit = roundUpFar(hit.t);
+    };
+    CheapestDescent(hierarchy, lanesIn, limit, take).run();
+  });
   return best;
 }
 
@@ -131,43 +175,47 @@ void WorldQueries::all(const BoxSweep& sweep, const Rule& rule, std::vector<Swee
     std::array<float, kFanOut> times;
     return m_target.kernels->meetingLanes(block, lanes, limit, times.data());
   };
-  const auto take = [&](BoxId id) {
-    if (!passes(id, rule)) return;
-    const double t = meetingTime(sweep, widenedBox(id));
-    if (t < kFar) hits.push_back({id, t});
-  };
-  eachHierarchy(rule.filter, [&](const Hierarchy& hierarchy) { Descent(hierarchy, lanesIn, take).run(); });
+  eachHierarchy(rule.filter, [&](const Hierarchy& hierarchy, bool exact) {
+    const auto take = [&](const Arrival& at) {
+      if (!passes(at.id, rule)) return;
+      const double t = meetingTime(sweep, widenedBox(at, exact));
+      if (t < kFar) hits.push_back({at.id, t});
+    };
+    Descent(hierarchy, lanesIn, take).run();
+  });
   std::sort(hits.begin() + begin, hits.end(), isNearer);
 }
 
-/// The last part of the list is a heap of the nearest so far, the farthest of them on top, until it is sorted.
+/// The square of the distance within which all of some boxes are, rounded up.
+float WorldQueries::limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const {
+  double farthest = 0.0;
+  for (const Neighbor& other : others) {
+    const Box box = widened(m_target.store->box(other.id), m_target.store->margin(other.id));
+    farthest = std::max(farthest, distanceFrom(point, box));
+  }
+  return roundUpFar(farthest * farthest);
+}
+
+/// What is nearest to the query before, which is near in space, can't be far: a limit before any box has been met.
 void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count, const Rule& rule,
                            std::vector<Neighbor>& neighbors) const {
   if (count == 0) return;
-  const auto begin = static_cast<std::ptrdiff_t>(neighbors.size());
   const PointLanes lanes = lanesOf(point);
   float limit = kNever;
+  if (neighbors.size() >= count) limit = limitFrom(point, std::span<const Neighbor>(neighbors).last(count));
   const auto lanesIn = [&](const LaneBlock& block, float* squares) {
     return m_target.kernels->nearLanes(block, lanes, limit, squares);
   };
-  const auto take = [&](BoxId id) {
-    if (!passes(id, rule)) return;
-    const Neighbor found{id, distanceFrom(point, widenedBox(id))};
-    const auto heap = neighbors.begin() + begin;
-    if (static_cast<std::size_t>(neighbors.end() - heap) == count) {
-      if (!isCloser(found, *heap)) return;
-      std::pop_heap(heap, neighbors.end(), isCloser);
-      neighbors.pop_back();
-    }
-    neighbors.push_back(found);
-    std::push_heap(neighbors.begin() + begin, neighbors.end(), isCloser);
-    if (neighbors.size() - static_cast<std::size_t>(begin) < count) return;
-    const double farthest = neighbors[static_cast<std::size_t>(begin)].distance;
-    limit = roundUpFar(farthest * farthest);
-  };
-  eachHierarchy(rule.filter,
-                [&](const Hierarchy& hierarchy) { CheapestDescent(hierarchy, lanesIn, limit, take).run(); });
-  std::sort(neighbors.begin() + begin, neighbors.end(), isCloser);
+  NearestHeap heap(neighbors, count);
+  eachHierarchy(rule.filter, [&](const Hierarchy& hierarchy, bool exact) {
+    const auto take = [&](const Arrival& at) {
+      if (!passes(at.id, rule)) return;
+      if (!heap.take({at.id, distanceFrom(point, widenedBox(at, exact))})) return;
+      limit = std::min(limit, roundUpFar(heap.farthest() * heap.farthest()));
+    };
+    CheapestDescent(hierarchy, lanesIn, limit, take).run();
+  });
+  heap.sort();
 }
 
 void WorldQueries::orderSweeps(std::span<const BoxSweep> sweeps) {

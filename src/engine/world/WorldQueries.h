@@ -10,6 +10,7 @@
 #include "allpairs/Executor.h"
 #include "allpairs/WorldTypes.h"
 #include "world/BoxStore.h"
+#include "world/Descent.h"
 #include "world/KeptHierarchy.h"
 #include "world/QueryOrder.h"
 
@@ -19,6 +20,7 @@ namespace allpairs::engine {
 struct QueryTarget {
   const BoxStore* store = nullptr;
   std::array<Hierarchy, 2> hierarchies;  ///< Of the dynamic boxes and of the static ones.
+  std::array<bool, 2> exact{};  ///< Whether the lanes of a hierarchy are exactly the boxes, which have no margin.
   const Kernels* kernels = nullptr;
   Executor* executor = nullptr;
 };
@@ -71,11 +73,12 @@ class WorldQueries {
   void nearest(const std::array<double, 3>& point, std::size_t count, const Rule& rule,
                std::vector<Neighbor>& neighbors) const;
 
-  /// Calls visit(hierarchy) for those of the two that the filter looks at and that are not empty.
+  /// Calls visit(hierarchy, exact) for those of the two that the filter looks at and that are not empty.
   template <class Visit>
   void eachHierarchy(const QueryFilter& filter, const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id, const Rule& rule) const noexcept;
-  [[nodiscard]] Box widenedBox(BoxId id) const noexcept;
+  [[nodiscard]] Box widenedBox(const Arrival& at, bool exact) const noexcept;
+  [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;
 
   QueryTarget m_target;
   QueryOrder m_order;
