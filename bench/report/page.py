@@ -68,10 +68,10 @@ in Morton order, which is kinder to most peers.
 """
 
 
-def write_page(table, records):
+def write_page(table, records, moving=""):
     parts = [INTRODUCTION, _machine(records), _mistakes(records), _summary(table), METHOD]
     parts += [_scene_section(table, scene) for scene in table.scenes()]
-    parts += [_sorted_section(table), _pair_cost(), _threads(table), _kernel(table), _external(table), SCENES, PEERS, _settings(table)]
+    parts += [_sorted_section(table), _pair_cost(), _threads(table), _kernel(table), _external(table), moving, SCENES, PEERS, _settings(table)]
     return "\n".join(part for part in parts if part)
 
 
