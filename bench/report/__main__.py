@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from charts import pair_cost_chart, thread_chart, time_chart
+from moving import write_moving
 from page import write_page
 from records import Table, read_external, read_results
 
@@ -41,7 +42,7 @@ def main():
         sys.exit(f"{arguments.records}: no records")
     table = Table(records)
     write_pictures(table, arguments.docs / "images" / "benchmarks")
-    (arguments.docs / "benchmarks.md").write_text(write_page(table, records), encoding="utf-8")
+    (arguments.docs / "benchmarks.md").write_text(write_page(table, records, write_moving(arguments.docs)), encoding="utf-8")
 
 
 if __name__ == "__main__":

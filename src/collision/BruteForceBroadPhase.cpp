@@ -175,6 +175,8 @@ void BruteForceBroadPhase::setStrategy(Strategy strategy) {
 }
 
 Strategy BruteForceBroadPhase::getStrategy() const { return m_state->strategy; }
+void BruteForceBroadPhase::setKeepsSearch(bool keeps) { m_state->search.setKept(keeps); }
+bool BruteForceBroadPhase::getKeepsSearch() const { return m_state->search.isKept(); }
 void BruteForceBroadPhase::setExecutor(Executor* executor) { m_state->search.setExecutor(executor); }
 const BroadPhaseStatistics& BruteForceBroadPhase::statistics() const { return m_state->statistics; }
 

@@ -32,7 +32,12 @@ bool isLibraryType(const std::type_info& type) {
 ModelTable::ModelTable() : m_rootTypes{typeid(BoundingBoxModel)} {}
 
 void ModelTable::clear() {
+  if (m_size != 0) {
+    ++m_step;
+    m_sizeBefore = m_size;
+  }
   m_size = 0;
+  m_changedCount = 0;
   m_groupLists.clear();
   m_rootTypes.erase(m_rootTypes.begin() + 1, m_rootTypes.end());
   m_largestContactDistance = 0.0;
@@ -57,6 +62,7 @@ void ModelTable::add(CollisionModel* model, bool ours, bool selfPair) {
                     last.m_groups == nullptr ? 0U : noteGroups(last),
                     rootType,
                     static_cast<std::uint8_t>(flags)};
+  noteChange(box, last.m_contactDistance);
   m_boxes[m_size] = box;
   m_contactDistances[m_size] = last.m_contactDistance;
   m_largestContactDistance = std::max(m_largestContactDistance, std::abs(last.m_contactDistance));
@@ -65,8 +71,15 @@ void ModelTable::add(CollisionModel* model, bool ours, bool selfPair) {
   ++m_size;
 }
 
+void ModelTable::noteChange(const Box& box, double contactDistance) {
+  const bool same = m_size < m_sizeBefore && m_boxes[m_size] == box && m_contactDistances[m_size] == contactDistance;
+  m_changed[m_changedCount] = static_cast<std::uint32_t>(m_size);
+  m_changedCount += same ? 0U : 1U;
+}
+
 void ModelTable::grow() {
   const std::size_t size = std::max<std::size_t>(64, 2 * m_size);
+  m_changed.resize(size);
   m_boxes.resize(size);
   m_contactDistances.resize(size);
   m_rows.resize(size);  // last: its size is the one that is looked at

@@ -37,7 +37,17 @@ class ModelTable {
  public:
   ModelTable();
 
+  /// Begins a step: the rows of the last one are compared with those that come. One without rows is none.
   void clear();
+
+  /// The number of the step, from 1 on.
+  [[nodiscard]] std::uint64_t step() const { return m_step; }
+
+  /// How many rows the last step had.
+  [[nodiscard]] std::size_t sizeBefore() const { return m_sizeBefore; }
+
+  /// The rows whose box or contact distance is another than in the last step, or that it didn't have, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> changed() const { return {m_changed.data(), m_changedCount}; }
 
   /// Whether the last level of a model is of one of the library's own types, none of whose functions is overridden.
   [[nodiscard]] bool isOurs(const CollisionModel& last) {
@@ -86,15 +96,20 @@ class ModelTable {
   };
 
   void grow();
+  void noteChange(const Box& box, double contactDistance);
   void lookUpType(const std::type_info& type);
   [[nodiscard]] bool haveCommonGroup(const ModelRow& a, const ModelRow& b) const;
   [[nodiscard]] std::uint16_t rootTypeOf(const CollisionModel& model);
   [[nodiscard]] std::uint32_t noteGroups(const CollisionModel& last);
 
+  std::uint64_t m_step = 1;
   std::size_t m_size = 0;  // of the columns, which are as long as they ever were
+  std::size_t m_sizeBefore = 0;
+  std::size_t m_changedCount = 0;
   std::vector<ModelRow> m_rows;
   std::vector<Box> m_boxes;
   std::vector<double> m_contactDistances;
+  std::vector<std::uint32_t> m_changed;
   std::vector<std::shared_ptr<const std::vector<int>>> m_groupLists;
   std::vector<std::type_index> m_rootTypes;
   KnownType m_lastType;

@@ -26,6 +26,12 @@ void PairSearch::addPairs(std::size_t begin, std::vector<CollisionModelPair>& pa
   }
 }
 
+void PairSearch::setKept(bool kept) {
+  if (kept == isKept()) return;
+  m_kept.reset();
+  if (kept) m_kept.emplace();
+}
+
 void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
   for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
     const ModelRow& row = m_models.row(newer);
@@ -40,7 +46,7 @@ void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pair
 
 void PairSearch::askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
   Candidates withOlder = searchOlder(begin, statistics);
-  Candidates withNewer = searchNewer(begin, statistics);
+  Candidates withNewer = begin == 0 ? searchAll(statistics) : searchNewer(begin, statistics);
   statistics.candidates += withOlder.left.size() + withNewer.left.size();
   const bool plain = m_rules.arePlain();
   if (plain && begin == 0 && !m_models.anySelfPair()) {
@@ -94,6 +100,20 @@ PairSearch::Candidates PairSearch::searchOlder(std::size_t begin, BroadPhaseStat
       m_betweenNewerAndOlder.findBetween(boxSet(0, begin), boxSet(begin, m_models.size()));
   addTests(m_betweenNewerAndOlder.statistics(), statistics);
   return {found, 0, begin};
+}
+
+PairSearch::Candidates PairSearch::searchAll(BroadPhaseStatistics& statistics) {
+  if (!m_kept || m_strategy != Strategy::Automatic) return searchNewer(0, statistics);
+  const bool addsContactDistances = m_rules.addsContactDistances() && m_models.anyContactDistance();
+  const KeptSearch::Settings settings{searchDistance(), addsContactDistances, m_executor};
+  if (m_kept->isWorthIt(m_models, settings)) {
+    const std::span<const Pair> found = m_kept->find(m_models);
+    statistics.testsMade += m_kept->testsMade();
+    return {found, 0, 0};
+  }
+  const Candidates found = searchNewer(0, statistics);
+  m_kept->notePairs(found.left.size());
+  return found;
 }
 
 PairSearch::Candidates PairSearch::searchNewer(std::size_t begin, BroadPhaseStatistics& statistics) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "KeptSearch.h"
 #include "ModelTable.h"
 #include "PairRules.h"
 #include "allpairs/Overlaps.h"
@@ -19,6 +22,10 @@ class PairSearch {
 
   void setStrategy(Strategy strategy) { m_strategy = strategy; }
   void setExecutor(Executor* executor) { m_executor = executor; }
+
+  /// Whether a search may be kept from step to step; if not, its memory is given back.
+  void setKept(bool kept);
+  [[nodiscard]] bool isKept() const { return m_kept.has_value(); }
 
   /// Appends the pairs of rows `begin` and up, each with itself and with all rows before it, in the double loop's
   /// order.
@@ -40,6 +47,7 @@ class PairSearch {
   [[nodiscard]] BoxSet boxSet(std::size_t begin, std::size_t end) const;
   [[nodiscard]] Candidates searchOlder(std::size_t begin, BroadPhaseStatistics& statistics);
   [[nodiscard]] Candidates searchNewer(std::size_t begin, BroadPhaseStatistics& statistics);
+  [[nodiscard]] Candidates searchAll(BroadPhaseStatistics& statistics);
   [[nodiscard]] double searchDistance() const;
   [[nodiscard]] OverlapOptions options() const;
 
@@ -49,6 +57,7 @@ class PairSearch {
   Executor* m_executor = nullptr;
   Overlaps m_amongNewer;
   Overlaps m_betweenNewerAndOlder;
+  std::optional<KeptSearch> m_kept{std::in_place};
 };
 
 }  // namespace allpairs::collision

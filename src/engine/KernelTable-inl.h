@@ -13,6 +13,7 @@
 #include "FlatKernel-inl.h"
 #include "JoinKernel-inl.h"
 #include "Kernels.h"
+#include "QueryKernel-inl.h"
 #include "ReadKernel-inl.h"
 #include "SortKernel-inl.h"
 
@@ -31,7 +32,10 @@ const Kernels* kernelTable() {
                              &readRun32,
                              &readTile32,
                              &readFloat32,
-                             &readFloat64};
+                             &readFloat64,
+                             &touchingLanes,
+                             &meetingLanes,
+                             &nearLanes};
   return &table;
 }
 

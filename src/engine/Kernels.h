@@ -12,6 +12,7 @@
 #include "Join.h"
 #include "Lanes.h"
 #include "PackedBucket.h"
+#include "QueryLanes.h"
 #include "RowBlock.h"
 #include "allpairs/Pair.h"
 
@@ -47,6 +48,12 @@ struct Kernels {
   /// Reads sixteen boxes, those that start `offsets` values after `rows`, as lanes that are no smaller.
   RowBlockResult (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);
   RowBlockResult (*readFloat64)(const double* rows, const std::int32_t* offsets, LaneBlock& block);
+
+  /// Which of sixteen boxes a query may meet, as bits: all that it does, and few others. Where a number is asked for, it
+  /// is no more than what the query comes to, for each of them: the time of meeting, the square of the distance.
+  std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
+  std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
+  std::uint32_t (*nearLanes)(const LaneBlock& block, const PointLanes& point, float limit, float* squares);
 };
 
 /// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.

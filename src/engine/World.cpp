@@ -40,9 +40,11 @@ void checkPoint(const std::array<double, 3>& point, std::size_t index) {
 }  // namespace
 
 struct World::State {
-  State(WorldOptions given, const engine::Kernels& kernels) : options(std::move(given)), search(options, kernels) {}
+  State(WorldOptions given, const engine::Kernels& chosen)
+      : options(std::move(given)), kernels(chosen), search(options, chosen) {}
 
   WorldOptions options;
+  const engine::Kernels& kernels;
   engine::BoxStore store;
   engine::WorldSearch search;
   engine::WorldQueries queries;
@@ -53,6 +55,8 @@ struct World::State {
     search.update(store);
     queries.lookAt({&store,
                     {search.dynamicBoxes().levels().hierarchy(), search.staticBoxes().levels().hierarchy()},
+                    {search.dynamicBoxes().exact(), search.staticBoxes().exact()},
+                    &kernels,
                     &search.executor()});
     return queries;
   }

@@ -41,9 +41,10 @@ class VerificationError : public Error {
 /// Geometry:  closed boxes, per axis, in double, as allpairs::overlap() with the method's distance.
 /// Bad input: a root box with a NaN throws InvalidBox that names the model; a missing method throws InvalidArgument.
 ///            Null and empty models are ignored.
-/// Cost:      that of allpairs::Overlaps on the root boxes, and the rules for each pair that overlaps; n(n-1)/2 calls of
-///            the rules with Strategy::Exhaustive, or if the method can't bound its distance. A second step like the
-///            first allocates nothing.
+/// Cost:      that of allpairs::Overlaps on the root boxes, and the rules for each pair that overlaps; where few models
+///            have moved since the last step, that of allpairs::World, which follows what has changed, instead
+///            (docs/decisions/0012); n(n-1)/2 calls of the rules with Strategy::Exhaustive, or if the method can't
+///            bound its distance. Steps like those before allocate nothing.
 /// Threads:   one step at a time per object; the search runs on the executor, rules and intersectors are called from
 ///            the calling thread.
 class BruteForceBroadPhase : public BroadPhaseDetection {
@@ -81,6 +82,11 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
   /// asked one by one through the virtual calls, as models are added. May change between steps.
   void setStrategy(Strategy strategy);
   [[nodiscard]] Strategy getStrategy() const;
+
+  /// Whether Strategy::Automatic keeps boxes and pairs from one step to the next, as it does by default: a scene of which
+  /// little moves then costs what moves. It changes no result, and takes up to 200 bytes a model and 70 a pair.
+  void setKeepsSearch(bool keeps);
+  [[nodiscard]] bool getKeepsSearch() const;
 
   /// Where the search runs in parallel; null means on the calling thread. Not owned.
   void setExecutor(Executor* executor);

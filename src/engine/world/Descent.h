@@ -2,7 +2,6 @@
 // Ways down a hierarchy.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -10,31 +9,34 @@
 
 #include "Join.h"
 #include "Lanes.h"
-#include "world/QueryTests.h"
+#include "allpairs/Box.h"
+#include "allpairs/WorldTypes.h"
 
 namespace allpairs::engine {
 
-/// A bit for each lane of the block that touches the query.
-[[nodiscard]] inline std::uint32_t touchingLanes(const LaneBlock& block, const LaneBox& query) noexcept {
-  std::array<std::uint8_t, kFanOut> touches;
-  touches.fill(1);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
-      touches[lane] &= static_cast<std::uint8_t>((block.bound[axis][lane] <= query.bound[axis + 3]) &
-                                                 (query.bound[axis] <= block.bound[axis + 3][lane]));
-    }
-  }
-  std::uint32_t mask = 0;
-  for (std::size_t lane = 0; lane < kFanOut; ++lane) mask |= std::uint32_t{touches[lane]} << lane;
-  return mask;
-}
+/// A box at which a descent has arrived.
+struct Arrival {
+  BoxId id = kNoBox;
+  const LaneBlock& block;
+  std::size_t lane = 0;
 
-/// Calls take(id) for all boxes whose lanes touch the query.
-template <class Take>
-class TouchingDescent {
+  /// The bounds that the lane holds, in double.
+  [[nodiscard]] Box lanes() const noexcept {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = static_cast<double>(block.bound[axis][lane]);
+      box.max[axis] = static_cast<double>(block.bound[axis + 3][lane]);
+    }
+    return box;
+  }
+};
+
+/// Calls take(arrival) for all boxes that may be met, where lanesOf(block) has a bit for each lane that may be.
+template <class LanesOf, class Take>
+class Descent {
  public:
-  TouchingDescent(const Hierarchy& hierarchy, const LaneBox& query, const Take& take)
-      : m_hierarchy(hierarchy), m_query(query), m_take(take) {}
+  Descent(const Hierarchy& hierarchy, const LanesOf& lanesOf, const Take& take)
+      : m_hierarchy(hierarchy), m_lanesOf(lanesOf), m_take(take) {}
 
   void run() const { descend(m_hierarchy.depth - 1, 0); }
 
@@ -42,11 +44,12 @@ class TouchingDescent {
   // Depth is at most kMaxLevels, whatever the input.
   // NOLINTNEXTLINE(misc-no-recursion)
   void descend(std::size_t level, std::size_t block) const {
-    for (std::uint32_t mask = touchingLanes(m_hierarchy.level[level].blocks[block], m_query); mask != 0;
-         mask &= mask - 1) {
-      const std::size_t child = block * kFanOut + static_cast<std::size_t>(std::countr_zero(mask));
+    const LaneBlock& lanes = m_hierarchy.level[level].blocks[block];
+    for (std::uint32_t bits = m_lanesOf(lanes); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const std::size_t child = block * kFanOut + lane;
       if (level == 0) {
-        m_take(m_hierarchy.ids[child]);
+        m_take(Arrival{m_hierarchy.ids[child], lanes, lane});
       } else {
         descend(level - 1, child);
       }
@@ -54,43 +57,46 @@ class TouchingDescent {
   }
 
   const Hierarchy& m_hierarchy;
-  const LaneBox& m_query;
+  const LanesOf& m_lanesOf;
   const Take& m_take;
 };
 
-/// Calls take(id) for the boxes in about the order of a cost, as far as it is within a limit that take() may lower.
+/// Calls take(arrival) for the boxes in about the order of a cost, as far as it is within a limit that take() may lower.
 ///
-/// cost(box) is no greater for a box that holds another one; infinity means never.
-template <class Cost, class Take>
+/// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
+/// lanes: no more than those of whatever they hold, and not negative.
+template <class LanesOf, class Take>
 class CheapestDescent {
  public:
-  CheapestDescent(const Hierarchy& hierarchy, const Cost& cost, const double& limit, const Take& take)
-      : m_hierarchy(hierarchy), m_cost(cost), m_limit(limit), m_take(take) {}
+  CheapestDescent(const Hierarchy& hierarchy, const LanesOf& lanesOf, const float& limit, const Take& take)
+      : m_hierarchy(hierarchy), m_lanesOf(lanesOf), m_limit(limit), m_take(take) {}
 
   void run() const { descend(m_hierarchy.depth - 1, 0); }
 
  private:
-  struct Child {
-    double cost;
-    std::uint32_t lane;
-  };
+  /// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
+  static std::size_t cheapest(std::uint32_t bits, const std::array<float, kFanOut>& costs) {
+    auto best = static_cast<std::size_t>(std::countr_zero(bits));
+    for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      best = costs[lane] < costs[best] ? lane : best;
+    }
+    return best;
+  }
 
   // Depth is at most kMaxLevels, whatever the input.
   // NOLINTNEXTLINE(misc-no-recursion)
   void descend(std::size_t level, std::size_t block) const {
-    std::array<Child, kFanOut> children;
-    std::size_t count = 0;
+    std::array<float, kFanOut> costs;
     const LaneBlock& lanes = m_hierarchy.level[level].blocks[block];
-    for (std::uint32_t lane = 0; lane < kFanOut; ++lane) {
-      const double cost = m_cost(unbounded(lanes.get(lane)));
-      if (cost < kFar && cost <= m_limit) children[count++] = {cost, lane};
-    }
-    std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const Child& a, const Child& b) { return a.cost < b.cost || (a.cost == b.cost && a.lane < b.lane); });
-    for (std::size_t i = 0; i < count && children[i].cost <= m_limit; ++i) {
-      const std::size_t child = block * kFanOut + children[i].lane;
+    std::uint32_t bits = m_lanesOf(lanes, costs.data());
+    while (bits != 0) {
+      const std::size_t lane = cheapest(bits, costs);
+      if (costs[lane] > m_limit) return;
+      bits &= ~(1U << lane);
+      const std::size_t child = block * kFanOut + lane;
       if (level == 0) {
-        m_take(m_hierarchy.ids[child]);
+        m_take(Arrival{m_hierarchy.ids[child], lanes, lane});
       } else {
         descend(level - 1, child);
       }
@@ -98,8 +104,8 @@ class CheapestDescent {
   }
 
   const Hierarchy& m_hierarchy;
-  const Cost& m_cost;
-  const double& m_limit;
+  const LanesOf& m_lanesOf;
+  const float& m_limit;
   const Take& m_take;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What decides the answer of a query, for boxes and, with bounds that hold them, for groups: each is monotone in the
-// bounds under rounding, so that no box is met unless its group is.
+// What decides the answer of a query.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "Lanes.h"
 #include "allpairs/Box.h"
 #include "allpairs/WorldTypes.h"
 
@@ -25,16 +23,6 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
     result.max[axis] += margin;
   }
   return result;
-}
-
-/// Bounds in double that hold whatever the lanes bound: the largest float32 stands for infinity as well.
-[[nodiscard]] inline Box unbounded(const LaneBox& lanes) noexcept {
-  Box box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.min[axis] = lanes.bound[axis] <= -kLaneMax ? -kFar : static_cast<double>(lanes.bound[axis]);
-    box.max[axis] = lanes.bound[axis + 3] >= kLaneMax ? kFar : static_cast<double>(lanes.bound[axis + 3]);
-  }
-  return box;
 }
 
 /// The least t at which a moving box meets a resting one, infinity if it doesn't; bounds may be turned over by a margin.

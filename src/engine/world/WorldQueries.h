@@ -6,10 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "Kernels.h"
 #include "allpairs/Executor.h"
 #include "allpairs/WorldTypes.h"
 #include "world/BoxStore.h"
+#include "world/Descent.h"
 #include "world/KeptHierarchy.h"
+#include "world/QueryOrder.h"
 
 namespace allpairs::engine {
 
@@ -17,10 +20,15 @@ namespace allpairs::engine {
 struct QueryTarget {
   const BoxStore* store = nullptr;
   std::array<Hierarchy, 2> hierarchies;  ///< Of the dynamic boxes and of the static ones.
+  std::array<bool, 2> exact{};  ///< Whether the lanes of a hierarchy are exactly the boxes, which have no margin.
+  const Kernels* kernels = nullptr;
   Executor* executor = nullptr;
 };
 
 /// Queries against the boxes of a world, and the memory of their results.
+///
+/// A query goes down the hierarchies, whose blocks the kernels test in float32, and decides in double what comes of it.
+/// Batches are answered in the order of space, in tasks.
 class WorldQueries {
  public:
   /// Queries look at these boxes until the next call.
@@ -38,29 +46,43 @@ class WorldQueries {
   struct Lists {
     struct Part {
       std::vector<T> values;
-      std::vector<std::size_t> sizes;  ///< By query.
     };
     std::vector<Part> parts;
     std::vector<T> values;
     std::vector<std::size_t> offsets;
   };
 
+  /// What a filter asks of boxes.
+  struct Rule {
+    QueryFilter filter;
+    bool everyBox = false;  ///< All boxes pass, so that none need be asked.
+  };
+
+  [[nodiscard]] Rule ruleOf(const QueryFilter& filter) const noexcept;
+  void orderSweeps(std::span<const BoxSweep> sweeps);
+  template <class Answer>
+  void answerInOrder(std::size_t queries, const Answer& answer);
   template <class T, class Find>
   ResultLists<T> findEach(std::size_t queries, Lists<T>& lists, const Find& find);
+  template <class T>
+  ResultLists<T> join(std::size_t queries, Lists<T>& lists) const;
 
-  void overlapping(const Box& query, const QueryFilter& filter, std::vector<BoxId>& ids) const;
-  [[nodiscard]] SweepHit first(const BoxSweep& sweep, const QueryFilter& filter) const;
-  void all(const BoxSweep& sweep, const QueryFilter& filter, std::vector<SweepHit>& hits) const;
-  void nearest(const std::array<double, 3>& point, std::size_t count, const QueryFilter& filter,
+  void overlapping(const Box& query, const Rule& rule, std::vector<BoxId>& ids) const;
+  [[nodiscard]] SweepHit first(const BoxSweep& sweep, const Rule& rule) const;
+  void all(const BoxSweep& sweep, const Rule& rule, std::vector<SweepHit>& hits) const;
+  void nearest(const std::array<double, 3>& point, std::size_t count, const Rule& rule,
                std::vector<Neighbor>& neighbors) const;
 
-  /// Calls visit(hierarchy) for those of the two that the filter looks at and that are not empty.
+  /// Calls visit(hierarchy, exact) for those of the two that the filter looks at and that are not empty.
   template <class Visit>
   void eachHierarchy(const QueryFilter& filter, const Visit& visit) const;
-  [[nodiscard]] bool passes(BoxId id, const QueryFilter& filter) const noexcept;
-  [[nodiscard]] Box widenedBox(BoxId id) const noexcept;
+  [[nodiscard]] bool passes(BoxId id, const Rule& rule) const noexcept;
+  [[nodiscard]] Box widenedBox(const Arrival& at, bool exact) const noexcept;
+  [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;
 
   QueryTarget m_target;
+  QueryOrder m_order;
+  std::vector<std::array<float, 3>> m_points;  ///< Where the queries of a batch begin.
   Lists<BoxId> m_boxes;
   Lists<SweepHit> m_hits;
   Lists<Neighbor> m_neighbors;

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: MIT
+"""The part of the report about what is kept from step to step: moving boxes, the component, queries, deforming meshes."""
+
+import csv
+from dataclasses import dataclass
+
+from charts import LogScale, number_text, style_of, css_name, time_text
+from svg import Picture
+
+OURS = "Allpairs"
+
+
+@dataclass(frozen=True)
+class Task:
+    """What one contender took for one task."""
+
+    task: str
+    subject: str
+    size: int
+    contender: str
+    setting: str
+    results: int
+    repetitions: int
+    cpu_ms: float
+    late_ms: float  # The 99th percentile of a frame's time; 0 where there are no frames.
+    worst_ms: float
+    right: bool
+    provenance: dict
+
+
+PROVENANCE = ("commit", "compiler", "processor")
+
+
+def read_moving(path):
+    """Frames of moving boxes, as moving_benchmark writes them."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return [_frames_record(row) for row in csv.DictReader(file)]
+
+
+def _frames_record(row):
+    return Task(
+        task="frames",
+        subject=row["motion"],
+        size=int(row["boxes"]),
+        contender=row["contender"],
+        setting=row["setting"],
+        results=int(row["pairs"]),
+        repetitions=int(row["frames"]),
+        cpu_ms=float(row["median_cpu_ms"]),
+        late_ms=float(row["p99_cpu_ms"]),
+        worst_ms=float(row["worst_cpu_ms"]),
+        right=int(row["wrong_frames"]) == 0,
+        provenance={key: row.get(key, "") for key in PROVENANCE},
+    )
+
+
+def read_tasks(path):
+    """Records of the other benchmarks, which share a form: bench/records/RecordFile.h."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return [_task_record(row) for row in csv.DictReader(file)]
+
+
+def _task_record(row):
+    return Task(
+        task=row["task"],
+        subject=row["subject"],
+        size=int(row["size"]),
+        contender=row["contender"],
+        setting=row["setting"],
+        results=int(row["results"]),
+        repetitions=int(row["repetitions"]),
+        cpu_ms=float(row["median_cpu_ms"]),
+        late_ms=0.0,
+        worst_ms=float(row["most_cpu_ms"]),
+        right=row["right"] == "yes",
+        provenance={key: row[key] for key in PROVENANCE},
+    )
+
+
+def groups_of(records, key):
+    """Records by a key, in the order in which the keys come."""
+    groups = {}
+    for record in records:
+        groups.setdefault(key(record), []).append(record)
+    return groups
+
+
+def best_by_contender(records):
+    """Of each contender the setting that was the fastest."""
+    best = {}
+    for record in records:
+        if record.contender not in best or record.cpu_ms < best[record.contender].cpu_ms:
+            best[record.contender] = record
+    return best
+
+
+def cost_chart(title, subtitle, rows):
+    """A row for each task, a mark for each contender, on one logarithmic axis; rows: [(label, {name: record})]."""
+    left, right, top, row_height = 250, 28, 86, 30
+    picture = Picture(760, top + row_height * len(rows) + 44, title)
+    picture.text(16, 22, title, size=15, weight="600")
+    picture.text(16, 38, subtitle, "soft", 11.5)
+    scale = LogScale([r.cpu_ms for _, row in rows for r in row.values()], left, picture.width - right)
+    bottom = top + row_height * len(rows)
+    for value in scale.decades():
+        picture.line([(scale(value), top - 6), (scale(value), bottom)], "grid")
+        picture.text(scale(value), bottom + 16, time_text(value), "soft", 11, "middle")
+    for index, (label, row) in enumerate(rows):
+        _draw_row(picture, scale, (left, picture.width - right, top + row_height * (index + 0.5)), label, row)
+    _draw_names(picture, rows)
+    return picture.render()
+
+
+def _draw_row(picture, scale, place, label, row):
+    left, right, y = place
+    picture.text(16, y + 4, label, size=12)
+    picture.line([(left, y), (right, y)], "grid")
+    for name in sorted(row, key=lambda n: n == OURS):
+        light, dark, shape = _style(name)
+        picture.colour(css_name(name), light, dark)
+        hint = f"{name}, {row[name].setting}: {time_text(row[name].cpu_ms)}"
+        picture.marker(scale(row[name].cpu_ms), y, shape, css_name(name), 5.6 if name == OURS else 4.2, hint)
+
+
+def _style(name):
+    others = ["searched anew", "one-shot"]
+    return style_of("allpairs" if name == OURS else name, others)
+
+
+def _draw_names(picture, rows):
+    x = 20
+    for name in sorted({name for _, row in rows for name in row}, key=lambda n: (n != OURS, n)):
+        light, dark, shape = _style(name)
+        picture.colour(css_name(name), light, dark)
+        picture.marker(x, 60, shape, css_name(name), 4.2)
+        picture.text(x + 9, 64, name, size=11.5, weight="700" if name == OURS else "normal")
+        x += 26 + 6.6 * len(name)
+
+
+def _row(cells):
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+def _grid(heading, texts, rows):
+    """A table whose first columns are texts and whose others are numbers."""
+    aligned = "|" + "---|" * texts + "---:|" * (len(heading) - texts)
+    return "\n".join([_row(heading), aligned] + [_row(row) for row in rows]) + "\n"
+
+
+def _name(record):
+    return f"{record.contender}, {record.setting}" + ("" if record.right else " **(other results)**")
+
+
+def _ratio(record, ours):
+    return f"{record.cpu_ms / ours.cpu_ms:.1f}x" if record is not ours else ""
+
+
+def _machine(records):
+    p = records[0].provenance
+    return f"Measured on {p['processor']}; {p['compiler']}; commit {p['commit']}.\n"
+
+
+def frames_section(records):
+    rows = []
+    for (motion, size), group in groups_of(records, lambda r: (r.subject, r.size)).items():
+        ours = next((r for r in group if r.setting == "world"), group[0])
+        for r in group:
+            times = [time_text(value) for value in (r.cpu_ms, r.late_ms, r.worst_ms)]
+            rows.append([f"{motion}, {number_text(size)}", _name(r), r.repetitions] + times + [_ratio(r, ours)])
+    heading = ["boxes", "who", "frames", "median", "99 %", "worst", "to the world"]
+    return (
+        "## Moving boxes\n\nEach frame gives the pairs of that frame, which are compared with those of the others; *world* "
+        "says besides which began, persist and ended. Cubes at a tenth of the room's volume, as in Broadmark; in each "
+        "frame a box goes a tenth of its side, in *slow* a hundredth; in *one-percent* most rest.\n\n"
+        "![Time of a frame](images/benchmarks/moving.svg)\n\n" + _grid(heading, 2, rows)
+    )
+
+
+def frames_chart(records):
+    rows = []
+    for (motion, size), group in groups_of(records, lambda r: (r.subject, r.size)).items():
+        row = best_by_contender([r for r in group if r.contender != OURS])
+        row[OURS] = next((r for r in group if r.setting == "world"), group[0])
+        once = [r for r in group if r.contender == OURS and r.setting.startswith("one-shot")]
+        if once:
+            row["one-shot"] = min(once, key=lambda r: r.cpu_ms)
+        rows.append((f"{motion}, {number_text(size)} boxes", row))
+    return cost_chart("Time of a frame", "processor time from what moved to the pairs, one thread, median; logarithmic", rows)
+
+
+def cycle_section(records):
+    rows = []
+    for (size, subject), group in groups_of(records, lambda r: (r.size, r.subject)).items():
+        kept = next(r for r in group if r.setting == "kept")
+        anew = next(r for r in group if r.setting == "anew")
+        right = "" if kept.right and anew.right else " **(other results)**"
+        times = [time_text(kept.cpu_ms), time_text(anew.cpu_ms), f"{anew.cpu_ms / kept.cpu_ms:.1f}x"]
+        rows.append([number_text(size), subject + right, number_text(float(f"{kept.results:.3g}"))] + times)
+    heading = ["models", "motion", "pairs", "kept", "searched anew", "ratio"]
+    return (
+        "## The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, box models in nodes of "
+        "their own, by a search that is kept and by one that is made anew in each step "
+        "([decision 12](decisions/0012-component-keeps-its-search.md)).\n\n"
+        "![Time of a step of the component](images/benchmarks/cycle.svg)\n\n" + _grid(heading, 2, rows)
+    )
+
+
+def cycle_chart(records):
+    rows = []
+    for (size, subject), group in groups_of(records, lambda r: (r.size, r.subject)).items():
+        names = {"kept": OURS, "anew": "searched anew"}
+        rows.append((f"{number_text(size)} models, {subject}", {names[r.setting]: r for r in group}))
+    return cost_chart("Time of a step of the component", "processor time from begin to end, one thread, median; logarithmic", rows)
+
+
+def contest_rows(records, ours_setting):
+    """Rows of a table in which every record of a task is compared with ours in one setting."""
+    for (task, subject), group in groups_of(records, lambda r: (r.task, r.subject)).items():
+        ours = next((r for r in group if r.contender == OURS and r.setting == ours_setting), group[0])
+        for r in group:
+            yield [subject, task, _name(r), r.results, time_text(r.cpu_ms), _ratio(r, ours)]
+
+
+def contest_chart(title, subtitle, records):
+    rows = []
+    for (task, subject), group in groups_of(records, lambda r: (r.task, r.subject)).items():
+        rows.append((f"{subject}: {task}", best_by_contender(group)))
+    return cost_chart(title, subtitle, rows)
+
+
+def queries_section(records):
+    each = number_text(records[0].size)
+    heading = ["of", "query", "who", "results", f"{each} queries", "ratio"]
+    return (
+        "## Queries\n\nCubes of which each overlaps about five others, and queries anywhere among them, in no order; trees are "
+        "made before the clock starts. Results are compared: ids exactly, times and distances to within what peers round in "
+        "float32. Ours are exact in double.\n\n![Time of a batch of queries](images/benchmarks/queries.svg)\n\n"
+        + _grid(heading, 3, contest_rows(records, "in a batch"))
+    )
+
+
+def elements_section(records):
+    heading = ["step", "list", "who", "candidates", "time", "ratio"]
+    return (
+        "## Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data. Ours from positions in double at start "
+        "and end to the list, with nothing kept but the topology; *second step* with memory kept. Peers get boxes that are "
+        "ready made, in float32 rounded outward, which lets in some more pairs, and leave out pairs with a common vertex "
+        "afterwards. Programs that are not packaged are in the last table of this section.\n\n"
+        "![Time of a list of candidates](images/benchmarks/elements.svg)\n\n" + _grid(heading, 3, contest_rows(records, "once"))
+    )
+
+
+def external_section(path):
+    """Programs measured by hand on the same steps: step,list,name,setting,ms,candidates,allpairs_ms; # begins a comment."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    cells = [
+        [r["step"], r["list"], f"{r['name']}, {r['setting']}", r["candidates"], time_text(float(r["ms"]))]
+        + [f"{float(r['ms']) / float(r['allpairs_ms']):.1f}x"]
+        for r in rows
+    ]
+    heading = ["step", "list", "who", "candidates", "time", "to ours in that run"]
+    return (
+        "Not packaged, measured by hand as [benchmarks-elements-external.csv](benchmarks-elements-external.csv) says:\n\n"
+        + _grid(heading, 3, cells)
+    )
+
+
+QUERY_TASKS = ("overlapping a box", "first on a ray", "all on a ray", "nearest", "nearest 8")
+ELEMENT_TASKS = ("vertex-face", "edge-edge", "face-face")
+
+INTRODUCTION = """# What is kept from step to step
+
+The parts below, their pictures and their records, [frames](benchmarks-moving.csv) and [the rest](benchmarks-tasks.csv),
+are written by
+
+```
+./dev bench --moving --report
+```
+
+which takes about five minutes. Contenders take turns; times are processor time, on one thread.
+"""
+
+
+def write_moving(docs):
+    """The page's part and its pictures, from what records there are; nothing without any."""
+    pictures = docs / "images" / "benchmarks"
+    moving, tasks = docs / "benchmarks-moving.csv", docs / "benchmarks-tasks.csv"
+    frames = read_moving(moving) if moving.exists() else []
+    records = read_tasks(tasks) if tasks.exists() else []
+    parts = []
+    if frames:
+        parts.append(frames_section(frames))
+        (pictures / "moving.svg").write_text(frames_chart(frames), encoding="utf-8")
+    cycle = [r for r in records if r.task == "cycle"]
+    if cycle:
+        parts.append(cycle_section(cycle))
+        (pictures / "cycle.svg").write_text(cycle_chart(cycle), encoding="utf-8")
+    parts += _contests(docs, pictures, records)
+    if not parts:
+        return ""
+    return "\n".join([INTRODUCTION, _machine(frames + records)] + parts)
+
+
+def _contests(docs, pictures, records):
+    subtitle = "processor time, one thread, median, each in its best setting; logarithmic"
+    queries = [r for r in records if r.task in QUERY_TASKS]
+    if queries:
+        chart = contest_chart("Time of a batch of queries", subtitle, queries)
+        (pictures / "queries.svg").write_text(chart, encoding="utf-8")
+        yield queries_section(queries)
+    elements = [r for r in records if r.task in ELEMENT_TASKS]
+    if elements:
+        chart = contest_chart("Time of a list of candidates", subtitle, elements)
+        (pictures / "elements.svg").write_text(chart, encoding="utf-8")
+        yield elements_section(elements)
+    external = docs / "benchmarks-elements-external.csv"
+    if external.exists():
+        yield external_section(external)

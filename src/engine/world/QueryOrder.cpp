@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "world/QueryOrder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Lanes.h"
+#include "RadixRun.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Fewer queries are answered as they come.
+constexpr std::size_t kFewQueries = 64;
+
+constexpr unsigned kBitsPerAxis = 9;
+constexpr unsigned kIndexBits = 32;
+
+/// Spreads nine bits so that each is followed by two others.
+std::uint32_t spreadBits(std::uint32_t bits) noexcept {
+  bits = (bits | bits << 16U) & 0x030000FFU;
+  bits = (bits | bits << 8U) & 0x0300F00FU;
+  bits = (bits | bits << 4U) & 0x030C30C3U;
+  return (bits | bits << 2U) & 0x09249249U;
+}
+
+/// The cells of one axis.
+struct AxisCells {
+  float begin = 0.0F;
+  float perUnit = 0.0F;
+
+  [[nodiscard]] std::uint32_t cellOf(float value) const noexcept {
+    constexpr float kLast = static_cast<float>((1U << kBitsPerAxis) - 1U);
+    const float cell = (value - begin) * perUnit;
+    return cell > 0.0F ? static_cast<std::uint32_t>(std::min(cell, kLast)) : 0U;  // a NaN is in the first
+  }
+};
+
+AxisCells cellsOf(std::span<const std::array<float, 3>> points, std::size_t axis) {
+  float least = kNever;
+  float greatest = -kNever;
+  for (const auto& point : points) {
+    if (!(std::abs(point[axis]) < 1e30F)) continue;
+    least = std::min(least, point[axis]);
+    greatest = std::max(greatest, point[axis]);
+  }
+  if (!(least < greatest)) return {};
+  return {least, static_cast<float>(1U << kBitsPerAxis) / (greatest - least)};
+}
+
+}  // namespace
+
+void QueryOrder::sort(std::span<const std::array<float, 3>> points) {
+  m_keys.require(points.size());
+  if (points.size() < kFewQueries) {
+    for (std::size_t i = 0; i < points.size(); ++i) m_keys[i] = i;
+    return;
+  }
+  m_spare.require(points.size());
+  const std::array<AxisCells, 3> cells{cellsOf(points, 0), cellsOf(points, 1), cellsOf(points, 2)};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::uint64_t key = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) key |= spreadBits(cells[axis].cellOf(points[i][axis])) << axis;
+    m_spare[i] = key << kIndexBits | i;
+  }
+  sortRun(m_spare.data(), m_keys.data(), points.size(), kIndexBits + 3 * kBitsPerAxis, kIndexBits);
+}
+
+}  // namespace allpairs::engine

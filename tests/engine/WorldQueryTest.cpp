@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Queries whose numbers are at the ends of what float32 and float64 hold, where bounds in float32 must not lose a box.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "WorldOracle.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/World.h"
+
+namespace allpairs {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Small and large numbers of both signs, some of which no float32 can hold.
+class ExtremeNumbers {
+ public:
+  explicit ExtremeNumbers(std::uint32_t seed) : m_random(seed) {}
+
+  std::size_t below(std::size_t n) { return m_random() % n; }
+
+  double any() {
+    static constexpr double kScales[] = {0.0,    1.0,  1.0,  1.0,    1e-3, 1e-30, 1e-44,
+                                         1e-200, 1e20, 1e30, 3.4e38, 1e39, 1e300};
+    const double value = static_cast<double>(m_random()) * 0x1p-31 - 1.0;
+    return value * kScales[below(std::size(kScales))];
+  }
+
+  std::array<double, 3> point() { return {any(), any(), any()}; }
+
+  Box box() {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double a = any();
+      const double b = below(2) == 0 ? any() : a + 0.5;
+      box.min[axis] = below(20) == 0 ? -kInfinity : std::min(a, b);
+      box.max[axis] = below(20) == 0 ? kInfinity : std::max(a, b);
+    }
+    if (below(20) == 0) box.max[below(3)] = -1e35;  // most often empty
+    return box;
+  }
+
+ private:
+  std::mt19937 m_random;
+};
+
+class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  void SetUp() override {
+    WorldOptions options;
+    options.instructionSet = GetParam();
+    m_world = World(options);
+    for (int i = 0; i < 700; ++i) {
+      const Box box = m_numbers.box();
+      BoxProperties properties;
+      properties.isStatic = m_numbers.below(3) == 0;
+      m_oracle.boxes[m_world.add(box, properties)] = {box, properties};
+    }
+  }
+
+  template <class T>
+  static std::vector<T> listOf(std::span<const T> values) {
+    return {values.begin(), values.end()};
+  }
+
+  ExtremeNumbers m_numbers{5};
+  World m_world;
+  test::WorldOracle m_oracle;
+};
+
+INSTANTIATE_TEST_SUITE_P(EachInstructionSet, WorldQueryExtremes,
+                         ::testing::ValuesIn(instructionSets().begin(), instructionSets().end()));
+
+TEST_P(WorldQueryExtremes, SweptBoxesMeetWhatTheOracleMeets) {
+  std::vector<BoxSweep> sweeps;
+  for (int i = 0; i < 400; ++i) sweeps.push_back({m_numbers.box(), m_numbers.point(), std::abs(m_numbers.any())});
+  for (int i = 0; i < 50; ++i) sweeps.push_back({m_numbers.box(), m_numbers.point(), kInfinity});
+  std::vector<SweepHit> first(sweeps.size());
+  m_world.findFirst(sweeps, first);
+  const ResultLists<SweepHit> all = m_world.findAll(sweeps);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const std::vector<SweepHit> expected = m_oracle.along(sweeps[i], {});
+    EXPECT_EQ(listOf(all[i]), expected) << "sweep " << i;
+    EXPECT_EQ(first[i], expected.empty() ? SweepHit{} : expected.front()) << "sweep " << i;
+    hits += expected.size();
+  }
+  EXPECT_GT(hits, 1000U);
+}
+
+TEST_P(WorldQueryExtremes, PointsAreAsFarFromBoxesAsTheOracleSays) {
+  std::vector<std::array<double, 3>> points;
+  for (int i = 0; i < 300; ++i) points.push_back(m_numbers.point());
+  for (const std::size_t count : {std::size_t{1}, std::size_t{9}, std::size_t{1000}}) {
+    const ResultLists<Neighbor> lists = m_world.findNearest(points, count);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(listOf(lists[i]), m_oracle.nearest(points[i], count, {})) << "point " << i << ", " << count;
+    }
+  }
+}
+
+TEST_P(WorldQueryExtremes, BoxesOverlapWhatTheOracleSays) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
+  const ResultLists<BoxId> lists = m_world.findOverlapping(BoxSet(std::span<const Box>(boxes)));
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_EQ(listOf(lists[i]), m_oracle.overlapping(boxes[i], {})) << "box " << i;
+  }
+}
+
+}  // namespace
+}  // namespace allpairs
