@@ -35,8 +35,8 @@ std::pair<double, double> minimumAndMedian(std::vector<double> values) {
 void print(const Contestant& contestant) {
   const auto [cpuMin, cpuMedian] = minimumAndMedian(contestant.processor);
   const auto [min, median] = minimumAndMedian(contestant.elapsed);
-  std::printf("%-32s %5zu %12.1f %12.1f %12.1f %12.1f  %s\n", contestant.name.c_str(), contestant.elapsed.size(), cpuMin,
-              cpuMedian, min, median, contestant.sameLists ? "same" : "DIFFERS");
+  std::printf("%-32s %5zu %12.1f %12.1f %12.1f %12.1f  %s\n", contestant.name.c_str(), contestant.elapsed.size(),
+              cpuMin, cpuMedian, min, median, contestant.sameLists ? "same" : "DIFFERS");
 }
 
 void print(const Contest& contest) {
