@@ -130,6 +130,7 @@ ResultLists<T> WorldQueries::join(std::size_t queries, Lists<T>& lists) const {
 }
 
 void WorldQueries::overlapping(const Box& query, const Rule& rule, std::vector<BoxId>& ids) const {
+  if (isEmpty(query)) return;
   const auto begin = static_cast<std::ptrdiff_t>(ids.size());
   const LaneBox lanes = lanesOf(query);
   const bool queryIsExact = isExactly(lanes, query);
