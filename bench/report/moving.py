@@ -200,7 +200,7 @@ def cycle_section(records):
     return (
         "## The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, box models in nodes of "
         "their own, by a search that is kept and by one that is made anew in each step "
-        "([decision 12](decisions/0012-component-keeps-its-search.md)).\n\n"
+        "([decision 13](decisions/0013-component-keeps-its-search.md)).\n\n"
         "![Time of a step of the component](images/benchmarks/cycle.svg)\n\n" + _grid(heading, 2, rows)
     )
 

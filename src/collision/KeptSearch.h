@@ -17,7 +17,7 @@ namespace allpairs::collision {
 /// A search of all rows of a table that is kept from step to step: what it costs follows which rows' boxes changed.
 ///
 /// Which model is in a row plays no part, since the rules are asked about every pair in every step. When it is worth
-/// its cost, and why, is in docs/decisions/0012.
+/// its cost, and why, is in docs/decisions/0013.
 class KeptSearch {
  public:
   /// What the pairs depend on besides the boxes.

@@ -110,5 +110,16 @@ TEST_P(WorldQueryExtremes, BoxesOverlapWhatTheOracleSays) {
   }
 }
 
+TEST(WorldQuery, AnEmptyBoxOverlapsNothingNotEvenWhatLiesAroundIt) {
+  World world;
+  world.add(Box{{0.0, 0.0, 0.0}, {10.0, 10.0, 10.0}});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Box query{{4.0, 4.0, 4.0}, {5.0, 5.0, 5.0}};
+    EXPECT_EQ(world.findOverlapping(query).size(), 1U);
+    std::swap(query.min[axis], query.max[axis]);
+    EXPECT_TRUE(world.findOverlapping(query).empty());
+  }
+}
+
 }  // namespace
 }  // namespace allpairs

@@ -43,7 +43,7 @@ class VerificationError : public Error {
 ///            Null and empty models are ignored.
 /// Cost:      that of allpairs::Overlaps on the root boxes, and the rules for each pair that overlaps; where few models
 ///            have moved since the last step, that of allpairs::World, which follows what has changed, instead
-///            (docs/decisions/0012); n(n-1)/2 calls of the rules with Strategy::Exhaustive, or if the method can't
+///            (docs/decisions/0013); n(n-1)/2 calls of the rules with Strategy::Exhaustive, or if the method can't
 ///            bound its distance. Steps like those before allocate nothing.
 /// Threads:   one step at a time per object; the search runs on the executor, rules and intersectors are called from
 ///            the calling thread.
