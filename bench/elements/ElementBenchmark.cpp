@@ -26,7 +26,7 @@ using namespace allpairs;
 using bench::ElementStep;
 using elements::CandidateKind;
 
-constexpr int kRuns = 5;
+constexpr int kRuns = 3;
 
 constexpr std::array<CandidateKind, 3> kKinds{CandidateKind::VertexFace, CandidateKind::EdgeEdge,
                                               CandidateKind::FaceFace};

@@ -11,6 +11,15 @@ double numberOf(BoxId id) { return static_cast<double>(id); }
 double numberOf(const SweepHit& hit) { return hit.t; }
 double numberOf(const Neighbor& neighbor) { return neighbor.distance; }
 
+Box boxAt(const QueryScene& scene, std::size_t i) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = static_cast<double>(scene.boxes[6 * i + axis]);
+    box.max[axis] = static_cast<double>(scene.boxes[6 * i + 3 + axis]);
+  }
+  return box;
+}
+
 /// A world, asked in batches or one query after the other.
 class WorldIndex final : public QueryIndex {
  public:
@@ -63,8 +72,7 @@ class WorldIndex final : public QueryIndex {
     m_answers.clear();
     for (std::size_t i = 0; i < scene.rays.size(); ++i) {
       if (m_kind == QueryKind::Overlapping) {
-        const float* row = &scene.boxes[6 * i];
-        take(m_world.findOverlapping(Box{{row[0], row[1], row[2]}, {row[3], row[4], row[5]}}));
+        take(m_world.findOverlapping(boxAt(scene, i)));
       } else if (m_kind == QueryKind::FirstHit) {
         const SweepHit hit = m_world.findFirst(scene.rays[i]);
         take(std::span<const SweepHit>(&hit, 1));

@@ -157,7 +157,8 @@ def _ratio(record, ours):
 
 def _machine(records):
     p = records[0].provenance
-    return f"Measured on {p['processor']}; {p['compiler']}; commit {p['commit']}.\n"
+    commits = ", ".join(dict.fromkeys(r.provenance["commit"] for r in records))
+    return f"Measured on {p['processor']}; {p['compiler']}; commit {commits}.\n"
 
 
 def frames_section(records):
@@ -169,7 +170,7 @@ def frames_section(records):
             rows.append([f"{motion}, {number_text(size)}", _name(r), r.repetitions] + times + [_ratio(r, ours)])
     heading = ["boxes", "who", "frames", "median", "99 %", "worst", "to the world"]
     return (
-        "## Moving boxes\n\nEach frame gives the pairs of that frame, which are compared with those of the others; *world* "
+        "### Moving boxes\n\nEach frame gives the pairs of that frame, which are compared with those of the others; *world* "
         "says besides which began, persist and ended. Cubes at a tenth of the room's volume, as in Broadmark; in each "
         "frame a box goes a tenth of its side, in *slow* a hundredth; in *one-percent* most rest.\n\n"
         "![Time of a frame](images/benchmarks/moving.svg)\n\n" + _grid(heading, 2, rows)
@@ -198,7 +199,7 @@ def cycle_section(records):
         rows.append([number_text(size), subject + right, number_text(float(f"{kept.results:.3g}"))] + times)
     heading = ["models", "motion", "pairs", "kept", "searched anew", "ratio"]
     return (
-        "## The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, box models in nodes of "
+        "### The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, box models in nodes of "
         "their own, by a search that is kept and by one that is made anew in each step "
         "([decision 13](decisions/0013-component-keeps-its-search.md)).\n\n"
         "![Time of a step of the component](images/benchmarks/cycle.svg)\n\n" + _grid(heading, 2, rows)
@@ -214,10 +215,11 @@ def cycle_chart(records):
 
 
 def contest_rows(records, ours_setting):
-    """Rows of a table in which every record of a task is compared with ours in one setting."""
+    """Rows of a table of tasks: ours, and each peer in its best setting, compared with ours in one setting."""
     for (task, subject), group in groups_of(records, lambda r: (r.task, r.subject)).items():
         ours = next((r for r in group if r.contender == OURS and r.setting == ours_setting), group[0])
-        for r in group:
+        best = best_by_contender([r for r in group if r.contender != OURS])
+        for r in [r for r in group if r.contender == OURS] + list(best.values()):
             yield [subject, task, _name(r), r.results, time_text(r.cpu_ms), _ratio(r, ours)]
 
 
@@ -232,7 +234,7 @@ def queries_section(records):
     each = number_text(records[0].size)
     heading = ["of", "query", "who", "results", f"{each} queries", "ratio"]
     return (
-        "## Queries\n\nCubes of which each overlaps about five others, and queries anywhere among them, in no order; trees are "
+        "### Queries\n\nCubes of which each overlaps about five others, and queries anywhere among them, in no order; trees are "
         "made before the clock starts. Results are compared: ids exactly, times and distances to within what peers round in "
         "float32. Ours are exact in double.\n\n![Time of a batch of queries](images/benchmarks/queries.svg)\n\n"
         + _grid(heading, 3, contest_rows(records, "in a batch"))
@@ -242,10 +244,10 @@ def queries_section(records):
 def elements_section(records):
     heading = ["step", "list", "who", "candidates", "time", "ratio"]
     return (
-        "## Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data. Ours from positions in double at start "
+        "### Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data. Ours from positions in double at start "
         "and end to the list, with nothing kept but the topology; *second step* with memory kept. Peers get boxes that are "
         "ready made, in float32 rounded outward, which lets in some more pairs, and leave out pairs with a common vertex "
-        "afterwards. Programs that are not packaged are in the last table of this section.\n\n"
+        "afterwards.\n\n"
         "![Time of a list of candidates](images/benchmarks/elements.svg)\n\n" + _grid(heading, 3, contest_rows(records, "once"))
     )
 
@@ -261,7 +263,7 @@ def external_section(path):
     ]
     heading = ["step", "list", "who", "candidates", "time", "to ours in that run"]
     return (
-        "Not packaged, measured by hand as [benchmarks-elements-external.csv](benchmarks-elements-external.csv) says:\n\n"
+        "### Candidates: programs that are not packaged\n\nMeasured by hand, as [benchmarks-elements-external.csv](benchmarks-elements-external.csv)\nsays.\n\n"
         + _grid(heading, 3, cells)
     )
 
@@ -269,7 +271,7 @@ def external_section(path):
 QUERY_TASKS = ("overlapping a box", "first on a ray", "all on a ray", "nearest", "nearest 8")
 ELEMENT_TASKS = ("vertex-face", "edge-edge", "face-face")
 
-INTRODUCTION = """# What is kept from step to step
+INTRODUCTION = """## What is kept from step to step
 
 The parts below, their pictures and their records, [frames](benchmarks-moving.csv) and [the rest](benchmarks-tasks.csv),
 are written by
