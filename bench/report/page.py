@@ -21,7 +21,7 @@ METHOD = """## How it is measured
 
 - **What**: one search from boxes in memory, rows of six float32, to an array of pairs in memory, everything in between
   included: the check for NaNs, every copy, sort and tree. Nothing is kept from the search before but what an allocator
-  keeps of freed memory: glibc's for the peers, [our own](decisions/0013-memory-that-is-kept.md) for Allpairs. What a
+  keeps of freed memory: glibc's for the peers, [our own](decisions/0012-memory-that-is-kept.md) for Allpairs. What a
   search built is taken down after the clock has been read, except where a sample has to hold many runs because one is
   below a millisecond. *Warm* is the same with the one `Overlaps` object kept.
 - **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on a quiet
