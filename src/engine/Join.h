@@ -38,7 +38,7 @@ struct Hierarchy {
 /// Working memory of a join, one per task that runs: at each level the candidates of the node in hand.
 struct JoinScratch {
   struct PerLevel {
-    std::vector<std::unique_ptr<CandidateTile>> tiles;
+    std::vector<Buffer<CandidateTile>> tiles;
     std::vector<std::size_t> sizes;  ///< How many candidates are in each tile.
     std::size_t tileCount = 0;
     Buffer<std::uint32_t> partners;
@@ -46,11 +46,9 @@ struct JoinScratch {
     CandidateTile& nextTile() {
       if (tileCount == tiles.size()) {
         sizes.resize(tiles.size() + 1);
-        // Not make_unique, which would write all of it first.
-        std::unique_ptr<CandidateTile> tile(new CandidateTile);
-        tiles.push_back(std::move(tile));
+        tiles.emplace_back().require(1);
       }
-      return *tiles[tileCount++];
+      return tiles[tileCount++][0];
     }
   };
   std::array<PerLevel, kMaxLevels> level;

@@ -127,7 +127,7 @@ class JoinRun {
       begin = child - node * kFanOut + 1;
     }
     for (std::size_t t = 0; t < scratch.tileCount; ++t) {
-      takeRow<Density::Dense>(q, *scratch.tiles[t], begin, scratch.sizes[t], partners);
+      takeRow<Density::Dense>(q, scratch.tiles[t][0], begin, scratch.sizes[t], partners);
       m_hits.groupTests += scratch.sizes[t] - begin;
       begin = 0;
     }

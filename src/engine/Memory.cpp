@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Memory.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -25,19 +26,23 @@ namespace {
 
 constexpr std::size_t kAlignment = 64;
 
+/// What a block has at least, to be one.
+constexpr std::size_t kSmallBlock = std::size_t{1} << 13;
+
 std::size_t roundUp(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
 #if defined(__linux__)
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// Blocks from this size on are mapped, in sizes that are powers of two up to the second one. An address sanitizer does
-/// not see the end of a mapped block.
+/// Blocks from this size on are mapped. An address sanitizer does not see the end of a mapped block.
 #if defined(ALLPAIRS_ADDRESS_SANITIZER)
 constexpr std::size_t kSmallestMapped = std::size_t{1} << 20;
 #else
-constexpr std::size_t kSmallestMapped = std::size_t{1} << 13;
+constexpr std::size_t kSmallestMapped = kSmallBlock;
 #endif
+
+/// Up to here in sizes that are powers of two.
 constexpr std::size_t kLargestKept = std::size_t{1} << 26;
 
 bool isMapped(std::size_t bytes) { return bytes >= kSmallestMapped; }
@@ -187,6 +192,16 @@ void* growMemory(void* memory, std::size_t bytes, std::size_t newBytes) noexcept
 
 void freeMemory(void* memory, std::size_t bytes) noexcept {
   isMapped(bytes) ? freeMapped(memory, bytes) : std::free(memory);
+}
+
+void* InBlock::operator new(std::size_t size) {
+  void* memory = allocateMemory(std::max(size, kSmallBlock));
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+void InBlock::operator delete(void* memory, std::size_t size) noexcept {
+  freeMemory(memory, std::max(size, kSmallBlock));
 }
 
 std::size_t& bufferAllocations() noexcept {

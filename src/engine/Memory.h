@@ -28,6 +28,12 @@ void freeMemory(void* memory, std::size_t bytes) noexcept;
 /// How many bytes those allocations asked for in all.
 [[nodiscard]] std::size_t& bufferBytes() noexcept;
 
+/// What is allocated as blocks are, and not by the C library, which tidies up when a middling block comes back.
+struct InBlock {
+  static void* operator new(std::size_t size);
+  static void operator delete(void* memory, std::size_t size) noexcept;
+};
+
 /// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.
 ///
 /// Not a std::vector because a vector would write every element before the engine does.

@@ -7,7 +7,7 @@
 
 namespace allpairs {
 
-struct Overlaps::State {
+struct Overlaps::State : engine::InBlock {
   OverlapOptions options;
   engine::Search search;
 };

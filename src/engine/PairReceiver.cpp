@@ -12,6 +12,12 @@ namespace {
 /// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
 constexpr std::size_t kHitCapacity = 2048;
 
+/// Where they begin within a page, in ids: behind where the bounds of some hundred boxes lie in theirs. A processor that
+/// loads from the same place in another page as it has just stored to waits for the store.
+constexpr std::size_t kHitOffset = 640;
+constexpr std::size_t kHitStride = 3 * 1024;
+static_assert(kHitStride >= kHitCapacity + Hits::kSlack);
+
 }  // namespace
 
 void checkLimit(const PairRules& rules, std::uint64_t count) {
@@ -22,12 +28,11 @@ void checkLimit(const PairRules& rules, std::uint64_t count) {
 }
 
 void PairReceiver::start(const PairRules& rules) {
-  constexpr std::size_t kStride = kHitCapacity + Hits::kSlack;
   m_rules = &rules;
-  m_memory.require(2 * kStride);
+  m_memory.require(kHitOffset + 2 * kHitStride);
   m_hits = {};
-  m_hits.row = m_memory.data();
-  m_hits.partner = m_memory.data() + kStride;
+  m_hits.row = m_memory.data() + kHitOffset;
+  m_hits.partner = m_hits.row + kHitStride;
   m_hits.capacity = kHitCapacity;
   m_hits.countOnly = rules.countOnly && !rules.test->needed() && !rules.ascendingOnly;
   m_hits.receiver = this;

@@ -39,7 +39,7 @@ class Search {
 
  private:
   /// What a thread works with; as many as there are threads.
-  struct Worker {
+  struct Worker : InBlock {
     PairReceiver receiver;
     PairBuckets buckets;
     JoinScratch scratch;

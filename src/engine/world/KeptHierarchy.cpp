@@ -99,7 +99,6 @@ void KeptHierarchy::rebuild(const BoxStore& store, const UpdateTools& tools) {
   m_grid = CurveGrid::fit(tools.reader);
   if (!m_fresh.empty()) {
     orderByCurve(m_fresh, tools);
-    m_tight.tighten({m_keyed.data(), m_fresh.size()}, kIndexBits + m_grid.classShift(), tools.reader, tools.executor);
     append({m_keyed.data(), m_fresh.size()});
   }
   refitAll(tools);
@@ -115,30 +114,51 @@ void KeptHierarchy::placeFresh(const UpdateTools& tools) {
 void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& tools) {
   m_keyed.require(ids.size() + ids.size() / kShareOfChange);
   m_spare.require(ids.size() + ids.size() / kShareOfChange);
-  const std::size_t tasks = (ids.size() + kBlocksPerTask * kFanOut - 1) / (kBlocksPerTask * kFanOut);
-  tools.executor.run(tasks, [&](std::size_t task) {
-    const std::size_t end = std::min(ids.size(), (task + 1) * kBlocksPerTask * kFanOut);
-    LaneBlock block;
-    std::array<std::uint32_t, kFanOut> keys;
-    tools.reader.withLanes([&](const auto& lanesOf) {
-      for (std::size_t i = task * kBlocksPerTask * kFanOut; i < end; i += kFanOut) {
-        const std::size_t fill = std::min(kFanOut, end - i);
-        LaneBox lanes = kEverythingLanes;
-        for (std::size_t lane = 0; lane < kFanOut; ++lane) {
-          if (lane < fill) static_cast<void>(lanesOf(ids[i + lane], lanes));
-          block.set(lane, lanes);
-        }
-        tools.kernels.curveKeys({&block, 1}, m_grid, keys.data());
-        for (std::size_t lane = 0; lane < fill; ++lane) {
-          m_spare[i + lane] = (std::uint64_t{keys[lane]} << kIndexBits) | ids[i + lane];
-        }
-      }
-    });
+  constexpr std::size_t kBoxesPerTask = kBlocksPerTask * kFanOut;
+  tools.executor.run((ids.size() + kBoxesPerTask - 1) / kBoxesPerTask, [&](std::size_t task) {
+    const std::size_t begin = task * kBoxesPerTask;
+    const std::size_t size = std::min(kBoxesPerTask, ids.size() - begin);
+    writeKeys(ids.subspan(begin, size), tools, m_spare.data() + begin);
   });
   KeyedBox all = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) all |= m_spare[i];
   const unsigned bits = std::max(kIndexBits, static_cast<unsigned>(std::bit_width(all)));
   sortRun(m_spare.data(), m_keyed.data(), ids.size(), bits, kIndexBits);
+}
+
+void KeptHierarchy::writeKeys(std::span<const BoxId> ids, const UpdateTools& tools, KeyedBox* to) const {
+  constexpr std::size_t kBlocks = 4;
+  constexpr std::size_t kBoxes = kBlocks * kFanOut;
+  const BlockReader reader(tools.reader, tools.kernels);
+  std::array<LaneBlock, kBlocks> blocks;
+  std::array<std::uint32_t, kBoxes> keys;
+  for (std::size_t i = 0; i < ids.size(); i += kBoxes) {
+    const std::span<const BoxId> some = ids.subspan(i, std::min(kBoxes, ids.size() - i));
+    for (std::size_t b = 0; b * kFanOut < some.size(); ++b) {
+      readBoxes(some.subspan(b * kFanOut, std::min(kFanOut, some.size() - b * kFanOut)), reader, tools.reader,
+                blocks[b]);
+    }
+    tools.kernels.curveKeys({blocks.data(), (some.size() + kFanOut - 1) / kFanOut}, m_grid, keys.data());
+    for (std::size_t k = 0; k < some.size(); ++k) *to++ = (std::uint64_t{keys[k]} << kIndexBits) | some[k];
+  }
+}
+
+/// Reads up to sixteen boxes; the other lanes hold some box, too.
+void KeptHierarchy::readBoxes(std::span<const BoxId> ids, const BlockReader& blocks, const LaneReader& reader,
+                              LaneBlock& block) {
+  if (blocks.isUsable() && ids.size() == kFanOut) {
+    std::array<std::int32_t, kFanOut> offsets;
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) offsets[lane] = static_cast<std::int32_t>(6 * ids[lane]);
+    static_cast<void>(blocks.readAt(offsets, block));
+    return;
+  }
+  reader.withLanes([&](const auto& lanesOf) {
+    LaneBox lanes = kEverythingLanes;
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+      if (lane < ids.size()) static_cast<void>(lanesOf(ids[lane], lanes));
+      block.set(lane, lanes);
+    }
+  });
 }
 
 /// Gives boxes the next places.

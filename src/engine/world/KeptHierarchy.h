@@ -16,7 +16,6 @@
 #include "world/BoxStore.h"
 #include "world/LevelStack.h"
 #include "world/RebuildRule.h"
-#include "world/TightOrder.h"
 
 namespace allpairs::engine {
 
@@ -66,6 +65,9 @@ class KeptHierarchy {
   void rebuild(const BoxStore& store, const UpdateTools& tools);
   void placeFresh(const UpdateTools& tools);
   void orderByCurve(std::span<const BoxId> ids, const UpdateTools& tools);
+  void writeKeys(std::span<const BoxId> ids, const UpdateTools& tools, KeyedBox* to) const;
+  static void readBoxes(std::span<const BoxId> ids, const BlockReader& blocks, const LaneReader& reader,
+                        LaneBlock& block);
   void append(std::span<const KeyedBox> order);
   void refit(const UpdateTools& tools);
   void refitAll(const UpdateTools& tools);
@@ -86,7 +88,6 @@ class KeptHierarchy {
   std::size_t m_dirtyBoxes = 0;
   std::vector<std::uint32_t> m_blockList;
   std::vector<BoxId> m_fresh;  ///< Boxes without a place.
-  TightOrder m_tight;
   Buffer<KeyedBox> m_keyed;
   Buffer<KeyedBox> m_spare;
 };
