@@ -29,8 +29,9 @@ std::size_t samplesFor(const Effort& effort, double sampleMs) {
 Sampling::Sampling(TimedRuns timedRuns, const Effort& effort) : m_timedRuns(std::move(timedRuns)) {
   constexpr double kSlowMs = 200.0;  // One trial of what is slow tells enough.
   const double firstMs = m_timedRuns(1).wallMs;
-  m_runs = runsFor(effort, firstMs);
-  const double runMs = firstMs < kSlowMs ? m_timedRuns(m_runs).wallMs : firstMs;
+  // The first run finds nothing in the caches and no memory: of what is fast it says little.
+  const double runMs = firstMs < kSlowMs ? m_timedRuns(runsFor(effort, firstMs)).wallMs : firstMs;
+  m_runs = runsFor(effort, runMs);
   m_allowance = samplesFor(effort, runMs * static_cast<double>(m_runs));
 }
 
