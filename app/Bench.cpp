@@ -33,7 +33,7 @@ struct BenchSettings {
   bool json = false;
 };
 
-constexpr const char* kExamples = R"(INPUT is a file of boxes (.npy or .csv), or one of these scenes:
+constexpr const char* kBenchExamples = R"(INPUT is a file of boxes (.npy or .csv), or one of these scenes:
 )";
 
 constexpr const char* kExplanation =
@@ -202,7 +202,7 @@ void addSearchOptions(CLI::App& command, BenchSettings& settings) {
 void addBench(CLI::App& program) {
   const auto settings = std::make_shared<BenchSettings>();
   CLI::App* command = program.add_subcommand("bench", "Measure how long boxes take");
-  command->footer(kExamples + sceneList() + "\n\n" + kExplanation);
+  command->footer(kBenchExamples + sceneList() + "\n\n" + kExplanation);
   command->add_option("INPUT", settings->scene.scene, "A file of boxes, or the name of a scene")
       ->required()
       ->type_name("");

@@ -9,7 +9,7 @@ namespace allpairs::app {
 namespace {
 
 /// A text in JSON's quotes. Ours hold no control characters but those that a file's name may bring.
-std::string quoted(std::string_view text) {
+std::string jsonQuoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -36,7 +36,8 @@ std::string timesLine(std::string_view name, const measure::Summary& times) {
 
 std::string provenanceJson(const measure::Provenance& p) {
   return fmt::format("  \"commit\": {},\n  \"compiler\": {},\n  \"build\": {},\n  \"processor\": {},\n  \"date\": {}\n",
-                     quoted(p.commit), quoted(p.compiler), quoted(p.buildType), quoted(p.processor), quoted(p.date));
+                     jsonQuoted(p.commit), jsonQuoted(p.compiler), jsonQuoted(p.buildType), jsonQuoted(p.processor),
+                     jsonQuoted(p.date));
 }
 
 }  // namespace
@@ -54,12 +55,12 @@ std::string benchTable(const BenchRecord& r) {
 
 std::string benchJson(const BenchRecord& r) {
   std::string text =
-      fmt::format("{{\n  \"input\": {},\n  \"n\": {},\n  \"pairs\": {},\n", quoted(r.input), r.boxes, r.pairs);
-  if (!r.hash.empty()) text += fmt::format("  \"hash\": {},\n", quoted(r.hash));
+      fmt::format("{{\n  \"input\": {},\n  \"n\": {},\n  \"pairs\": {},\n", jsonQuoted(r.input), r.boxes, r.pairs);
+  if (!r.hash.empty()) text += fmt::format("  \"hash\": {},\n", jsonQuoted(r.hash));
   text += fmt::format("  \"box_tests\": {},\n  \"group_tests\": {},\n", r.work.boxTests, r.work.groupTests);
   text += timesJson("", r.oneShot) + timesJson("warm_", r.warm);
   text += fmt::format("  \"order\": {},\n  \"strategy\": {},\n  \"threads\": {},\n  \"instruction_set\": {},\n",
-                      quoted(r.order), quoted(r.strategy), r.threads, quoted(r.instructionSet));
+                      jsonQuoted(r.order), jsonQuoted(r.strategy), r.threads, jsonQuoted(r.instructionSet));
   return text + provenanceJson(r.provenance) + "}\n";
 }
 

@@ -39,7 +39,7 @@ struct DetectSettings {
   std::string output;
 };
 
-constexpr const char* kExamples = R"(INPUT is one or more of
+constexpr const char* kDetectExamples = R"(INPUT is one or more of
   .scn, .xml                     a SOFA scene
   .obj .stl .ply .glb .off ...   a mesh file: each object or node in it is a model
   a folder                       all mesh files in it
@@ -193,7 +193,7 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
 void addDetect(CLI::App& program) {
   const auto settings = std::make_shared<DetectSettings>();
   CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
-  command->footer(kExamples);
+  command->footer(kDetectExamples);
   addInputOptions(*command, settings->input);
   CLI::Option* margin = command
                             ->add_option("--margin", settings->margin,

@@ -37,7 +37,7 @@ struct ElementSettings {
   bool between = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kElementsExamples =
     R"(START and END are mesh files (.obj .ply .stl ...), or folders of them, with the same
 triangles: where the vertices are at the start and at the end of a step. Several
 meshes, such as a cloth and what it falls on, are given one after the other, each
@@ -137,14 +137,14 @@ std::string formatOf(const ElementSettings& settings) {
 }
 
 /// A name that promises another format would be a lie.
-void checkExtension(const std::string& path) {
+void checkElementsExtension(const std::string& path) {
   const std::string extension = lowerExtension(path);
   if (extension != ".npy" && extension != ".csv") return;
   throw UsageError("-o: '" + path + "' would be the report, beside which the lists are written: name it .json or .txt");
 }
 
 void runElements(const ElementSettings& settings) {
-  checkExtension(settings.output);
+  checkElementsExtension(settings.output);
   ElementReport report;
   report.margin = parseMargin(settings.margin);
   report.betweenOnly = settings.between;
@@ -177,7 +177,7 @@ void addElements(CLI::App& program) {
   const auto settings = std::make_shared<ElementSettings>();
   CLI::App* command =
       program.add_subcommand("elements", "Find which vertices, edges and faces of moving meshes may touch");
-  command->footer(kExamples);
+  command->footer(kElementsExamples);
   command->add_option("START END", settings->paths, "Meshes at the start and at the end of a step, in turn")
       ->required()
       ->type_name("");

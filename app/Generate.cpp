@@ -32,7 +32,7 @@ struct GenerateSettings {
   std::string output;
 };
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kGenerateExamples = R"(Examples:
   allpairs generate uniform -n 100000 -o boxes.npy
   allpairs generate needles -n 50000 --seed 7 --sorted -o needles.npy
   allpairs generate brownian -n 10000 --frames 200 -o frames.npy
@@ -111,7 +111,7 @@ void runGenerate(const GenerateSettings& settings) {
 void addGenerate(CLI::App& program) {
   const auto settings = std::make_shared<GenerateSettings>();
   CLI::App* command = program.add_subcommand("generate", "Make boxes to measure with, at rest or moving");
-  command->footer(sceneList() + "\n\n" + motionList() + "\n\n" + kExamples);
+  command->footer(sceneList() + "\n\n" + motionList() + "\n\n" + kGenerateExamples);
   command->add_option("SCENE", settings->scene.scene, "Which boxes to make; see below")->required()->type_name("");
   addSceneOptions(*command, settings->scene);
   CLI::Option* frames = command->add_option("--frames", settings->frames, "How many frames of a motion")

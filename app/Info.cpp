@@ -21,7 +21,7 @@
 namespace allpairs::app {
 namespace {
 
-constexpr const char* kExamples = R"(A line for each model says its index, name, type, number of elements, flags,
+constexpr const char* kInfoExamples = R"(A line for each model says its index, name, type, number of elements, flags,
 groups and box. Flags: inactive (left out), not simulated (two such models are
 no pair), static (does not move), self (may collide with itself).
 
@@ -122,7 +122,7 @@ void runInfo(const InputSettings& settings) {
 void addInfo(CLI::App& program) {
   const auto settings = std::make_shared<InputSettings>();
   CLI::App* command = program.add_subcommand("info", "Show what an input holds, and what of it is ignored");
-  command->footer(kExamples);
+  command->footer(kInfoExamples);
   addInputOptions(*command, *settings);
   command->callback([settings] { runInfo(*settings); });
 }

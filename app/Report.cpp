@@ -38,7 +38,7 @@ struct ReportSettings {
   double metresPerUnit = 1.0;
 };
 
-constexpr const char* kExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
+constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
 and a folder of pictures. Pairs whose boxes share most come first.
 
 Examples:
@@ -107,7 +107,7 @@ void addReport(CLI::App& program) {
   const auto settings = std::make_shared<ReportSettings>();
   CLI::App* command =
       program.add_subcommand("report", "Write a folder with a page, a table and a BCF file of all pairs");
-  command->footer(kExamples);
+  command->footer(kReportExamples);
   addInputOptions(*command, settings->input);
   addSearchOptions(*command, settings->search);
   command->add_option("-o,--output", settings->folder, "Write into the folder DIR, which is made if it is not there")

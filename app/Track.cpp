@@ -39,7 +39,7 @@ struct TrackSettings {
   bool verify = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kTrackExamples =
     R"(FRAMES is a NumPy array (t, n, 6), float32 or float64: t frames of n boxes, minx miny
 minz maxx maxy maxz; or mesh files, one for each frame, whose boxes are those of the
 triangles, of which two that share a vertex are no pair.
@@ -153,7 +153,7 @@ void runTrack(const TrackSettings& settings) {
 void addTrack(CLI::App& program) {
   const auto settings = std::make_shared<TrackSettings>();
   CLI::App* command = program.add_subcommand("track", "Follow moving boxes: which pairs begin and end, frame by frame");
-  command->footer(kExamples);
+  command->footer(kTrackExamples);
   command->add_option("FRAMES", settings->paths, "Boxes (t, n, 6) in a .npy file, or a mesh file for each frame")
       ->required()
       ->type_name("");

@@ -39,7 +39,7 @@ struct ViewSettings {
   int port = 0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kViewExamples =
     R"(The page needs no network and no other file: send it to whom you like. Press ? in it.
 
 Examples:
@@ -101,7 +101,7 @@ void runView(const ViewSettings& settings) {
 void addView(CLI::App& program) {
   const auto settings = std::make_shared<ViewSettings>();
   CLI::App* command = program.add_subcommand("view", "Write a page that shows models and pairs in 3D");
-  command->footer(kExamples);
+  command->footer(kViewExamples);
   addInputOptions(*command, settings->input);
   addSearchOptions(*command, settings->search);
   command->add_flag("--sequence", settings->sequence,

@@ -20,7 +20,7 @@ namespace {
 
 using allpairs::app::ExitStatus;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kProgramExamples = R"(Examples:
   allpairs detect scene.scn                      which models of a scene may touch
   allpairs detect boxes.npy -o pairs.npy         overlapping boxes, from NumPy to NumPy
   allpairs detect parts/ --margin 0.5            meshes of a folder at most 0.5 apart
@@ -98,7 +98,7 @@ int main(int count, char** arguments) {
   CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
   program.set_version_flag("--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
   program.require_subcommand(1);
-  program.footer(kExamples);
+  program.footer(kProgramExamples);
   allpairs::app::addDetect(program);
   allpairs::app::addInfo(program);
   allpairs::app::addElements(program);

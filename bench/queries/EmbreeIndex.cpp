@@ -33,7 +33,8 @@ float entryOf(const RTCRay& ray, const float* row) {
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  return enter <= leave ? enter : kFar;
+  if (enter > leave) return kFar;
+  return enter;
 }
 
 float squareOf(const RTCPointQuery& query, const float* row) {
@@ -126,7 +127,7 @@ class EmbreeIndex final : public QueryIndex {
     hit.ray.tfar = static_cast<float>(ray.length);
     hit.ray.mask = 0xFFFFFFFFU;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     rtcIntersect1(m_scene.get(), &context, &hit);
     if (m_kind == QueryKind::FirstHit) {
@@ -142,7 +143,7 @@ class EmbreeIndex final : public QueryIndex {
     query.y = static_cast<float>(point[1]);
     query.z = static_cast<float>(point[2]);
     query.radius = kFar;
-    RTCPointQueryContext context;
+    RTCPointQueryContext context{};
     rtcInitPointQueryContext(&context);
     rtcPointQuery(m_scene.get(), &query, &context, approach, this);
     m_answers.numbers.push_back(static_cast<double>(query.radius));

@@ -15,7 +15,7 @@ constexpr std::size_t kHitCapacity = 2048;
 /// Where they begin within a page, in ids: behind where the bounds of some hundred boxes lie in theirs. A processor that
 /// loads from the same place in another page as it has just stored to waits for the store.
 constexpr std::size_t kHitOffset = 640;
-constexpr std::size_t kHitStride = 3 * 1024;
+constexpr std::size_t kHitStride = 3072;
 static_assert(kHitStride >= kHitCapacity + Hits::kSlack);
 
 }  // namespace

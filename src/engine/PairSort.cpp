@@ -25,12 +25,12 @@ constexpr std::size_t kCountersPerPair = 8;
 constexpr std::size_t kMinChunk = std::size_t{1} << 15;
 
 /// Bits of a digit, and so how many keys share a bucket at most.
-constexpr unsigned kMaxDigitBits = 11;
+constexpr unsigned kMaxPairDigitBits = 11;
 
 /// Digits of an index of 32 bits.
-constexpr unsigned kMaxPasses = 3;
+constexpr unsigned kMaxPairPasses = 3;
 
-using Places = std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>;
+using PairPlaces = std::array<std::uint32_t, std::size_t{1} << kMaxPairDigitBits>;
 
 template <bool kSecond>
 std::uint32_t indexOf(Pair pair) {
@@ -38,23 +38,24 @@ std::uint32_t indexOf(Pair pair) {
 }
 
 /// The digits of one of the two indices, from the lowest up.
-struct Digits {
+struct PairDigits {
   unsigned passes = 0;
   unsigned bits = 0;
   std::uint32_t mask = 0;
 };
 
 /// As few digits for the low `bits` bits as there can be, all of the same length.
-Digits digitsFor(unsigned bits) {
-  Digits digits;
-  digits.passes = (bits + kMaxDigitBits - 1) / kMaxDigitBits;
+PairDigits digitsFor(unsigned bits) {
+  PairDigits digits;
+  digits.passes = (bits + kMaxPairDigitBits - 1) / kMaxPairDigitBits;
   digits.bits = digits.passes == 0 ? 0 : (bits + digits.passes - 1) / digits.passes;
   digits.mask = (1U << digits.bits) - 1;
   return digits;
 }
 
 template <bool kSecond>
-void countDigits(const Pair* pairs, std::size_t size, const Digits& digits, std::array<Places, kMaxPasses>& places) {
+void countDigits(const Pair* pairs, std::size_t size, const PairDigits& digits,
+                 std::array<PairPlaces, kMaxPairPasses>& places) {
   for (unsigned pass = 0; pass < digits.passes; ++pass) {
     std::fill_n(places[pass].begin(), std::size_t{digits.mask} + 1, 0U);
     const unsigned shift = pass * digits.bits;
@@ -65,8 +66,8 @@ void countDigits(const Pair* pairs, std::size_t size, const Digits& digits, std:
 
 /// Sorts by the digits of one index, back and forth between the two buffers; returns where the result is.
 template <bool kSecond>
-std::pair<Pair*, Pair*> sortByDigits(Pair* from, Pair* to, std::size_t size, const Digits& digits) {
-  std::array<Places, kMaxPasses> places;
+std::pair<Pair*, Pair*> sortByDigits(Pair* from, Pair* to, std::size_t size, const PairDigits& digits) {
+  std::array<PairPlaces, kMaxPairPasses> places;
   countDigits<kSecond>(from, size, digits, places);
   for (unsigned pass = 0; pass < digits.passes; ++pass) {
     const unsigned shift = pass * digits.bits;

@@ -21,8 +21,8 @@ double sideOfCubes(std::size_t count, double filled) {
 }  // namespace
 
 std::vector<float> uniformBoxes(std::size_t count, std::uint64_t seed) {
-  constexpr double kFilled = 0.625;  // n/2 * 8 * 0.625 = 2.5 pairs a box, less at the walls.
-  const double side = sideOfCubes(count, kFilled);
+  constexpr double kFilledAtRandom = 0.625;  // n/2 * 8 * 0.625 = 2.5 pairs a box, less at the walls.
+  const double side = sideOfCubes(count, kFilledAtRandom);
   Rows rows(count);
   for (std::size_t i = 0; i < count; ++i) {
     Random random(seed, i);

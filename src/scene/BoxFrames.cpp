@@ -16,7 +16,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-void checkShape(const NpyHeader& header, const Path& path) {
+void checkFrames(const NpyHeader& header, const Path& path) {
   if (header.shape.size() != 3 || header.shape[2] != 6) {
     throw FileError(path, "has shape " + shapeText(header.shape) + "; frames of boxes are (t, n, 6)");
   }
@@ -66,7 +66,7 @@ struct BoxFrames::State {
 
 BoxFrames::BoxFrames(const Path& path) : m_state(std::make_unique<State>(path)) {
   m_state->isFloat32 = holdsFloat32(m_state->header, path);
-  checkShape(m_state->header, path);
+  checkFrames(m_state->header, path);
   checkLength(m_state->header, m_state->isFloat32 ? sizeof(float) : sizeof(double), m_state->file, path);
 }
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <utility>
 
+#include "VectorMath.h"
+
 namespace allpairs::view {
 namespace {
-
-using Vec3 = std::array<double, 3>;
 
 constexpr std::size_t kWidth = 640;
 constexpr std::size_t kHeight = 480;
@@ -17,14 +17,6 @@ constexpr Colour kBackground{246, 248, 250};
 constexpr Colour kFirst{0, 114, 178};  // colours that people with any colour vision tell apart
 constexpr Colour kSecond{230, 159, 0};
 constexpr Colour kShared{213, 50, 15};
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 double sizeOf(const Box& box) {
   const Vec3 extent = minus(box.max, box.min);

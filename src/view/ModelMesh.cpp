@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "VectorMath.h"
 #include "allpairs/collision/CapsuleModel.h"
 #include "allpairs/collision/LineModel.h"
 #include "allpairs/collision/OrientedBoxModel.h"
@@ -16,16 +17,10 @@
 namespace allpairs::view {
 namespace {
 
-using collision::Vec3;
-
 constexpr std::size_t kMostIndices = 12'000'000;  // four million triangles: what a laptop still turns smoothly
 
 Vec3 plus(const Vec3& a, const Vec3& b, double factor) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 Vec3 normalized(const Vec3& a, const Vec3& otherwise) {

@@ -16,7 +16,7 @@ std::array<std::size_t, 2> cut(double low, double high, std::size_t count) {
   return {static_cast<std::size_t>(begin), static_cast<std::size_t>(end)};
 }
 
-double cross(const RasterPoint& a, const RasterPoint& b, double x, double y) {
+double crossAt(const RasterPoint& a, const RasterPoint& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
@@ -31,7 +31,7 @@ Raster::Raster(std::size_t width, std::size_t height, Colour background)
 template <class Paint>
 void Raster::scan(const std::array<RasterPoint, 3>& corners, const Paint& paint) const {
   const auto& [a, b, c] = corners;
-  const double area = cross(a, b, c.x, c.y);
+  const double area = crossAt(a, b, c.x, c.y);
   if (!(std::abs(area) > 1e-12)) return;
   const auto [left, right] = cut(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), m_width);
   const auto [top, bottom] = cut(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), m_height);
@@ -39,8 +39,8 @@ void Raster::scan(const std::array<RasterPoint, 3>& corners, const Paint& paint)
     for (std::size_t x = left; x < right; ++x) {
       const auto px = static_cast<double>(x);
       const auto py = static_cast<double>(y);
-      const double u = cross(b, c, px, py) / area;
-      const double v = cross(c, a, px, py) / area;
+      const double u = crossAt(b, c, px, py) / area;
+      const double v = crossAt(c, a, px, py) / area;
       const double w = 1.0 - u - v;
       if (u >= 0.0 && v >= 0.0 && w >= 0.0) paint(y * m_width + x, u * a.depth + v * b.depth + w * c.depth);
     }

@@ -8,8 +8,8 @@ namespace {
 
 /// The text with what is no UTF-8 replaced. The writer of JSON does it, whose quoting is undone again.
 std::string validUtf8(std::string_view text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  using AnyJson = nlohmann::json;
+  return AnyJson::parse(AnyJson(text).dump(-1, ' ', false, AnyJson::error_handler_t::replace)).get<std::string>();
 }
 
 }  // namespace

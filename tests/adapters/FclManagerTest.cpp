@@ -22,7 +22,7 @@
 namespace allpairs::test {
 namespace {
 
-constexpr unsigned kSeed = 5;
+constexpr unsigned kSceneSeed = 5;
 
 template <class S>
 class FclManager : public ::testing::Test {
@@ -114,7 +114,7 @@ class FclManager : public ::testing::Test {
   ::fcl::NaiveCollisionManager<S> m_naive;
 
  private:
-  std::mt19937 m_random{kSeed};
+  std::mt19937 m_random{kSceneSeed};
   std::vector<std::unique_ptr<Object>> m_owned;
 };
 
@@ -129,7 +129,8 @@ TYPED_TEST(FclManager, FindsTheCollisionsOfTheNaiveManager) {
     this->m_ours.registerObjects(objects);
     this->m_naive.registerObjects(objects);
     this->m_ours.setup();
-    EXPECT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive)) << "seed " << kSeed << ", size " << size;
+    EXPECT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive))
+        << "seed " << kSceneSeed << ", size " << size;
     for (auto* probe : this->addObjects(10, static_cast<TypeParam>(size))) {
       EXPECT_EQ(this->collisions(this->m_ours, probe), this->collisions(this->m_naive, probe));
     }
@@ -144,7 +145,8 @@ TYPED_TEST(FclManager, FindsTheLeastDistancesOfTheNaiveManager) {
     this->m_ours.registerObjects(objects);
     this->m_naive.registerObjects(objects);
     this->m_ours.setup();
-    EXPECT_EQ(this->distance(this->m_ours), this->distance(this->m_naive)) << "seed " << kSeed << ", size " << size;
+    EXPECT_EQ(this->distance(this->m_ours), this->distance(this->m_naive))
+        << "seed " << kSceneSeed << ", size " << size;
     for (auto* probe : this->addObjects(10, static_cast<TypeParam>(size))) {
       EXPECT_EQ(this->distance(this->m_ours, probe), this->distance(this->m_naive, probe));
     }
@@ -211,7 +213,8 @@ TYPED_TEST(FclManager, FollowsObjectsThatMoveComeAndGo) {
     this->m_ours.registerObject(objects[step]);
     this->m_naive.clear();
     this->m_naive.registerObjects(objects);
-    ASSERT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive)) << "seed " << kSeed << ", step " << step;
+    ASSERT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive))
+        << "seed " << kSceneSeed << ", step " << step;
     ASSERT_EQ(this->distance(this->m_ours), this->distance(this->m_naive));
     ASSERT_EQ(this->m_ours.size(), 100U);
   }
@@ -294,7 +297,7 @@ TYPED_TEST(FclManager, FindsTheSamePairsWhetherFewObjectsMoveOrMany) {
     for (std::size_t i = 0; i < objects.size(); i += stride) this->place(*objects[i], TypeParam(10));
     this->m_ours.update();
     EXPECT_THAT(candidates(this->m_ours), ::testing::UnorderedElementsAreArray(overlapping(objects)))
-        << "seed " << kSeed << ", every " << stride;
+        << "seed " << kSceneSeed << ", every " << stride;
   }
 }
 

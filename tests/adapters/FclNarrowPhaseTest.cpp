@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "FclExamine.h"
 #include "Shapes.h"
 #include "allpairs/Error.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
@@ -21,16 +22,6 @@ using collision::CollisionModel;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::Optional;
-
-constexpr double kClose = 1e-12;
-
-ExactPair examine(CollisionModel& first, CollisionModel& second, const ExactOptions& options = {}) {
-  FclNarrowPhase phase(options);
-  phase.beginNarrowPhase();
-  phase.addCollisionPair({&first, &second});
-  phase.endNarrowPhase();
-  return phase.pairs().front();
-}
 
 auto near(double x, double y, double z) {
   return ElementsAre(DoubleNear(x, kClose), DoubleNear(y, kClose), DoubleNear(z, kClose));

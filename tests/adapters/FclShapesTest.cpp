@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "FclExamine.h"
 #include "Shapes.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/CapsuleModel.h"
@@ -20,16 +21,6 @@ namespace allpairs::test {
 namespace {
 
 using namespace collision;
-
-constexpr double kClose = 1e-12;
-
-ExactPair examine(CollisionModel& first, CollisionModel& second) {
-  FclNarrowPhase phase;
-  phase.beginNarrowPhase();
-  phase.addCollisionPair({&first, &second});
-  phase.endNarrowPhase();
-  return phase.pairs().front();
-}
 
 TEST(FclShapes, SpheresAreAsFarAndAsDeepAsTheirCentresSay) {
   SphereModel first("first", {{0, 0, 0}}, {1.0});

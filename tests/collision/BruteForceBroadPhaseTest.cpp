@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The component from outside: steps, region, strategies, statistics, errors.
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "Fixture.h"
 #include "SceneWorld.h"
+#include "support/Numbers.h"
 
 namespace allpairs::test {
 namespace {
 
 using namespace collision;
 using ::testing::Test;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class Component : public BroadPhaseTest {
  protected:

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -17,14 +16,12 @@
 #include "allpairs/collision/TetrahedronModel.h"
 #include "allpairs/collision/TriangleModel.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 
 namespace allpairs::test {
 namespace {
 
 using namespace collision;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const std::vector<Vec3> kPoints{{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {0.0, 3.0, 0.0}, {0.0, 0.0, 4.0}};
 

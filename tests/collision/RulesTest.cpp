@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the contract says of the rules, case by case.
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "Fixture.h"
@@ -11,13 +10,12 @@
 #include "allpairs/collision/NewProximityIntersection.h"
 #include "allpairs/collision/SphereModel.h"
 #include "allpairs/collision/TriangleModel.h"
+#include "support/Numbers.h"
 
 namespace allpairs::test {
 namespace {
 
 using namespace collision;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Rules : public BroadPhaseTest {};
 

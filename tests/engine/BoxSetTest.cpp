@@ -10,6 +10,7 @@
 
 #include "allpairs/Error.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 
 namespace allpairs {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 using test::cube;
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
+using test::kNan;
 
 const std::vector<Box> kTwo{{{1, 2, 3}, {4, 5, 6}}, {{-1, -2, -3}, {7, 8, 9}}};
 

@@ -2,16 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
 namespace {
+
+using test::kInfinity;
 
 class InstructionSet : public ::testing::TestWithParam<std::string_view> {};
 
@@ -72,7 +74,6 @@ TEST_P(InstructionSet, ReadsBoxesAtEveryMisalignment) {
 
 /// Boxes in double a hair apart, turned over, infinite, and beyond float32, among others.
 std::vector<Box> awkwardBoxes(std::size_t n) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<Box> boxes = test::toDouble(test::randomBoxes(n, 16, 2.0F));
   for (std::size_t i = 0; i + 8 < n; i += 8) {
     boxes[i].min[0] = std::nextafter(boxes[i + 1].max[0], kInfinity);

@@ -5,17 +5,17 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <limits>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
 
 /// Coordinates that make boxes touch, coincide, vanish and overflow: few values, chosen to meet each other.
 rc::Gen<double> coordinate() {

@@ -10,6 +10,7 @@
 
 #include "allpairs/Error.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
@@ -20,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
 constexpr Box kWholeSpace{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 
 /// Runs with each strategy; whatever is written here holds for all of them.

@@ -8,11 +8,12 @@
 #include "WorldOracle.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
+#include "support/Numbers.h"
 
 namespace allpairs {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
 
 /// Small and large numbers of both signs, some of which no float32 can hold.
 class ExtremeNumbers {

@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 
 namespace allpairs {
 namespace {
@@ -21,7 +21,7 @@ using ::testing::IsEmpty;
 
 using test::cube;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using test::kNan;
 
 /// The index that an InvalidBox names, after a look at its message.
 template <class Call>

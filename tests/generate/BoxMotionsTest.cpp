@@ -41,7 +41,7 @@ std::uint64_t hashOf(const std::vector<Rows>& frames) {
   return hash;
 }
 
-std::size_t countPairs(const Rows& rows) {
+std::size_t pairsIn(const Rows& rows) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < rows.size(); i += 6) {
     for (std::size_t j = 0; j < i; j += 6) {
@@ -93,7 +93,7 @@ TEST_P(BoxMotions, AreTheSameForTheSameSeedAndOthersForAnother) {
 
 TEST_P(BoxMotions, NeverCrowdABoxWithMoreThanAFewOthers) {
   const auto frames = framesOf({GetParam(), 1000, 2}, 1000);
-  for (std::size_t i = 0; i < frames.size(); i += 50) EXPECT_LE(countPairs(frames[i]), 6000U) << "frame " << i;
+  for (std::size_t i = 0; i < frames.size(); i += 50) EXPECT_LE(pairsIn(frames[i]), 6000U) << "frame " << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BoxMotions, testing::Values("brownian", "free-fall", "rotating-gravity"));

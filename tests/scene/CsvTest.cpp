@@ -13,7 +13,7 @@ namespace {
 
 using Named = std::pair<std::string, Box>;
 
-std::vector<Named> read(const std::string& text) {
+std::vector<Named> readText(const std::string& text) {
   const TempFolder folder;
   const scene::BoxArray array = scene::readCsv(folder.write("boxes.csv", text));
   std::vector<Named> rows;
@@ -21,7 +21,7 @@ std::vector<Named> read(const std::string& text) {
   return rows;
 }
 
-void expectProblem(const std::string& text, const std::string& part) {
+void expectCsvProblem(const std::string& text, const std::string& part) {
   const TempFolder folder;
   expectFileError([path = folder.write("bad.csv", text)] { (void)scene::readCsv(path); }, part);
 }
@@ -29,49 +29,49 @@ void expectProblem(const std::string& text, const std::string& part) {
 const Box kBox{{0.5, 1, 2}, {3, 4, 5e1}};
 
 TEST(Csv, SixNumbersALineAreBoxesNamedByTheirIndex) {
-  EXPECT_EQ(read("0.5,1,2,3,4,5e1\n0.5,1,2,3,4,5e1"), (std::vector<Named>{{"0", kBox}, {"1", kBox}}));
+  EXPECT_EQ(readText("0.5,1,2,3,4,5e1\n0.5,1,2,3,4,5e1"), (std::vector<Named>{{"0", kBox}, {"1", kBox}}));
 }
 
 TEST(Csv, ANameMayComeFirstOrLast) {
-  EXPECT_EQ(read("left,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"left", kBox}}));
-  EXPECT_EQ(read("0.5,1,2,3,4,50,right\n"), (std::vector<Named>{{"right", kBox}}));
+  EXPECT_EQ(readText("left,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"left", kBox}}));
+  EXPECT_EQ(readText("0.5,1,2,3,4,50,right\n"), (std::vector<Named>{{"right", kBox}}));
 }
 
 TEST(Csv, AHeaderMayNameTheColumnsInAnyOrder) {
-  EXPECT_EQ(read("name,minx,miny,minz,maxx,maxy,maxz\na,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"a", kBox}}));
-  EXPECT_EQ(read("Min X,Max X,Min Y,Max Y,Min Z,Max Z\n0.5,3,1,4,2,50\n"), (std::vector<Named>{{"0", kBox}}));
-  EXPECT_EQ(read("x0,y0,z0,x1,y1,z1,what\n0.5,1,2,3,4,50,7\n"), (std::vector<Named>{{"7", kBox}}));
+  EXPECT_EQ(readText("name,minx,miny,minz,maxx,maxy,maxz\na,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"a", kBox}}));
+  EXPECT_EQ(readText("Min X,Max X,Min Y,Max Y,Min Z,Max Z\n0.5,3,1,4,2,50\n"), (std::vector<Named>{{"0", kBox}}));
+  EXPECT_EQ(readText("x0,y0,z0,x1,y1,z1,what\n0.5,1,2,3,4,50,7\n"), (std::vector<Named>{{"7", kBox}}));
 }
 
 TEST(Csv, CommentsBlankLinesBlanksAndOtherLineEndsArePassedOver) {
-  EXPECT_EQ(read("\xEF\xBB\xBF# made by hand\r\n\r\n  0.5 , 1,\t2, +3, 4, 50 \r\n  \r\n# the end"),
+  EXPECT_EQ(readText("\xEF\xBB\xBF# made by hand\r\n\r\n  0.5 , 1,\t2, +3, 4, 50 \r\n  \r\n# the end"),
             (std::vector<Named>{{"0", kBox}}));
 }
 
 TEST(Csv, QuotedNamesMayHoldCommasAndQuotes) {
-  EXPECT_EQ(read(R"("a ""b"", c",0.5,1,2,3,4,50)"), (std::vector<Named>{{R"(a "b", c)", kBox}}));
+  EXPECT_EQ(readText(R"("a ""b"", c",0.5,1,2,3,4,50)"), (std::vector<Named>{{R"(a "b", c)", kBox}}));
 }
 
 TEST(Csv, InfinitiesAreNumbers) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(read("-inf,0,0,inf,Infinity,+inf"),
+  EXPECT_EQ(readText("-inf,0,0,inf,Infinity,+inf"),
             (std::vector<Named>{{"0", {{-kInfinity, 0, 0}, {kInfinity, kInfinity, kInfinity}}}}));
 }
 
-TEST(Csv, AnEmptyFileHoldsNoBoxes) { EXPECT_EQ(read("# nothing\n"), std::vector<Named>{}); }
+TEST(Csv, AnEmptyFileHoldsNoBoxes) { EXPECT_EQ(readText("# nothing\n"), std::vector<Named>{}); }
 
 TEST(Csv, ErrorsNameLineAndColumn) {
-  expectProblem("1,2,3,4,5,6\n\n1,2,x,4,5,6\n", "bad.csv:3:5: 'x' is not a number");
-  expectProblem("1,2,3,4,5,6\n1,2,,4,5,6\n", "bad.csv:2:5: a number is missing");
-  expectProblem("1,2,3,4,5,nan\n", "bad.csv:1:11: is not a number (NaN)");
-  expectProblem("1,2,3,4,5,1e999\n", "bad.csv:1:11: 1e999 is too large");
-  expectProblem("1,2,3,4,5\n", "bad.csv:1: has 5 columns");
-  expectProblem("1,2,3,4,5,6\n1,2,3,4,5,6,7\n", "bad.csv:2: has 7 columns");
-  expectProblem("\"a,1,2,3,4,5,6\n", "bad.csv:1:1: a quote is not closed");
-  expectProblem("\"a\"b,1,2,3,4,5,6\n", "bad.csv:1:4: text after a closing quote");
-  expectProblem("minx,miny,minz,maxx,maxy\n", "bad.csv:1: the header has no column 'maxz'");
-  expectProblem("minx,miny,minz,maxx,maxy,maxz,a,b\n", "bad.csv:1:33: column 'b' is not known");
-  expectProblem("minx,minx,minz,maxx,maxy,maxz\n", "bad.csv:1:6: column 'minx' is there twice");
+  expectCsvProblem("1,2,3,4,5,6\n\n1,2,x,4,5,6\n", "bad.csv:3:5: 'x' is not a number");
+  expectCsvProblem("1,2,3,4,5,6\n1,2,,4,5,6\n", "bad.csv:2:5: a number is missing");
+  expectCsvProblem("1,2,3,4,5,nan\n", "bad.csv:1:11: is not a number (NaN)");
+  expectCsvProblem("1,2,3,4,5,1e999\n", "bad.csv:1:11: 1e999 is too large");
+  expectCsvProblem("1,2,3,4,5\n", "bad.csv:1: has 5 columns");
+  expectCsvProblem("1,2,3,4,5,6\n1,2,3,4,5,6,7\n", "bad.csv:2: has 7 columns");
+  expectCsvProblem("\"a,1,2,3,4,5,6\n", "bad.csv:1:1: a quote is not closed");
+  expectCsvProblem("\"a\"b,1,2,3,4,5,6\n", "bad.csv:1:4: text after a closing quote");
+  expectCsvProblem("minx,miny,minz,maxx,maxy\n", "bad.csv:1: the header has no column 'maxz'");
+  expectCsvProblem("minx,miny,minz,maxx,maxy,maxz,a,b\n", "bad.csv:1:33: column 'b' is not known");
+  expectCsvProblem("minx,minx,minz,maxx,maxy,maxz\n", "bad.csv:1:6: column 'minx' is there twice");
 }
 
 TEST(Csv, AFileCutAnywhereIsReadOrAnErrorButNeverMore) {

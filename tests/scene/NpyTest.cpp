@@ -8,12 +8,11 @@
 #include "Expect.h"
 #include "allpairs/scene/BoxArray.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<Box> boxesOf(const scene::BoxArray& array) {
   std::vector<Box> boxes;
@@ -26,7 +25,7 @@ std::vector<Box> someBoxes() {
   return {{{0, 1, 2}, {3, 4, 5}}, {{-1.5, -2, -3}, {0.25, 0, 7}}, {{-kInfinity, 0, 0}, {kInfinity, 1, 1}}};
 }
 
-void expectProblem(const std::string& bytes, const std::string& part) {
+void expectNpyProblem(const std::string& bytes, const std::string& part) {
   const TempFolder folder;
   expectFileError([path = folder.write("bad.npy", bytes)] { (void)scene::readNpy(path); }, part);
 }
@@ -92,40 +91,40 @@ TEST(Npy, HugeClaimsAreRefusedBeforeAnythingIsAllocated) {
 }
 
 TEST(Npy, OtherShapesAreNamed) {
-  expectProblem(npyBytes({}, {.descr = "<f8", .shape = "(7, 5)"}), "shape (7, 5)");
-  expectProblem(npyBytes({}, {.descr = "<f8", .shape = "(6,)"}), "shape (6,)");
-  expectProblem(npyBytes({}, {.descr = "<f8", .shape = "()"}), "shape ()");
-  expectProblem(npyBytes({}, {.descr = "<f8", .shape = "(2, 3, 2)"}), "shape (2, 3, 2)");
-  expectProblem(npyBytes({}, {.descr = "<f8", .shape = "(-1, 6)"}), "no whole number");
+  expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(7, 5)"}), "shape (7, 5)");
+  expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(6,)"}), "shape (6,)");
+  expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "()"}), "shape ()");
+  expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(2, 3, 2)"}), "shape (2, 3, 2)");
+  expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(-1, 6)"}), "no whole number");
 }
 
 TEST(Npy, OtherTypesAreNamed) {
   for (const char* descr : {"<i8", "<f2", "<f16", "|O", "<c8", "f4", "=f8", ""}) {
-    expectProblem(npyHeaderBytes("{'descr': '" + std::string(descr) + "', 'fortran_order': False, 'shape': (0, 6)}"),
-                  "type '" + std::string(descr) + "'");
+    expectNpyProblem(npyHeaderBytes("{'descr': '" + std::string(descr) + "', 'fortran_order': False, 'shape': (0, 6)}"),
+                     "type '" + std::string(descr) + "'");
   }
-  expectProblem(npyHeaderBytes("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (0, 6)}"), "structured");
+  expectNpyProblem(npyHeaderBytes("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (0, 6)}"), "structured");
 }
 
 TEST(Npy, HeadersThatAreNotExactlyThatDictionaryAreRefused) {
-  expectProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': False}"), "'shape' is missing");
-  expectProblem(npyHeaderBytes("{'descr': '<f8', 'descr': '<f8', 'shape': (0, 6)}"), "twice");
-  expectProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': 0, 'shape': (0, 6)}"), "True nor False");
-  expectProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 6)} 1"), "after the closing");
-  expectProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 6), 'x': 1}"), "unknown key");
-  expectProblem(npyHeaderBytes("{'descr': '<f8, 'fortran_order': False, 'shape': (0, 6)}"), "malformed");
+  expectNpyProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': False}"), "'shape' is missing");
+  expectNpyProblem(npyHeaderBytes("{'descr': '<f8', 'descr': '<f8', 'shape': (0, 6)}"), "twice");
+  expectNpyProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': 0, 'shape': (0, 6)}"), "True nor False");
+  expectNpyProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 6)} 1"), "after the closing");
+  expectNpyProblem(npyHeaderBytes("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 6), 'x': 1}"), "unknown key");
+  expectNpyProblem(npyHeaderBytes("{'descr': '<f8, 'fortran_order': False, 'shape': (0, 6)}"), "malformed");
 }
 
-TEST(Npy, BytesAfterTheArrayAreAnError) { expectProblem(npyBytes(someBoxes()) + "x", "145 bytes of numbers"); }
+TEST(Npy, BytesAfterTheArrayAreAnError) { expectNpyProblem(npyBytes(someBoxes()) + "x", "145 bytes of numbers"); }
 
 TEST(Npy, AnUnknownVersionIsNamed) {
-  expectProblem(npyBytes(someBoxes(), {.descr = "<f8", .version = 4}), "version 4");
+  expectNpyProblem(npyBytes(someBoxes(), {.descr = "<f8", .version = 4}), "version 4");
 }
 
 TEST(Npy, ANanIsNamedWithItsBox) {
   std::vector<Box> boxes = someBoxes();
   boxes[1].max[2] = std::numeric_limits<double>::quiet_NaN();
-  expectProblem(npyBytes(boxes), "box 1: max z is not a number");
+  expectNpyProblem(npyBytes(boxes), "box 1: max z is not a number");
 }
 
 TEST(Npy, AMissingFileAndAFolderAreNamed) {

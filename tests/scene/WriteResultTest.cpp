@@ -3,16 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "support/Boxes.h"
 #include "support/Npy.h"
+#include "support/Numbers.h"
 
 namespace allpairs::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Three models with all that is awkward to write, and some pairs of them.
 struct Example {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/Expect.h"
+#include "support/Numbers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -96,7 +97,7 @@ void expectViewpoint(const std::string& text) {
   for (const char* part : {"CameraViewPoint", "CameraDirection", "CameraUpVector"}) {
     EXPECT_EQ(childrenOf(camera.child(part)), (Names{"X", "Y", "Z"}));
     for (const pugi::xml_node& coordinate : camera.child(part).children()) {
-      EXPECT_TRUE(std::isfinite(coordinate.text().as_double(NAN))) << part;
+      EXPECT_TRUE(std::isfinite(coordinate.text().as_double(kNan))) << part;
     }
   }
   EXPECT_GT(camera.child("ViewToWorldScale").text().as_double(), 0.0);

@@ -18,10 +18,10 @@ constexpr std::size_t kLeastRoom = 64;
 /// If one box in so many has moved, all blocks are read anew.
 constexpr std::size_t kShareOfMoved = 8;
 
-constexpr std::size_t kBlocksPerTask = 256;
+constexpr std::size_t kKeptBlocksPerTask = 256;
 
 /// How many blocks ahead the boxes of a block are asked for.
-constexpr std::size_t kPrefetchDistance = 2;
+constexpr std::size_t kPrefetchBlocks = 2;
 
 std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + kLeastRoom; }
 
@@ -114,7 +114,7 @@ void KeptHierarchy::placeFresh(const UpdateTools& tools) {
 void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& tools) {
   m_keyed.require(ids.size() + ids.size() / kShareOfChange);
   m_spare.require(ids.size() + ids.size() / kShareOfChange);
-  constexpr std::size_t kBoxesPerTask = kBlocksPerTask * kFanOut;
+  constexpr std::size_t kBoxesPerTask = kKeptBlocksPerTask * kFanOut;
   tools.executor.run((ids.size() + kBoxesPerTask - 1) / kBoxesPerTask, [&](std::size_t task) {
     const std::size_t begin = task * kBoxesPerTask;
     const std::size_t size = std::min(kBoxesPerTask, ids.size() - begin);
@@ -199,10 +199,10 @@ void KeptHierarchy::refit(const UpdateTools& tools) {
 void KeptHierarchy::refitAll(const UpdateTools& tools) {
   const BlockReader blocks(tools.reader, tools.kernels);
   const std::size_t count = m_levels.blockCount();
-  tools.executor.run((count + kBlocksPerTask - 1) / kBlocksPerTask, [&](std::size_t task) {
-    const std::size_t end = std::min(count, (task + 1) * kBlocksPerTask);
-    for (std::size_t b = task * kBlocksPerTask; b < end; ++b) {
-      const std::size_t ahead = std::min(b + kPrefetchDistance, count - 1) * kFanOut;
+  tools.executor.run((count + kKeptBlocksPerTask - 1) / kKeptBlocksPerTask, [&](std::size_t task) {
+    const std::size_t end = std::min(count, (task + 1) * kKeptBlocksPerTask);
+    for (std::size_t b = task * kKeptBlocksPerTask; b < end; ++b) {
+      const std::size_t ahead = std::min(b + kPrefetchBlocks, count - 1) * kFanOut;
       for (std::size_t lane = 0; lane < kFanOut; ++lane) tools.reader.prefetch(m_levels.id(ahead + lane));
       gather(b, blocks, tools.reader);
     }

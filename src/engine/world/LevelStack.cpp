@@ -7,7 +7,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Blocks that one task bounds.
-constexpr std::size_t kBlocksPerTask = 1024;
+constexpr std::size_t kBlocksPerBoundTask = 1024;
 
 std::size_t blocksFor(std::size_t size) { return (size + kFanOut - 1) / kFanOut; }
 
@@ -58,8 +58,9 @@ void LevelStack::boundAll(const Kernels& kernels, Executor& executor) {
   for (std::size_t level = 0; level + 1 < m_depth; ++level) {
     const LaneBlock* blocks = m_levels[level].data();
     LaneBlock* parents = m_levels[level + 1].data();
-    executor.run((count + kBlocksPerTask - 1) / kBlocksPerTask, [&](std::size_t task) {
-      kernels.boundBlocks(blocks, task * kBlocksPerTask, std::min(count, (task + 1) * kBlocksPerTask), parents);
+    executor.run((count + kBlocksPerBoundTask - 1) / kBlocksPerBoundTask, [&](std::size_t task) {
+      kernels.boundBlocks(blocks, task * kBlocksPerBoundTask, std::min(count, (task + 1) * kBlocksPerBoundTask),
+                          parents);
     });
     count = blocksFor(count);
   }

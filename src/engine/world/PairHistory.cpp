@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kShortRow = 16;
 
 /// How many pairs ahead the memory of a row is asked for.
-constexpr std::size_t kPrefetchDistance = 16;
+constexpr std::size_t kPrefetchPairs = 16;
 
 /// Compares as the pair does.
 std::uint64_t keyOf(Pair pair) { return (std::uint64_t{pair.first} << 32U) | pair.second; }
@@ -44,7 +44,7 @@ void PairHistory::take(std::span<const Pair> found, std::size_t finder) {
   Fresh& fresh = m_fresh[finder];
   fresh.pairs.grow(fresh.size + found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Pair ahead = found[std::min(i + kPrefetchDistance, found.size() - 1)];
+    const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
     __builtin_prefetch(m_result.pairs.data() + m_rowBegin[ahead.first]);
     const std::size_t place = find(found[i]);
     if (place == kNowhere) {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kFewQueries = 64;
 
 constexpr unsigned kBitsPerAxis = 9;
-constexpr unsigned kIndexBits = 32;
+constexpr unsigned kPointIndexBits = 32;
 
 /// Spreads nine bits so that each is followed by two others.
 std::uint32_t spreadBits(std::uint32_t bits) noexcept {
@@ -61,9 +61,9 @@ void QueryOrder::sort(std::span<const std::array<float, 3>> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::uint64_t key = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) key |= spreadBits(cells[axis].cellOf(points[i][axis])) << axis;
-    m_spare[i] = key << kIndexBits | i;
+    m_spare[i] = key << kPointIndexBits | i;
   }
-  sortRun(m_spare.data(), m_keys.data(), points.size(), kIndexBits + 3 * kBitsPerAxis, kIndexBits);
+  sortRun(m_spare.data(), m_keys.data(), points.size(), kPointIndexBits + 3 * kBitsPerAxis, kPointIndexBits);
 }
 
 }  // namespace allpairs::engine
