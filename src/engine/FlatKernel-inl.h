@@ -9,9 +9,11 @@
 #endif
 
 #include <algorithm>
+#include <array>
 
 #include "FlatSearch.h"
 #include "RowKernel-inl.h"
+#include "hwy/cache_control.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
@@ -53,9 +55,122 @@ HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t
   }
 }
 
+/// So many rows are counted at once: they share what is loaded of the columns.
+constexpr std::size_t kRowsAtOnce = 4;
+
+/// Those rows against the vectors of a tile that lie in [begin, end) as wholes; returns how many hits there are.
+template <class Tile>
+HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, const Tile& columns, std::size_t begin,
+                                    std::size_t end) {
+  const FloatTag d;
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const FloatMask m0 = overlapping(rows[0], columns.bound, i);
+    const FloatMask m1 = overlapping(rows[1], columns.bound, i);
+    const FloatMask m2 = overlapping(rows[2], columns.bound, i);
+    const FloatMask m3 = overlapping(rows[3], columns.bound, i);
+    if (hn::AllFalse(d, hn::Or(hn::Or(m0, m1), hn::Or(m2, m3)))) continue;
+    count += hn::CountTrue(d, m0) + hn::CountTrue(d, m1) + hn::CountTrue(d, m2) + hn::CountTrue(d, m3);
+  }
+  return count;
+}
+
+/// Those rows from `row` on against columns that all of them are tested against.
+void countColumns(const FlatSearch& search, std::size_t row, Range columns, Hits& hits) {
+  constexpr std::size_t kTile = LaneTile::kCapacity;
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  std::array<Query, kRowsAtOnce> queries;
+  for (std::size_t r = 0; r < kRowsAtOnce; ++r) queries[r] = spread(search.rows.get(row + r));
+  for (std::size_t begin = columns.begin; begin < columns.end;) {
+    const std::size_t first = begin / kTile * kTile;
+    const std::size_t stop = std::min(columns.end, first + kTile);
+    const auto& tile = search.columns.tileOf(begin);
+    const std::size_t whole = std::min((begin - first + lanes - 1) / lanes * lanes, stop - first);
+    const std::size_t wholeEnd = std::max((stop - first) / lanes * lanes, whole);
+    HitCounter counter(hits, 0);
+    for (const Query& q : queries) {
+      takeRow<Density::Dense>(q, tile, begin - first, whole, counter);
+      takeRow<Density::Dense>(q, tile, wholeEnd, stop - first, counter);
+    }
+    counter.finish();
+    hits.count += countVectors(queries, tile, whole, wholeEnd);
+    begin = stop;
+  }
+}
+
+/// Counts several rows at a time, for as many as are left, and returns the first of those that remain.
+std::size_t countRows(const FlatSearch& search, Hits& hits) {
+  std::size_t row = search.rowBegin;
+  for (; row + kRowsAtOnce <= search.rowEnd; row += kRowsAtOnce) {
+    const Range first = columnsOf(search, row);
+    const Range last = columnsOf(search, row + kRowsAtOnce - 1);
+    const Range common{std::max(first.begin, last.begin), std::min(first.end, last.end)};
+    countColumns(search, row, common, hits);
+    for (std::size_t r = row; r < row + kRowsAtOnce; ++r) {
+      const Range columns = columnsOf(search, r);
+      searchRow<Density::Dense, HitCounter>(search, r, columns.begin, std::min(columns.end, common.begin), hits);
+      searchRow<Density::Dense, HitCounter>(search, r, std::max(columns.begin, common.end), columns.end, hits);
+      hits.boxTests += columns.size();
+    }
+  }
+  return row;
+}
+
+/// So many pairs are more than the caches near a core hold.
+constexpr std::size_t kCachedPairs = std::size_t{1} << 18;
+
+/// Where pairs are gathered to whole cache lines, which then go past the caches to where they stay: a line that is written
+/// in a cache is read into it first. Across rows, since a row ends anywhere within a line.
+class PairStream {
+ public:
+  /// Pairs follow on `to`, before which there are so many already.
+  HWY_INLINE void begin(Pair* to, std::size_t before) {
+    if (!m_started && before >= kCachedPairs) {
+      m_started = true;
+      m_size = before % kLinePairs;
+      std::copy_n(to - m_size, m_size, reinterpret_cast<Pair*>(m_pairs.data()));
+    }
+    m_line = reinterpret_cast<std::uint32_t*>(to - m_size);
+  }
+
+  /// Where the next vector of pairs goes.
+  [[nodiscard]] HWY_INLINE std::uint32_t* next() { return (m_started ? m_pairs.data() : m_line) + 2 * m_size; }
+
+  HWY_INLINE void add(std::size_t count) {
+    m_size += count;
+    if (m_started && m_size >= kBatch) flush();
+  }
+
+  /// Everything is where it belongs.
+  HWY_INLINE void finish() {
+    if (!m_started) return;
+    flush();
+    std::copy_n(m_pairs.data(), 2 * m_size, m_line);
+    hwy::FlushStream();
+  }
+
+ private:
+  static constexpr std::size_t kLinePairs = 8;
+  static constexpr std::size_t kBatch = 256;
+
+  HWY_INLINE void flush() {
+    const IdTag d;
+    const std::size_t whole = m_size / kLinePairs * kLinePairs;
+    for (std::size_t i = 0; i < 2 * whole; i += hn::Lanes(d)) hn::Stream(hn::Load(d, &m_pairs[i]), d, m_line + i);
+    m_line += 2 * whole;
+    m_size -= whole;
+    std::copy_n(&m_pairs[2 * whole], 2 * m_size, m_pairs.data());
+  }
+
+  alignas(64) std::array<std::uint32_t, 2 * (kBatch + Hits::kSlack)> m_pairs;
+  std::uint32_t* m_line = nullptr;
+  std::size_t m_size = 0;  // behind m_line
+  bool m_started = false;
+};
+
 /// Takes the hits of one row as pairs, to where they stay.
 struct PairWriter {
-  std::uint32_t* to;
+  PairStream& stream;
   hn::Vec<IdTag> rowIds;
   bool rowSecond;
   std::size_t size = 0;
@@ -65,24 +180,27 @@ struct PairWriter {
     auto partners = hn::LoadU(d, ids);
     if (!hn::AllTrue(FloatTag(), mask)) partners = hn::Compress(partners, hn::RebindMask(d, mask));
     if (rowSecond) {
-      hn::StoreInterleaved2(partners, rowIds, d, to + 2 * size);
+      hn::StoreInterleaved2(partners, rowIds, d, stream.next());
     } else {
-      hn::StoreInterleaved2(rowIds, partners, d, to + 2 * size);
+      hn::StoreInterleaved2(rowIds, partners, d, stream.next());
     }
-    size += hn::CountTrue(FloatTag(), mask);
+    const std::size_t count = hn::CountTrue(FloatTag(), mask);
+    stream.add(count);
+    size += count;
   }
 };
 
 /// One row whose pairs are expected to be many; returns how many there are.
-HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end,
+HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range columns, PairStream& stream,
                                 Hits& hits) {
   constexpr std::size_t kTile = LaneTile::kCapacity;
   const Query q = spread(search.rows.get(row));
-  Pair* pairs = hits.roomForPairs(hits.receiver, hits, end - begin);
-  PairWriter writer{reinterpret_cast<std::uint32_t*>(pairs), hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
-  while (begin < end) {
+  const RoomForPairs room = hits.roomForPairs(hits.receiver, hits, columns.size());
+  stream.begin(room.pairs, room.before);
+  PairWriter writer{stream, hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
+  for (std::size_t begin = columns.begin; begin < columns.end;) {
     const std::size_t first = begin / kTile * kTile;
-    const std::size_t stop = std::min(end, first + kTile);
+    const std::size_t stop = std::min(columns.end, first + kTile);
     takeRow<Density::Dense>(q, search.columns.tileOf(begin), begin - first, stop - first, writer);
     begin = stop;
   }
@@ -92,17 +210,19 @@ HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, std::
 
 /// Rows of which most columns are hits: their pairs are written at once. Returns where rows are no longer like that.
 std::size_t writeRows(const FlatSearch& search, std::size_t row, Hits& hits) {
+  PairStream stream;
   for (bool dense = true; dense && row < search.rowEnd; ++row) {
     const Range columns = columnsOf(search, row);
-    dense = columns.size() != 0 && kDenseRow * writeRow(search, row, columns.begin, columns.end, hits) > columns.size();
+    dense = columns.size() != 0 && kDenseRow * writeRow(search, row, columns, stream, hits) > columns.size();
     hits.boxTests += columns.size();
   }
+  stream.finish();
   return row;
 }
 
 template <Density kDensity, class Taker>
-void searchRows(const FlatSearch& search, Hits& hits) {
-  for (std::size_t row = search.rowBegin; row < search.rowEnd; ++row) {
+void searchRows(const FlatSearch& search, std::size_t rowBegin, Hits& hits) {
+  for (std::size_t row = rowBegin; row < search.rowEnd; ++row) {
     const Range columns = columnsOf(search, row);
     const std::size_t size = hits.size;
     searchRow<kDensity, Taker>(search, row, columns.begin, columns.end, hits);
@@ -117,11 +237,13 @@ void searchRows(const FlatSearch& search, Hits& hits) {
 void searchFlat(const FlatSearch& search, Hits& hits) {
   // Few boxes overlap a larger share of each other, unless their volume shrinks as their number grows.
   const bool dense = search.columns.size <= kDenseColumns;
+  const std::size_t begin = search.rowBegin;
   if (hits.countOnly) {
-    dense ? searchRows<Density::Dense, HitCounter>(search, hits)
-          : searchRows<Density::Sparse, HitCounter>(search, hits);
+    dense ? searchRows<Density::Dense, HitCounter>(search, begin, hits)
+          : searchRows<Density::Sparse, HitCounter>(search, countRows(search, hits), hits);
   } else {
-    dense ? searchRows<Density::Dense, HitWriter>(search, hits) : searchRows<Density::Sparse, HitWriter>(search, hits);
+    dense ? searchRows<Density::Dense, HitWriter>(search, begin, hits)
+          : searchRows<Density::Sparse, HitWriter>(search, begin, hits);
   }
 }
 

@@ -15,6 +15,12 @@ enum class PairSide : std::uint8_t {
   SmallerFirst,  ///< (min, max): one set in the order of the hierarchy.
 };
 
+/// Where pairs may be written: behind so many before them, of which the first begins a cache line.
+struct RoomForPairs {
+  Pair* pairs;
+  std::size_t before;
+};
+
 /// Hits of the lane test, two ids each, gathered until there are enough to be worth turning into pairs.
 ///
 /// Kernels write whole vectors, up to kSlack values past the end, and flush when another stretch might not fit.
@@ -39,7 +45,7 @@ struct Hits {
 
   /// If set, returns where that many pairs may be written at once, which is cheaper where there are many; what is stored
   /// is taken first. takePairs() says how many there were. Pairs are of the sides that `rowSecond` says.
-  Pair* (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
+  RoomForPairs (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
   void (*takePairs)(void* receiver, std::size_t count) = nullptr;
   bool rowSecond = false;
 

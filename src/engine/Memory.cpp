@@ -43,13 +43,23 @@ constexpr std::size_t kSmallestMapped = kSmallBlock;
 #endif
 
 /// Up to here in sizes that are powers of two.
-constexpr std::size_t kLargestKept = std::size_t{1} << 26;
+constexpr std::size_t kLargestPower = std::size_t{1} << 26;
+
+/// What a thread keeps of freed blocks, in all.
+constexpr std::size_t kMostKept = std::size_t{1} << 28;
 
 bool isMapped(std::size_t bytes) { return bytes >= kSmallestMapped; }
 
 /// What is mapped for so many bytes. Of a large block only the pages that are used take memory.
 std::size_t mappedSize(std::size_t bytes) {
-  return bytes <= kLargestKept ? std::bit_ceil(bytes) : roundUp(bytes, kLargePage);
+  return bytes <= kLargestPower ? std::bit_ceil(bytes) : roundUp(bytes, kLargePage);
+}
+
+/// The system may take the pages back when it needs memory; until then they are as they were. No more than advice.
+void lend([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t size) {
+#if defined(MADV_FREE)
+  static_cast<void>(madvise(memory, size, MADV_FREE));
+#endif
 }
 
 /// Blocks that have been freed, kept with their pages for the next who needs one: a search that is made, used and thrown
@@ -77,9 +87,10 @@ class SpareBlocks {
 
   /// Whether the block has been kept.
   bool keep(void* memory, std::size_t size) {
-    if (m_total + size > kLargestKept) return false;
+    if (m_total + size > kMostKept) return false;
     for (Block& block : m_blocks) {
       if (block.memory != nullptr) continue;
+      if (size >= kLargePage) lend(memory, size);
       block = {memory, size};
       m_total += size;
       return true;

@@ -60,10 +60,10 @@ bool PairReceiver::isSelective() const noexcept {
   return m_rules->firstRow != 0 || m_rules->ascendingOnly || m_rules->test->needed();
 }
 
-Pair* PairReceiver::roomFor(Hits& hits, std::size_t most) {
+RoomForPairs PairReceiver::roomFor(Hits& hits, std::size_t most) {
   receive(hits);
   m_pairs.grow(std::max(m_rules->likelyPairs, m_size + most + Hits::kSlack));
-  return m_pairs.data() + m_size;
+  return {m_pairs.data() + m_size, m_size};
 }
 
 void PairReceiver::take(std::size_t count) {

@@ -70,7 +70,7 @@ class PairReceiver {
 
  private:
   [[nodiscard]] bool isSelective() const noexcept;
-  Pair* roomFor(Hits& hits, std::size_t most);
+  RoomForPairs roomFor(Hits& hits, std::size_t most);
   void take(std::size_t count);
   void receive(Hits& hits);
   void selectTested(std::size_t begin, std::size_t end);

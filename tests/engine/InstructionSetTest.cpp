@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
@@ -106,6 +107,41 @@ TEST_P(InstructionSet, GivesTheSameBytesInEveryOrderAsTheBestOne) {
       ASSERT_EQ(overlaps(boxes, options), overlaps(boxes, best));
     }
   }
+}
+
+TEST_P(InstructionSet, CountsManyColumnsAgainstAnyNumberOfRows) {
+  const std::vector<BoxF> boxes = test::randomBoxes(1100, 16, 3.0F);
+  const OverlapOptions options = optionsFor(GetParam(), Strategy::Exhaustive);
+  for (std::size_t n = 1080; n < boxes.size(); ++n) {
+    const std::span<const BoxF> part(boxes.data(), n);
+    ASSERT_EQ(countOverlaps(part, options), test::oracle(test::toDouble(part)).size()) << n << " boxes";
+  }
+  for (std::size_t rows = 0; rows < 10; ++rows) {
+    const auto some = std::span<const BoxF>(boxes).first(rows);
+    const auto others = std::span<const BoxF>(boxes).subspan(20 + rows);
+    const std::size_t expected = test::oracleBetween(test::toDouble(some), test::toDouble(others)).size();
+    ASSERT_EQ(countOverlapsBetween(some, others, options), expected) << rows << " rows";
+    ASSERT_EQ(countOverlapsBetween(others, some, options), expected) << rows << " columns";
+  }
+}
+
+/// Most overlap most others, by more pairs than caches hold; every seventeenth hardly any.
+std::vector<BoxF> crowdedBoxes(std::size_t n) {
+  std::vector<BoxF> boxes = test::randomBoxes(n, 17, 60.0F);
+  for (std::size_t i = 0; i < n; i += 17) boxes[i].max = boxes[i].min;
+  return boxes;
+}
+
+TEST_P(InstructionSet, GivesTheOraclesPairsOfACrowd) {
+  const std::vector<BoxF> boxes = crowdedBoxes(1200);
+  const std::vector<Pair> expected = test::oracle(test::toDouble(boxes));
+  ASSERT_GT(expected.size(), 500'000U);
+  OverlapOptions options = optionsFor(GetParam(), Strategy::Exhaustive);
+  EXPECT_EQ(overlaps(boxes, options), expected);
+  options.order = Order::Unordered;
+  EXPECT_EQ(overlaps(boxes, options), expected);  // found in order
+  options.maxPairs = expected.size() - 1;
+  EXPECT_THROW((void)overlaps(boxes, options), LimitExceeded);
 }
 
 }  // namespace
