@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <utility>
 
 #if defined(__linux__)
@@ -45,8 +46,8 @@ constexpr std::size_t kSmallestMapped = kSmallBlock;
 /// Up to here in sizes that are powers of two.
 constexpr std::size_t kLargestPower = std::size_t{1} << 26;
 
-/// What a thread keeps of freed blocks, in all.
-constexpr std::size_t kMostKept = std::size_t{1} << 28;
+/// What is kept of freed blocks for all threads together.
+constexpr std::size_t kMostShared = std::size_t{1} << 28;
 
 bool isMapped(std::size_t bytes) { return bytes >= kSmallestMapped; }
 
@@ -55,29 +56,27 @@ std::size_t mappedSize(std::size_t bytes) {
   return bytes <= kLargestPower ? std::bit_ceil(bytes) : roundUp(bytes, kLargePage);
 }
 
+/// A block that nobody uses.
+struct SpareBlock {
+  void* memory = nullptr;
+  std::size_t size = 0;
+};
+
 /// The system may take the pages back when it needs memory; until then they are as they were. No more than advice.
-void lend([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t size) {
+void lend([[maybe_unused]] SpareBlock block) {
 #if defined(MADV_FREE)
-  static_cast<void>(madvise(memory, size, MADV_FREE));
+  static_cast<void>(madvise(block.memory, block.size, MADV_FREE));
 #endif
 }
 
-/// Blocks that have been freed, kept with their pages for the next who needs one: a search that is made, used and thrown
-/// away would otherwise spend up to a third of its time on page faults.
+/// Blocks that have been freed, kept with their pages for the next who needs one of that size: a search that is made, used
+/// and thrown away would otherwise spend up to a third of its time on page faults.
+template <std::size_t kCapacity>
 class SpareBlocks {
  public:
-  SpareBlocks() = default;
-  SpareBlocks(const SpareBlocks&) = delete;
-  SpareBlocks& operator=(const SpareBlocks&) = delete;
-  ~SpareBlocks() {
-    for (const Block& block : m_blocks) {
-      if (block.memory != nullptr) munmap(block.memory, block.size);
-    }
-  }
-
   /// A block of that size, or null.
   void* take(std::size_t size) {
-    for (Block& block : m_blocks) {
+    for (SpareBlock& block : m_blocks) {
       if (block.memory == nullptr || block.size != size) continue;
       m_total -= size;
       return std::exchange(block.memory, nullptr);
@@ -85,31 +84,89 @@ class SpareBlocks {
     return nullptr;
   }
 
-  /// Whether the block has been kept.
-  bool keep(void* memory, std::size_t size) {
-    if (m_total + size > kMostKept) return false;
-    for (Block& block : m_blocks) {
-      if (block.memory != nullptr) continue;
-      if (size >= kLargePage) lend(memory, size);
-      block = {memory, size};
-      m_total += size;
-      return true;
+  /// Keeps the block, or returns false where there are `mostEqual` of its size, or `mostBytes` of all.
+  bool keep(SpareBlock spare, std::size_t mostEqual, std::size_t mostBytes) {
+    if (m_total + spare.size > mostBytes) return false;
+    SpareBlock* place = nullptr;
+    for (SpareBlock& block : m_blocks) {
+      if (block.memory == nullptr) {
+        place = &block;
+      } else if (block.size == spare.size && mostEqual-- == 1) {
+        return false;
+      }
     }
-    return false;
+    if (place == nullptr) return false;
+    *place = spare;
+    m_total += spare.size;
+    return true;
   }
 
+  [[nodiscard]] const std::array<SpareBlock, kCapacity>& blocks() const noexcept { return m_blocks; }
+
  private:
-  struct Block {
-    void* memory = nullptr;
-    std::size_t size = 0;
-  };
-  std::array<Block, 32> m_blocks;
+  std::array<SpareBlock, kCapacity> m_blocks;
   std::size_t m_total = 0;
 };
 
-/// Each thread has its own, so that nobody waits.
-SpareBlocks& spareBlocks() {
-  thread_local SpareBlocks blocks;
+/// What all threads share: what one of them maps, another one may free. Whoever finds it in use goes without, so that nobody
+/// waits, not even the child of a process that was forked meanwhile.
+class SharedBlocks {
+ public:
+  void* take(std::size_t size) {
+    const std::unique_lock lock(m_mutex, std::try_to_lock);
+    return lock.owns_lock() ? m_spare.take(size) : nullptr;
+  }
+
+  /// Gives the block back to the system where it can't be kept.
+  void give(SpareBlock block) {
+    if (!keep(block)) munmap(block.memory, block.size);
+  }
+
+ private:
+  static constexpr std::size_t kCapacity = 64;
+
+  bool keep(SpareBlock block) {
+    const std::unique_lock lock(m_mutex, std::try_to_lock);
+    if (!lock.owns_lock() || !m_spare.keep(block, kCapacity, kMostShared)) return false;
+    if (block.size >= kLargePage) lend(block);
+    return true;
+  }
+
+  std::mutex m_mutex;
+  SpareBlocks<kCapacity> m_spare;
+};
+
+/// Never destroyed: threads may end after everything else has.
+SharedBlocks& sharedBlocks() {
+  static auto& blocks = *new SharedBlocks;
+  return blocks;
+}
+
+/// What a thread keeps for itself: small blocks, and few of a size.
+class OwnBlocks {
+ public:
+  OwnBlocks() = default;
+  OwnBlocks(const OwnBlocks&) = delete;
+  OwnBlocks& operator=(const OwnBlocks&) = delete;
+  ~OwnBlocks() {
+    for (const SpareBlock& block : m_spare.blocks()) {
+      if (block.memory != nullptr) sharedBlocks().give(block);
+    }
+  }
+
+  void* take(std::size_t size) { return size <= kLargestOwn ? m_spare.take(size) : nullptr; }
+  bool keep(SpareBlock block) { return block.size <= kLargestOwn && m_spare.keep(block, kMostEqual, kMostOwn); }
+
+ private:
+  static constexpr std::size_t kLargestOwn = std::size_t{1} << 20;
+  static constexpr std::size_t kMostOwn = std::size_t{4} << 20;
+  static constexpr std::size_t kMostEqual = 4;
+
+  SpareBlocks<24> m_spare;
+};
+
+OwnBlocks& ownBlocks() {
+  thread_local OwnBlocks blocks;
   return blocks;
 }
 
@@ -143,7 +200,8 @@ void* mapLarge(std::size_t size) {
 
 void* allocateMapped(std::size_t bytes) {
   const std::size_t size = mappedSize(bytes);
-  if (void* spare = spareBlocks().take(size); spare != nullptr) return spare;
+  if (void* own = ownBlocks().take(size); own != nullptr) return own;
+  if (void* shared = sharedBlocks().take(size); shared != nullptr) return shared;
   if (size >= kLargePage) return mapLarge(size);
   void* memory = map(size);
   if (memory != nullptr) touchPages(memory, bytes);
@@ -151,8 +209,8 @@ void* allocateMapped(std::size_t bytes) {
 }
 
 void freeMapped(void* memory, std::size_t bytes) {
-  const std::size_t size = mappedSize(bytes);
-  if (!spareBlocks().keep(memory, size)) munmap(memory, size);
+  const SpareBlock block{memory, mappedSize(bytes)};
+  if (!ownBlocks().keep(block)) sharedBlocks().give(block);
 }
 
 /// Moves pages, not contents. What has grown before is made of several mappings, of which each is moved on its own.

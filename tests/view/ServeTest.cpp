@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -60,6 +63,8 @@ class Served {
 
  private:
   [[noreturn]] static void run(std::vector<std::string>& words, const std::array<int, 2>& ends) {
+    // Left alone it would keep the outputs of the test open, for whose end ctest waits.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::dup2(ends[1], STDOUT_FILENO);
     ::close(ends[0]);
     ::close(ends[1]);
@@ -75,26 +80,32 @@ class Served {
   std::string m_line;
 };
 
+/// The answer to a request, for which a busy machine may take long.
+httplib::Response answer(const Served& served, const std::string& path, const httplib::Headers& headers = {}) {
+  httplib::Client client("127.0.0.1", served.port());
+  client.set_read_timeout(std::chrono::minutes(5));
+  const httplib::Result result = client.Get(path, headers);
+  if (!result) throw std::runtime_error(path + ": " + httplib::to_string(result.error()));
+  return *result;
+}
+
 TEST(Serve, GivesThePageAtTheAddressThatItPrintsAndNothingElse) {
   const Served served;
   EXPECT_TRUE(served.line().starts_with("http://127.0.0.1:")) << served.line();
   EXPECT_TRUE(served.line().ends_with("/ (end with Ctrl+C)\n")) << served.line();
-  httplib::Client client("127.0.0.1", served.port());
-  const auto page = client.Get("/");
-  ASSERT_TRUE(page);
-  EXPECT_EQ(page->status, 200);
-  EXPECT_EQ(page->get_header_value("Content-Type"), "text/html; charset=utf-8");
-  EXPECT_NE(page->body.find("id=\"allpairs-scene\""), std::string::npos);
-  EXPECT_TRUE(page->body.ends_with("</html>\n") || page->body.ends_with("</html>")) << page->body.size();
-  EXPECT_EQ(client.Get("/etc/passwd")->status, 404);
+  const httplib::Response page = answer(served, "/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.get_header_value("Content-Type"), "text/html; charset=utf-8");
+  EXPECT_NE(page.body.find("id=\"allpairs-scene\""), std::string::npos);
+  EXPECT_TRUE(page.body.ends_with("</html>\n") || page.body.ends_with("</html>")) << page.body.size();
+  EXPECT_EQ(answer(served, "/etc/passwd").status, 404);
 }
 
 TEST(Serve, RefusesOtherNamesForThisMachine) {
   const Served served;
-  httplib::Client client("127.0.0.1", served.port());
   const std::string port = std::to_string(served.port());
-  EXPECT_EQ(client.Get("/", {{"Host", "localhost:" + port}})->status, 200);
-  EXPECT_EQ(client.Get("/", {{"Host", "evil.example:" + port}})->status, 403);
+  EXPECT_EQ(answer(served, "/", {{"Host", "localhost:" + port}}).status, 200);
+  EXPECT_EQ(answer(served, "/", {{"Host", "evil.example:" + port}}).status, 403);
 }
 
 TEST(Serve, IsForThisMachineAlone) {
