@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "Xml.h"
 
@@ -63,6 +64,17 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+/// A name as a cell that no spreadsheet takes for a formula: an apostrophe before it says that it is text.
+std::string cellOf(const std::string& name) {
+  constexpr std::string_view kFormulaBegins = "=+-@\t\r";
+  const bool isLikeFormula = !name.empty() && kFormulaBegins.find(name.front()) != std::string_view::npos;
+  return quoted(isLikeFormula ? "'" + name : name);
+}
+
+bool isAscii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
 std::string introduction(const ViewScene& scene, std::size_t count, std::size_t pictured) {
   std::string text = fmt::format("<h1>{}</h1>\n<p>{} models, {} pairs. {}.</p>\n", escapeXml(scene.title),
                                  scene.modelCount, count, escapeXml(scene.method));
@@ -107,10 +119,12 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
 }
 
 void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {
+  constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
+  if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
   sink("number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
   for (const Clash& clash : clashes) {
-    sink(fmt::format("{},{},{},{},{},{},{},{}\n", clash.number, quoted(scene.name(clash.first)),
-                     quoted(scene.name(clash.second)), clash.overlap[0], clash.overlap[1], clash.overlap[2],
+    sink(fmt::format("{},{},{},{},{},{},{},{}\n", clash.number, cellOf(scene.name(clash.first)),
+                     cellOf(scene.name(clash.second)), clash.overlap[0], clash.overlap[1], clash.overlap[2],
                      clash.volume, clash.guid));
   }
 }
