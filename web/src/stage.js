@@ -115,7 +115,8 @@ export class Stage extends EventTarget {
     const shared = [0, 1, 2].map((k) => Math.max(a[k], b[k])).concat([3, 4, 5].map((k) => Math.min(a[k], b[k])));
     if ([0, 1, 2].some((k) => shared[k] > shared[k + 3])) return false;
     this.overlap.position.set(...[0, 1, 2].map((k) => (shared[k] + shared[k + 3]) / 2));
-    this.overlap.scale.set(...[0, 1, 2].map((k) => Math.max(shared[k + 3] - shared[k], 1e-9)));
+    const thinnest = 1e-7 * sizeOf(this.whole) || 1e-9; // a scale of zero has no inverse
+    this.overlap.scale.set(...[0, 1, 2].map((k) => Math.max(shared[k + 3] - shared[k], thinnest)));
     this.place(this.overlapEdges, shared);
     return true;
   }

@@ -188,6 +188,35 @@ test("a click into the picture chooses the model that is there", async () => {
   await page.close();
 });
 
+/** How many pixels of a picture are red, counted by the page. */
+async function countRed(png) {
+  const image = new Image();
+  image.src = `data:image/png;base64,${png}`;
+  await image.decode();
+  const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+  canvas.drawImage(image, 0, 0);
+  const { data } = canvas.getImageData(0, 0, image.width, image.height);
+  let red = 0;
+  for (let i = 0; i < data.length; i += 4) red += data[i] > 180 && data[i + 1] < 150 && data[i + 2] > 60; // and not orange
+  return red;
+}
+
+test("what two boxes share is drawn in red, however small they are", async () => {
+  for (const unit of ["", "e-12"]) {
+    const rows = [[0, 0, 0, 2, 1, 1], [1, 0, 0, 3, 1, 1]].map((row) => row.map((x) => `${x}${unit}`).join(","));
+    const page = await view("shared", [write("shared.csv", `${rows.join("\n")}\n`)]);
+    const count = async () => {
+      await page.waitForTimeout(1000);
+      return page.evaluate(countRed, (await page.locator("#canvas").screenshot()).toString("base64"));
+    };
+    assert.ok((await count()) < 1000); // edges of orange boxes
+    await page.keyboard.press("j");
+    assert.ok((await count()) > 10_000);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});
+
 const data = dataFolder();
 test("a real scene has the numbers of detect", { skip: data ? false : "no folder of data" }, async () => {
   const input = [join(data, "scenes/examples/Demos/chainAll.scn"), "--data", join(data, "scenes"), "--data", join(data, "scenes/examples")];
