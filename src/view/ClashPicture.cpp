@@ -17,6 +17,7 @@ constexpr Colour kBackground{246, 248, 250};
 constexpr Colour kFirst{0, 114, 178};  // colours that people with any colour vision tell apart
 constexpr Colour kSecond{230, 159, 0};
 constexpr Colour kShared{213, 50, 15};
+constexpr double kInFront = 1e4;  // heights of the picture: nearer than anything in it
 
 double sizeOf(const Box& box) {
   const Vec3 extent = minus(box.max, box.min);
@@ -59,10 +60,11 @@ class Drawing {
     edges(box, colour, 2.5);
   }
 
+  /// In front of everything: where one model is inside of the other, nothing else of it would be seen.
   void shared(const Box& box) {
     const Box cut = finite(box, m_camera);
-    veil(cut, kShared, 0.3);
-    edges(cut, kShared, 3.5);
+    veil(cut, kShared, 0.5);
+    edges(cut, kShared, 3.5, kInFront);
   }
 
   [[nodiscard]] Raster finish() const { return m_raster.halved(); }
@@ -135,11 +137,16 @@ class Drawing {
     }
   }
 
-  void edges(const Box& box, Colour colour, double width) {
+  void edges(const Box& box, Colour colour, double width, double nearer = 0.0) {
+    const auto place = [&](unsigned corner) {
+      RasterPoint point = project(cornerOf(box, corner));
+      point.depth -= nearer;
+      return point;
+    };
     for (unsigned corner = 0; corner < 8; ++corner) {
       for (unsigned axis = 0; axis < 3; ++axis) {
         if ((corner >> axis & 1U) != 0) continue;
-        m_raster.line(project(cornerOf(box, corner)), project(cornerOf(box, corner | 1U << axis)), colour, width);
+        m_raster.line(place(corner), place(corner | 1U << axis), colour, width);
       }
     }
   }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 #include "Xml.h"
 
@@ -37,23 +39,32 @@ std::string namesOf(const ViewScene& scene, const Clash& clash) {
   return text + fmt::format("<br><span class=\"second\">{}</span>", escapeXml(scene.name(clash.second)));
 }
 
+/// Four digits, and no exponent before a number has ten.
+std::string shortNumber(double value) {
+  return std::abs(value) >= 1000.0 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
+                                                            : fmt::format("{:.4g}", value);
+}
+
 std::string figureOf(const ViewScene& scene, const Clash& clash) {
   std::string text = fmt::format("<figure id=\"clash-{}\"><img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" ",
                                  clash.number, pictureName(clash.number), escapeXml(titleOf(scene, clash)));
   text += fmt::format("loading=\"lazy\"><figcaption>{}. {}", clash.number, namesOf(scene, clash));
   if (!clash.isSelf()) {
-    text += fmt::format("<br><span class=\"fact\">overlap {:.4g} × {:.4g} × {:.4g}, volume {:.4g}</span>",
-                        clash.overlap[0], clash.overlap[1], clash.overlap[2], clash.volume);
+    text +=
+        fmt::format("<br><span class=\"fact\">overlap {} × {} × {}, volume {}</span>", shortNumber(clash.overlap[0]),
+                    shortNumber(clash.overlap[1]), shortNumber(clash.overlap[2]), shortNumber(clash.volume));
   }
   return text + "</figcaption></figure>\n";
 }
 
-std::string rowOf(const ViewScene& scene, const Clash& clash) {
+std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
+  const std::string number =
+      hasPicture ? fmt::format("<a href=\"#clash-{0}\">{0}</a>", clash.number) : std::to_string(clash.number);
   std::string text =
-      fmt::format("<tr><td class=\"number\">{}</td><td>{}</td><td>{}</td>", clash.number,
-                  escapeXml(scene.name(clash.first)), clash.isSelf() ? "itself" : escapeXml(scene.name(clash.second)));
-  for (const double extent : clash.overlap) text += fmt::format("<td class=\"number\">{:.4g}</td>", extent);
-  return text + fmt::format("<td class=\"number\">{:.4g}</td></tr>\n", clash.volume);
+      fmt::format("<tr><td class=\"number\">{}</td><td>{}</td><td>{}</td>", number, escapeXml(scene.name(clash.first)),
+                  clash.isSelf() ? "itself" : escapeXml(scene.name(clash.second)));
+  for (const double extent : clash.overlap) text += fmt::format("<td class=\"number\">{}</td>", shortNumber(extent));
+  return text + fmt::format("<td class=\"number\">{}</td></tr>\n", shortNumber(clash.volume));
 }
 
 std::string quoted(const std::string& text) {
@@ -61,6 +72,17 @@ std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
   return result + '"';
+}
+
+/// A name as a cell that no spreadsheet takes for a formula: an apostrophe before it says that it is text.
+std::string cellOf(const std::string& name) {
+  constexpr std::string_view kFormulaBegins = "=+-@\t\r";
+  const bool isLikeFormula = !name.empty() && kFormulaBegins.find(name.front()) != std::string_view::npos;
+  return quoted(isLikeFormula ? "'" + name : name);
+}
+
+bool isAscii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
 std::string introduction(const ViewScene& scene, std::size_t count, std::size_t pictured) {
@@ -77,12 +99,12 @@ std::string introduction(const ViewScene& scene, std::size_t count, std::size_t 
   return text + "</p>\n";
 }
 
-void writeTable(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {
+void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured, scene::ByteSink sink) {
   if (clashes.empty()) return;
   sink("<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th><th>first</th><th>second</th>");
-  sink("<th class=\"number\">x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
-  sink("<th class=\"number\">volume</th></tr></thead>\n<tbody>\n");
-  for (const Clash& clash : clashes) sink(rowOf(scene, clash));
+  sink("<th class=\"number\">overlap x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
+  sink("<th class=\"number\">shared volume</th></tr></thead>\n<tbody>\n");
+  for (const Clash& clash : clashes) sink(rowOf(scene, clash, clash.number <= pictured));
   sink("</tbody>\n</table></div>\n");
 }
 
@@ -102,15 +124,17 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
   sink("<section class=\"clashes\">\n");
   for (const Clash& clash : clashes.first(pictured)) sink(figureOf(scene, clash));
   sink("</section>\n");
-  writeTable(scene, clashes.first(std::min(clashes.size(), kMostRows)), sink);
+  writeTable(scene, clashes.first(std::min(clashes.size(), kMostRows)), pictured, sink);
   sink("</main>\n</body>\n</html>\n");
 }
 
 void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {
+  constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
+  if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
   sink("number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
   for (const Clash& clash : clashes) {
-    sink(fmt::format("{},{},{},{},{},{},{},{}\n", clash.number, quoted(scene.name(clash.first)),
-                     quoted(scene.name(clash.second)), clash.overlap[0], clash.overlap[1], clash.overlap[2],
+    sink(fmt::format("{},{},{},{},{},{},{},{}\n", clash.number, cellOf(scene.name(clash.first)),
+                     cellOf(scene.name(clash.second)), clash.overlap[0], clash.overlap[1], clash.overlap[2],
                      clash.volume, clash.guid));
   }
 }

@@ -125,6 +125,22 @@ TEST(Report, BcfHasATopicAViewpointAndAPictureForEachPairInTheFormOfVersion21) {
   EXPECT_EQ(files.size(), 3 * topics + 1);
 }
 
+TEST(Report, NamesAreNoFormulasInTheTableAndSaidToBeUtf8) {
+  const TempFolder folder;
+  const std::string input = folder.write("names.csv", "=1+1,0,0,0,2,2,2\n@x,1,1,1,3,3,3\n-y,1,1,1,3,3,2\n");
+  expectSuccess(runProgram({"report", input, "-o", folder.path() / "out", "--pictures", "0"}));
+  const std::string table = readBytes(folder.path() / "out/clashes.csv");
+  EXPECT_TRUE(table.starts_with("number,first,second,"));
+  for (const char* cells : {"\n1,'-y,'@x,2,2,1,4,", ",'@x,'=1+1,1,1,1,1,", ",'-y,'=1+1,1,1,1,1,"}) {
+    EXPECT_NE(table.find(cells), std::string::npos) << cells << " in " << table;
+  }
+  const std::string umlaut = folder.write("umlaut.csv", "\xC3\xA4,0,0,0,2,2,2\nb,1,1,1,3,3,3\n");
+  expectSuccess(runProgram({"report", umlaut, "-o", folder.path() / "out", "--pictures", "0"}));
+  EXPECT_TRUE(readBytes(folder.path() / "out/clashes.csv")
+                  .starts_with("\xEF\xBB\xBFnumber,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n"
+                               "1,b,\xC3\xA4,1,1,1,1,"));
+}
+
 TEST(Report, TableHasEveryPairOfDetectOnce) {
   const TempFolder folder;
   expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "out", "--pictures", "2"}));

@@ -2,6 +2,7 @@
 // Buttons over the picture, keys, pointer, and the choice between dark and light.
 
 import { byId } from "./dom.js";
+import { paint } from "./palette.js";
 
 const stored = (key) => {
   try {
@@ -40,6 +41,7 @@ export class Theme {
 
   update() {
     document.documentElement.dataset.theme = this.current;
+    paint(document.documentElement, this.current);
     this.apply(this.current);
   }
 }
@@ -131,7 +133,21 @@ function keysOf(app, panels, timeline, theme) {
     ",": () => timeline.step(-1),
     ".": () => timeline.step(1),
     Escape: () => app.choose([]),
+    "+": () => app.stage?.steer("approach", 1),
+    "=": () => app.stage?.steer("approach", 1), // where + is with Shift
+    "-": () => app.stage?.steer("approach", -1),
   };
+}
+
+const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/** Arrows turn the picture, with Shift they move it, unless they mean something where the focus is. */
+function steerByArrow(app, event) {
+  const isElsewhere = event.target !== document.body && event.target !== byId("canvas");
+  if (isElsewhere || !(event.key in arrows) || !app.stage) return false;
+  app.stage.steer(event.shiftKey ? "move" : "turn", ...arrows[event.key]);
+  event.preventDefault();
+  return true;
 }
 
 export function setUpKeys(app, panels, timeline, theme) {
@@ -140,8 +156,8 @@ export function setUpKeys(app, panels, timeline, theme) {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
     const inText = event.target.matches("input[type=search], select");
     if (inText && event.key === "Escape") return event.target.blur();
-    if (inText || !(event.key in keys)) return;
-    if (event.key === " " && event.target.matches("button")) return;
+    if (steerByArrow(app, event) || inText || !(event.key in keys)) return;
+    if (event.key === " " && event.target.matches("button, summary")) return;
     event.preventDefault();
     keys[event.key]();
   });

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The bottom of the panel: what is chosen. A pair: what its boxes share. A model: its partners, and why others are none.
 
-import { byId, button, fillWith, make } from "./dom.js";
-import { cornersOf, counted, grouped, measure, reasonText } from "./format.js";
+import { byId, button, fillWith, make, nameLine } from "./dom.js";
+import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
 import { tagsOf } from "./lists.js";
 import { VirtualList } from "./list.js";
 import { sharedExtents } from "./pairs.js";
 import { distanceOf, explainAny } from "./rules.js";
+
+const selfText = (reason) => {
+  const text = selfReasonText(reason);
+  return text.endsWith("itself") ? text : `itself: ${text}`;
+};
 
 export class Details {
   constructor(app) {
@@ -42,7 +47,7 @@ export class Details {
     const isPair = reason.verdict === "pair";
     const names = make("p", "names", this.modelButton(first, "first"));
     if (!isSelf) names.append(make("span", "and", isPair ? "may touch" : "and"), this.modelButton(second, "second"));
-    const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${reasonText(reason)}.`) : isPair ? "" : `No pair: ${reasonText(reason)}.`;
+    const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${selfReasonText(reason)}.`) : isPair ? "" : `No pair: ${reasonText(reason)}.`;
     fillWith(this.element, this.head(isSelf ? "Self pair" : "Pair"), names, ...(verdict ? [make("p", "verdict", verdict)] : []), this.pairFacts(first, second));
   }
 
@@ -62,8 +67,8 @@ export class Details {
     const gap = Math.max(...extents.map((extent) => -extent));
     if (gap > 0) add("Apart by", `${measure(gap)} on ${"xyz"[extents.indexOf(-gap)]}`, "pair-gap");
     else add("Volume shared", measure(extents[0] * extents[1] * extents[2]), "pair-volume");
-    add("Overlap x, y, z", extents.map(measure).join(", "), "pair-extents");
-    add("Counts as near at", measure(distanceOf(scene, Math.max(first, second), Math.min(first, second))));
+    add("Overlap x, y, z", extents.map((extent) => measure(extent)).join(", "), "pair-extents");
+    add("Gap allowed", measure(distanceOf(scene, Math.max(first, second), Math.min(first, second))));
     this.addBox(add, "First box", first);
     this.addBox(add, "Second box", second);
     return table;
@@ -94,13 +99,15 @@ export class Details {
     for (let other = 0; other < scene.models; ++other) {
       if (partners.has(other)) continue;
       const reason = explainAny(scene, frame, model, other);
-      reasons.push({ other, text: reasonText(reason), gap: reason.verdict === "apart" ? reason.gap : other === model ? -2 : -1 });
+      const text = other === model ? selfText(reason) : reasonText(reason);
+      reasons.push({ other, text, gap: other === model ? -2 : reason.verdict === "apart" ? reason.gap : -1 });
     }
     reasons.sort((a, b) => a.gap - b.gap || a.other - b.other);
     rows.push(...reasons);
     const heading = make("h3", "", counted(partners.size, "partner"));
     heading.id = "partner-count";
-    heading.append(make("span", "note", ` and why ${grouped(reasons.length)} ${reasons.length === 1 ? "is" : "are"} none`));
+    const without = reasons.filter(({ other }) => other !== model).length;
+    if (without > 0) heading.append(make("span", "note", `, and why ${grouped(without)} other${without === 1 ? " is" : "s are"} none`));
     const list = make("div", "reasons");
     const virtual = new VirtualList(list, {
       label: "Partners, and why others are none",
@@ -115,6 +122,6 @@ export class Details {
     const name = this.app.scene.nameOf(other);
     row.classList.add(isPartner ? "pair" : "free");
     row.title = `${name}: ${text}`;
-    row.append(make("span", "dot"), make("span", "names", make("span", "name", name)), make("span", "reason", text));
+    row.append(make("span", "dot"), make("span", "names", nameLine(name)), make("span", "reason", text));
   }
 }

@@ -10,9 +10,9 @@ export const grouped = (number) => grouping.format(number);
 export const counted = (number, one, more = `${one}s`) => `${grouped(number)} ${number === 1 ? one : more}`;
 
 /** A length or volume with as many digits as anybody reads. */
-export function measure(value) {
+export function measure(value, digits = 5) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
-  const text = String(Number(value.toPrecision(5)));
+  const text = String(Number(value.toPrecision(digits)));
   return text.replace("-", "−");
 }
 
@@ -46,8 +46,21 @@ const sentences = {
 /** Why two models are a pair or none, in words. */
 export const reasonText = (reason) => sentences[reason.verdict](reason);
 
+const sentencesOfOne = { inactive: "inactive", "no-elements": "no elements", "not-simulated": "not simulated", apart: "its box is empty" };
+
+/** Why a model is no pair with itself. */
+export const selfReasonText = (reason) => sentencesOfOne[reason.verdict] ?? reasonText(reason);
+
+/** How many digits tell the two ends of an extent apart, however far from zero it is. */
+function digitsFor(low, high) {
+  if (!Number.isFinite(high - low) || low === high) return 7;
+  const wanted = Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / Math.abs(high - low))) + 4;
+  return Math.min(15, Math.max(5, wanted));
+}
+
 /** A box as two corners. */
 export function cornersOf(boxes, i) {
-  const numbers = Array.from(boxes.subarray(6 * i, 6 * i + 6), measure);
+  const box = boxes.subarray(6 * i, 6 * i + 6);
+  const numbers = Array.from(box, (value, k) => measure(value, digitsFor(box[k % 3], box[3 + (k % 3)])));
   return [numbers.slice(0, 3).join(", "), numbers.slice(3).join(", ")];
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two lists of the panel: pairs and models, with search, order and filters.
 
-import { byId, button, fillWith, make } from "./dom.js";
+import { byId, button, fillWith, make, nameLine } from "./dom.js";
 import { counted, grouped, measure } from "./format.js";
 import { VirtualList } from "./list.js";
 import { kind } from "./pairs.js";
@@ -94,7 +94,7 @@ export class PairPanel extends Panel {
 
   makeChips() {
     const { counts } = this.app;
-    return [["touching", kind.pair], ["self", kind.self], ["excluded", kind.excluded]]
+    return [["overlapping", kind.pair], ["self", kind.self], ["excluded", kind.excluded]]
       .filter(([, is]) => counts[is] > 0)
       .map(([label, is]) => chip(label, counts[is], kindNames[is], this.filter(is), () => this.update()));
   }
@@ -141,7 +141,7 @@ export class PairPanel extends Panel {
     const is = table.kindOf(entry);
     const [first, second] = this.modelsOf(entry).map((model) => scene.nameOf(model));
     row.classList.add(kindNames[is]);
-    const names = is === kind.self ? [make("span", "name", first), make("span", "with", "with itself")] : [make("span", "name", first), make("span", "name", second)];
+    const names = is === kind.self ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
     row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", measure(table.volume(entry))));
     row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
   }
@@ -218,7 +218,7 @@ export class ModelPanel extends Panel {
     row.classList.add(kindNames[app.kinds[model]]);
     const tags = tagsOf(app, model).map((tag) => make("span", "tag", tag));
     const name = app.scene.nameOf(model);
-    row.append(make("span", "dot"), make("span", "names", make("span", "name", name), ...tags), make("span", "value", grouped(app.partners[model])));
+    row.append(make("span", "dot"), make("span", "names", nameLine(name), ...tags), make("span", "value", grouped(app.partners[model])));
     row.title = `${name}\n${app.scene.typeNames[app.scene.types[model]]}, model ${model}`;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours: Okabe and Ito's, which people with any colour vision tell apart, a little darker on light ground. The first
-// five are the kinds of pairs.js.
+// five are the kinds of pairs.js. The picture and the legend, lists and words beside it have them from here.
 
 export const tone = { first: 5, second: 6, overlap: 7, began: 8, ended: 9, region: 10 };
 
@@ -10,7 +10,14 @@ const dark = {
 };
 const light = {
   background: "#f4f6f8",
-  tones: ["#7a8794", "#d07f00", "#b0508a", "#00805c", "#b4bec8", "#0072b2", "#9a8a00", "#d5320f", "#0a9a3a", "#7b3fd0", "#5b6b7c"],
+  tones: ["#7a8794", "#d07f00", "#b0508a", "#00805c", "#b4bec8", "#0072b2", "#7d6e00", "#d5320f", "#087f30", "#7b3fd0", "#5b6b7c"],
 };
+
+const names = ["free", "pair", "self", "excluded", "out", "first", "second", "overlap", "began", "ended", "region"];
+
+/** Makes the colours of a theme those of the style sheet: --free, --pair and so on. */
+export function paint(element, theme) {
+  paletteOf(theme).tones.forEach((tone, i) => element.style.setProperty(`--${names[i]}`, tone));
+}
 
 export const paletteOf = (theme) => (theme === "dark" ? dark : light);

@@ -15,7 +15,7 @@ void main() {
   colour = mix(colourOf(style, model), vec3(0.72), style.r < 5u ? neutral : 0.1);
   vec4 p = modelViewMatrix * vec4(position, 1.0);
   where = p.xyz;
-  gl_PointSize = 5.0;
+  gl_PointSize = 3.0;
   gl_Position = isSkipped(style) ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * p;
 }`;
 

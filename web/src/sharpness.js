@@ -7,10 +7,12 @@ const rest = 250; // milliseconds without a frame, or twice what one takes
 const coarsest = 0.15;
 
 export class Sharpness {
-  constructor(again, scale = 1) {
+  /** Begins with a whole picture, or where that would take long with one of `scale`. */
+  constructor(again, scale, isWhole) {
     this.again = again;
     this.scale = scale;
     this.cost = 0;
+    this.isFinal = isWhole;
     this.isMoving = false; // while the pointer holds the picture, it does not rest
   }
 

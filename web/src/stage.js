@@ -12,11 +12,13 @@ import { paletteOf, tone } from "./palette.js";
 import { pick } from "./pick.js";
 import { Sharpness } from "./sharpness.js";
 import { makeShapes } from "./shapes.js";
+import { approach, move, turn } from "./steer.js";
 import { ModelStyles } from "./styles.js";
 
 const sizeOf = (corners) => Math.hypot(...[0, 1, 2].map((k) => corners[k + 3] - corners[k]));
 
 const manyModels = 5000; // of more, some may be missing while the picture moves
+const tooManyModels = 20_000; // of more, some are missing from the first picture
 
 const emptyBox = () => new Box3(new Vector3(0, 0, 0), new Vector3(0, 0, 0));
 
@@ -28,7 +30,7 @@ export class Stage extends EventTarget {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(40, 1, 0.1, 1000);
-    this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1);
+    this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1, scene.models <= tooManyModels);
     this.styles = new ModelStyles(scene.models);
     const palette = Array.from({ length: 11 }, () => new Color());
     this.shared = { styles: { value: this.styles.texture }, palette: { value: palette } };
@@ -42,7 +44,7 @@ export class Stage extends EventTarget {
     this.boxes = new BoxCloud(this.data.models, this.shared);
     this.shapes = makeShapes(this.data.mesh, this.shared);
     this.region = new Box3Helper(emptyBox(), tone.region);
-    this.links = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+    this.links = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.6, depthTest: false }));
     this.flashes = [tone.began, tone.ended].map(() => new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false })));
     this.overlap = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ transparent: true, opacity: 0.5, depthTest: false }));
     this.overlapEdges = new Box3Helper(emptyBox(), 0xffffff);
@@ -71,7 +73,7 @@ export class Stage extends EventTarget {
     this.shared.palette.value.forEach((colour, i) => colour.setStyle(tones[i], "srgb-linear"));
     const paint = (object, i) => object.material.color.set(tones[i]);
     paint(this.region, tone.region);
-    paint(this.links, 1);
+    paint(this.links, tone.overlap);
     paint(this.flashes[0], tone.began);
     paint(this.flashes[1], tone.ended);
     paint(this.overlap, tone.overlap);
@@ -113,7 +115,8 @@ export class Stage extends EventTarget {
     const shared = [0, 1, 2].map((k) => Math.max(a[k], b[k])).concat([3, 4, 5].map((k) => Math.min(a[k], b[k])));
     if ([0, 1, 2].some((k) => shared[k] > shared[k + 3])) return false;
     this.overlap.position.set(...[0, 1, 2].map((k) => (shared[k] + shared[k + 3]) / 2));
-    this.overlap.scale.set(...[0, 1, 2].map((k) => Math.max(shared[k + 3] - shared[k], 1e-9)));
+    const thinnest = 1e-7 * sizeOf(this.whole) || 1e-9; // a scale of zero has no inverse
+    this.overlap.scale.set(...[0, 1, 2].map((k) => Math.max(shared[k + 3] - shared[k], thinnest)));
     this.place(this.overlapEdges, shared);
     return true;
   }
@@ -166,6 +169,13 @@ export class Stage extends EventTarget {
     this.invalidate();
   }
 
+  /** Moves the camera as keys say: "turn" or "move" by steps to the right and up, "approach" by steps. */
+  steer(how, ...steps) {
+    ({ turn, move, approach })[how](this.camera, this.controls.target, ...steps);
+    this.controls.update();
+    this.invalidate();
+  }
+
   /** How far from its centre the camera must be for all corners of a box to be in the picture. */
   distanceToFit(corners, centre, back) {
     const right = new Vector3().crossVectors(this.camera.up, back).normalize();
@@ -194,6 +204,7 @@ export class Stage extends EventTarget {
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return;
+    if (this.size?.[0] === clientWidth && this.size[1] === clientHeight) return;
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.size = [clientWidth, clientHeight];
@@ -210,6 +221,7 @@ export class Stage extends EventTarget {
     this.pending = undefined;
     if (!this.size) return;
     const scale = this.sharpness.next();
+    this.isWhole = scale === 1;
     const ratio = Math.min(window.devicePixelRatio, 2) * Math.max(scale, 0.5);
     this.boxes.setDetail(this.data.models > manyModels ? scale * scale : 1);
     if (this.renderer.getPixelRatio() !== ratio || this.drawnSize !== this.size) {
@@ -233,6 +245,7 @@ export class Stage extends EventTarget {
       this.fence = null;
       this.sharpness.took(performance.now() - begin);
       this.dispatchEvent(new Event("drawn"));
+      if (this.isWhole) this.dispatchEvent(new Event("complete"));
       if (this.isStale) this.invalidate();
       this.isStale = false;
     };

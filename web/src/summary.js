@@ -32,7 +32,7 @@ function remarks(scene) {
   if (scene.ignored.length > 0) {
     const items = scene.ignored.map(({ file, line, subject, reason }) => {
       const place = [file, line || ""].filter(String).join(":");
-      return make("li", "", `${[place, subject].filter(Boolean).join(": ")}: ${reason}`);
+      return make("li", "", [...new Set([place, subject, reason])].filter(Boolean).join(": "));
     });
     notes.push(make("details", "remark", make("summary", "", `${counted(scene.ignored.length, "remark")} on the input`), make("ul", "", ...items)));
   }
@@ -44,14 +44,16 @@ export function showSummary(app) {
   byId("title").textContent = scene.title;
   byId("method").textContent = scene.method;
   fillWith(byId("remarks"), ...remarks(scene));
+  const frames = scene.frames.length;
+  const inAll = frames > 1 ? `in all ${grouped(frames)} frames` : "";
   const update = () => {
     const { testsMade, testsOfAllPairs, detectSeconds } = scene.statistics;
     fillWith(
       byId("facts"),
       fact("Models", grouped(scene.models), "fact-models"),
       fact("Pairs", grouped(app.table.found), "fact-pairs", pairNotes(app)),
-      fact("Tests avoided", testsAvoided(scene), "fact-avoided", `${grouped(testsMade)} of ${grouped(testsOfAllPairs)} made`),
-      fact("Time", seconds(detectSeconds), "fact-time"),
+      fact("Tests avoided", testsAvoided(scene), "fact-avoided", `${grouped(testsMade)} of ${grouped(testsOfAllPairs)} made ${inAll}`),
+      fact("Time", seconds(detectSeconds), "fact-time", inAll),
     );
   };
   app.addEventListener("frame", update);

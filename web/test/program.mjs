@@ -2,7 +2,7 @@
 // What the tests run: the program, and Debian's Chromium on the pages that it writes.
 
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -41,6 +41,7 @@ export function npy(shape, numbers) {
 
 export function write(name, bytes) {
   const path = join(folder, name);
+  mkdirSync(dirname(path), { recursive: true });
   writeFileSync(path, bytes);
   return path;
 }
@@ -67,7 +68,7 @@ export const clothFrames = (count) => Array.from({ length: count }, (_, time) =>
 
 const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
 let browser;
-export const startBrowser = async () => (browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args, timeout: 120_000 }));
+export const startBrowser = async (...more) => (browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: [...args, ...more], timeout: 120_000 }));
 export const stopBrowser = () => browser?.close();
 
 /** Opens a file as a page; what it complains about, and what it asks of the network, is kept in `page.problems`. */
