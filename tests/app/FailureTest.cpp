@@ -68,6 +68,14 @@ TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {
   }
 }
 
+TEST(BadInput, WhatStandsBehindTwoDashesIsAFile) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
+  expectFailure(runProgram({"detect", path, "--", "--frob"}), kBadInput, "./--frob: ");
+  expectFailure(runProgram({"detect", "--", path, "-x.npy"}), kBadInput, "./-x.npy: no such file");
+  expectSuccess(runProgram({"detect", "--", path}));
+}
+
 TEST(BadInput, NamesOfFilesCannotSendCommandsToTheTerminal) {
   const ProgramRun run = runProgram({"detect", "no\nwhere\x1b[2J.npy"});
   expectFailure(run, kBadInput, "no where\\x1b[2J.npy: no such file");
