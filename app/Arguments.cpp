@@ -31,6 +31,9 @@ std::string describeOrder(const Box& box) {
   return {};
 }
 
+/// What stands behind "--" is no option, though it begins like one. CLI11 knows that before the first input only.
+std::string asPath(std::string_view word) { return (word.starts_with('-') ? "./" : "") + std::string(word); }
+
 }  // namespace
 
 std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
@@ -38,7 +41,7 @@ std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
   for (int i = 1; i < count; ++i) {
     const std::string_view argument = arguments[i];
     if (argument == "--") {
-      joined.insert(joined.end(), arguments + i, arguments + count);
+      for (++i; i < count; ++i) joined.push_back(asPath(arguments[i]));
       break;
     }
     joined.emplace_back(argument);

@@ -11,7 +11,7 @@
 namespace allpairs::app {
 
 /// The arguments as the parser needs them: an option that takes numbers is joined with its value, which may begin with
-/// a minus and would otherwise be taken for an option.
+/// a minus and would otherwise be taken for an option. What follows "--" are paths.
 [[nodiscard]] std::vector<std::string> joinNumbers(int count, const char* const* arguments);
 
 /// The number that follows --margin.

@@ -19,6 +19,7 @@
 #include "Inputs.h"
 #include "Output.h"
 #include "OutputOption.h"
+#include "Progress.h"
 #include "Records.h"
 #include "Table.h"
 #include "Timer.h"
@@ -126,9 +127,15 @@ void writeExact(const Outcome& outcome, const std::string& format, Output& outpu
   }
 }
 
+template <class Work>
+Detection withClock(std::size_t count, const Work& work) {
+  const ProgressClock clock("finding pairs among " + counted(count, "model"));
+  return work();
+}
+
 Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
   const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
-  Outcome outcome{.detection = detectBoxes(boxes, order, options),
+  Outcome outcome{.detection = withClock(boxes.size(), [&] { return detectBoxes(boxes, order, options); }),
                   .notes = {.method = boxMethod(options), .simulated = boxes.size()}};
   outcome.result.modelCount = boxes.size();
   outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
@@ -147,7 +154,7 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
 
 Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
   warnOfPart(scene, settings.input);
-  Outcome outcome{.detection = detectScene(scene, options)};
+  Outcome outcome{.detection = withClock(scene.models.size(), [&] { return detectScene(scene, options); })};
   if (settings.exact) outcome.exact = examine(scene, outcome.detection.pairs);
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
@@ -180,6 +187,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   outcome.result.swapped = outcome.detection.swapped;
   outcome.result.statistics = outcome.detection.statistics;
   outcome.result.statistics.readSeconds = readSeconds;
+  std::optional<ProgressClock> clock;
+  if (!settings.output.empty()) clock.emplace("writing");  // not into a pager, which may wait for long
   if (outcome.exact) {
     writeExact(outcome, settings.format, output);
   } else {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Progress.h"
+#include "Records.h"
 #include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::app {
@@ -17,7 +18,7 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   options.progress = [&line](const scene::Progress& progress) {
     const std::string count =
         progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " + std::to_string(progress.total);
-    line.show("reading" + count + ": " + progress.file.filename().string());
+    line.show("reading" + count + ": " + printable(progress.file.filename().string()));
   };
   return options;
 }

@@ -3,7 +3,11 @@
 
 #include <unistd.h>
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
+#include <utility>
 
 namespace allpairs::app {
 namespace {
@@ -31,6 +35,23 @@ void ProgressLine::showNow(const std::string& text) {
 void ProgressLine::clear() {
   if (m_isShown) std::fputs("\r\033[K", stderr);
   m_isShown = false;
+}
+
+ProgressClock::ProgressClock(std::string text) {
+  if (!m_line.isTerminal()) return;
+  m_thread = std::jthread([this, text = std::move(text)](const std::stop_token& stop) { run(stop, text); });
+}
+
+void ProgressClock::run(const std::stop_token& stop, const std::string& text) {
+  const Timer timer;
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  while (true) {
+    wake.wait_for(lock, stop, std::chrono::duration<double>(kInterval), [] { return false; });
+    if (stop.stop_requested()) return;
+    m_line.showNow(text + ": " + std::to_string(static_cast<long>(timer.seconds())) + " s");
+  }
 }
 
 }  // namespace allpairs::app

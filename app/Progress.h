@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <thread>
 
 #include "Timer.h"
 
@@ -24,11 +25,26 @@ class ProgressLine {
   /// Takes the line away.
   void clear();
 
+  [[nodiscard]] bool isTerminal() const { return m_isTerminal; }
+
  private:
   bool m_isTerminal;
   bool m_isShown = false;
   Timer m_sinceStart;
   double m_lastShown = 0.0;
+};
+
+/// A line of the same kind for work that does not say how far it is: what is done, and for how long already. It is shown
+/// from a thread of its own while this lives.
+class ProgressClock {
+ public:
+  explicit ProgressClock(std::string text);
+
+ private:
+  void run(const std::stop_token& stop, const std::string& text);
+
+  ProgressLine m_line;
+  std::jthread m_thread;  // the last member: it ends before the line does
 };
 
 }  // namespace allpairs::app

@@ -7,12 +7,14 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "Arguments.h"
 #include "Commands.h"
 #include "ExitStatus.h"
 #include "Output.h"
+#include "Records.h"
 #include "SignalCleanup.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 
@@ -32,13 +34,25 @@ constexpr const char* kProgramExamples = R"(Examples:
 'allpairs detect --help' tells more. Exit status: 0 success, 1 --verify found a
 difference, 2 wrong usage, 3 a file that cannot be read or written.)";
 
-/// One line on standard error, whatever the message holds.
+/// One line on standard error, whatever the message holds: names of files are the user's, or a stranger's.
 void complain(std::string message) {
   for (char& c : message) {
     if (c == '\n' || c == '\r') c = ' ';
   }
   while (message.ends_with(' ')) message.pop_back();
-  std::fprintf(stderr, "allpairs: %s\n", message.c_str());
+  std::fprintf(stderr, "allpairs: %s\n", allpairs::app::printable(message).c_str());
+}
+
+/// What CLI11 says of an option that has no value or several, in words: "--margin: D is missing".
+std::string countProblem(const CLI::ArgumentMismatch& problem) {
+  const std::string text = problem.what();
+  const std::string option = text.substr(0, text.find(':'));
+  if (text.find("At Most") != std::string::npos) return option + " may be given only once";
+  constexpr std::string_view kBefore = "1 required ";
+  const std::size_t begin = text.find(kBefore);
+  const std::size_t end = text.rfind(" missing");
+  if (begin == std::string::npos || end == std::string::npos) return text;
+  return option + ": " + text.substr(begin + kBefore.size(), end - begin - kBefore.size()) + " is missing";
 }
 
 ExitStatus fail(ExitStatus status, const std::string& message) {
@@ -66,6 +80,8 @@ void parse(CLI::App& program, const std::vector<std::string>& arguments) {
     const bool hasWord = program.get_subcommands().empty() && !arguments.empty();
     if (hasWord) throw allpairs::app::UsageError("'" + arguments.front() + "' is no command");
     throw allpairs::app::UsageError(program.get_subcommands().empty() ? "a command is needed" : "INPUT is needed");
+  } catch (const CLI::ArgumentMismatch& problem) {
+    throw allpairs::app::UsageError(countProblem(problem));
   } catch (const CLI::ParseError& problem) {
     throw allpairs::app::UsageError(problem.what());
   }

@@ -12,7 +12,6 @@
 
 #include "FileBytes.h"
 #include "MeshObject.h"
-#include "Words.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::scene {
@@ -55,8 +54,7 @@ std::span<T* const> spanOf(T* const* items, unsigned count) {
 
 /// Names that Assimp's readers make up where the file has none.
 bool isMadeUp(std::string_view name) {
-  static constexpr std::array<std::string_view, 6> kMadeUp{"ROOT",      "<STL_BINARY>", "<OFFRoot>",
-                                                           "<PLYRoot>", "<stl_root>",   "<DummyRootNode>"};
+  static constexpr std::array<std::string_view, 2> kMadeUp{"ROOT", "<DummyRootNode>"};
   const bool isNumberedGltf = (name.starts_with("nodes[") || name.starts_with("meshes[")) && name.ends_with(']');
   return name.empty() || isNumberedGltf || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
 }
@@ -120,37 +118,13 @@ class NodeReader {
   }
 
   [[noreturn]] void fail(const MeshObject& object, const char* problem) const {
-    throw FileError(m_path, "object '" + object.name + "' " + problem);
+    throw FileError(m_path, (object.name.empty() ? "an object" : "object '" + object.name + '\'') + ' ' + problem);
   }
 
   const aiScene& m_scene;
   const Path& m_path;
   std::vector<MeshObject> m_objects;
 };
-
-/// The names of an ASCII STL file's solids, whole: Assimp cuts them at their first blank.
-std::vector<std::string> solidNames(const Path& path) {
-  const std::string text = readText(path);
-  std::vector<std::string> names;
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    std::string_view line = trimmed(rest.substr(0, rest.find('\n')));
-    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-    if (takeWord(line) == "solid") names.emplace_back(trimmed(line));
-  }
-  return names;
-}
-
-void restoreSolidNames(std::vector<MeshObject>& objects, const Path& path) {
-  const bool isNamed =
-      std::any_of(objects.begin(), objects.end(), [](const auto& object) { return !object.name.empty(); });
-  if (!isNamed) return;
-  std::vector<std::string> names = solidNames(path);
-  if (names.size() != objects.size()) return;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].starts_with(objects[i].name)) objects[i].name = std::move(names[i]);
-  }
-}
 
 std::string problemOf(const Assimp::Importer& importer) {
   const std::string_view text = importer.GetErrorString();
@@ -178,9 +152,7 @@ std::vector<MeshObject> readAssimpObjects(const Path& path) {
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw FileError(path, "cannot be read as a mesh: " + problemOf(importer));
   }
-  std::vector<MeshObject> objects = NodeReader(*scene, path).read();
-  if (lowerExtension(path) == ".stl") restoreSolidNames(objects, path);
-  return objects;
+  return NodeReader(*scene, path).read();
 }
 
 }  // namespace allpairs::scene

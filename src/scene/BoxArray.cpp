@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "FileBytes.h"
+#include "UniqueNames.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::scene {
@@ -44,7 +45,7 @@ std::string BoxArray::name(std::size_t i) const {
                                       [](std::size_t index, const Part& part) { return index < part.begin; });
   const Part& part = *std::prev(after);
   const std::size_t index = i - part.begin;
-  if (!part.names.empty()) return std::string(part.names[index]);
+  if (!part.names.empty() && !part.names[index].empty()) return std::string(part.names[index]);
   return m_parts.size() == 1 ? std::to_string(index) : part.label + '[' + std::to_string(index) + ']';
 }
 
@@ -52,9 +53,11 @@ template <class T>
 BoxArray BoxArray::concatenateAs(std::vector<BoxArray> arrays, std::size_t size) {
   BoxTable<T> table{std::make_unique_for_overwrite<T[]>(size * 6), size};
   std::vector<Part> parts;
+  UniqueNames labels;  // files of one name may lie in several folders
   T* row = table.values.get();
   for (BoxArray& array : arrays) {
     parts.push_back(std::move(array.m_parts.front()));
+    parts.back().label = labels.unique(parts.back().label);
     parts.back().begin = static_cast<std::size_t>(row - table.values.get()) / 6;
     for (std::size_t i = 0; i < array.size(); ++i) row = writeRow(row, array.m_boxes[i]);
     array = {};

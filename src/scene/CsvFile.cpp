@@ -137,6 +137,11 @@ class CsvReader {
 BoxArray readCsv(const Path& path) {
   const std::string text = readText(path);
   std::string_view rest = text;
+  if (const std::size_t zero = rest.find('\0'); zero != std::string_view::npos) {
+    const auto line =
+        static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n'));
+    throw FileError(path, "is no text: it holds a byte of zero, as UTF-16 does; UTF-8 can be read", line + 1);
+  }
   if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
   CsvReader reader(path);
   while (!rest.empty()) {

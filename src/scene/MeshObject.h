@@ -32,6 +32,17 @@ struct MeshObject {
 /// Bad input: throws FileError. Nothing is allocated for elements that a header only claims.
 [[nodiscard]] std::vector<MeshObject> readPlyObjects(const std::filesystem::path& path);
 
+/// Reads an OFF file in double, with what precedes its first word: COFF, NOFF and the like. Without faces its vertices are
+/// points.
+///
+/// Bad input: throws FileError with its line. Nothing is allocated for what a header only claims.
+[[nodiscard]] std::vector<MeshObject> readOffObjects(const std::filesystem::path& path);
+
+/// Reads an STL file: binary, or as text in double with an object for each solid, under its whole name.
+///
+/// Bad input: throws FileError, with its line where it is text; a file that ends early too.
+[[nodiscard]] std::vector<MeshObject> readStlObjects(const std::filesystem::path& path);
+
 /// Reads what Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double to
 /// positions that Assimp gives as float32.
 ///

@@ -23,6 +23,8 @@ std::vector<MeshObject> readObjects(const fs::path& path) {
   const std::string extension = lowerExtension(path);
   if (extension == ".obj") return readObjObjects(path);
   if (extension == ".ply") return readPlyObjects(path);
+  if (extension == ".stl") return readStlObjects(path);
+  if (extension == ".off") return readOffObjects(path);
   return readAssimpObjects(path);
 }
 

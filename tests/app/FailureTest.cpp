@@ -29,7 +29,10 @@ TEST(WrongUsage, IsOneLineAndStatusTwo) {
   expectFailure(runProgram({"detect", path, "--frob"}), kWrongUsage, "--frob");
   expectFailure(runProgram({"detect", path, "--format", "xml"}), kWrongUsage, "'xml' is none of table, csv, json, npy");
   expectFailure(runProgram({"detect", path, "--strategy", "fast"}), kWrongUsage, "'fast' is none of");
-  expectFailure(runProgram({"detect", path, "--margin"}), kWrongUsage, "--margin");
+  expectFailure(runProgram({"detect", path, "--margin"}), kWrongUsage, "--margin: D is missing");
+  expectFailure(runProgram({"detect", path, "--box="}), kWrongUsage, "--box: x0,y0,z0,x1,y1,z1 is missing");
+  expectFailure(runProgram({"detect", path, "--margin", "1", "--margin", "2"}), kWrongUsage,
+                "--margin may be given only once");
   expectFailure(runProgram({"detect", path, "--margin", "wide"}), kWrongUsage, "--margin: 'wide'");
   expectFailure(runProgram({"detect", path, "--margin", "nan"}), kWrongUsage, "--margin: 'nan'");
   expectFailure(runProgram({"detect", path, "--margin", "-inf"}), kWrongUsage, "--margin: '-inf'");
@@ -63,6 +66,20 @@ TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {
     expectFailure(runProgram({command, text}), kBadInput, text + ": ");
     expectFailure(runProgram({command, folder.path() / "empty"}), kBadInput, "is a folder without mesh files");
   }
+}
+
+TEST(BadInput, WhatStandsBehindTwoDashesIsAFile) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
+  expectFailure(runProgram({"detect", path, "--", "--frob"}), kBadInput, "./--frob: ");
+  expectFailure(runProgram({"detect", "--", path, "-x.npy"}), kBadInput, "./-x.npy: no such file");
+  expectSuccess(runProgram({"detect", "--", path}));
+}
+
+TEST(BadInput, NamesOfFilesCannotSendCommandsToTheTerminal) {
+  const ProgramRun run = runProgram({"detect", "no\nwhere\x1b[2J.npy"});
+  expectFailure(run, kBadInput, "no where\\x1b[2J.npy: no such file");
+  EXPECT_EQ(run.err.find('\x1b'), std::string::npos);
 }
 
 TEST(BadInput, APipeIsRefusedAndNotWaitedFor) {

@@ -105,27 +105,29 @@ TEST(DetectScene, AMeshThatIsLeftOutIsNamedOnce) {
   EXPECT_NE(run.out.find("wheel\\x1b[31m"), std::string::npos) << run.out;
 }
 
+const std::string kDemoScene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
+const std::string kDemoZones = ALLPAIRS_SOURCE_DIR "/examples/scenes/zones.csv";
+
 TEST(Demo, ShowsATableOfEveryPairWithoutAComplaint) {
-  const std::string scene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
-  const ProgramRun run = runProgram({"detect", scene, "--verify"});
+  const ProgramRun run = runProgram({"detect", kDemoScene, kDemoZones, "--verify"});
   expectSuccess(run);
   EXPECT_EQ(run.out.find(" more;"), std::string::npos) << "the demo's table is whole";
   EXPECT_EQ(run.out.find("ignored"), std::string::npos);
-  for (const char* pair :
-       {"  /Hose/Rubber             /Hose/Rubber\n", "  /Hammer/Head             /Bench/Top/Beech\n"}) {
+  for (const char* pair : {"  /Hose/Rubber             /Hose/Rubber\n", "  /Hammer/Head             /Bench/Top/Beech\n",
+                           "  zone/robot               /Robot/Arm/Links\n"}) {
     EXPECT_NE(run.out.find(pair), std::string::npos) << run.out;
   }
   EXPECT_EQ(run.out.find("Van"), std::string::npos) << "what is outside of the region pairs with nobody";
 }
 
-TEST(Demo, HasEveryTypeOfModelThatASceneCanHold) {
-  const ProgramRun run = runProgram({"detect", ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn", "--format", "json"});
+TEST(Demo, HasEveryTypeOfModel) {
+  const ProgramRun run = runProgram({"detect", kDemoScene, kDemoZones, "--format", "json"});
   expectSuccess(run);
   std::set<std::string> types;
   const Json result = Json::parse(run.out);
   for (const Json& model : result["models"]) types.insert(model["type"]);
-  EXPECT_EQ(types, (std::set<std::string>{"TCapsuleModel", "TLineModel", "TOBBModel", "TPointModel", "TSphereModel",
-                                          "TTriangleModel", "TetrahedronModel"}));
+  EXPECT_EQ(types, (std::set<std::string>{"BoxModel", "TCapsuleModel", "TLineModel", "TOBBModel", "TPointModel",
+                                          "TSphereModel", "TTriangleModel", "TetrahedronModel"}));
 }
 
 }  // namespace

@@ -19,6 +19,11 @@ struct SceneRules {
     return std::none_of(a.groups.begin(), a.groups.end(), inB);
   }
 
+  [[nodiscard]] static bool mayMeet(const ModelSpec& a, const ModelSpec& b) {
+    if (!(a.simulated || b.simulated) || !lets(a, b) || !lets(b, a)) return false;
+    return a.kind != Kind::Odd || b.kind != Kind::Odd;
+  }
+
   [[nodiscard]] bool near(const ModelSpec& a, const ModelSpec& b) const {
     if (scene.method == Method::UserUnbounded) return a.box.min[1] <= b.box.max[1];
     const bool contact = scene.method == Method::Proximity || scene.method == Method::UserBounded;
@@ -44,8 +49,7 @@ inline std::vector<IndexPair> sceneOracle(const SceneSpec& scene) {
     if (a.kind != Kind::Odd && a.simulated && rules.lets(a, a) && rules.near(a, a)) pairs.emplace_back(m, m);
     for (const std::size_t e : earlier) {
       const ModelSpec& b = scene.models[e];
-      if (!(a.simulated || b.simulated) || !rules.lets(a, b) || !rules.lets(b, a)) continue;
-      if (a.kind == Kind::Odd && b.kind == Kind::Odd) continue;
+      if (!SceneRules::mayMeet(a, b)) continue;
       const bool swap = b.kind == Kind::Odd;
       if (rules.near(swap ? b : a, swap ? a : b)) pairs.emplace_back(swap ? e : m, swap ? m : e);
     }

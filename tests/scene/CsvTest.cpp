@@ -35,6 +35,8 @@ TEST(Csv, SixNumbersALineAreBoxesNamedByTheirIndex) {
 TEST(Csv, ANameMayComeFirstOrLast) {
   EXPECT_EQ(readText("left,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"left", kBox}}));
   EXPECT_EQ(readText("0.5,1,2,3,4,50,right\n"), (std::vector<Named>{{"right", kBox}}));
+  EXPECT_EQ(readText("a,0.5,1,2,3,4,50\n,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"a", kBox}, {"1", kBox}}))
+      << "where the name is missing the index stands in";
 }
 
 TEST(Csv, AHeaderMayNameTheColumnsInAnyOrder) {
@@ -71,6 +73,7 @@ TEST(Csv, ErrorsNameLineAndColumn) {
   expectCsvProblem("\"a\"b,1,2,3,4,5,6\n", "bad.csv:1:4: text after a closing quote");
   expectCsvProblem("minx,miny,minz,maxx,maxy\n", "bad.csv:1: the header has no column 'maxz'");
   expectCsvProblem("minx,miny,minz,maxx,maxy,maxz,a,b\n", "bad.csv:1:33: column 'b' is not known");
+  expectCsvProblem(std::string("1,2,3,4,5,6\n1\0,\0", 16), "bad.csv:2: is no text");
   expectCsvProblem("minx,minx,minz,maxx,maxy,maxz\n", "bad.csv:1:6: column 'minx' is there twice");
 }
 

@@ -122,24 +122,15 @@ TEST(ObjMesh, ErrorsNameTheLine) {
   expectProblem("a.obj", "", "holds no triangles, lines or points");
 }
 
-TEST(StlMesh, SolidsKeepTheirWholeNames) { EXPECT_EQ(namesOf(read("a.stl", kStl)), "two words TTriangleModel 1\n"); }
-
 TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
   const scene::Scene scene = read("car.gltf", kGltf);
   EXPECT_EQ(namesOf(scene), "wheel TTriangleModel 1\nwheel#2 TTriangleModel 1\ndisc TTriangleModel 1\n");
   EXPECT_EQ(boxOf(*scene.models[1]), (Box{{10, 0, 0}, {12, 2, 0}}));
 }
 
-TEST(OffMesh, IsReadAndNamedAfterItsFile) {
-  EXPECT_EQ(namesOf(read("tri.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")),
-            "tri.off TTriangleModel 2\n");
-}
-
 TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {
   expectCutsAreHandled("cut.obj", kTwoParts);
-  expectCutsAreHandled("cut.stl", kStl);
   expectCutsAreHandled("cut.gltf", kGltf);
-  expectCutsAreHandled("cut.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
 }
 
 TEST(Mesh, AnUnknownKindOfFileIsRefused) { expectProblem("notes.txt", "hello", "is of no kind that is known"); }

@@ -135,14 +135,17 @@ TEST(Npy, AMissingFileAndAFolderAreNamed) {
 
 TEST(BoxArray, ConcatenationKeepsTheOrderAndNamesTheFile) {
   const TempFolder folder;
+  const TempFolder other;
   std::vector<scene::BoxArray> arrays;
   arrays.push_back(scene::readNpy(folder.write("a.npy", npyBytes({cube(0, 0, 0)}, {.descr = "<f4"}))));
   arrays.push_back(scene::readNpy(folder.write("b.npy", npyBytes({cube(1, 2, 3), cube(4, 5, 6)}))));
+  arrays.push_back(scene::readNpy(other.write("a.npy", npyBytes({cube(7, 8, 9)}))));
   const scene::BoxArray all = scene::BoxArray::concatenate(std::move(arrays));
-  EXPECT_EQ(boxesOf(all), (std::vector<Box>{cube(0, 0, 0), cube(1, 2, 3), cube(4, 5, 6)}));
+  EXPECT_EQ(boxesOf(all), (std::vector<Box>{cube(0, 0, 0), cube(1, 2, 3), cube(4, 5, 6), cube(7, 8, 9)}));
   EXPECT_TRUE(all.boxes().isFloat64());
   EXPECT_EQ(all.name(0), "a.npy[0]");
   EXPECT_EQ(all.name(2), "b.npy[1]");
+  EXPECT_EQ(all.name(3), "a.npy#2[0]");
 }
 
 }  // namespace

@@ -68,8 +68,10 @@ class CollisionModel {
   /// Makes or updates the levels above the elements, from the elements as they are now.
   ///
   /// `maxDepth` 0 makes the root alone; each further level splits every box of the one above in two. The box and the
-  /// cone of the root don't depend on it. Cost: O(n), deep: O(n log n) per level. A second call allocates nothing. Bad
-  /// input: a NaN in an element's box throws InvalidBox.
+  /// cone of the root don't depend on it. A second call allocates nothing.
+  ///
+  /// Bad input: a NaN in an element's box throws InvalidBox.
+  /// Cost:      O(n), deep: O(n log n) per level.
   virtual void computeBoundingTree(int maxDepth = 0);
 
   /// The same for a continuous method: each box holds its elements at the start and at the end of a step of length dt.

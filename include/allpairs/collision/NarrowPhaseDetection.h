@@ -59,9 +59,12 @@ class NarrowPhaseDetection {
 ///
 /// For two models in the order of the pair, or swapped if their intersector says so; for a model with itself each pair
 /// of elements once, lower index first. If the method has an intersector for the two models' types, its canIntersect()
-/// is asked about each pair. Bad input: an element's box with a NaN throws InvalidBox that names the model; a missing
-/// method throws InvalidArgument. Cost:      that of allpairs::Overlaps on the boxes of the elements, once per pair of
-/// models. Threads:   one step at a time per object; the search runs on the executor.
+/// is asked about each pair.
+///
+/// Bad input: an element's box with a NaN throws InvalidBox that names the model; a missing method throws
+///            InvalidArgument.
+/// Cost:      that of allpairs::Overlaps on the boxes of the elements, once per pair of models.
+/// Threads:   one step at a time per object; the search runs on the executor.
 class ElementNarrowPhase : public NarrowPhaseDetection {
  public:
   void beginNarrowPhase() override;

@@ -9,8 +9,10 @@ namespace allpairs::collision {
 
 /// Triangles, and quads as two triangles each. The box of each is its points, widened by the contact distance.
 ///
-/// The elements are the triangles in their order, then for each quad (a, b, c, d) the triangles (a, b, c) and (a, c,
-/// d). Bad input: a number that is not finite, or an index past the points, throws InvalidArgument.
+/// The elements are the triangles in their order, then for each quad (a, b, c, d) the triangles (a, b, c) and
+/// (a, c, d).
+///
+/// Bad input: a number that is not finite, or an index past the points, throws InvalidArgument.
 class TriangleModel : public MeshModel {
  public:
   using Triangle = std::array<std::uint32_t, 3>;

@@ -58,7 +58,8 @@ class BoxArray {
   [[nodiscard]] const BoxSet& boxes() const noexcept { return m_boxes; }
   [[nodiscard]] std::size_t size() const noexcept { return m_boxes.size(); }
 
-  /// What box i is called: its name in the file; without one its index, after the file's name if there were several.
+  /// What box i is called: its name in the file; without one its index, after the file's name if there were several
+  /// files, and after a number if several had that name: a.npy[7], a.npy#2[7].
   [[nodiscard]] std::string name(std::size_t i) const;
 
   /// One array of all the boxes, in the order given: float32 if all are, else float64, which holds both exactly.
@@ -91,7 +92,7 @@ class BoxArray {
 ///
 /// The first or the last column may be a name. A first line that names the columns may put them in another order. Empty
 /// lines and lines that begin with # are skipped.
-/// Bad input: throws FileError with line and column.
+/// Bad input: throws FileError with line and column; a file that is no text, such as UTF-16, too.
 [[nodiscard]] BoxArray readCsv(const std::filesystem::path& path);
 
 /// Whether the path is called like a box array: .npy or .csv.

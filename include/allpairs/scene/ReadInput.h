@@ -14,7 +14,7 @@ namespace allpairs::scene {
 /// Bad input: throws FileError.
 [[nodiscard]] Scene readInput(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Reads a mesh file: OBJ, PLY and STL, and whatever else Assimp knows, such as glTF and OFF.
+/// Reads a mesh file: OBJ, PLY, STL and OFF, and whatever else Assimp knows, such as glTF.
 ///
 /// Each object, or node that shows a mesh, is a body of its own: a model of its triangles, one of its lines and one of
 /// its points, whichever it has, named as in the file, after the file where there is no name; a name that comes again

@@ -8,14 +8,14 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
+constexpr std::string_view kListBlanks = " \t\r\n\v\f";
 constexpr double kMaxRange = 50'000'000;  // "0-4000000000" is a mistake, not a list.
 
 std::string_view nextWord(std::string_view& text) {
-  const auto begin = text.find_first_not_of(kBlanks);
+  const auto begin = text.find_first_not_of(kListBlanks);
   if (begin == std::string_view::npos) return text = {};
   text.remove_prefix(begin);
-  const auto word = text.substr(0, text.find_first_of(kBlanks));
+  const auto word = text.substr(0, text.find_first_of(kListBlanks));
   text.remove_prefix(word.size());
   return word;
 }
@@ -96,7 +96,7 @@ std::optional<bool> parseBool(std::string_view text) {
 }
 
 std::optional<double> parseWholeFloat(std::string_view text) {
-  const auto begin = text.find_first_not_of(kBlanks);
+  const auto begin = text.find_first_not_of(kListBlanks);
   if (begin == std::string_view::npos) return std::nullopt;
   const auto value = parseWhole<float>(text.substr(begin));
   if (!value || !std::isfinite(*value)) return std::nullopt;

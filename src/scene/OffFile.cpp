@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "FileBytes.h"
+#include "MeshObject.h"
+#include "Words.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+class OffReader {
+ public:
+  OffReader(const std::string& text, const Path& path) : m_rest(text), m_path(path) {}
+
+  std::vector<MeshObject> read() {
+    readHeader();
+    for (std::uint64_t i = 0; i < m_vertices; ++i) readPosition(nextLine());
+    for (std::uint64_t i = 0; i < m_faces; ++i) readFace(nextLine());
+    const bool isCloud = m_object.triangles.empty() && m_object.lines.empty() && m_object.points.empty();
+    for (std::uint32_t i = 0; isCloud && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
+    return {std::move(m_object)};
+  }
+
+ private:
+  /// The next line that holds more than blanks and a comment.
+  std::string_view nextLine() {
+    while (!m_rest.empty()) {
+      const std::size_t end = std::min(m_rest.find('\n'), m_rest.size());
+      const std::string_view line = m_rest.substr(0, end);
+      m_rest.remove_prefix(std::min(end + 1, m_rest.size()));
+      ++m_line;
+      const std::string_view content = trimmed(line.substr(0, line.find('#')));
+      if (!content.empty()) return content;
+    }
+    fail("ends before all that its header announces");
+  }
+
+  /// OFF, or with prefixes that say what stands behind each position: COFF, NOFF, STOFF. The counts may follow in the
+  /// same line, in some files without a blank between.
+  void readHeader() {
+    std::string_view line = nextLine();
+    const std::size_t keyword = line.find("OFF");
+    if (keyword == std::string_view::npos || line.find_first_not_of("STCN") < keyword) {
+      fail("is no OFF file of points in space: its first word is '" + std::string(takeWord(line).substr(0, kQuoted)) +
+           "'");
+    }
+    line = trimmed(line.substr(keyword + 3));
+    if (line == "BINARY") fail("is a binary OFF file, which is not read");
+    if (line.empty()) line = nextLine();
+    m_vertices = count(line);
+    m_faces = count(line);
+    if (m_vertices > std::numeric_limits<std::uint32_t>::max()) fail("claims more vertices than can be numbered");
+  }
+
+  std::uint64_t count(std::string_view& line) {
+    const std::string_view word = takeWord(line);
+    std::uint64_t value = 0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty() || problem != std::errc() || end != word.data() + word.size()) {
+      fail("'" + std::string(word.substr(0, kQuoted)) + "' is not a number of vertices or faces");
+    }
+    return value;
+  }
+
+  void readPosition(std::string_view line) {
+    Point& position = m_object.positions.emplace_back();
+    for (double& coordinate : position) {
+      const std::string_view word = takeWord(line);
+      const std::optional<double> value = parseNumber(word);
+      if (word.empty()) fail("a position has three coordinates");
+      if (!value || !std::isfinite(*value)) {
+        fail("'" + std::string(word.substr(0, kQuoted)) + "' is no finite number");
+      }
+      coordinate = *value;
+    }
+  }
+
+  /// How many corners, their indices, and perhaps a colour.
+  void readFace(std::string_view line) {
+    m_corners.clear();
+    const std::uint64_t size = count(line);
+    if (size == 0) fail("a face has no vertices");
+    while (m_corners.size() < size) {
+      const std::string_view word = takeWord(line);
+      if (word.empty()) {
+        fail("a face names " + std::to_string(m_corners.size()) + " vertices instead of " + std::to_string(size));
+      }
+      m_corners.push_back(resolve(word));
+    }
+    if (size == 1) m_object.points.push_back(m_corners[0]);
+    if (size == 2) m_object.lines.push_back({m_corners[0], m_corners[1]});
+    for (std::size_t i = 2; i < m_corners.size(); ++i) {
+      m_object.triangles.push_back({m_corners[0], m_corners[i - 1], m_corners[i]});
+    }
+  }
+
+  std::uint32_t resolve(std::string_view word) const {
+    std::uint32_t index = 0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), index);
+    if (problem != std::errc() || end != word.data() + word.size() || index >= m_object.positions.size()) {
+      fail("index " + std::string(word.substr(0, kQuoted)) + " names no vertex: the file has " +
+           std::to_string(m_object.positions.size()));
+    }
+    return index;
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
+
+  static constexpr std::size_t kQuoted = 40;  // characters of a word at fault that a message repeats
+
+  std::string_view m_rest;
+  const Path& m_path;
+  std::size_t m_line = 0;
+  std::uint64_t m_vertices = 0;
+  std::uint64_t m_faces = 0;
+  MeshObject m_object;
+  std::vector<std::uint32_t> m_corners;
+};
+
+}  // namespace
+
+std::vector<MeshObject> readOffObjects(const Path& path) {
+  const std::string text = readText(path);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw FileError(path, "is empty");
+  return OffReader(text, path).read();
+}
+
+}  // namespace allpairs::scene

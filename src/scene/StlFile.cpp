@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "FileBytes.h"
+#include "MeshObject.h"
+#include "Words.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::size_t kHeaderSize = 84;  // eighty bytes of anything, and the number of facets
+constexpr std::size_t kFacetSize = 50;   // a normal, three corners, and two bytes that mean nothing
+constexpr std::size_t kNormalSize = 12;
+
+/// A number of a binary file, which is little-endian wherever it was written.
+template <class T>
+T littleEndian(std::string_view bytes) {
+  std::array<char, sizeof(T)> copy{};
+  std::memcpy(copy.data(), bytes.data(), sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) std::reverse(copy.begin(), copy.end());
+  return std::bit_cast<T>(copy);
+}
+
+std::string lowerCase(std::string_view word) {
+  std::string result(word);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
+/// Adds a triangle of the last three positions.
+void addTriangle(MeshObject& object) {
+  const auto last = static_cast<std::uint32_t>(object.positions.size());
+  object.triangles.push_back({last - 3, last - 2, last - 1});
+}
+
+std::uint64_t binarySize(std::string_view text) {
+  return kHeaderSize + std::uint64_t{kFacetSize} * littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
+}
+
+/// Binary files may begin with "solid" too; then their size gives them away.
+bool isBinary(std::string_view text) {
+  if (text.size() >= kHeaderSize && text.size() == binarySize(text)) return true;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
+}
+
+std::vector<MeshObject> readBinary(std::string_view text, const Path& path) {
+  if (text.empty()) throw FileError(path, "is empty");
+  if (text.size() < kHeaderSize) throw FileError(path, "is too short for an STL file");
+  if (text.size() < binarySize(text)) throw FileError(path, "ends before all that its header announces");
+  const std::uint32_t count = littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
+  if (count > std::numeric_limits<std::uint32_t>::max() / 3) throw FileError(path, "has too many facets");
+  MeshObject object;
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    std::string_view bytes = text.substr(kHeaderSize + facet * kFacetSize + kNormalSize);
+    for (int corner = 0; corner < 3; ++corner) {
+      Point& position = object.positions.emplace_back();
+      for (double& coordinate : position) {
+        coordinate = static_cast<double>(littleEndian<float>(bytes));
+        if (!std::isfinite(coordinate)) {
+          throw FileError(path, "facet " + std::to_string(facet) + " has a coordinate that is no finite number");
+        }
+        bytes.remove_prefix(sizeof(float));
+      }
+    }
+    addTriangle(object);
+  }
+  return {std::move(object)};
+}
+
+class TextReader {
+ public:
+  TextReader(std::string_view text, const Path& path) : m_rest(text), m_path(path) {}
+
+  std::vector<MeshObject> read() {
+    while (!m_rest.empty()) {
+      const std::size_t end = std::min(m_rest.find('\n'), m_rest.size());
+      ++m_line;
+      readLine(trimmed(m_rest.substr(0, end)));
+      m_rest.remove_prefix(std::min(end + 1, m_rest.size()));
+    }
+    if (m_isInSolid) fail("ends within a solid: there is no 'endsolid'");
+    return std::move(m_objects);
+  }
+
+ private:
+  void readLine(std::string_view line) {
+    const std::string word = lowerCase(takeWord(line));
+    if (word == "solid") {
+      if (m_isInSolid) fail("a solid begins within another");
+      m_isInSolid = true;
+      m_objects.emplace_back().name = std::string(trimmed(line));
+    } else if (word == "endsolid") {
+      requireCorners(0);
+      m_isInSolid = false;
+    } else if (word == "vertex") {
+      readPosition(line);
+    } else if (word == "facet") {
+      requireCorners(0);
+    } else if (word == "endfacet") {
+      requireCorners(3);
+      addTriangle(m_objects.back());
+      m_corners = 0;
+    } else if (!word.empty() && word != "outer" && word != "endloop" && word != "color") {
+      fail("'" + word.substr(0, kQuoted) + "' is no word of STL");
+    }
+  }
+
+  void requireCorners(std::size_t count) const {
+    if (!m_isInSolid) fail("a facet or its end stands outside of any solid");
+    if (m_corners != count) fail("a facet has three vertices, not " + std::to_string(m_corners));
+  }
+
+  void readPosition(std::string_view line) {
+    if (!m_isInSolid) fail("a vertex stands outside of any solid");
+    ++m_corners;
+    for (double& coordinate : m_objects.back().positions.emplace_back()) {
+      const std::string_view word = takeWord(line);
+      const std::optional<double> value = parseNumber(word);
+      if (word.empty()) fail("a vertex has three coordinates");
+      if (!value || !std::isfinite(*value)) {
+        fail("'" + std::string(word.substr(0, kQuoted)) + "' is no finite number");
+      }
+      coordinate = *value;
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
+
+  static constexpr std::size_t kQuoted = 40;  // characters of a word at fault that a message repeats
+
+  std::string_view m_rest;
+  const Path& m_path;
+  std::size_t m_line = 0;
+  bool m_isInSolid = false;
+  std::size_t m_corners = 0;
+  std::vector<MeshObject> m_objects;
+};
+
+}  // namespace
+
+std::vector<MeshObject> readStlObjects(const Path& path) {
+  const std::string text = readText(path);
+  return isBinary(text) ? readBinary(text, path) : TextReader(text, path).read();
+}
+
+}  // namespace allpairs::scene

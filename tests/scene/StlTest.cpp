@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "Expect.h"
+#include "SceneText.h"
+#include "allpairs/scene/ReadInput.h"
+#include "support/Npy.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+scene::Scene readStl(const std::string& bytes) {
+  const TempFolder folder;
+  return scene::readInput(folder.write("mesh.stl", bytes));
+}
+
+void expectStlProblem(const std::string& bytes, const std::string& part) {
+  expectFileError([&] { (void)readStl(bytes); }, part);
+}
+
+std::string facetText(const std::string& lastVertex) {
+  return "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex " + lastVertex +
+         "\n endloop\nendfacet\n";
+}
+
+std::string solid(const std::string& name, const std::string& facets) {
+  return "solid " + name + "\n" + facets + "endsolid " + name + "\n";
+}
+
+/// A binary file whose 80 bytes begin with `start`.
+std::string binaryStl(std::string start, const std::vector<float>& coordinates) {
+  start.resize(80, ' ');
+  appendNumber(start, static_cast<std::uint32_t>(coordinates.size() / 9), false);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (i % 9 == 0) start.append(12, '\0');
+    appendNumber(start, coordinates[i], false);
+    if (i % 9 == 8) start.append(2, '\0');
+  }
+  return start;
+}
+
+const std::vector<float> kTwoFacets{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 5};
+
+TEST(StlMesh, SolidsKeepTheirWholeNamesAndAreReadInDouble) {
+  const scene::Scene scene = readStl(solid("two words", facetText("0 0.1 0") + facetText("0 0 0.1")) +
+                                     solid("", facetText("0 1 0")) + solid("two words", facetText("0 7 0")));
+  EXPECT_EQ(namesOf(scene), "two words TTriangleModel 2\nmesh.stl TTriangleModel 1\ntwo words#2 TTriangleModel 1\n");
+  EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 0.1, 0.1}}));
+}
+
+TEST(StlMesh, WordsMayBeInCapitalsAndLinesEndAsElsewhere) {
+  EXPECT_EQ(namesOf(readStl("SOLID a\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\n"
+                            "VERTEX 0 1 0\r\nENDLOOP\r\nENDFACET\r\nENDSOLID\r\n")),
+            "a TTriangleModel 1\n");
+}
+
+TEST(StlMesh, BinaryFilesMayBeginWithSolid) {
+  for (const char* start : {"", "solid of a program that does not care"}) {
+    const scene::Scene scene = readStl(binaryStl(start, kTwoFacets));
+    EXPECT_EQ(namesOf(scene), "mesh.stl TTriangleModel 2\n");
+    EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 1, 5}}));
+  }
+}
+
+TEST(StlMesh, FilesCutAnywhereAreRefused) {
+  const TempFolder folder;
+  const std::string text = solid("a", facetText("0 1 0") + facetText("0 0 1"));
+  const std::size_t last = text.rfind("endsolid") + 8;
+  for (const std::string& bytes : {text.substr(0, last), binaryStl("", kTwoFacets), binaryStl("solid", kTwoFacets)}) {
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      const auto path = folder.write("cut.stl", std::string_view(bytes).substr(0, length));
+      expectFileError([&] { (void)scene::readInput(path); }, "cut.stl:");
+    }
+  }
+}
+
+TEST(StlMesh, ErrorsNameTheLine) {
+  expectStlProblem("", "mesh.stl: is empty");
+  expectStlProblem("hello", "mesh.stl: is too short for an STL file");
+  expectStlProblem("solid a\nendsolid a\n", "mesh.stl: holds no triangles");
+  expectStlProblem("solid a\n" + facetText("0 1 0"), "mesh.stl:8: ends within a solid");
+  expectStlProblem("solid a\nsolid b\n", "mesh.stl:2: a solid begins within another");
+  expectStlProblem(solid("a", facetText("0 1")), "mesh.stl:6: a vertex has three coordinates");
+  expectStlProblem(solid("a", facetText("0 nan 0")), "mesh.stl:6: 'nan' is no finite number");
+  expectStlProblem(solid("a", facetText("0 1 0\nvertex 0 0 1")), "mesh.stl:9: a facet has three vertices, not 4");
+  expectStlProblem("solid a\nhello\n", "mesh.stl:2: 'hello' is no word of STL");
+  expectStlProblem("solid a\nendsolid\nendfacet\n", "mesh.stl:3: a facet or its end stands outside of any solid");
+  std::vector<float> bad = kTwoFacets;
+  bad[10] = std::numeric_limits<float>::infinity();
+  expectStlProblem(binaryStl("", bad), "mesh.stl: facet 1 has a coordinate that is no finite number");
+}
+
+TEST(StlMesh, HugeClaimsEndWithTheFile) {
+  std::string bytes(80, '\0');
+  appendNumber(bytes, std::numeric_limits<std::uint32_t>::max(), false);
+  expectStlProblem(bytes + std::string(50, '\0'), "mesh.stl: ends before all that its header announces");
+}
+
+}  // namespace
+}  // namespace allpairs::test
