@@ -41,6 +41,7 @@ build_and_run(${WORK}/cmake)
 
 # With pkg-config: the engine from C++, and C.
 file(GLOB_RECURSE descriptions ${root}/usr/*/allpairs.pc)
+file(GLOB_RECURSE all_descriptions ${root}/usr/*.pc)
 cmake_path(GET descriptions PARENT_PATH pkg_config_path)
 cmake_path(GET pkg_config_path PARENT_PATH libraries)
 set(ENV{PKG_CONFIG_PATH} ${pkg_config_path})
@@ -52,6 +53,15 @@ function(use_pkg_config name compiler standard source flags)
   run(${compiler} -std=${standard} ${flags} ${source} -o ${WORK}/${name} ${options})
   run(${WORK}/${name})
 endfunction()
+
+# What each description names is there to be linked.
+file(WRITE ${WORK}/nothing.cpp "int main() {}\n")
+foreach(description IN LISTS all_descriptions)
+  cmake_path(GET description STEM name)
+  run(pkg-config --cflags --libs ${name})
+  separate_arguments(options UNIX_COMMAND "${output}")
+  run(${COMPILER} ${WORK}/nothing.cpp -o ${WORK}/nothing ${options})
+endforeach()
 use_pkg_config(allpairs ${COMPILER} c++20 ${SOURCE}/allpairs.cpp "${FLAGS}")
 if(C_LIBRARY)
   use_pkg_config(allpairs-c ${C_COMPILER} c11 ${SOURCE}/../c_consumer/main.c "${C_FLAGS}")
