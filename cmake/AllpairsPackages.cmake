@@ -15,12 +15,21 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_COMPONENTS_ALL dev)
+set(allpairs_packages liballpairs-dev)
 if(TARGET allpairs_app OR TARGET allpairs_c OR BUILD_SHARED_LIBS)
   list(APPEND CPACK_COMPONENTS_ALL runtime)
+  list(APPEND allpairs_packages allpairs)
 endif()
 if(TARGET allpairs_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND allpairs_packages python3-allpairs)
 endif()
+
+# The licence asks for a copy of itself in all of them.
+foreach(component package IN ZIP_LISTS CPACK_COMPONENTS_ALL allpairs_packages)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright
+          COMPONENT ${component})
+endforeach()
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -29,14 +38,19 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src/engine" "${PROJECT_BINARY_DIR}/src/collision"
     "${PROJECT_BINARY_DIR}/src/elements" "${PROJECT_BINARY_DIR}/src/parallel" "${PROJECT_BINARY_DIR}/src/scene" "${PROJECT_BINARY_DIR}/src/generate")
 
+# Other packages' shlibdeps find our libraries, and the loader's cache learns of them.
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME allpairs)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}\n The command allpairs and the shared libraries.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME liballpairs-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}\n Headers, libraries, and files for CMake and pkg-config.")
 if("runtime" IN_LIST CPACK_COMPONENTS_ALL)
   set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "allpairs (= ${PROJECT_VERSION})")
 endif()
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libbullet-dev, libfcl-dev") # what the adapters are for
 if(NOT BUILD_SHARED_LIBS) # static libraries are linked with what they use
   set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
       "libhwy-dev, libtbb-dev, libassimp-dev, zlib1g-dev, libpugixml-dev, libtinyobjloader-dev, libfmt-dev, nlohmann-json3-dev")

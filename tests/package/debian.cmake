@@ -16,6 +16,9 @@ foreach(name IN ITEMS allpairs liballpairs-dev)
   if(NOT packages MATCHES "/${name}_[0-9.]+_")
     message(FATAL_ERROR "there is no package ${name} among: ${packages}")
   endif()
+  if(NOT EXISTS ${root}/usr/share/doc/${name}/copyright)
+    message(FATAL_ERROR "no licence is in ${name}")
+  endif()
 endforeach()
 
 # Nothing is in two packages, and nothing of the build is in one.
