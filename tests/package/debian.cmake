@@ -19,6 +19,9 @@ foreach(name IN ITEMS allpairs liballpairs-dev)
   if(NOT EXISTS ${root}/usr/share/doc/${name}/copyright)
     message(FATAL_ERROR "no licence is in ${name}")
   endif()
+  if(NOT EXISTS ${root}/usr/share/doc/${name}/changelog.gz)
+    message(FATAL_ERROR "no compressed changelog is in ${name}")
+  endif()
 endforeach()
 
 # Nothing is in two packages, and nothing of the build is in one.
