@@ -74,6 +74,11 @@ function(allpairs_install_pkg_config component needs packages)
   if(type STREQUAL "INTERFACE_LIBRARY") # headers only: there is nothing of its own to link
     set(libs)
   endif()
+  if("fcl" IN_LIST packages) # fcl.pc asks for C++11 behind what a program asks for: what it stands on, without that
+    list(REMOVE_ITEM packages fcl)
+    list(APPEND packages ccd eigen3 octomap)
+    string(APPEND libs " -lfcl")
+  endif()
   list(TRANSFORM needs PREPEND "allpairs-")
   list(TRANSFORM needs REPLACE "^allpairs-allpairs$" "allpairs")
   list(TRANSFORM packages TOLOWER)
