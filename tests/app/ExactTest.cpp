@@ -142,7 +142,8 @@ void expectSound(const nlohmann::json& pair, double gap) {
     EXPECT_NEAR(between, distance, 1e-9 * (1.0 + distance));
   } else {
     EXPECT_EQ(distance, 0.0);
-    if (!pair["depth"].is_null()) EXPECT_NEAR(between, pair["depth"].get<double>(), 1e-9 * (1.0 + between));
+    const double depth = pair["depth"].is_null() ? between : pair["depth"].get<double>();
+    EXPECT_NEAR(between, depth, 1e-9 * (1.0 + between));
   }
 }
 
