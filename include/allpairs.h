@@ -345,6 +345,72 @@ ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest(allpairs_world* world
                                                            const allpairs_query_filter* filter,
                                                            allpairs_neighbors* neighbors);
 
+// Many queries in one call: each is answered as if it were asked alone, in less time, and on the threads of the world.
+// Lists are valid until the next query, of one or of many, that gives the same kind of result. A query that makes no
+// sense is an ALLPAIRS_INVALID_ARGUMENT whose message says which one it is; then none is answered.
+
+/// Ids for each of `count` queries: those of query i are data[offsets[i]] to data[offsets[i + 1] - 1].
+typedef struct allpairs_id_lists {
+  const size_t* offsets;
+  const uint32_t* data;
+  size_t count;
+} allpairs_id_lists;
+
+/// Hits for each of `count` queries, as in allpairs_id_lists.
+typedef struct allpairs_hit_lists {
+  const size_t* offsets;
+  const allpairs_hit* data;
+  size_t count;
+} allpairs_hit_lists;
+
+/// Neighbors for each of `count` queries, as in allpairs_id_lists.
+typedef struct allpairs_neighbor_lists {
+  const size_t* offsets;
+  const allpairs_neighbor* data;
+  size_t count;
+} allpairs_neighbor_lists;
+
+typedef struct allpairs_rays {
+  const allpairs_ray* data;
+  size_t count;
+} allpairs_rays;
+
+typedef struct allpairs_sweeps {
+  const allpairs_sweep* data;
+  size_t count;
+} allpairs_sweeps;
+
+/// Points in rows of three numbers, and how many of the boxes nearest to each are wanted.
+typedef struct allpairs_nearest_many {
+  const double* points;
+  size_t point_count;
+  size_t count;
+} allpairs_nearest_many;
+
+/// For each box of a set what allpairs_world_find_overlapping() gives. Margins of the set are not looked at.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, const allpairs_set* boxes,
+                                                                    const allpairs_query_filter* filter,
+                                                                    allpairs_id_lists* lists);
+
+/// Writes the first hit of each ray, as many as there are rays.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_first_many(allpairs_world* world, allpairs_rays rays,
+                                                              const allpairs_query_filter* filter, allpairs_hit* hits);
+ALLPAIRS_C_API allpairs_status allpairs_world_find_all_many(allpairs_world* world, allpairs_rays rays,
+                                                            const allpairs_query_filter* filter,
+                                                            allpairs_hit_lists* lists);
+
+/// Writes the first hit of each box that moves, as many as there are.
+ALLPAIRS_C_API allpairs_status allpairs_world_sweep_first_many(allpairs_world* world, allpairs_sweeps sweeps,
+                                                               const allpairs_query_filter* filter, allpairs_hit* hits);
+ALLPAIRS_C_API allpairs_status allpairs_world_sweep_all_many(allpairs_world* world, allpairs_sweeps sweeps,
+                                                             const allpairs_query_filter* filter,
+                                                             allpairs_hit_lists* lists);
+
+ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_many(allpairs_world* world,
+                                                                const allpairs_nearest_many* nearest,
+                                                                const allpairs_query_filter* filter,
+                                                                allpairs_neighbor_lists* lists);
+
 /// All pairs of a box of `world` (first) and one of `other` that overlap at the mean of the distances of the two; ordered,
 /// and valid until the next such query of `world`.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_between(allpairs_world* world, allpairs_world* other,

@@ -10,6 +10,13 @@ static_assert(sizeof(allpairs_hit) == sizeof(SweepHit) && alignof(allpairs_hit) 
 static_assert(offsetof(allpairs_hit, t) == offsetof(SweepHit, t));
 static_assert(sizeof(allpairs_neighbor) == sizeof(Neighbor) && alignof(allpairs_neighbor) == alignof(Neighbor));
 static_assert(offsetof(allpairs_neighbor, distance) == offsetof(Neighbor, distance));
+static_assert(sizeof(allpairs_ray) == sizeof(Ray) && alignof(allpairs_ray) == alignof(Ray));
+static_assert(offsetof(allpairs_ray, direction) == offsetof(Ray, direction));
+static_assert(offsetof(allpairs_ray, length) == offsetof(Ray, length));
+static_assert(sizeof(allpairs_sweep) == sizeof(BoxSweep) && alignof(allpairs_sweep) == alignof(BoxSweep));
+static_assert(offsetof(allpairs_sweep, motion) == offsetof(BoxSweep, motion));
+static_assert(offsetof(allpairs_sweep, length) == offsetof(BoxSweep, length));
+static_assert(sizeof(std::array<double, 3>) == 3 * sizeof(double));
 
 QueryFilter filterOf(const allpairs_query_filter* given) {
   if (given == nullptr) return {};
@@ -30,6 +37,33 @@ allpairs_hits toC(std::span<const SweepHit> hits) {
 
 allpairs_neighbors toC(std::span<const Neighbor> neighbors) {
   return {reinterpret_cast<const allpairs_neighbor*>(neighbors.data()), neighbors.size()};
+}
+
+/// C's array as the engine's: the two have the same layout.
+template <class T, class Given>
+std::span<const T> sameAs(const Given* data, std::size_t count, const char* name) {
+  return {reinterpret_cast<const T*>(requiredSpan(data, count, name).data()), count};
+}
+
+std::span<const Ray> raysOf(const allpairs_rays& rays) { return sameAs<Ray>(rays.data, rays.count, "rays"); }
+
+std::span<const BoxSweep> sweepsOf(const allpairs_sweeps& sweeps) {
+  return sameAs<BoxSweep>(sweeps.data, sweeps.count, "sweeps");
+}
+
+std::span<SweepHit> hitsOf(allpairs_hit* hits, std::size_t count) {
+  return {reinterpret_cast<SweepHit*>(requiredSpan(hits, count, "hits").data()), count};
+}
+
+/// The engine's lists as C's: List is allpairs_id_lists or another of its form.
+template <class List, class T>
+List toC(const ResultLists<T>& lists) {
+  List result{};
+  using Value = std::remove_reference_t<decltype(*result.data)>;
+  result.offsets = lists.offsets.data();
+  result.data = reinterpret_cast<Value*>(lists.values.data());
+  result.count = lists.size();
+  return result;
 }
 
 }  // namespace
@@ -85,6 +119,51 @@ allpairs_status allpairs_world_find_nearest(allpairs_world* world, const allpair
     allpairs_neighbors& result = required(neighbors, "neighbors");
     const allpairs_nearest& wanted = required(nearest, "nearest");
     result = toC(worldOf(world).findNearest(vectorOf(wanted.point), wanted.count, filterOf(filter)));
+  });
+}
+
+allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, const allpairs_set* boxes,
+                                                     const allpairs_query_filter* filter, allpairs_id_lists* lists) {
+  return guarded([&] {
+    allpairs_id_lists& result = required(lists, "lists");
+    const auto found = worldOf(world).findOverlapping(required(boxes, "boxes").boxes, filterOf(filter));
+    result = toC<allpairs_id_lists>(found);
+  });
+}
+
+allpairs_status allpairs_world_find_first_many(allpairs_world* world, allpairs_rays rays,
+                                               const allpairs_query_filter* filter, allpairs_hit* hits) {
+  return guarded([&] { worldOf(world).findFirst(raysOf(rays), hitsOf(hits, rays.count), filterOf(filter)); });
+}
+
+allpairs_status allpairs_world_find_all_many(allpairs_world* world, allpairs_rays rays,
+                                             const allpairs_query_filter* filter, allpairs_hit_lists* lists) {
+  return guarded([&] {
+    allpairs_hit_lists& result = required(lists, "lists");
+    result = toC<allpairs_hit_lists>(worldOf(world).findAll(raysOf(rays), filterOf(filter)));
+  });
+}
+
+allpairs_status allpairs_world_sweep_first_many(allpairs_world* world, allpairs_sweeps sweeps,
+                                                const allpairs_query_filter* filter, allpairs_hit* hits) {
+  return guarded([&] { worldOf(world).findFirst(sweepsOf(sweeps), hitsOf(hits, sweeps.count), filterOf(filter)); });
+}
+
+allpairs_status allpairs_world_sweep_all_many(allpairs_world* world, allpairs_sweeps sweeps,
+                                              const allpairs_query_filter* filter, allpairs_hit_lists* lists) {
+  return guarded([&] {
+    allpairs_hit_lists& result = required(lists, "lists");
+    result = toC<allpairs_hit_lists>(worldOf(world).findAll(sweepsOf(sweeps), filterOf(filter)));
+  });
+}
+
+allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const allpairs_nearest_many* nearest,
+                                                 const allpairs_query_filter* filter, allpairs_neighbor_lists* lists) {
+  return guarded([&] {
+    allpairs_neighbor_lists& result = required(lists, "lists");
+    const allpairs_nearest_many& wanted = required(nearest, "nearest");
+    const auto points = sameAs<std::array<double, 3>>(wanted.points, wanted.point_count, "nearest.points");
+    result = toC<allpairs_neighbor_lists>(worldOf(world).findNearest(points, wanted.count, filterOf(filter)));
   });
 }
 

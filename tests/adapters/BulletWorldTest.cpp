@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <btBulletDynamicsCommon.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
+#include "allpairs/parallel/TbbExecutor.h"
 
 namespace allpairs::test {
 namespace {
@@ -173,6 +176,74 @@ TEST(BulletWorld, RayTestsOfTheWorldHitTheNearestBody) {
   btCollisionWorld::ClosestConvexResultCallback sweep(from, to);
   scene.world().convexSweepTest(&probe, start, end, sweep);
   EXPECT_TRUE(sweep.hasHit());
+}
+
+TEST(BulletWorld, ACacheThatDefersRemovalServesASimulation) {
+  btSortedOverlappingPairCache cache;
+  ASSERT_TRUE(cache.hasDeferredRemoval());
+  BulletBroadphase broadphase({.pairCache = &cache});
+  FallingBodies scene(broadphase, 4, 6);
+  for (int step = 0; step < 600; ++step) {
+    scene.step();
+    ASSERT_EQ(pairsOf(cache), demandedPairs(scene.world())) << "step " << step;
+    ASSERT_TRUE(scene.isFinite()) << "step " << step;
+  }
+  EXPECT_GT(scene.lowest(), 0.4);
+}
+
+TEST(BulletWorld, GroupsAndMasksOfBodiesDecideWhatTheyRestOn) {
+  BulletBroadphase broadphase;
+  FallingBodies scene(broadphase, 3, 1);
+  btRigidBody* const falling = scene.bodies()[FallingBodies::kFixed].get();
+  scene.world().removeRigidBody(falling);
+  scene.world().addRigidBody(falling, 64, 64);  // the floor's mask has that group, this mask not the floor's
+  for (int step = 0; step < 240; ++step) {
+    scene.step();
+    ASSERT_EQ(pairsOf(*broadphase.getOverlappingPairCache()), demandedPairs(scene.world())) << "step " << step;
+  }
+  EXPECT_LT(falling->getWorldTransform().getOrigin().y(), -10);
+  EXPECT_GT(scene.bodies().back()->getWorldTransform().getOrigin().y(), 0.4);
+}
+
+TEST(BulletWorld, AGhostKnowsTheBodiesThatFallThroughIt) {
+  BulletBroadphase broadphase;
+  btGhostPairCallback callback;
+  broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&callback);
+  FallingBodies scene(broadphase, 4, 4);
+  btBoxShape gate(btVector3(20, btScalar(0.5), 20));
+  btPairCachingGhostObject ghost;
+  btTransform pose = btTransform::getIdentity();
+  pose.setOrigin({0, 3, 0});
+  ghost.setWorldTransform(pose);
+  ghost.setCollisionShape(&gate);
+  ghost.setCollisionFlags(btCollisionObject::CF_NO_CONTACT_RESPONSE);
+  scene.world().addCollisionObject(&ghost);
+  int most = 0;
+  for (int step = 0; step < 300; ++step) {
+    scene.step();
+    int demanded = 0;
+    for (const auto& body : scene.bodies()) {
+      demanded += isDemanded(*body->getBroadphaseHandle(), *ghost.getBroadphaseHandle()) ? 1 : 0;
+    }
+    ASSERT_EQ(ghost.getNumOverlappingObjects(), demanded) << "step " << step;
+    most = std::max(most, demanded);
+  }
+  EXPECT_GT(most, 4 + 8);  // the walls, and some of those that fall
+  scene.world().removeCollisionObject(&ghost);
+  EXPECT_EQ(ghost.getNumOverlappingObjects(), 0);
+}
+
+TEST(BulletWorld, ThreadsDoNotChangeASimulation) {
+  std::vector<btScalar> ends;
+  parallel::TbbExecutor executor(3);
+  for (Executor* chosen : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&executor)}) {
+    BulletBroadphase broadphase({.executor = chosen});
+    FallingBodies scene(broadphase, 5, 6);
+    for (int step = 0; step < 200; ++step) scene.step();
+    for (const auto& body : scene.bodies()) ends.push_back(body->getWorldTransform().getOrigin().y());
+  }
+  const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
+  EXPECT_TRUE(std::equal(ends.begin(), middle, middle, ends.end()));
 }
 
 TEST(BulletWorld, BodiesMayLeaveAndComeBackBetweenSteps) {

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -114,6 +117,60 @@ TEST(ExactScenes, TheLinksOfAChainThreadEachOtherAndDoNotTouch) {
   EXPECT_EQ(result["exactStatistics"]["apart"], 4);
   EXPECT_EQ(result["exactStatistics"]["falseShare"], 1.0);
   for (const auto& pair : result["exact"]) EXPECT_GT(pair["distance"], 0.01);
+}
+
+/// How far apart two boxes are, from the corners that JSON has.
+double gapOf(const nlohmann::json& a, const nlohmann::json& b) {
+  double sum = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double gap = std::max({a[0][axis].get<double>() - b[1][axis].get<double>(),
+                                 b[0][axis].get<double>() - a[1][axis].get<double>(), 0.0});
+    sum += gap * gap;
+  }
+  return std::sqrt(sum);
+}
+
+/// What is said of a pair goes together: the points are as far apart as it says, and no nearer than the boxes are.
+void expectSound(const nlohmann::json& pair, double gap) {
+  const auto a = pair["points"][0].get<std::array<double, 3>>();
+  const auto b = pair["points"][1].get<std::array<double, 3>>();
+  const double between = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const double distance = pair["distance"];
+  EXPECT_GE(distance, gap * (1.0 - 1e-9));
+  if (pair["state"] == "apart") {
+    EXPECT_GT(distance, 0.0);
+    EXPECT_NEAR(between, distance, 1e-9 * (1.0 + distance));
+  } else {
+    EXPECT_EQ(distance, 0.0);
+    const double depth = pair["depth"].is_null() ? between : pair["depth"].get<double>();
+    EXPECT_NEAR(between, depth, 1e-9 * (1.0 + between));
+  }
+}
+
+TEST(ExactScenes, EveryCandidateOfEverySceneIsExaminedAndWhatIsSaidOfItGoesTogether) {
+  const std::filesystem::path scenes = dataFolder() / "scenes";
+  if (!std::filesystem::is_directory(scenes)) GTEST_SKIP() << "no folder of data: scenes are not tried";
+  std::size_t examined = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes / "examples")) {
+    const std::filesystem::path known = scenes / "expected" / (entry.path().stem().string() + ".json");
+    if (entry.path().extension() != ".scn" || !std::filesystem::exists(known)) continue;
+    SCOPED_TRACE(entry.path().filename());
+    const ProgramRun run = runProgram(
+        {"detect", entry.path(), "--data", scenes, "--data", scenes / "examples", "--exact", "--format", "json"});
+    expectSuccess(run);
+    const auto result = nlohmann::json::parse(run.out);
+    std::ifstream file(known);
+    ASSERT_EQ(result["pairs"], nlohmann::json::parse(file)["pairs"]);
+    ASSERT_EQ(result["exact"].size(), result["pairs"].size());
+    EXPECT_EQ(result["exactStatistics"]["notExamined"], 0);
+    for (std::size_t i = 0; i < result["pairs"].size(); ++i) {
+      const auto& pair = result["pairs"][i];
+      expectSound(result["exact"][i], gapOf(result["models"][pair[0].get<std::size_t>()]["box"],
+                                            result["models"][pair[1].get<std::size_t>()]["box"]));
+      ++examined;
+    }
+  }
+  EXPECT_EQ(examined, 530U);
 }
 
 #else

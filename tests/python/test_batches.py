@@ -89,27 +89,3 @@ def test_searches_in_several_threads_do_not_meet(boxes):
     for thread in threads:
         thread.join()
     assert not failures
-
-
-def test_other_python_threads_run_during_a_search():
-    ticks = []
-    done = threading.Event()
-
-    def tick():
-        while not done.is_set():
-            ticks.append(1)
-            done.wait(0.0005)
-
-    ticker = threading.Thread(target=tick)
-    ticker.start()
-    try:
-        before = len(ticks)
-        while len(ticks) < before + 3:  # with the GIL held, one call would let none through, and this would be luck
-            during = len(ticks)
-            allpairs.count(np.zeros((30_000, 6)), strategy="exhaustive")
-            if len(ticks) > during + 1:
-                break
-    finally:
-        done.set()
-        ticker.join()
-    assert len(ticks) > during + 1

@@ -6,6 +6,7 @@ import gc
 import allpairs
 import numpy as np
 import pytest
+from allpairs import _arguments, _core
 from conftest import every_pair, random_boxes
 
 
@@ -68,6 +69,18 @@ def test_any_layout_gives_the_same_pairs(name, dtype):
     boxes = random_boxes(250, seed=3, dtype=dtype)
     lower, upper = layouts(*boxes)[name]
     assert_pairs(allpairs.overlaps(lower, upper), every_pair(*boxes))
+
+
+@pytest.mark.parametrize("name", sorted(layouts(*random_boxes(3)).keys() - {"lists", "unaligned fields"}))
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_any_strides_are_read_where_they_are(name, dtype):
+    lower, upper = layouts(*random_boxes(50, seed=3, dtype=dtype))[name]
+    held = _arguments.boxes_of(lower, upper, None)
+    before = _core.count(held, _core.Options())
+    for corner in (lower, upper):
+        if corner is not None:
+            corner[...] = 1  # the search sees what is written after it was given the arrays: all boxes are in one place
+    assert before < _core.count(held, _core.Options()) == 50 * 49 // 2
 
 
 def test_arrays_that_may_not_be_written_are_read(boxes):

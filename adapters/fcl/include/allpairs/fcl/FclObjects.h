@@ -78,7 +78,8 @@ class FclObjects {
     bool isSame = true;
     bool isBox = true;
     for (int axis = 0; axis < 3; ++axis) {
-      isSame &= (row[axis] == now.min_[axis]) & (row[3 + axis] == now.max_[axis]);
+      isSame &= row[axis] == now.min_[axis];
+      isSame &= row[3 + axis] == now.max_[axis];
       isBox &= now.min_[axis] <= now.max_[axis];
     }
     if (isSame) return false;
