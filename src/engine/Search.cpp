@@ -320,6 +320,7 @@ std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
   PairTest test(sets.first, sets.second, options, sets.one);
   Plan search = plan(sets, options, test);
   search.rules.countOnly = true;
+  search.rules.likelyPairs = 0;
   runAll(search);
   return m_statistics.pairs;
 }

@@ -47,7 +47,9 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
     return;
   }
   PairTest test(sets.first, sets.second, options, sets.one);
-  streamAll(plan(sets, unlimited, test), options.batchSize, visitor);
+  Plan all = plan(sets, unlimited, test);
+  all.rules.likelyPairs = 0;  // handed on before there are many
+  streamAll(all, options.batchSize, visitor);
 }
 
 void Search::streamAll(const Plan& plan, std::size_t batchSize, PairVisitor visitor) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <span>
 #include <vector>
 
 #include "AllocationCount.h"
@@ -76,6 +77,22 @@ TEST(Allocation, TakesAtMost48BytesABoxBesideTheOutput) {
     const std::size_t pairs = Overlaps(options).find(boxes).size();
     // Growing doubles the output's buffer: its blocks, not what is written to them, add up to four times the pairs.
     EXPECT_LT(engine::bufferBytes() - before, 48 * kBoxes + 4 * pairs * sizeof(Pair));
+  }
+}
+
+TEST(Allocation, StreamingAndCountingTakeNoMoreForManyPairs) {
+  constexpr std::size_t kBoxes = 4000;
+  const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {0.1, 0.1, 0.1}});  // tested again in double
+  for (const Order order : {Order::ByFirst, Order::Unordered}) {
+    OverlapOptions options;
+    options.order = order;
+    const std::size_t before = engine::bufferBytes();
+    std::size_t streamed = 0;
+    streamOverlaps(
+        boxes, [&](std::span<const Pair> pairs) { streamed += pairs.size(); }, options);
+    EXPECT_EQ(streamed, kBoxes * (kBoxes - 1) / 2);
+    EXPECT_EQ(countOverlaps(boxes, options), streamed);
+    EXPECT_LT(engine::bufferBytes() - before, streamed * sizeof(Pair) / 10);
   }
 }
 
