@@ -2,16 +2,27 @@
 #include "Inputs.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "Progress.h"
 #include "Records.h"
+#include "allpairs/Error.h"
 #include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::app {
 namespace {
 
+void checkFolders(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) throw FileError(path, "is not a folder to look for files in");
+  }
+}
+
 scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line) {
+  checkFolders(settings.searchRoots);
   scene::ReadOptions options;
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;

@@ -65,6 +65,8 @@ TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {
     expectFailure(runProgram({command, obj}), kBadInput, obj + ":2: ");
     expectFailure(runProgram({command, text}), kBadInput, text + ": ");
     expectFailure(runProgram({command, folder.path() / "empty"}), kBadInput, "is a folder without mesh files");
+    expectFailure(runProgram({command, ALLPAIRS_SOURCE_DIR "/examples/boxes.csv", "--data", text}), kBadInput,
+                  text + ": is not a folder");
   }
 }
 
