@@ -45,7 +45,7 @@ void complain(std::string message) {
 
 /// What CLI11 says of an option that has no value or several, in words: "--margin: D is missing".
 std::string countProblem(const CLI::ArgumentMismatch& problem) {
-  const std::string text = problem.what();
+  std::string text = problem.what();
   const std::string option = text.substr(0, text.find(':'));
   if (text.find("At Most") != std::string::npos) return option + " may be given only once";
   constexpr std::string_view kBefore = "1 required ";
