@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "FileBytes.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
+#include "Words.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::scene {
@@ -50,11 +50,6 @@ std::string readText(const std::filesystem::path& path) {
   return text;
 }
 
-std::string lowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
+std::string lowerExtension(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }
 
 }  // namespace allpairs::scene

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "FileBytes.h"
 #include "MeshObject.h"
+#include "Position.h"
 #include "Words.h"
 #include "allpairs/Error.h"
 
@@ -30,9 +29,7 @@ void forEachLine(const std::string& text, Visit visit) {
   std::string_view rest = text;
   std::string joined;
   for (std::size_t number = 1; !rest.empty(); ++number) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = trimmed(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+    std::string_view line = trimmed(takeLine(rest));
     const bool goesOn = line.ends_with('\\') && !rest.empty();
     if (goesOn) line.remove_suffix(1);
     if (goesOn || !joined.empty()) {
@@ -64,7 +61,7 @@ class ObjReader {
     m_line = number;
     const std::string_view keyword = takeWord(line);
     if (keyword == "v") {
-      readPosition(line);
+      addPosition(line);
     } else if (keyword == "f" || keyword == "l" || keyword == "p") {
       readElement(keyword.front(), line);
     } else if (keyword == m_objectKeyword) {
@@ -72,16 +69,8 @@ class ObjReader {
     }
   }
 
-  void readPosition(std::string_view line) {
-    Point& position = m_positions.emplace_back();
-    for (double& coordinate : position) {
-      const std::string_view word = takeWord(line);
-      const std::optional<double> value = parseNumber(word);
-      if (!value || !std::isfinite(*value)) {
-        fail(word.empty() ? "a position has three coordinates" : "'" + std::string(word) + "' is no finite number");
-      }
-      coordinate = *value;
-    }
+  void addPosition(std::string_view line) {
+    m_positions.push_back(readPosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
   }
 
   void readElement(char kind, std::string_view line) {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "FileBytes.h"
 #include "MeshObject.h"
+#include "Position.h"
 #include "Words.h"
 #include "allpairs/Error.h"
 
@@ -22,7 +20,7 @@ class OffReader {
 
   std::vector<MeshObject> read() {
     readHeader();
-    for (std::uint64_t i = 0; i < m_vertices; ++i) readPosition(nextLine());
+    for (std::uint64_t i = 0; i < m_vertices; ++i) addPosition(nextLine());
     for (std::uint64_t i = 0; i < m_faces; ++i) readFace(nextLine());
     const bool isCloud = m_object.triangles.empty() && m_object.lines.empty() && m_object.points.empty();
     for (std::uint32_t i = 0; isCloud && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
@@ -33,9 +31,7 @@ class OffReader {
   /// The next line that holds more than blanks and a comment.
   std::string_view nextLine() {
     while (!m_rest.empty()) {
-      const std::size_t end = std::min(m_rest.find('\n'), m_rest.size());
-      const std::string_view line = m_rest.substr(0, end);
-      m_rest.remove_prefix(std::min(end + 1, m_rest.size()));
+      const std::string_view line = takeLine(m_rest);
       ++m_line;
       const std::string_view content = trimmed(line.substr(0, line.find('#')));
       if (!content.empty()) return content;
@@ -49,8 +45,7 @@ class OffReader {
     std::string_view line = nextLine();
     const std::size_t keyword = line.find("OFF");
     if (keyword == std::string_view::npos || line.find_first_not_of("STCN") < keyword) {
-      fail("is no OFF file of points in space: its first word is '" + std::string(takeWord(line).substr(0, kQuoted)) +
-           "'");
+      fail("is no OFF file of points in space: its first word is " + quotedWord(takeWord(line)));
     }
     line = trimmed(line.substr(keyword + 3));
     if (line == "BINARY") fail("is a binary OFF file, which is not read");
@@ -65,22 +60,14 @@ class OffReader {
     std::uint64_t value = 0;
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty() || problem != std::errc() || end != word.data() + word.size()) {
-      fail("'" + std::string(word.substr(0, kQuoted)) + "' is not a number of vertices or faces");
+      fail(quotedWord(word) + " is not a number of vertices or faces");
     }
     return value;
   }
 
-  void readPosition(std::string_view line) {
-    Point& position = m_object.positions.emplace_back();
-    for (double& coordinate : position) {
-      const std::string_view word = takeWord(line);
-      const std::optional<double> value = parseNumber(word);
-      if (word.empty()) fail("a position has three coordinates");
-      if (!value || !std::isfinite(*value)) {
-        fail("'" + std::string(word.substr(0, kQuoted)) + "' is no finite number");
-      }
-      coordinate = *value;
-    }
+  void addPosition(std::string_view line) {
+    m_object.positions.push_back(
+        readPosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
   }
 
   /// How many corners, their indices, and perhaps a colour.
@@ -106,15 +93,12 @@ class OffReader {
     std::uint32_t index = 0;
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), index);
     if (problem != std::errc() || end != word.data() + word.size() || index >= m_object.positions.size()) {
-      fail("index " + std::string(word.substr(0, kQuoted)) + " names no vertex: the file has " +
-           std::to_string(m_object.positions.size()));
+      fail("index " + shortWord(word) + " names no vertex: the file has " + std::to_string(m_object.positions.size()));
     }
     return index;
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
-
-  static constexpr std::size_t kQuoted = 40;  // characters of a word at fault that a message repeats
 
   std::string_view m_rest;
   const Path& m_path;

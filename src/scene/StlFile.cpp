@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "FileBytes.h"
 #include "MeshObject.h"
+#include "Position.h"
 #include "Words.h"
 #include "allpairs/Error.h"
 
@@ -29,12 +29,6 @@ T littleEndian(std::string_view bytes) {
   std::memcpy(copy.data(), bytes.data(), sizeof(T));
   if constexpr (std::endian::native == std::endian::big) std::reverse(copy.begin(), copy.end());
   return std::bit_cast<T>(copy);
-}
-
-std::string lowerCase(std::string_view word) {
-  std::string result(word);
-  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
 }
 
 /// Adds a triangle of the last three positions.
@@ -84,10 +78,8 @@ class TextReader {
 
   std::vector<MeshObject> read() {
     while (!m_rest.empty()) {
-      const std::size_t end = std::min(m_rest.find('\n'), m_rest.size());
       ++m_line;
-      readLine(trimmed(m_rest.substr(0, end)));
-      m_rest.remove_prefix(std::min(end + 1, m_rest.size()));
+      readLine(trimmed(takeLine(m_rest)));
     }
     if (m_isInSolid) fail("ends within a solid: there is no 'endsolid'");
     return std::move(m_objects);
@@ -104,7 +96,7 @@ class TextReader {
       requireCorners(0);
       m_isInSolid = false;
     } else if (word == "vertex") {
-      readPosition(line);
+      addPosition(line);
     } else if (word == "facet") {
       requireCorners(0);
     } else if (word == "endfacet") {
@@ -112,7 +104,7 @@ class TextReader {
       addTriangle(m_objects.back());
       m_corners = 0;
     } else if (!word.empty() && word != "outer" && word != "endloop" && word != "color") {
-      fail("'" + word.substr(0, kQuoted) + "' is no word of STL");
+      fail(quotedWord(word) + " is no word of STL");
     }
   }
 
@@ -121,23 +113,14 @@ class TextReader {
     if (m_corners != count) fail("a facet has three vertices, not " + std::to_string(m_corners));
   }
 
-  void readPosition(std::string_view line) {
+  void addPosition(std::string_view line) {
     if (!m_isInSolid) fail("a vertex stands outside of any solid");
     ++m_corners;
-    for (double& coordinate : m_objects.back().positions.emplace_back()) {
-      const std::string_view word = takeWord(line);
-      const std::optional<double> value = parseNumber(word);
-      if (word.empty()) fail("a vertex has three coordinates");
-      if (!value || !std::isfinite(*value)) {
-        fail("'" + std::string(word.substr(0, kQuoted)) + "' is no finite number");
-      }
-      coordinate = *value;
-    }
+    m_objects.back().positions.push_back(
+        readPosition(line, "a vertex", [this](const std::string& problem) { fail(problem); }));
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
-
-  static constexpr std::size_t kQuoted = 40;  // characters of a word at fault that a message repeats
 
   std::string_view m_rest;
   const Path& m_path;

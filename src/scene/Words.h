@@ -19,6 +19,27 @@ inline constexpr std::string_view kBlanks = " \t\r\f\v";
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+/// Takes the first line off the text, without its end.
+[[nodiscard]] inline std::string_view takeLine(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(line.size() == text.size() ? line.size() : line.size() + 1);
+  return line;
+}
+
+/// As much of a word at fault as a message repeats.
+[[nodiscard]] inline std::string shortWord(std::string_view word) {
+  constexpr std::size_t kRepeated = 40;
+  return std::string(word.substr(0, kRepeated));
+}
+
+[[nodiscard]] inline std::string quotedWord(std::string_view word) { return "'" + shortWord(word) + "'"; }
+
+[[nodiscard]] inline std::string lowerCase(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
 /// Takes the first word off the text; empty at its end.
 [[nodiscard]] inline std::string_view takeWord(std::string_view& text) {
   text = trimmed(text);
