@@ -88,11 +88,22 @@ export class Details {
     const tags = tagsOf(this.app, model).map((tag) => make("span", "tag", tag));
     const name = make("p", "names", make("span", "model-name", scene.nameOf(model)), ...tags);
     const partners = new Set(table.entriesOf(model).map((e) => (table.first(e) === model ? table.second(e) : table.first(e))));
-    fillWith(this.element, this.head("Model"), name, facts, ...this.others(model, partners, frame));
+    const rows = this.othersOf(model, partners, frame);
+    const { list, virtual } = this.listOf(model, rows);
+    fillWith(this.element, this.head("Model"), name, facts, this.partnerCount(model, partners), list);
+    virtual.setLength(rows.length); // rows are measured, so only now that the list is in the document
+  }
+
+  partnerCount(model, partners) {
+    const heading = make("h3", "", counted(partners.size, "partner"));
+    heading.id = "partner-count";
+    const without = this.app.scene.models - partners.size - (partners.has(model) ? 0 : 1);
+    if (without > 0) heading.append(make("span", "note", `, and why ${grouped(without)} other${without === 1 ? " is" : "s are"} none`));
+    return heading;
   }
 
   /** Partners first, then all others with the reason, nearest first. */
-  others(model, partners, frame) {
+  othersOf(model, partners, frame) {
     const { scene } = this.app;
     const rows = [...partners].sort((a, b) => a - b).map((other) => ({ other, text: other === model ? "itself" : "partner", isPartner: true }));
     const reasons = [];
@@ -103,19 +114,17 @@ export class Details {
       reasons.push({ other, text, gap: other === model ? -2 : reason.verdict === "apart" ? reason.gap : -1 });
     }
     reasons.sort((a, b) => a.gap - b.gap || a.other - b.other);
-    rows.push(...reasons);
-    const heading = make("h3", "", counted(partners.size, "partner"));
-    heading.id = "partner-count";
-    const without = reasons.filter(({ other }) => other !== model).length;
-    if (without > 0) heading.append(make("span", "note", `, and why ${grouped(without)} other${without === 1 ? " is" : "s are"} none`));
+    return rows.concat(reasons);
+  }
+
+  listOf(model, rows) {
     const list = make("div", "reasons");
     const virtual = new VirtualList(list, {
       label: "Partners, and why others are none",
       fill: (row, index) => this.fillReason(row, rows[index]),
       choose: (index) => this.app.choose([model, rows[index].other]),
     });
-    virtual.setLength(rows.length);
-    return [heading, list];
+    return { list, virtual };
   }
 
   fillReason(row, { other, text, isPartner }) {

@@ -292,7 +292,11 @@ test("meshes that move have the pairs of track, frame by frame, and are drawn wh
   assert.ok(!first.equals(last));
   await page.fill("#pairs-search", "onerror");
   await page.click("#pairs-list .row");
-  await page.click("#details .link.first");
+  const height = await page.$eval("#details .link.first", (link) => {
+    link.click();
+    return document.querySelector("#details .row").getBoundingClientRect().height; // at once, not a moment later
+  });
+  assert.ok(height > 10, `${height}`);
   assert.match(await page.textContent("#details .model-name"), /^<img src=x onerror=alert\(1\)>: triangle [0-3]$/);
   const partners = Number((await ownText(page, "#partner-count")).split(" ")[0]);
   await page.$eval("#details .list", (list, part) => (list.scrollTop = part * list.scrollHeight), partners / track.boxes);
