@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #if defined(__linux__)
@@ -60,6 +61,7 @@ std::size_t mappedSize(std::size_t bytes) {
 struct SpareBlock {
   void* memory = nullptr;
   std::size_t size = 0;
+  std::uint64_t came = 0;  ///< When it came among those that all threads share.
 };
 
 /// The system may take the pages back when it needs memory; until then they are as they were. No more than advice.
@@ -74,39 +76,42 @@ void lend([[maybe_unused]] SpareBlock block) {
 template <std::size_t kCapacity>
 class SpareBlocks {
  public:
-  /// A block of that size, or null.
+  /// The block of that size that came last, or null.
   void* take(std::size_t size) {
-    for (SpareBlock& block : m_blocks) {
-      if (block.memory == nullptr || block.size != size) continue;
-      m_total -= size;
-      return std::exchange(block.memory, nullptr);
+    for (std::size_t i = m_count; i-- > 0;) {
+      if (m_blocks[i].size == size) return takeAt(i).memory;
     }
     return nullptr;
   }
 
-  /// Keeps the block, or returns false where there are `mostEqual` of its size, or `mostBytes` of all.
+  /// Keeps the block; returns false where there are `mostEqual` of its size, or `mostBytes` of all.
   bool keep(SpareBlock spare, std::size_t mostEqual, std::size_t mostBytes) {
-    if (m_total + spare.size > mostBytes) return false;
-    SpareBlock* place = nullptr;
-    for (SpareBlock& block : m_blocks) {
-      if (block.memory == nullptr) {
-        place = &block;
-      } else if (block.size == spare.size && mostEqual-- == 1) {
-        return false;
-      }
-    }
-    if (place == nullptr) return false;
-    *place = spare;
-    m_total += spare.size;
+    if (m_count == kCapacity || m_bytes + spare.size > mostBytes) return false;
+    const auto isEqual = [&](const SpareBlock& block) { return block.size == spare.size; };
+    if (std::cmp_greater_equal(std::ranges::count_if(blocks(), isEqual), mostEqual)) return false;
+    m_blocks[m_count++] = spare;
+    m_bytes += spare.size;
     return true;
   }
 
-  [[nodiscard]] const std::array<SpareBlock, kCapacity>& blocks() const noexcept { return m_blocks; }
+  /// In the order in which they came.
+  [[nodiscard]] std::span<const SpareBlock> blocks() const noexcept { return std::span(m_blocks).first(m_count); }
+
+  SpareBlock takeAt(std::size_t index) {
+    const SpareBlock taken = m_blocks[index];
+    std::copy(m_blocks.begin() + index + 1, m_blocks.begin() + m_count, m_blocks.begin() + index);
+    --m_count;
+    m_bytes -= taken.size;
+    return taken;
+  }
 
  private:
   std::array<SpareBlock, kCapacity> m_blocks;
-  std::size_t m_total = 0;
+  std::size_t m_count = 0;
+  std::size_t m_bytes = 0;
 };
+
+void unmap(SpareBlock block) { munmap(block.memory, block.size); }
 
 /// What all threads share: what one of them maps, another one may free. Whoever finds it in use goes without, so that nobody
 /// waits, not even the child of a process that was forked meanwhile.
@@ -119,21 +124,35 @@ class SharedBlocks {
 
   /// Gives the block back to the system where it can't be kept.
   void give(SpareBlock block) {
-    if (!keep(block)) munmap(block.memory, block.size);
+    if (!keep(block)) unmap(block);
   }
 
  private:
   static constexpr std::size_t kCapacity = 64;
 
+  /// A block that nobody has asked for while so many bytes came makes room: it was left by a search of another size. A
+  /// younger one stays, since a search that needs more than is kept would find nothing of what it freed the last time.
+  static constexpr std::uint64_t kOld = 2 * kMostShared;
+
+  /// What a small block counts as, so that small ones make room as well.
+  static constexpr std::size_t kLeastCounted = kOld / 256;
+
   bool keep(SpareBlock block) {
     const std::unique_lock lock(m_mutex, std::try_to_lock);
-    if (!lock.owns_lock() || !m_spare.keep(block, kCapacity, kMostShared)) return false;
+    if (!lock.owns_lock() || block.size > kMostShared) return false;
+    m_given += std::max(block.size, kLeastCounted);
+    block.came = m_given;
+    while (!m_spare.keep(block, kCapacity, kMostShared)) {
+      if (m_spare.blocks().front().came + kOld > m_given) return false;
+      unmap(m_spare.takeAt(0));
+    }
     if (block.size >= kLargePage) lend(block);
     return true;
   }
 
   std::mutex m_mutex;
   SpareBlocks<kCapacity> m_spare;
+  std::uint64_t m_given = 0;
 };
 
 /// Never destroyed: threads may end after everything else has.
@@ -149,9 +168,7 @@ class OwnBlocks {
   OwnBlocks(const OwnBlocks&) = delete;
   OwnBlocks& operator=(const OwnBlocks&) = delete;
   ~OwnBlocks() {
-    for (const SpareBlock& block : m_spare.blocks()) {
-      if (block.memory != nullptr) sharedBlocks().give(block);
-    }
+    for (const SpareBlock& block : m_spare.blocks()) sharedBlocks().give(block);
   }
 
   void* take(std::size_t size) { return size <= kLargestOwn ? m_spare.take(size) : nullptr; }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace allpairs::engine {
 namespace {
@@ -56,6 +57,27 @@ TEST(Memory, ABlockOfOneThreadMayBeFreedByAnother) {
   EXPECT_TRUE(holds(numbers, kSize, 7));
   std::thread([taken = std::move(numbers)]() mutable { EXPECT_TRUE(holds(grown(kSize, 2.0, 8), kSize, 8)); }).join();
 }
+
+#if defined(__linux__)
+// Fresh memory is zero; that of a block which was kept is as it was left.
+TEST(Memory, WhatSearchesOfOtherSizesLeftMakesRoom) {
+  constexpr std::size_t kOther = std::size_t{3} << 20;
+  constexpr std::size_t kSize = std::size_t{2} << 20;
+  constexpr std::uint64_t kMark = 0x5EED;
+  {
+    std::vector<Numbers> others(12);
+    for (Numbers& numbers : others) numbers.require(kOther);
+  }
+  bool isKept = false;
+  for (int round = 0; round < 1000 && !isKept; ++round) {
+    Numbers numbers;
+    numbers.require(kSize);
+    isKept = numbers[kSize - 1] == kMark;
+    numbers[kSize - 1] = kMark;
+  }
+  EXPECT_TRUE(isKept);
+}
+#endif
 
 TEST(Memory, IsAlignedToACacheLine) {
   for (const std::size_t size : {std::size_t{1}, std::size_t{1000}, std::size_t{100000}, std::size_t{10000000}}) {
