@@ -97,6 +97,8 @@ class SpareBlocks {
   /// In the order in which they came.
   [[nodiscard]] std::span<const SpareBlock> blocks() const noexcept { return std::span(m_blocks).first(m_count); }
 
+  [[nodiscard]] std::size_t bytes() const noexcept { return m_bytes; }
+
   SpareBlock takeAt(std::size_t index) {
     const SpareBlock taken = m_blocks[index];
     std::copy(m_blocks.begin() + index + 1, m_blocks.begin() + m_count, m_blocks.begin() + index);
@@ -134,6 +136,10 @@ class SharedBlocks {
   /// younger one stays, since a search that needs more than is kept would find nothing of what it freed the last time.
   static constexpr std::uint64_t kOld = 2 * kMostShared;
 
+  /// So much is kept without a word to the system, which would have to tell every processor at each block.
+  static constexpr std::size_t kMostHeld = std::size_t{1} << 26;
+  static constexpr std::size_t kAlwaysLent = std::size_t{1} << 24;
+
   /// What a small block counts as, so that small ones make room as well.
   static constexpr std::size_t kLeastCounted = kOld / 256;
 
@@ -146,7 +152,7 @@ class SharedBlocks {
       if (m_spare.blocks().front().came + kOld > m_given) return false;
       unmap(m_spare.takeAt(0));
     }
-    if (block.size >= kLargePage) lend(block);
+    if (block.size >= kAlwaysLent || m_spare.bytes() > kMostHeld) lend(block);
     return true;
   }
 
