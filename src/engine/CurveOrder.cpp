@@ -28,7 +28,7 @@ constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
 constexpr std::size_t kBucketsPerTask = 2;
 
 /// A chunk smaller than this is not worth a task.
-constexpr std::size_t kMinChunk = std::size_t{1} << 14;
+constexpr std::size_t kMinChunk = std::size_t{1} << 13;
 
 /// Blocks whose keys are computed together.
 constexpr std::size_t kBlocksAtOnce = 4;
@@ -152,7 +152,7 @@ void orderCrowd(std::span<KeyedBox> crowd, KeyedBox* spare, const LaneReader& re
 }  // namespace
 
 std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
-  const std::size_t most = executor.concurrency() == 1 ? 1 : 4 * executor.concurrency();
+  const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
   m_chunkCount = std::clamp<std::size_t>(std::min(most, size / kMinChunk), 1, 256);
   if (m_chunks.size() < m_chunkCount) m_chunks.resize(m_chunkCount);
   for (std::size_t i = 0; i < m_chunkCount; ++i) {
