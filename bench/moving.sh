@@ -10,7 +10,7 @@ data=${ALLPAIRS_DATA:-$docs/../../shared/data}/ccd
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-"$programs/moving_benchmark" --frames 200 --peer-frames 10 --output "$folder/moving.csv"
+"$programs/moving_benchmark" --frames 200 --peer-frames 40 --output "$folder/moving.csv"
 "$programs/cycle_benchmark" --output "$folder/cycle.csv"
 "$programs/query_benchmark" --output "$folder/queries.csv"
 if [[ -d $data ]]; then

@@ -5,7 +5,7 @@
 //
 //   element_benchmark [--output FILE] START END [START END ...]
 //
-// Times are processor time in milliseconds, the median of several runs, one thread.
+// Times are processor time in milliseconds, the median of several rounds in which all take turns, one thread.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -13,7 +13,10 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "../Peer.h"
 #include "../records/RecordFile.h"
@@ -26,93 +29,100 @@ using namespace allpairs;
 using bench::ElementStep;
 using elements::CandidateKind;
 
-constexpr int kRuns = 3;
+constexpr int kRounds = 5;
 
 constexpr std::array<CandidateKind, 3> kKinds{CandidateKind::VertexFace, CandidateKind::EdgeEdge,
                                               CandidateKind::FaceFace};
 constexpr std::array<const char*, 3> kNames{"vertex-face", "edge-edge", "face-face"};
 
-std::vector<double> timesOf(const std::function<void()>& run) {
-  std::vector<double> cpuMs;
-  for (int i = 0; i < kRuns; ++i) {
-    const measure::Stopwatch watch;
-    run();
-    cpuMs.push_back(watch.elapsed().cpuMs);
-  }
-  return cpuMs;
-}
-
-/// Prints what a contender took, and writes it down.
-class Show {
- public:
-  Show(std::string step, bench::RecordFile& file) : m_step(std::move(step)), m_file(file) {}
-
-  void operator()(const char* list, const std::string& who, const std::string& how, std::size_t pairs,
-                  const std::vector<double>& cpuMs) {
-    std::printf("%-20s %-12s %-10s %-32s %10zu %10.2f\n", m_step.c_str(), list, who.c_str(), how.c_str(), pairs,
-                measure::median(cpuMs));
-    std::fflush(stdout);
-    m_file.add({list, m_step, pairs, who, how, pairs, cpuMs, true});
-  }
-
- private:
-  std::string m_step;
-  bench::RecordFile& m_file;
+/// A way to make a list; run() returns how many pairs it has.
+struct Contender {
+  std::string who;
+  std::string how;
+  std::function<std::size_t()> run;
+  std::size_t pairs = 0;
+  std::vector<double> cpuMs{};
 };
 
-/// One search from positions to the list, with nothing kept from before but the topology; and one that has run before.
-void runOurs(const ElementStep& step, const elements::MeshTopology& topology, std::size_t i, Show& show) {
-  const auto search = [&](elements::ElementCandidates& candidates) {
-    candidates.setPositions(0, std::span<const double>(step.start), step.end);
-    return candidates.find(kKinds[i]).size();
-  };
-  std::size_t pairs = 0;
-  const std::vector<double> once = timesOf([&] {
-    elements::ElementCandidates candidates(topology, {.order = Order::Unordered});
-    pairs = search(candidates);
-  });
-  show(kNames[i], "Allpairs", "once", pairs, once);
-  elements::ElementCandidates kept(topology, {.order = Order::Unordered});
-  search(kept);
-  show(kNames[i], "Allpairs", "second step", pairs, timesOf([&] { search(kept); }));
+/// All contenders take turns, some rounds; then what they took is printed and written down.
+void contest(const std::string& step, const char* list, std::vector<Contender> contenders, bench::RecordFile& file) {
+  for (int round = 0; round < kRounds; ++round) {
+    for (Contender& contender : contenders) {
+      const measure::Stopwatch watch;
+      contender.pairs = contender.run();
+      contender.cpuMs.push_back(watch.elapsed().cpuMs);
+    }
+  }
+  for (const Contender& c : contenders) {
+    std::printf("%-20s %-12s %-10s %-32s %10zu %10.2f\n", step.c_str(), list, c.who.c_str(), c.how.c_str(), c.pairs,
+                measure::median(c.cpuMs));
+    file.add({list, step, c.pairs, c.who, c.how, c.pairs, c.cpuMs, true});
+  }
+  std::fflush(stdout);
 }
 
-void runPeers(const std::vector<float>& rows, const elements::MeshTopology& topology, std::size_t i, Show& show) {
+/// One search from positions to the list, with nothing kept from before but the topology; and one that has run before.
+void addOurs(const ElementStep& step, const elements::MeshTopology& topology, CandidateKind kind,
+             std::vector<Contender>& contenders) {
+  const auto search = [&step, kind](elements::ElementCandidates& candidates) {
+    candidates.setPositions(0, std::span<const double>(step.start), step.end);
+    return candidates.find(kind).size();
+  };
+  contenders.push_back({"Allpairs", "once", [&topology, search] {
+                          elements::ElementCandidates candidates(topology, {.order = Order::Unordered});
+                          return search(candidates);
+                        }});
+  const auto kept =
+      std::make_shared<elements::ElementCandidates>(topology, elements::CandidateOptions{.order = Order::Unordered});
+  search(*kept);
+  contenders.push_back({"Allpairs", "second step", [kept, search] { return search(*kept); }});
+}
+
+void addPeers(const std::vector<float>& rows, const elements::MeshTopology& topology, CandidateKind kind,
+              std::vector<Contender>& contenders) {
   for (const bench::Peer& peer : bench::packagedPeers()) {
     if (peer.name != "CGAL" && peer.name != "Embree" && peer.name != "FCL") continue;
     for (const bench::Setting& setting : peer.settings) {
-      std::size_t pairs = 0;
-      const std::vector<double> cpuMs = timesOf([&] {
-        const auto search = setting.make();
-        pairs = bench::withoutShared(search->find(rows), kKinds[i], topology).size();
-      });
-      show(kNames[i], peer.name, setting.name, pairs, cpuMs);
+      contenders.push_back({peer.name, setting.name, [&rows, &topology, kind, make = setting.make] {
+                              const auto search = make();
+                              return bench::withoutShared(search->find(rows), kind, topology).size();
+                            }});
     }
   }
 }
 
-void runBetween([[maybe_unused]] const std::vector<float>& vertices, [[maybe_unused]] const std::vector<float>& faces,
-                [[maybe_unused]] const elements::MeshTopology& topology, [[maybe_unused]] Show& show) {
+void addBetween([[maybe_unused]] const std::vector<float>& vertices, [[maybe_unused]] const std::vector<float>& faces,
+                [[maybe_unused]] const elements::MeshTopology& topology,
+                [[maybe_unused]] std::vector<Contender>& contenders) {
 #ifdef ALLPAIRS_PEER_CGAL
   for (const std::ptrdiff_t cutoff : {10, 100, 1000}) {
-    std::size_t pairs = 0;
-    const std::vector<double> cpuMs = timesOf(
-        [&] { pairs = bench::withoutShared(bench::cgalBetween(vertices, faces, cutoff), kKinds[0], topology).size(); });
-    show(kNames[0], "CGAL", "boxes, cutoff " + std::to_string(cutoff), pairs, cpuMs);
+    contenders.push_back({"CGAL", "boxes, cutoff " + std::to_string(cutoff), [&vertices, &faces, &topology, cutoff] {
+                            return bench::withoutShared(bench::cgalBetween(vertices, faces, cutoff),
+                                                        CandidateKind::VertexFace, topology)
+                                .size();
+                          }});
   }
 #endif
 }
 
-void runAll(const ElementStep& step, Show show) {
+void runAll(const ElementStep& step, const std::string& name, bench::RecordFile& file) {
   const elements::MeshView view{step.start.size() / 3, step.triangles};
   const elements::MeshTopology topology(view);
-  show("topology", "Allpairs", "made once", topology.counts().edges,
-       timesOf([&] { const elements::MeshTopology again(view); }));
-  for (std::size_t i = 0; i < kKinds.size(); ++i) runOurs(step, topology, i, show);
+  contest(name, "topology", {{"Allpairs", "made once", [&view] { return elements::MeshTopology(view).counts().edges; }}},
+          file);
+  const std::vector<float> vertices = vertexRows(step);
+  const std::vector<float> edges = edgeRows(step, topology);
   const std::vector<float> faces = faceRows(step, topology);
-  runBetween(vertexRows(step), faces, topology, show);
-  runPeers(edgeRows(step, topology), topology, 1, show);
-  runPeers(faces, topology, 2, show);
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    std::vector<Contender> contenders;
+    addOurs(step, topology, kKinds[i], contenders);
+    if (kKinds[i] == CandidateKind::VertexFace) {
+      addBetween(vertices, faces, topology, contenders);
+    } else {
+      addPeers(kKinds[i] == CandidateKind::EdgeEdge ? edges : faces, topology, kKinds[i], contenders);
+    }
+    contest(name, kNames[i], std::move(contenders), file);
+  }
 }
 
 }  // namespace
@@ -130,7 +140,7 @@ int main(int argc, char** argv) {
     std::printf("%-20s %-12s %-10s %-32s %10s %10s\n", "step", "list", "who", "how", "pairs", "ms");
     for (std::size_t i = 0; i < files.size(); i += 2) {
       const std::string step = std::filesystem::path(files[i]).parent_path().filename().string();
-      runAll(bench::readStep(files[i], files[i + 1]), Show(step, file));
+      runAll(bench::readStep(files[i], files[i + 1]), step, file);
     }
     return 0;
   } catch (const CLI::ParseError& error) {

@@ -65,6 +65,16 @@ double percentile(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
+/// How many times longer an entry took than the first one: the median over the frames in which both took their turn, which
+/// a burst of other work on the machine meets alike.
+double ratioToFirst(const Entry& entry, const Entry& first) {
+  std::vector<double> ratios;
+  for (std::size_t frame = 0; frame < std::min(entry.cpuMs.size(), first.cpuMs.size()); ++frame) {
+    ratios.push_back(entry.cpuMs[frame] / first.cpuMs[frame]);
+  }
+  return measure::median(ratios);
+}
+
 std::vector<Entry> run(const Motion& motion, const Request& request, std::size_t& pairs) {
   std::vector<Entry> entries;
   for (std::vector<MovingContender> part : {ownContenders(), peerContenders()}) {
@@ -100,14 +110,15 @@ void report(const Motion& motion, const Request& request, const std::vector<Entr
     const double median = measure::median(entry.cpuMs);
     const double late = percentile(entry.cpuMs, 0.99);
     const double worst = percentile(entry.cpuMs, 1.0);
-    std::printf("  %-10s %-32s median %8.3f ms  99%% %8.3f  worst %8.3f  of %zu frames%s\n",
+    const double ratio = ratioToFirst(entry, entries.front());
+    std::printf("  %-10s %-32s median %8.3f ms  99%% %8.3f  worst %8.3f  of %zu frames  ratio %5.2f%s\n",
                 entry.contender.name.c_str(), entry.contender.setting.c_str(), median, late, worst, entry.cpuMs.size(),
-                entry.wrongFrames == 0 ? "" : "  WRONG PAIRS");
+                ratio, entry.wrongFrames == 0 ? "" : "  WRONG PAIRS");
     if (csv.is_open()) {
       csv << provenance.commit << ',' << provenance.compiler << ',' << provenance.processor << ',' << motion.name << ','
           << request.boxes << ',' << pairs << ",\"" << entry.contender.name << "\",\"" << entry.contender.setting
           << "\"," << entry.cpuMs.size() << ',' << median << ',' << late << ',' << worst << ','
-          << measure::median(entry.wallMs) << ',' << entry.wrongFrames << '\n';
+          << measure::median(entry.wallMs) << ',' << ratio << ',' << entry.wrongFrames << '\n';
     }
   }
 }
@@ -118,7 +129,7 @@ int runAll(const Request& request) {
     csv.open(request.output);
     if (!csv) throw FileError(request.output, "can't be written");
     csv << "commit,compiler,processor,motion,boxes,pairs,contender,setting,frames,median_cpu_ms,p99_cpu_ms,"
-           "worst_cpu_ms,median_wall_ms,wrong_frames\n";
+           "worst_cpu_ms,median_wall_ms,median_ratio,wrong_frames\n";
   }
   bool right = true;
   for (const Motion& motion : motions()) {
