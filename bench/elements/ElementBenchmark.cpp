@@ -108,8 +108,8 @@ void addBetween([[maybe_unused]] const std::vector<float>& vertices, [[maybe_unu
 void runAll(const ElementStep& step, const std::string& name, bench::RecordFile& file) {
   const elements::MeshView view{step.start.size() / 3, step.triangles};
   const elements::MeshTopology topology(view);
-  contest(name, "topology", {{"Allpairs", "made once", [&view] { return elements::MeshTopology(view).counts().edges; }}},
-          file);
+  contest(name, "topology",
+          {{"Allpairs", "made once", [&view] { return elements::MeshTopology(view).counts().edges; }}}, file);
   const std::vector<float> vertices = vertexRows(step);
   const std::vector<float> edges = edgeRows(step, topology);
   const std::vector<float> faces = faceRows(step, topology);

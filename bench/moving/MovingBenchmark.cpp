@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Moving boxes, frame after frame: the world beside our one-shot search and the peers that update, on the same frames,
 // whose pairs are compared in each frame. Writes a line of CSV for each contender.
-//   moving_benchmark [--boxes N] [--frames N] [--peer-frames N] [--scene NAME] [--setting NAME] [--output FILE]
+//   moving_benchmark [--boxes N] [--frames N] [--peer-frames N] [--scene NAME] [--setting NAME]... [--turn N]
+//     [--output FILE]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -27,14 +28,17 @@ struct Request {
   std::size_t frames = 200;
   std::size_t peerFrames = 20;
   std::string scene;
-  std::string setting;
+  std::vector<std::string> settings;
   std::string output;
+  std::size_t stretch = 1;
 };
 
 /// A contender in a scene.
 struct Entry {
   MovingContender contender;
   std::unique_ptr<MovingSearch> search;
+  MovingScene scene;
+  std::size_t frames = 0;
   std::vector<double> cpuMs;
   std::vector<double> wallMs;
   std::size_t wrongFrames = 0;
@@ -48,14 +52,17 @@ std::vector<Pair> sorted(std::vector<Pair> pairs) {
   return pairs;
 }
 
-void step(Entry& entry, const MovingScene& scene, const std::vector<Pair>& expected) {
+/// The next frame of a contender.
+void step(Entry& entry) {
+  entry.scene.advance();
+  const std::vector<Pair> expected = overlaps(BoxSet::fromRows(entry.scene.rows()));
   const measure::Stopwatch watch;
-  entry.search->step(scene);
+  entry.search->step(entry.scene);
   const measure::Duration took = watch.elapsed();
   entry.cpuMs.push_back(took.cpuMs);
   entry.wallMs.push_back(took.wallMs);
   std::vector<Pair> pairs;
-  entry.search->collect(scene, pairs);
+  entry.search->collect(entry.scene, pairs);
   if (sorted(std::move(pairs)) != expected) ++entry.wrongFrames;
 }
 
@@ -75,36 +82,46 @@ double ratioToFirst(const Entry& entry, const Entry& first) {
   return measure::median(ratios);
 }
 
-std::vector<Entry> run(const Motion& motion, const Request& request, std::size_t& pairs) {
+bool isWanted(const Request& request, const MovingContender& contender) {
+  const std::vector<std::string>& wanted = request.settings;
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), contender.setting) != wanted.end();
+}
+
+std::vector<Entry> entriesFor(const Motion& motion, const Request& request) {
   std::vector<Entry> entries;
-  for (std::vector<MovingContender> part : {ownContenders(), peerContenders()}) {
-    for (MovingContender& contender : part) {
-      if (!request.setting.empty() && contender.setting != request.setting) continue;
-      if (contender.own || request.peerFrames != 0) entries.push_back({contender, contender.make(), {}, {}, 0});
-    }
-  }
-  MovingScene scene(motion, request.boxes, 1);
-  for (Entry& entry : entries) entry.search->start(scene);
-  // The first frames build up what the later ones keep.
-  constexpr std::size_t kWarmUp = 3;
-  for (std::size_t frame = 0; frame < kWarmUp + request.frames; ++frame) {
-    scene.advance();
-    const std::vector<Pair> expected = overlaps(BoxSet::fromRows(scene.rows()));
-    pairs = expected.size();
-    for (Entry& entry : entries) {
-      if (!entry.contender.own && frame >= kWarmUp + request.peerFrames) continue;
-      step(entry, scene, expected);
-    }
-    if (frame + 1 == kWarmUp) {
-      for (Entry& entry : entries) entry.cpuMs.clear(), entry.wallMs.clear();
+  for (const std::vector<MovingContender>& part : {ownContenders(), peerContenders()}) {
+    for (const MovingContender& contender : part) {
+      if (!isWanted(request, contender)) continue;
+      const std::size_t frames = contender.own ? request.frames : std::min(request.frames, request.peerFrames);
+      if (frames == 0) continue;
+      entries.push_back({contender, contender.make(), MovingScene(motion, request.boxes, 1), frames, {}, {}, 0});
     }
   }
   return entries;
 }
 
-void report(const Motion& motion, const Request& request, const std::vector<Entry>& entries, std::size_t pairs,
-            std::ofstream& csv) {
-  std::printf("%s, %zu boxes, %zu pairs\n", motion.name.c_str(), request.boxes, pairs);
+/// Runs all frames; contenders take turns of some frames each.
+void run(std::vector<Entry>& entries, std::size_t stretch) {
+  // The first frames build up what the later ones keep.
+  constexpr std::size_t kWarmUp = 3;
+  for (Entry& entry : entries) {
+    entry.search->start(entry.scene);
+    for (std::size_t frame = 0; frame < kWarmUp; ++frame) step(entry);
+    entry.cpuMs.clear();
+    entry.wallMs.clear();
+  }
+  for (bool goesOn = true; goesOn;) {
+    goesOn = false;
+    for (Entry& entry : entries) {
+      for (std::size_t i = 0; i < stretch && entry.cpuMs.size() < entry.frames; ++i) step(entry);
+      goesOn = goesOn || entry.cpuMs.size() < entry.frames;
+    }
+  }
+}
+
+void report(const Motion& motion, const Request& request, const std::vector<Entry>& entries, std::ofstream& csv) {
+  const std::size_t pairs = overlaps(BoxSet::fromRows(entries.front().scene.rows())).size();
+  std::printf("%s, %zu boxes, %zu pairs, turns of %zu\n", motion.name.c_str(), request.boxes, pairs, request.stretch);
   const measure::Provenance provenance = measure::provenance();
   for (const Entry& entry : entries) {
     const double median = measure::median(entry.cpuMs);
@@ -117,8 +134,8 @@ void report(const Motion& motion, const Request& request, const std::vector<Entr
     if (csv.is_open()) {
       csv << provenance.commit << ',' << provenance.compiler << ',' << provenance.processor << ',' << motion.name << ','
           << request.boxes << ',' << pairs << ",\"" << entry.contender.name << "\",\"" << entry.contender.setting
-          << "\"," << entry.cpuMs.size() << ',' << median << ',' << late << ',' << worst << ','
-          << measure::median(entry.wallMs) << ',' << ratio << ',' << entry.wrongFrames << '\n';
+          << "\"," << request.stretch << ',' << entry.cpuMs.size() << ',' << median << ',' << late << ',' << worst
+          << ',' << measure::median(entry.wallMs) << ',' << ratio << ',' << entry.wrongFrames << '\n';
     }
   }
 }
@@ -128,15 +145,16 @@ int runAll(const Request& request) {
   if (!request.output.empty()) {
     csv.open(request.output);
     if (!csv) throw FileError(request.output, "can't be written");
-    csv << "commit,compiler,processor,motion,boxes,pairs,contender,setting,frames,median_cpu_ms,p99_cpu_ms,"
+    csv << "commit,compiler,processor,motion,boxes,pairs,contender,setting,turn_frames,frames,median_cpu_ms,p99_cpu_ms,"
            "worst_cpu_ms,median_wall_ms,median_ratio,wrong_frames\n";
   }
   bool right = true;
   for (const Motion& motion : motions()) {
     if (!request.scene.empty() && request.scene != motion.name) continue;
-    std::size_t pairs = 0;
-    const std::vector<Entry> entries = run(motion, request, pairs);
-    report(motion, request, entries, pairs, csv);
+    std::vector<Entry> entries = entriesFor(motion, request);
+    if (entries.empty()) continue;
+    run(entries, request.stretch);
+    report(motion, request, entries, csv);
     for (const Entry& entry : entries) right = right && entry.wrongFrames == 0;
   }
   return right ? 0 : 1;
@@ -153,7 +171,9 @@ int main(int argc, char** argv) {
   app.add_option("--frames", request.frames, "How many frames ours are measured for");
   app.add_option("--peer-frames", request.peerFrames, "How many of them the peers are measured for");
   app.add_option("--scene", request.scene, "One scene only: straight, brownian, one-percent, slow");
-  app.add_option("--setting", request.setting, "One setting only, such as world");
+  app.add_option("--setting", request.settings, "Only these settings, such as world (repeatable)");
+  app.add_option("--turn", request.stretch, "Frames of a contender's turn: from the second on the caches are its own")
+      ->check(CLI::PositiveNumber);
   app.add_option("-o,--output", request.output, "A file of CSV for the records");
   try {
     app.parse(argc, argv);
