@@ -151,6 +151,17 @@ void orderCrowd(std::span<KeyedBox> crowd, KeyedBox* spare, const LaneReader& re
 
 }  // namespace
 
+void CrowdOrder::refine(std::span<KeyedBox> boxes, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
+                        Executor& executor) {
+  m_crowds.clear();
+  forEachCrowd(boxes, [&](std::span<KeyedBox> crowd) { m_crowds.push_back(crowd); });
+  if (m_crowds.empty()) return;
+  executor.run(m_crowds.size(), [&](std::size_t i) {
+    const std::span<KeyedBox> crowd = m_crowds[i];
+    orderCrowd(crowd, spare + (crowd.data() - boxes.data()), reader, kernels, 1);
+  });
+}
+
 std::size_t CurveOrder::cut(std::size_t size, Executor& executor) {
   const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
   m_chunkCount = std::clamp<std::size_t>(std::min(most, size / kMinChunk), 1, 256);
@@ -228,17 +239,6 @@ void CurveOrder::sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigne
   });
 }
 
-void CurveOrder::refine(std::span<KeyedBox> boxes, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
-                        Executor& executor) {
-  m_crowds.clear();
-  forEachCrowd(boxes, [&](std::span<KeyedBox> crowd) { m_crowds.push_back(crowd); });
-  if (m_crowds.empty()) return;
-  executor.run(m_crowds.size(), [&](std::size_t i) {
-    const std::span<KeyedBox> crowd = m_crowds[i];
-    orderCrowd(crowd, spare + (crowd.data() - boxes.data()), reader, kernels, 1);
-  });
-}
-
 OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spare, const Kernels& kernels,
                               Executor& executor) {
   m_boxes.require(reader.size());
@@ -256,7 +256,7 @@ OrderedBoxes CurveOrder::sort(const LaneReader& reader, std::span<KeyedBox> spar
   const auto isUsual = [this](KeyedBox box) { return box >> m_classShift == 0; };
   result.firstLarge = static_cast<std::size_t>(std::partition_point(result.boxes.begin(), result.boxes.end(), isUsual) -
                                                result.boxes.begin());
-  refine({boxes, result.boxes.size()}, spare.data(), reader, kernels, executor);
+  m_crowds.refine({boxes, result.boxes.size()}, spare.data(), reader, kernels, executor);
   return result;
 }
 

@@ -21,9 +21,19 @@ struct OrderedBoxes {
   std::size_t firstLarge = 0;       ///< Boxes from this place on are of a class of larger ones.
 };
 
-/// Sorts boxes along a space-filling curve, by key and then by index.
-///
-/// Where many boxes share a cell of the grid, they are ordered again on a grid of their own.
+/// Orders boxes that share a cell of a curve's grid again, on a grid of their own: blocks of them would be as wide as the cell.
+class CrowdOrder {
+ public:
+  /// Boxes in the order of their keys; `spare` holds as many, and its contents are lost.
+  /// Threads: crowds in parallel over the executor; the order does not depend on it.
+  void refine(std::span<KeyedBox> boxes, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
+              Executor& executor);
+
+ private:
+  std::vector<std::span<KeyedBox>> m_crowds;
+};
+
+/// Sorts boxes along a space-filling curve, by key and then by index, and crowds in a cell among themselves.
 ///
 /// A radix sort. A set that fits no cache, or that several threads share, is first cut into runs by the highest bits.
 /// Cost:    8 bytes a box, and 8 more of `spare` memory while it sorts.
@@ -47,14 +57,12 @@ class CurveOrder {
   OrderedBoxes readKeys(const LaneReader& reader, const Kernels& kernels, KeyedBox* keyed, Executor& executor);
   void sortTop(KeyedBox* from, KeyedBox* to, std::size_t size, unsigned bits, Executor& executor);
   [[nodiscard]] unsigned usedBits() const;
-  void refine(std::span<KeyedBox> boxes, KeyedBox* spare, const LaneReader& reader, const Kernels& kernels,
-              Executor& executor);
 
   std::vector<Chunk> m_chunks;
   std::size_t m_chunkCount = 0;
   unsigned m_classShift = 0;  ///< Where the class of a keyed box begins.
   std::vector<std::uint32_t> m_bucketEnds;
-  std::vector<std::span<KeyedBox>> m_crowds;
+  CrowdOrder m_crowds;
   Buffer<KeyedBox> m_boxes;
 };
 

@@ -12,8 +12,8 @@ namespace allpairs::engine {
 /// Memory of some bytes, aligned to a cache line; large blocks to a large page, with large pages behind them where the
 /// system has them: most of the time of a first touch is spent on page faults. Null if there is none.
 ///
-/// On Linux, blocks that are freed are kept for the next of their size: up to 256 MiB for all threads, which the system may
-/// take back, and 4 MiB of small ones for each.
+/// On Linux, blocks that are freed are kept for the next of their size: up to 256 MiB for all threads, most of which the
+/// system may take back, and 4 MiB of small ones for each.
 [[nodiscard]] void* allocateMemory(std::size_t bytes) noexcept;
 
 /// The block with its contents in a larger one. Large ones are moved by their pages where the system can. Null, and the

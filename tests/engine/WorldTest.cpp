@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -213,6 +216,55 @@ TEST(World, BoxesThatComeOneByOneMeetAllThatWereThere) {
     }
     ASSERT_EQ(test::toVector(world.step().began), expected) << "box " << id;
   }
+}
+
+TEST(World, StepsOfAllBoxesAndOfSomeGiveWhatBeganAndEndedByTurns) {
+  constexpr std::size_t kBoxes = 1500;
+  std::vector<BoxF> boxes = test::randomBoxes(kBoxes, 11);
+  World world;
+  const std::vector<BoxId> ids = world.add(boxes);
+  static_cast<void>(world.step());
+  std::mt19937 generator(12);
+  std::vector<Pair> before = overlaps(boxes);
+  for (const std::size_t stride : {1U, 1U, 9U, 40U, 1U, 9U, 1U, 40U, 40U, 1U}) {
+    for (std::size_t i = generator() % stride; i < kBoxes; i += stride) {
+      const float shift = static_cast<float>(generator() % 256U) / 512.0F - 0.25F;
+      boxes[i].min[i % 3] += shift;
+      boxes[i].max[i % 3] += shift;
+    }
+    world.move(ids, boxes);
+    const StepResult result = world.step();
+    EXPECT_EQ(world.statistics().joinedAll, stride == 1);
+    const std::vector<Pair> now = overlaps(boxes);
+    std::vector<Pair> began;
+    std::vector<Pair> persisted;
+    std::vector<Pair> ended;
+    std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(began));
+    std::set_intersection(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(persisted));
+    std::set_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(ended));
+    EXPECT_FALSE(began.empty() || persisted.empty() || ended.empty());
+    EXPECT_EQ(test::toVector(result.pairs), now);
+    EXPECT_EQ(test::toVector(result.began), began);
+    EXPECT_EQ(test::toVector(result.persisted), persisted);
+    EXPECT_EQ(test::toVector(result.ended), ended);
+    before = now;
+  }
+}
+
+// Half of the boxes in a thousandth of the width: they share cells of the grid that fits all.
+TEST(World, ACrowdCostsNoMoreTestsThanOthers) {
+  std::vector<BoxF> boxes = test::randomBoxes(20000, 13);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (i % 2 == 0) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[i].min[axis] *= 0.001F;
+      boxes[i].max[axis] *= 0.001F;
+    }
+  }
+  World world;
+  static_cast<void>(world.add(boxes));
+  EXPECT_EQ(test::toVector(world.step().pairs), overlaps(boxes));
+  EXPECT_LT(world.statistics().boxTests + world.statistics().groupTests, 20000U * 200U);
 }
 
 TEST(World, IsEmptyAfterClear) {

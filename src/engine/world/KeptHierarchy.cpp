@@ -124,6 +124,7 @@ void KeptHierarchy::orderByCurve(std::span<const BoxId> ids, const UpdateTools& 
   for (std::size_t i = 0; i < ids.size(); ++i) all |= m_spare[i];
   const unsigned bits = std::max(kIndexBits, static_cast<unsigned>(std::bit_width(all)));
   sortRun(m_spare.data(), m_keyed.data(), ids.size(), bits, kIndexBits);
+  m_crowds.refine({m_keyed.data(), ids.size()}, m_spare.data(), tools.reader, tools.kernels, tools.executor);
 }
 
 void KeptHierarchy::writeKeys(std::span<const BoxId> ids, const UpdateTools& tools, KeyedBox* to) const {

@@ -90,6 +90,7 @@ class KeptHierarchy {
   std::vector<BoxId> m_fresh;  ///< Boxes without a place.
   Buffer<KeyedBox> m_keyed;
   Buffer<KeyedBox> m_spare;
+  CrowdOrder m_crowds;
 };
 
 }  // namespace allpairs::engine

@@ -2,6 +2,7 @@
 #include "world/PairHistory.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace allpairs::engine {
 namespace {
@@ -17,13 +18,28 @@ std::uint64_t keyOf(Pair pair) { return (std::uint64_t{pair.first} << 32U) | pai
 
 }  // namespace
 
-void PairHistory::begin(std::size_t idBound, std::size_t finders) {
+void PairHistory::begin(std::size_t idBound, std::size_t finders, Joined looksFor) {
+  m_looksFor = looksFor;
+  m_rowsAreCurrent = m_rowsAreCurrent && idBound == m_idBound;
   m_idBound = idBound;
-  m_rowBegin.resize(std::max(m_rowBegin.size(), idBound + 1), m_result.pairs.size());
-  makeRoom(m_seen, m_result.pairs.size());
-  std::fill_n(m_seen.data(), m_result.pairs.size(), std::uint8_t{0});
   if (m_fresh.size() < finders) m_fresh.resize(finders);
   for (Fresh& fresh : m_fresh) fresh.size = 0;
+  if (looksFor == Joined::All) return;
+  if (!m_rowsAreCurrent) findRows();
+  makeRoom(m_seen, m_result.pairs.size());
+  std::fill_n(m_seen.data(), m_result.pairs.size(), std::uint8_t{0});
+}
+
+/// Where the old pairs of each box begin.
+void PairHistory::findRows() {
+  const std::span<const Pair> pairs = m_result.pairs;
+  m_rowBegin.resize(std::max(m_rowBegin.size(), m_idBound + 1));
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (; row <= pairs[i].first; ++row) m_rowBegin[row] = i;
+  }
+  std::fill(m_rowBegin.begin() + static_cast<std::ptrdiff_t>(row), m_rowBegin.end(), pairs.size());
+  m_rowsAreCurrent = true;
 }
 
 std::size_t PairHistory::find(Pair pair) const noexcept {
@@ -40,8 +56,13 @@ std::size_t PairHistory::find(Pair pair) const noexcept {
   return kNowhere;
 }
 
-void PairHistory::take(std::span<const Pair> found, std::size_t finder) {
-  Fresh& fresh = m_fresh[finder];
+void PairHistory::gather(std::span<const Pair> found, Fresh& fresh) {
+  fresh.pairs.grow(fresh.size + found.size());
+  std::copy(found.begin(), found.end(), fresh.pairs.data() + fresh.size);
+  fresh.size += found.size();
+}
+
+void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
   fresh.pairs.grow(fresh.size + found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
@@ -55,20 +76,64 @@ void PairHistory::take(std::span<const Pair> found, std::size_t finder) {
   }
 }
 
-void PairHistory::gatherFresh(const Kernels& kernels, Executor& executor) {
+std::size_t PairHistory::freshSize() const noexcept {
   std::size_t size = 0;
   for (const Fresh& fresh : m_fresh) size += fresh.size;
-  makeRoom(m_began, size);
-  Pair* to = m_began.data();
-  for (const Fresh& fresh : m_fresh) to = std::copy_n(fresh.pairs.data(), fresh.size, to);
-  m_result.began = {m_began.data(), size};
+  return size;
+}
+
+/// Puts what is fresh in order, with memory that may be overwritten.
+void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, const Kernels& kernels, Executor& executor) {
+  Pair* end = to.data();
+  for (const Fresh& fresh : m_fresh) end = std::copy_n(fresh.pairs.data(), fresh.size, end);
   PairSort::Task task;
   task.firsts = m_idBound;
   task.seconds = m_idBound;
   task.kernels = &kernels;
-  // The old pairs have been split up: their memory is where the sort moves pairs to and fro.
-  task.spare = {m_pairs.data(), m_pairs.capacity()};
-  m_sort.sort({m_began.data(), size}, task, executor);
+  task.spare = spare;
+  m_sort.sort({to.data(), end}, task, executor);
+}
+
+void PairHistory::finishAll(const Kernels& kernels, Executor& executor) {
+  const std::size_t size = freshSize();
+  makeRoom(m_next, size);
+  makeRoom(m_persisted, size);
+  sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, kernels, executor);
+  compare({m_next.data(), size});
+  std::swap(m_pairs, m_next);
+  m_result.pairs = {m_pairs.data(), size};
+  m_rowsAreCurrent = false;
+}
+
+/// Compares two ordered lists, without branches: what is in both persists, what is in one only has begun or ended.
+void PairHistory::compare(std::span<const Pair> now) {
+  const std::span<const Pair> old = m_result.pairs;
+  makeRoom(m_began, now.size());
+  makeRoom(m_ended, old.size());
+  Pair* persisted = m_persisted.data();
+  Pair* began = m_began.data();
+  Pair* ended = m_ended.data();
+  std::size_t i = 0;
+  std::size_t k = 0;
+  while (i < old.size() && k < now.size()) {
+    const Pair was = old[i];
+    const Pair is = now[k];
+    const bool isKept = keyOf(was) <= keyOf(is);
+    const bool isNeeded = keyOf(is) <= keyOf(was);
+    *persisted = is;
+    *began = is;
+    *ended = was;
+    persisted += isKept && isNeeded ? 1 : 0;
+    began += isKept ? 0 : 1;
+    ended += isNeeded ? 0 : 1;
+    i += isKept ? 1U : 0U;
+    k += isNeeded ? 1U : 0U;
+  }
+  ended = std::copy(old.begin() + static_cast<std::ptrdiff_t>(i), old.end(), ended);
+  began = std::copy(now.begin() + static_cast<std::ptrdiff_t>(k), now.end(), began);
+  m_result.persisted = {m_persisted.data(), persisted};
+  m_result.began = {m_began.data(), began};
+  m_result.ended = {m_ended.data(), ended};
 }
 
 /// Merges what persists with what began.

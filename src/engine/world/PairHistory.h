@@ -12,28 +12,38 @@
 #include "allpairs/Executor.h"
 #include "allpairs/Pair.h"
 #include "allpairs/WorldTypes.h"
+#include "world/RebuildRule.h"
 
 namespace allpairs::engine {
 
 /// The pairs of the last step in order, and those of this one as they are found.
 ///
-/// A pair that is found is looked up among the old ones and ticked off; only those that are new are gathered and sorted.
-/// What was not ticked off has ended, or was not looked for because neither of its boxes changed.
+/// Where all pairs are looked for, they are gathered, sorted, and compared with the old ones, list against list. Where
+/// only those of changed boxes are, each is looked up among the old ones and ticked off, and those that are new are sorted:
+/// what was not ticked off has ended, or was not looked for because neither of its boxes changed.
 class PairHistory {
  public:
   /// Starts a step: nothing found. All ids are below the bound. There are `finders` that work side by side.
-  void begin(std::size_t idBound, std::size_t finders);
+  void begin(std::size_t idBound, std::size_t finders, Joined looksFor);
 
   /// Takes pairs that have been found, each with first < second and once in a step.
   ///
   /// Threads: one call at a time per finder.
-  void take(std::span<const Pair> found, std::size_t finder);
+  void take(std::span<const Pair> found, std::size_t finder) {
+    m_looksFor == Joined::All ? gather(found, m_fresh[finder]) : tickOff(found, m_fresh[finder]);
+  }
 
-  /// Ends the step. A pair that was not found has ended if `lookedFor(pair)` says that it was looked for.
+  /// Ends a step that has looked for all pairs.
+  void finishAll(const Kernels& kernels, Executor& executor);
+
+  /// Ends a step that has looked for changed boxes' pairs: those of which `lookedFor(pair)` is true.
   template <class LookedFor>
-  void finish(const LookedFor& lookedFor, const Kernels& kernels, Executor& executor) {
+  void finishChanged(const LookedFor& lookedFor, const Kernels& kernels, Executor& executor) {
     split(lookedFor);
-    gatherFresh(kernels, executor);
+    makeRoom(m_began, freshSize());
+    // The old pairs have been split up: their memory is where the sort moves pairs to and fro.
+    sortFresh(m_began, {m_pairs.data(), m_pairs.capacity()}, kernels, executor);
+    m_result.began = {m_began.data(), freshSize()};
     mergeFresh();
   }
 
@@ -69,18 +79,26 @@ class PairHistory {
   static void makeRoom(Buffer<T>& buffer, std::size_t size) {
     if (size + 1 > buffer.capacity()) buffer.require(size + size / 4 + 1);
   }
+  static void gather(std::span<const Pair> found, Fresh& fresh);
+  void tickOff(std::span<const Pair> found, Fresh& fresh);
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
-  void gatherFresh(const Kernels& kernels, Executor& executor);
+  [[nodiscard]] std::size_t freshSize() const noexcept;
+  void sortFresh(Buffer<Pair>& to, std::span<Pair> spare, const Kernels& kernels, Executor& executor);
+  void compare(std::span<const Pair> now);
   void mergeFresh();
+  void findRows();
   void shiftRows();
 
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
+  Joined m_looksFor = Joined::All;
   std::size_t m_idBound = 0;
   std::vector<Fresh> m_fresh;           ///< By finder.
   std::vector<std::size_t> m_rowBegin;  ///< By id: where the pairs of which it is the first begin; one more at the end.
-  Buffer<std::uint8_t> m_seen;          ///< By old pair: whether it was found again.
+  bool m_rowsAreCurrent = false;
+  Buffer<std::uint8_t> m_seen;  ///< By old pair: whether it was found again.
   Buffer<Pair> m_pairs;
+  Buffer<Pair> m_next;  ///< The pairs of a step that has looked for all, until they are the old ones.
   Buffer<Pair> m_began;
   Buffer<Pair> m_persisted;
   Buffer<Pair> m_ended;

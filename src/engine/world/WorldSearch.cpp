@@ -50,14 +50,15 @@ StepResult WorldSearch::step(BoxStore& store) {
   m_statistics.exactTests = 0;
   m_statistics.changed = store.touched().size();
   m_statistics.joinedAll = store.touched().size() > store.size() / kShareOfChanged;
-  m_history.begin(store.idBound(), m_finder.prepare(executor()));
+  m_history.begin(store.idBound(), m_finder.prepare(executor()),
+                  m_statistics.joinedAll ? Joined::All : Joined::Changed);
   if (m_statistics.joinedAll) {
     joinAll(store);
-    m_history.finish([](Pair) { return true; }, m_kernels, executor());
+    m_history.finishAll(m_kernels, executor());
   } else {
     joinChanged(store);
-    m_history.finish([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); }, m_kernels,
-                     executor());
+    m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
+                            m_kernels, executor());
   }
   store.endStep();
   return m_history.result();
