@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { allpairs, clothFrames, dataFolder, detect, folder, npy, number, open, ownText, pages, root, screenshot, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { allpairs, clothFrames, dataFolder, detect, folder, npy, number, open, ownText, pages, root, screenshot, settled, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -99,14 +99,11 @@ test("keys choose, leave, switch and explain", async () => {
 
 test("keys turn, move and bring the picture nearer, and leave arrows to what has the focus", async () => {
   const page = await view("steer", [demo]);
-  const picture = async () => {
-    await page.waitForTimeout(1000);
-    return (await page.locator("#canvas").screenshot()).toString("base64");
-  };
-  const seen = [await picture()];
+  const picture = async () => (await page.locator("#canvas").screenshot()).toString("base64");
+  const seen = [await settled(page, picture)];
   for (const key of ["ArrowRight", "ArrowUp", "Shift+ArrowLeft", "+", "-"]) {
     await page.keyboard.press(key);
-    seen.push(await picture());
+    seen.push(await settled(page, picture, (now) => now !== seen.at(-1)));
   }
   assert.equal(new Set(seen.slice(0, 5)).size, 5, "each key shows something else");
   await page.focus("#pairs-list");
@@ -205,13 +202,10 @@ test("what two boxes share is drawn in red, however small they are", async () =>
   for (const unit of ["", "e-12"]) {
     const rows = [[0, 0, 0, 2, 1, 1], [1, 0, 0, 3, 1, 1]].map((row) => row.map((x) => `${x}${unit}`).join(","));
     const page = await view("shared", [write("shared.csv", `${rows.join("\n")}\n`)]);
-    const count = async () => {
-      await page.waitForTimeout(1000);
-      return page.evaluate(countRed, (await page.locator("#canvas").screenshot()).toString("base64"));
-    };
-    assert.ok((await count()) < 1000); // edges of orange boxes
+    const count = async () => page.evaluate(countRed, (await page.locator("#canvas").screenshot()).toString("base64"));
+    assert.ok((await settled(page, count)) < 1000); // edges of orange boxes
     await page.keyboard.press("j");
-    assert.ok((await count()) > 10_000);
+    assert.ok((await settled(page, count, (red) => red > 10_000)) > 10_000);
     assert.deepEqual(page.problems, []);
     await page.close();
   }
@@ -356,10 +350,10 @@ test("ten thousand models with fifty thousand pairs are all there", async () => 
   assert.ok(elements < 600, `${elements} elements: only the rows in sight are in the document`);
   const { frames, draws } = await page.evaluate(() => window.drawn);
   assert.ok(draws <= 4 * frames, `${draws} draws in ${frames} pictures: all boxes are one`);
-  await page.waitForTimeout(1500);
-  const settled = await page.evaluate(() => window.drawn.frames);
+  const drawn = () => page.evaluate(() => window.drawn.frames);
+  const last = await settled(page, drawn);
   await page.waitForTimeout(500);
-  assert.equal(await page.evaluate(() => window.drawn.frames), settled, "nothing is drawn while nothing moves");
+  assert.equal(await drawn(), last, "nothing is drawn while nothing moves");
   assert.deepEqual(page.problems, []);
   await page.close();
 });

@@ -98,3 +98,14 @@ export async function view(name, inputs, options = {}) {
 export const ownText = (page, selector) => page.$eval(selector, (element) => element.firstChild?.textContent ?? "");
 export const number = async (page, selector) => Number((await ownText(page, selector)).replaceAll(",", ""));
 export const texts = (page, selector) => page.$$eval(selector, (elements) => elements.map((element) => element.textContent));
+
+/** What `take` gives once it gives the same twice, half a second apart, and is what is waited for; two minutes at most. */
+export async function settled(page, take, isAwaited = () => true) {
+  const deadline = Date.now() + 120_000;
+  for (let last; ; ) {
+    const now = await take();
+    if ((now === last && isAwaited(now)) || Date.now() > deadline) return now;
+    last = now;
+    await page.waitForTimeout(500);
+  }
+}
