@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <vector>
 
 #include "Expect.h"
@@ -98,6 +99,8 @@ struct KnownStep {
   std::uint64_t vertexFace;
   std::uint64_t edgeEdge;
   std::uint64_t faceFace;
+
+  friend std::ostream& operator<<(std::ostream& out, const KnownStep& step) { return out << step.start; }
 };
 
 class ElementsOfData : public testing::TestWithParam<KnownStep> {};
