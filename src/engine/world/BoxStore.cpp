@@ -175,12 +175,11 @@ void BoxStore::move(std::span<const BoxId> ids, const BoxSet& boxes) {
   }
 }
 
-/// Rows of six to rows of six, of the same kind. What note() does, with the lists' ends in registers: flags are bytes, and
-/// a byte that is written may be of anything.
+/// Rows of six to rows of six, of the same kind. The lists' ends are kept in registers: flags are bytes, and a byte that is
+/// written may be of anything.
 template <class T>
 void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
-  BoxId* touched = m_touched.data() + m_touchedCount;
-  BoxId* stale = m_stale.data() + m_staleCount;
+  ListEnds ends = listEnds();
   std::uint8_t* const flags = m_flags.data();
   for (const BoxId id : ids) {
     T* const row = to + std::size_t{6} * id;
@@ -188,16 +187,9 @@ void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
     const bool changed = !std::equal(from, from + 6, row);
     std::copy_n(from, 6, row);
     from += 6;
-    if (!changed) continue;
-    const std::uint8_t before = flags[id];
-    *touched = id;
-    *stale = id;
-    touched += (before & kTouched) == 0 ? 1 : 0;
-    stale += (before & kStale) == 0 ? 1 : 0;
-    flags[id] = static_cast<std::uint8_t>(before | kTouched | kStale);
+    if (changed) ends.note(id, flags[id]);
   }
-  m_touchedCount = static_cast<std::size_t>(touched - m_touched.data());
-  m_staleCount = static_cast<std::size_t>(stale - m_stale.data());
+  setListEnds(ends);
 }
 
 void BoxStore::remove(std::span<const BoxId> ids) {

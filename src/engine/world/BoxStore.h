@@ -91,14 +91,31 @@ class BoxStore {
   static constexpr std::uint8_t kResettled = 64;  ///< May belong to another hierarchy than before.
   static constexpr std::uint8_t kLeaving = 32;    ///< While a batch is checked: in it, to be removed.
 
-  /// Lists the box as changed, once; the lists are as long as there are ids.
+  /// Where the next id goes in the lists of what changed, which are as long as there are ids.
+  struct ListEnds {
+    BoxId* touched;
+    BoxId* stale;
+
+    /// Lists the box as changed, once.
+    void note(BoxId id, std::uint8_t& flags) noexcept {
+      *touched = id;
+      *stale = id;
+      touched += (flags & kTouched) == 0 ? 1 : 0;
+      stale += (flags & kStale) == 0 ? 1 : 0;
+      flags = static_cast<std::uint8_t>(flags | kTouched | kStale);
+    }
+  };
+  [[nodiscard]] ListEnds listEnds() noexcept {
+    return {m_touched.data() + m_touchedCount, m_stale.data() + m_staleCount};
+  }
+  void setListEnds(ListEnds ends) noexcept {
+    m_touchedCount = static_cast<std::size_t>(ends.touched - m_touched.data());
+    m_staleCount = static_cast<std::size_t>(ends.stale - m_stale.data());
+  }
   void note(BoxId id) noexcept {
-    const std::uint8_t flags = m_flags[id];
-    m_touched[m_touchedCount] = id;
-    m_stale[m_staleCount] = id;
-    m_touchedCount += (flags & kTouched) == 0 ? 1U : 0U;
-    m_staleCount += (flags & kStale) == 0 ? 1U : 0U;
-    m_flags[id] = static_cast<std::uint8_t>(flags | kTouched | kStale);
+    ListEnds ends = listEnds();
+    ends.note(id, m_flags[id]);
+    setListEnds(ends);
   }
   void noteResettled(BoxId id);
   template <class T>
