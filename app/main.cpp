@@ -10,29 +10,29 @@
 #include <string_view>
 #include <vector>
 
-#include "Arguments.h"
 #include "Commands.h"
-#include "ExitStatus.h"
-#include "Output.h"
-#include "Records.h"
-#include "SignalCleanup.h"
+#include "allpairs/Error.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
+#include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
+#include "cli/Output.h"
+#include "cli/SignalCleanup.h"
 
 namespace {
 
 using allpairs::app::ExitStatus;
 
 constexpr const char* kProgramExamples = R"(Examples:
-  allpairs detect scene.scn                      which models of a scene may touch
+  allpairs detect scene.scn                      pairs of models that may touch
   allpairs detect boxes.npy -o pairs.npy         overlapping boxes, from NumPy to NumPy
-  allpairs detect parts/ --margin 0.5            meshes of a folder at most 0.5 apart
-  allpairs info scene.scn                        what is in it, and what was ignored
+  allpairs detect parts/ --margin 0.5            meshes of a folder, up to 0.5 apart
+  allpairs info scene.scn                        its models, and what was ignored
   allpairs track frames.npy                      pairs that begin and end as boxes move
-  allpairs elements start.ply end.ply            vertices, edges, faces that may touch
-  allpairs bench uniform -n 100000               how long so many boxes take
+  allpairs elements start.ply end.ply            candidates for contact
+  allpairs bench uniform -n 100000               time of a search
 
-'allpairs detect --help' tells more. Exit status: 0 success, 1 --verify found a
-difference, 2 wrong usage, 3 a file that cannot be read or written.)";
+See 'allpairs COMMAND --help'. Exit status: 0 success, 1 --verify found a
+difference, 2 usage error, 3 a file cannot be read or written.)";
 
 /// One line on standard error, whatever the message holds: names of files are the user's, or a stranger's.
 void complain(std::string message) {
@@ -40,7 +40,8 @@ void complain(std::string message) {
     if (c == '\n' || c == '\r') c = ' ';
   }
   while (message.ends_with(' ')) message.pop_back();
-  std::fprintf(stderr, "allpairs: %s\n", allpairs::app::printable(message).c_str());
+  message = allpairs::oneLine("allpairs: " + message);
+  std::fprintf(stderr, "%s\n", message.c_str());
 }
 
 /// What CLI11 says of an option that has no value or several, in words: "--margin: D is missing".
@@ -58,6 +59,12 @@ std::string countProblem(const CLI::ArgumentMismatch& problem) {
 ExitStatus fail(ExitStatus status, const std::string& message) {
   complain(message);
   return status;
+}
+
+/// Without any memory for it.
+ExitStatus failForMemory() {
+  std::fputs("allpairs: not enough memory for this input or its result\n", stderr);
+  return ExitStatus::BadInput;
 }
 
 std::string chosenCommand(const CLI::App& program) {
@@ -78,8 +85,8 @@ void parse(CLI::App& program, const std::vector<std::string>& arguments) {
     print(std::string(version.what()) + '\n');
   } catch (const CLI::RequiredError&) {
     const bool hasWord = program.get_subcommands().empty() && !arguments.empty();
-    if (hasWord) throw allpairs::app::UsageError("'" + arguments.front() + "' is no command");
-    throw allpairs::app::UsageError(program.get_subcommands().empty() ? "a command is needed" : "INPUT is needed");
+    if (hasWord) throw allpairs::app::UsageError("unknown command '" + arguments.front() + "'");
+    throw allpairs::app::UsageError(program.get_subcommands().empty() ? "no command given" : "no INPUT given");
   } catch (const CLI::ArgumentMismatch& problem) {
     throw allpairs::app::UsageError(countProblem(problem));
   } catch (const CLI::ParseError& problem) {
@@ -99,18 +106,14 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
   } catch (const allpairs::app::ClosedPipe&) {
     return ExitStatus::ClosedPipe;
   } catch (const std::bad_alloc&) {
-    return fail(ExitStatus::BadInput, "not enough memory for this input or its result");
+    return failForMemory();
   } catch (const std::exception& problem) {
     return fail(ExitStatus::BadInput, problem.what());
   }
 }
 
-}  // namespace
-
-int main(int count, char** arguments) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), so that temporaries are taken away
-  std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not grow
-  allpairs::app::installSignalCleanup();
+/// Making the options allocates, too.
+int runProgram(int count, char** arguments) {
   CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
   program.set_version_flag("--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
   program.require_subcommand(1);
@@ -124,4 +127,17 @@ int main(int count, char** arguments) {
   allpairs::app::addGenerate(program);
   allpairs::app::addBench(program);
   return static_cast<int>(run(program, count, arguments));
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), so that temporaries are taken away
+  std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not grow
+  allpairs::app::installSignalCleanup();
+  try {
+    return runProgram(count, arguments);
+  } catch (const std::bad_alloc&) {
+    return static_cast<int>(failForMemory());
+  }
 }

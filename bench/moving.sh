@@ -26,5 +26,5 @@ fi
 if [[ "${2:-}" == --report ]]; then
   awk 'FNR > 1 || NR == 1' "$folder"/moving.csv "$folder"/moving-tens.csv >"$docs/benchmarks-moving.csv"
   awk 'FNR > 1 || NR == 1' "$folder"/[!m]*.csv >"$docs/benchmarks-tasks.csv"
-  python3 "$docs/../bench/report" "$docs/benchmarks.csv" --external "$docs/benchmarks-external.csv" --docs "$docs"
+  /usr/bin/python3 "$docs/../bench/report" "$docs/benchmarks.csv" --external "$docs/benchmarks-external.csv" --docs "$docs"
 fi

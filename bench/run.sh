@@ -13,7 +13,7 @@ if [[ "${1:-}" == --report ]]; then
   trap 'rm -f "$records"' EXIT
   "$program" "$@" --output "$records"
   cp "$records" "$docs/benchmarks.csv"
-  python3 "$docs/../bench/report" "$docs/benchmarks.csv" --external "$docs/benchmarks-external.csv" --docs "$docs"
+  /usr/bin/python3 "$docs/../bench/report" "$docs/benchmarks.csv" --external "$docs/benchmarks-external.csv" --docs "$docs"
 else
   "$program" --quick --output "$(dirname "$program")/../benchmarks.csv" "$@"
 fi

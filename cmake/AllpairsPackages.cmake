@@ -14,7 +14,9 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
-set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/CompressDocuments.cmake")
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/FinishDocuments.cmake")
+set(CPACK_ALLPAIRS_SOURCE "${PROJECT_SOURCE_DIR}") # for that script
+set(CPACK_ALLPAIRS_BUILD "${PROJECT_BINARY_DIR}")
 set(CPACK_COMPONENTS_ALL dev)
 set(allpairs_packages liballpairs-dev)
 if(TARGET allpairs_app OR TARGET allpairs_c OR BUILD_SHARED_LIBS)
@@ -26,15 +28,10 @@ if(TARGET allpairs_python)
   list(APPEND allpairs_packages python3-allpairs)
 endif()
 
-# The licence asks for a copy of itself in all of them, and Debian for a changelog in its form.
-string(TIMESTAMP allpairs_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
-configure_file("${CMAKE_CURRENT_LIST_DIR}/changelog.in" "${PROJECT_BINARY_DIR}/changelog" @ONLY)
+# The licence asks for a copy of itself in all of them; what else Debian wants in that folder is made when they are packed.
 foreach(component package IN ZIP_LISTS CPACK_COMPONENTS_ALL allpairs_packages)
-  set(allpairs_documents ${CMAKE_INSTALL_DATADIR}/doc/${package})
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${allpairs_documents} RENAME copyright
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright
           COMPONENT ${component})
-  install(FILES "${PROJECT_BINARY_DIR}/changelog" DESTINATION ${allpairs_documents} COMPONENT ${component}
-          EXCLUDE_FROM_ALL) # into packages only
 endforeach()
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -67,7 +64,7 @@ endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libbullet-dev, libfcl-dev") # what the adapters are for
 if(NOT BUILD_SHARED_LIBS) # static libraries are linked with what they use
   set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
-      "libhwy-dev, libtbb-dev, libassimp-dev, zlib1g-dev, libpugixml-dev, libtinyobjloader-dev, libfmt-dev, nlohmann-json3-dev")
+      "libhwy-dev, libtbb-dev, libassimp-dev, zlib1g-dev, libpugixml-dev, libfmt-dev, nlohmann-json3-dev")
 endif()
 
 if(TARGET allpairs_python)

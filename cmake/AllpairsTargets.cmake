@@ -10,6 +10,7 @@ endif()
 
 # The installed tree can be moved: programs and libraries find ours beside them.
 file(RELATIVE_PATH allpairs_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON) # in the build folder too, whose name would leave its length behind
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${allpairs_lib_from_bin}")
 
 # What is installed belongs to one of three: runtime (the command and shared libraries), dev (what else a program is built

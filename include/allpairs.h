@@ -7,6 +7,10 @@
 // takes null too, and used by one thread at a time, unless they are const. Null where a handle or a result is asked for
 // is an ALLPAIRS_INVALID_ARGUMENT.
 //
+// A call that fails, for want of memory or because a visitor stopped it, leaves what its handle holds as it was, and the
+// handle can be used on: the next allpairs_world_step() tells what has changed since the last one that succeeded. A
+// callback may use other handles; its own answers ALLPAIRS_INVALID_ARGUMENT, and must not be destroyed.
+//
 // Structures may grow at their end: struct_size says which of their fields the caller knows, and all fields may be 0.
 #pragma once
 
@@ -128,6 +132,17 @@ typedef struct allpairs_filter {
 /// Says whether a pair that passed the rest is wanted. Called in no particular order and, with threads, from several.
 typedef bool (*allpairs_accept)(void* context, uint32_t first, uint32_t second);
 
+/// Where the memory of a handle comes from: its working memory and its results. All null: aligned operator new, with large
+/// pages for large blocks where the system has them. Either both functions are given or none.
+///
+/// Fixed when the handle is made, which it must outlive; called from several threads if the handle has some. docs/memory.md
+/// says what lies elsewhere.
+typedef struct allpairs_memory {
+  void* (*allocate)(void* context, size_t bytes, size_t alignment);  ///< Null if there is no memory.
+  void (*deallocate)(void* context, void* memory, size_t bytes, size_t alignment);
+  void* context;
+} allpairs_memory;
+
 /// Settings of a search. All zeros, but for struct_size, are the defaults.
 typedef struct allpairs_options {
   size_t struct_size;  ///< sizeof(allpairs_options)
@@ -142,6 +157,7 @@ typedef struct allpairs_options {
   size_t threads;      ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
   uint64_t max_pairs;  ///< More are an ALLPAIRS_LIMIT_EXCEEDED; 0: no limit. Counting and streaming have none.
   size_t batch_size;   ///< How many pairs a visitor gets at a time, at most; 0: 65536.
+  allpairs_memory memory;
 } allpairs_options;
 
 /// The default settings.
@@ -162,6 +178,9 @@ typedef struct allpairs_search allpairs_search;
 ALLPAIRS_C_API allpairs_status allpairs_search_create(const allpairs_options* options, allpairs_search** search);
 ALLPAIRS_C_API allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options);
 ALLPAIRS_C_API void allpairs_search_destroy(allpairs_search* search);
+
+/// Gives back the memory that is kept for the next search. The pairs of the last one stay valid.
+ALLPAIRS_C_API allpairs_status allpairs_search_shrink(allpairs_search* search);
 
 /// All overlapping pairs of one set, each once; valid until the next search or the end of the handle.
 ALLPAIRS_C_API allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs);
@@ -215,6 +234,7 @@ typedef struct allpairs_world_options {
   allpairs_accept accept;  ///< Its answer must stay the same until a box of the pair is changed or touched.
   void* accept_context;
   size_t threads;  ///< As in allpairs_options.
+  allpairs_memory memory;
 } allpairs_world_options;
 
 /// The pairs of a step, each list ordered by (first, second), of ids; valid until the next step.
@@ -232,6 +252,9 @@ typedef struct allpairs_world allpairs_world;
 
 ALLPAIRS_C_API allpairs_status allpairs_world_create(const allpairs_world_options* options, allpairs_world** world);
 ALLPAIRS_C_API void allpairs_world_destroy(allpairs_world* world);
+
+/// Gives back the memory that neither the boxes nor the lists of the last step need; results of queries end.
+ALLPAIRS_C_API allpairs_status allpairs_world_shrink(allpairs_world* world);
 
 /// Ids, and what each is given: boxes, properties.
 typedef struct allpairs_ids {
@@ -432,7 +455,8 @@ typedef struct allpairs_elements_options {
   bool skip_within;    ///< No two elements of one mesh.
   bool skip_between;   ///< No two elements of different meshes.
   allpairs_order order;
-  size_t threads;  ///< As in allpairs_options.
+  size_t threads;          ///< As in allpairs_options.
+  allpairs_memory memory;  ///< Of candidates and the search; meshes and the boxes of elements lie elsewhere.
 } allpairs_elements_options;
 
 /// Which two kinds of element make a candidate.
@@ -456,6 +480,9 @@ ALLPAIRS_C_API allpairs_status allpairs_elements_create(const allpairs_mesh* mes
                                                         const allpairs_elements_options* options,
                                                         allpairs_elements** elements);
 ALLPAIRS_C_API void allpairs_elements_destroy(allpairs_elements* elements);
+
+/// Gives back the memory that is kept for the next search. Candidates that were found stay valid.
+ALLPAIRS_C_API allpairs_status allpairs_elements_shrink(allpairs_elements* elements);
 
 /// How many elements of each kind there are, or come before a mesh.
 typedef struct allpairs_element_counts {

@@ -5,7 +5,7 @@
 #include <boost/iterator/function_output_iterator.hpp>
 #include <boost/version.hpp>
 
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

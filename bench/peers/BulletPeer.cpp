@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

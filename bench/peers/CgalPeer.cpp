@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

@@ -3,7 +3,7 @@
 // time. Embree reports pairs of leaves and leaves the test of the boxes to the callback.
 #include <embree3/rtcore.h>
 
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

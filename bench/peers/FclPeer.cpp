@@ -5,7 +5,7 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/config.h>
 
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

@@ -8,7 +8,7 @@
 #include <immintrin.h>
 #endif
 
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

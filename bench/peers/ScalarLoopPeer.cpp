@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What anybody writes first: two loops over an array of boxes, compiled as the project's release is.
-#include "../Peer.h"
+#include "Peer.h"
 
 namespace allpairs::bench {
 

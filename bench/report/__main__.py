@@ -5,7 +5,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from charts import pair_cost_chart, thread_chart, time_chart
+from charts import pair_cost_chart, save, thread_chart, time_chart
 from moving import write_moving
 from page import write_page
 from records import Table, read_external, read_results
@@ -21,12 +21,11 @@ def chart_cells(table):
 
 
 def write_pictures(table, folder):
-    folder.mkdir(parents=True, exist_ok=True)
     for scene in table.scenes():
-        (folder / f"time-{scene}.svg").write_text(time_chart(table, scene), encoding="utf-8")
-    (folder / "pair-cost.svg").write_text(pair_cost_chart(table, chart_cells(table)), encoding="utf-8")
+        save(time_chart(table, scene), folder / f"time-{scene}.svg")
+    save(pair_cost_chart(table, chart_cells(table)), folder / "pair-cost.svg")
     if table.scaling:
-        (folder / "threads.svg").write_text(thread_chart(table), encoding="utf-8")
+        save(thread_chart(table), folder / "threads.svg")
 
 
 def main():

@@ -4,8 +4,8 @@
 import csv
 from dataclasses import dataclass
 
-from charts import LogScale, number_text, style_of, css_name, time_text
-from svg import Picture
+import records as searches
+from charts import number_text, row_chart, save, time_text
 
 OURS = "Allpairs"
 
@@ -59,7 +59,7 @@ def _frames_record(row):
 
 
 def read_tasks(path):
-    """Records of the other benchmarks, which share a form: bench/records/RecordFile.h."""
+    """Records of the other benchmarks, which share a form: bench/measure/RecordFile.h."""
     with open(path, newline="", encoding="utf-8") as file:
         return [_task_record(row) for row in csv.DictReader(file)]
 
@@ -99,46 +99,10 @@ def best_by_contender(records):
 
 
 def cost_chart(title, subtitle, rows):
-    """A row for each task, a mark for each contender, on one logarithmic axis; rows: [(label, {name: record})]."""
-    left, right, top, row_height = 250, 28, 86, 30
-    picture = Picture(760, top + row_height * len(rows) + 44, title)
-    picture.text(16, 22, title, size=15, weight="600")
-    picture.text(16, 38, subtitle, "soft", 11.5)
-    scale = LogScale([r.cpu_ms for _, row in rows for r in row.values()], left, picture.width - right)
-    bottom = top + row_height * len(rows)
-    for value in scale.decades():
-        picture.line([(scale(value), top - 6), (scale(value), bottom)], "grid")
-        picture.text(scale(value), bottom + 16, time_text(value), "soft", 11, "middle")
-    for index, (label, row) in enumerate(rows):
-        _draw_row(picture, scale, (left, picture.width - right, top + row_height * (index + 0.5)), label, row)
-    _draw_names(picture, rows)
-    return picture.render()
-
-
-def _draw_row(picture, scale, place, label, row):
-    left, right, y = place
-    picture.text(16, y + 4, label, size=12)
-    picture.line([(left, y), (right, y)], "grid")
-    for name in sorted(row, key=lambda n: n == OURS):
-        light, dark, shape = _style(name)
-        picture.colour(css_name(name), light, dark)
-        hint = f"{name}, {row[name].setting}: {time_text(row[name].cpu_ms)}"
-        picture.marker(scale(row[name].cpu_ms), y, shape, css_name(name), 5.6 if name == OURS else 4.2, hint)
-
-
-def _style(name):
-    others = ["searched anew", "one-shot"]
-    return style_of("allpairs" if name == OURS else name, others)
-
-
-def _draw_names(picture, rows):
-    x = 20
-    for name in sorted({name for _, row in rows for name in row}, key=lambda n: (n != OURS, n)):
-        light, dark, shape = _style(name)
-        picture.colour(css_name(name), light, dark)
-        picture.marker(x, 60, shape, css_name(name), 4.2)
-        picture.text(x + 9, 64, name, size=11.5, weight="700" if name == OURS else "normal")
-        x += 26 + 6.6 * len(name)
+    """A row for each task, a mark for each contender; rows: [(label, {name: record})]."""
+    names = {OURS: searches.OURS}
+    values = [(label, {names.get(name, name): r.cpu_ms for name, r in row.items()}) for label, row in rows]
+    return row_chart(title, subtitle, values, time_text, ["searched anew", "one-shot"])
 
 
 def _row(cells):
@@ -202,7 +166,7 @@ def frames_chart(records):
         if once:
             row["one-shot"] = min(once, key=lambda r: r.cpu_ms)
         rows.append((f"{motion}, {number_text(size)} boxes", row))
-    return cost_chart("Time of a frame", "processor time from what moved to the pairs, one thread, median; logarithmic", rows)
+    return cost_chart("Time of a frame", "processor time from what moved to the pairs, one thread, median", rows)
 
 
 def cycle_section(records):
@@ -227,7 +191,7 @@ def cycle_chart(records):
     for (size, subject), group in groups_of(records, lambda r: (r.size, r.subject)).items():
         names = {"kept": OURS, "anew": "searched anew"}
         rows.append((f"{number_text(size)} models, {subject}", {names[r.setting]: r for r in group}))
-    return cost_chart("Time of a step of the component", "processor time from begin to end, one thread, median; logarithmic", rows)
+    return cost_chart("Time of a step of the component", "processor time from begin to end, one thread, median", rows)
 
 
 def contest_rows(records, ours_setting):
@@ -309,11 +273,11 @@ def write_moving(docs):
     parts = []
     if frames:
         parts.append(frames_section(frames))
-        (pictures / "moving.svg").write_text(frames_chart(frames), encoding="utf-8")
+        save(frames_chart(frames), pictures / "moving.svg")
     cycle = [r for r in records if r.task == "cycle"]
     if cycle:
         parts.append(cycle_section(cycle))
-        (pictures / "cycle.svg").write_text(cycle_chart(cycle), encoding="utf-8")
+        save(cycle_chart(cycle), pictures / "cycle.svg")
     parts += _contests(docs, pictures, records)
     if not parts:
         return ""
@@ -321,16 +285,14 @@ def write_moving(docs):
 
 
 def _contests(docs, pictures, records):
-    subtitle = "processor time, one thread, median, each in its best setting; logarithmic"
+    subtitle = "processor time, one thread, median, each in its best setting"
     queries = [r for r in records if r.task in QUERY_TASKS]
     if queries:
-        chart = contest_chart("Time of a batch of queries", subtitle, queries)
-        (pictures / "queries.svg").write_text(chart, encoding="utf-8")
+        save(contest_chart("Time of a batch of queries", subtitle, queries), pictures / "queries.svg")
         yield queries_section(queries)
     elements = [r for r in records if r.task in ELEMENT_TASKS]
     if elements:
-        chart = contest_chart("Time of a list of candidates", subtitle, elements)
-        (pictures / "elements.svg").write_text(chart, encoding="utf-8")
+        save(contest_chart("Time of a list of candidates", subtitle, elements), pictures / "elements.svg")
         yield elements_section(elements)
     external = docs / "benchmarks-elements-external.csv"
     if external.exists():

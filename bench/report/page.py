@@ -20,9 +20,8 @@ here. One scene or file at a time is measured by `allpairs bench`.
 METHOD = """## How it is measured
 
 - **What**: one search from boxes in memory, rows of six float32, to an array of pairs in memory, everything in between
-  included: the check for NaNs, every copy, sort and tree. Nothing is kept from the search before but what an allocator
-  keeps of freed memory: glibc's for the peers, [our own](decisions/0012-memory-that-is-kept.md) for Allpairs. What a
-  search built is taken down after the clock has been read, except where a sample has to hold many runs because one is
+  included: the check for NaNs, every copy, sort and tree. Nothing is kept from the search before but what the
+  process's allocator, glibc's, keeps of freed memory. What a search built is taken down after the clock has been read, except where a sample has to hold many runs because one is
   below a millisecond. *Warm* is the same with the one `Overlaps` object kept.
 - **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on a quiet
   machine and survives a busy one. Medians; the records hold wall time, spread and repetitions too.
@@ -144,7 +143,8 @@ def _summary(table):
 
 
 def _columns(table):
-    return [name for name in OWN_VARIANTS] + table.peers()
+    found = {name for cell in table.contests.values() for name in cell}
+    return [name for name in OWN_VARIANTS if name in found] + table.peers()
 
 
 def _scene_rows(table, scene):

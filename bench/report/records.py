@@ -8,6 +8,7 @@ OURS = "allpairs"
 OWN_VARIANTS = {
     "allpairs": "unordered",
     "allpairs ordered": "ordered",
+    "allpairs vector": "overlaps(boxes)",
     "allpairs warm": "memory kept",
     "allpairs count": "count only",
 }

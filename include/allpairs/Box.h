@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "allpairs/DebugMode.h"
+
 namespace allpairs {
 
 /// An axis-aligned box: the closed set of points p with min[a] <= p[a] <= max[a] on each axis a.

@@ -3,11 +3,36 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "allpairs/DebugMode.h"
 
 namespace allpairs {
+
+/// A text as messages show it: one line of at most 500 bytes, control characters as \xNN, the middle left out where it
+/// is longer. It may hold names and words of files, which are the user's, or a stranger's.
+[[nodiscard]] inline std::string oneLine(std::string_view text) {
+  constexpr std::size_t kMost = 500;
+  constexpr std::size_t kHalf = kMost / 2 - 2;  // beside the three dots
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::size_t kRelevant = 4 * kMost;  // what lies further inside is left out anyway
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.size() > 2 * kRelevant && i == kRelevant) i = text.size() - kRelevant;
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool isControl = byte < 0x20 || byte == 0x7f;
+    line += isControl ? std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15] : std::string(1, text[i]);
+  }
+  if (line.size() <= kMost) return line;
+  const auto isInside = [&line](std::size_t at) { return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80; };
+  std::size_t left = kHalf;
+  std::size_t right = line.size() - kHalf;
+  while (left > 0 && isInside(left)) --left;  // no character is cut in two
+  while (right < line.size() && isInside(right)) ++right;
+  return line.substr(0, left) + "..." + line.substr(right);
+}
 
 /// Base of everything that Allpairs throws on purpose: bad data, bad settings, bad files.
 ///
@@ -15,7 +40,7 @@ namespace allpairs {
 /// names the box, model, option, or file and place at fault.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(std::string_view message) : std::runtime_error(oneLine(message)) {}
 };
 
 /// A setting or an argument that makes no sense: a span of the wrong length, a NaN distance, a reversed region.
@@ -44,30 +69,6 @@ class LimitExceeded : public Error {
 
  private:
   std::uint64_t m_count;
-};
-
-/// A file that is missing, unreadable, or malformed; `line()` and `column()` count from 1, 0 where there is none.
-class FileError : public Error {
- public:
-  FileError(const std::filesystem::path& path, const std::string& problem, std::size_t line = 0, std::size_t column = 0)
-      : Error(describe(path, problem, line, column)), m_path(path), m_line(line), m_column(column) {}
-
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return m_path; }
-  [[nodiscard]] std::size_t line() const noexcept { return m_line; }
-  [[nodiscard]] std::size_t column() const noexcept { return m_column; }
-
- private:
-  static std::string describe(const std::filesystem::path& path, const std::string& problem, std::size_t line,
-                              std::size_t column) {
-    std::string text = path.string();
-    if (line != 0) text += ':' + std::to_string(line);
-    if (line != 0 && column != 0) text += ':' + std::to_string(column);
-    return text + ": " + problem;
-  }
-
-  std::filesystem::path m_path;
-  std::size_t m_line;
-  std::size_t m_column;
 };
 
 }  // namespace allpairs

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <string_view>
 
@@ -45,6 +46,11 @@ struct OverlapOptions {
 
   /// Where parallel work runs; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
+
+  /// Where memory comes from: working memory and results, which point into it. Null means aligned operator new, with
+  /// large pages for large blocks where the system has them. Not owned; fixed when the object is made, and must outlive
+  /// it. With a parallel executor it is called from several threads. docs/memory.md says more.
+  std::pmr::memory_resource* memory = nullptr;
 
   /// More pairs than this throw LimitExceeded. Counting and streaming have no limit.
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();

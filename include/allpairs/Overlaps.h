@@ -32,6 +32,11 @@ using PairVisitor = FunctionRef<void(std::span<const Pair>)>;
 /// Cost:      up to 48 bytes a box, and the pairs: 8 bytes each, in a buffer that grows by doubling; twice with a parallel
 ///            executor. On the calling thread a second search of the same size allocates nothing.
 /// Threads:   one search at a time per object; parallel inside when the options name an executor.
+/// Memory:    after a search that threw, std::bad_alloc or what a filter or visitor throws included, the next one gives
+///            what a new object gives; the result before it is lost.
+/// Callbacks: a filter, visitor or task may search with other objects and by the free functions; of the object that calls
+///            it, all but options() and statistics() throw InvalidArgument, and it must not be moved or destroyed.
+/// Moving:    an object that has been moved from is as a new one with default options.
 ///
 /// What options refer to, the filter's spans, the executor and the name of the instruction set, must outlive their use.
 class Overlaps {
@@ -59,10 +64,14 @@ class Overlaps {
   void stream(const BoxSet& boxes, PairVisitor visitor);
   void streamBetween(const BoxSet& first, const BoxSet& second, PairVisitor visitor);
 
+  /// Gives back the memory that is kept for the next search. The result of the last one stays valid.
+  void shrink();
+
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept;
 
  private:
   struct State;
+  State& state();
   std::unique_ptr<State> m_state;
 };
 

@@ -29,11 +29,18 @@ namespace allpairs {
 ///            batch and whose message names the id; nothing of the batch has then been done. Spans of different lengths
 ///            throw InvalidArgument.
 /// Cost:      up to 200 bytes a box and 70 a pair. In a steady state, on the calling thread, nothing is allocated.
-/// Threads:   one call at a time per object, queries included; parallel inside when the options name an executor.
-///            Results never depend on threads or the instruction set.
+/// Threads:   const members may be called from several threads at once, queries included, while no other member is; all
+///            others one at a time. Parallel inside when the options name an executor. Results never depend on threads or
+///            the instruction set.
+/// Memory:    a call that throws, std::bad_alloc or what `accept` throws included, leaves all boxes as they were: a batch
+///            is done as a whole or not at all. After a step() that threw, result() has the pairs of the last step that
+///            returned, and no changes; the next step tells what has changed since that one.
+/// Callbacks: `accept` may use other worlds and what is const of its own, but for findBetween(), which would ask it again;
+///            all else of it throws InvalidArgument, and the world must not be moved or destroyed. A task of the executor
+///            the same.
+/// Moving:    a world that has been moved from is as a new one with default options.
 ///
-/// What a call returns as a span is valid until the next call of the same kind: the lists of a step until the next step,
-/// the result of a query until the next query.
+/// The lists of a step are valid until the next step. Queries return memory of their own.
 class World {
  public:
   explicit World(WorldOptions options = {});
@@ -55,7 +62,8 @@ class World {
   void add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
   [[nodiscard]] std::vector<BoxId> add(const BoxSet& boxes, const BoxProperties& properties = {});
 
-  /// Gives a box new bounds.
+  /// Gives a box new bounds. A box that is given the bounds that it has is not changed: nothing is tested again; see
+  /// touch().
   void move(BoxId id, const Box& box);
 
   /// Gives boxes new bounds: boxes[k] becomes the box ids[k]. Of several for one id the last counts.
@@ -68,7 +76,8 @@ class World {
 
   /// The same with the ends given by velocities, in rows of three: start + velocity * duration, in double.
   ///
-  /// Bad input: a velocity that is not finite throws InvalidBox, a duration that is not InvalidArgument.
+  /// Bad input: a velocity that is not finite throws InvalidBox, a duration that is not InvalidArgument; an end that is a
+  ///            NaN, of an infinite box whose motion overflows, InvalidBox.
   void moveSwept(std::span<const BoxId> ids, const BoxSet& starts, std::span<const double> velocities, double duration);
 
   /// Removes boxes; their pairs are among those that ended at the next step.
@@ -84,6 +93,11 @@ class World {
 
   /// Has the next step ask the filter and `accept` again about the pairs of these boxes, though they didn't move.
   void touch(std::span<const BoxId> ids);
+
+  /// Gives back the memory that neither the boxes nor the lists of the last step need. Those lists stay valid; the
+  /// next step or query makes the order of the boxes anew. Ids from the highest one in
+  /// use on are given again from there: idBound() may be less than before.
+  void shrink();
 
   /// How many boxes there are.
   [[nodiscard]] std::size_t size() const noexcept;
@@ -111,38 +125,39 @@ class World {
   /// ordered by (first, second); first is an id here, second one there.
   ///
   /// Filters apply as within a world, but static boxes meet each other; `accept` of this world is asked.
-  [[nodiscard]] std::span<const Pair> findBetween(World& other);
+  [[nodiscard]] std::vector<Pair> findBetween(const World& other) const;
 
   /// The boxes that overlap a box, widened by their own margins: by ascending id.
-  [[nodiscard]] std::span<const BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {});
-  [[nodiscard]] ResultLists<BoxId> findOverlapping(const BoxSet& boxes, const QueryFilter& filter = {});
+  [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<BoxId> findOverlapping(const BoxSet& boxes, const QueryFilter& filter = {}) const;
 
   /// The first box that a ray, or a swept box, meets, of several at the same t the one with the least id; without any,
   /// kNoBox.
   ///
   /// Geometry: a box counts with its margin added to its bounds, in double. t is the greatest, over the axes, of the
   ///           quotients in double at which the slab of the box is entered, or 0.
-  [[nodiscard]] SweepHit findFirst(const Ray& ray, const QueryFilter& filter = {});
-  [[nodiscard]] SweepHit findFirst(const BoxSweep& sweep, const QueryFilter& filter = {});
-  void findFirst(std::span<const Ray> rays, std::span<SweepHit> hits, const QueryFilter& filter = {});
-  void findFirst(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits, const QueryFilter& filter = {});
+  [[nodiscard]] SweepHit findFirst(const Ray& ray, const QueryFilter& filter = {}) const;
+  [[nodiscard]] SweepHit findFirst(const BoxSweep& sweep, const QueryFilter& filter = {}) const;
+  void findFirst(std::span<const Ray> rays, std::span<SweepHit> hits, const QueryFilter& filter = {}) const;
+  void findFirst(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits, const QueryFilter& filter = {}) const;
 
   /// All boxes that a ray, or a swept box, meets: by ascending (t, id).
-  [[nodiscard]] std::span<const SweepHit> findAll(const Ray& ray, const QueryFilter& filter = {});
-  [[nodiscard]] std::span<const SweepHit> findAll(const BoxSweep& sweep, const QueryFilter& filter = {});
-  [[nodiscard]] ResultLists<SweepHit> findAll(std::span<const Ray> rays, const QueryFilter& filter = {});
-  [[nodiscard]] ResultLists<SweepHit> findAll(std::span<const BoxSweep> sweeps, const QueryFilter& filter = {});
+  [[nodiscard]] std::vector<SweepHit> findAll(const Ray& ray, const QueryFilter& filter = {}) const;
+  [[nodiscard]] std::vector<SweepHit> findAll(const BoxSweep& sweep, const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<SweepHit> findAll(std::span<const Ray> rays, const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<SweepHit> findAll(std::span<const BoxSweep> sweeps, const QueryFilter& filter = {}) const;
 
   /// The `count` boxes nearest to a point, or all if there are fewer: by ascending (distance, id).
   ///
   /// Bad input: a point that is not finite throws InvalidArgument.
-  [[nodiscard]] std::span<const Neighbor> findNearest(const std::array<double, 3>& point, std::size_t count,
-                                                      const QueryFilter& filter = {});
+  [[nodiscard]] std::vector<Neighbor> findNearest(const std::array<double, 3>& point, std::size_t count,
+                                                  const QueryFilter& filter = {}) const;
   [[nodiscard]] ResultLists<Neighbor> findNearest(std::span<const std::array<double, 3>> points, std::size_t count,
-                                                  const QueryFilter& filter = {});
+                                                  const QueryFilter& filter = {}) const;
 
  private:
   struct State;
+  State& state();
   std::unique_ptr<State> m_state;
 };
 

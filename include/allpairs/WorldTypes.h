@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory_resource>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/Executor.h"
@@ -43,12 +45,18 @@ struct WorldOptions {
   double distance = 0.0;
 
   /// Where given, asked about a pair that passed the rest, with first < second. Its answer must stay the same until one
-  /// of the two boxes is moved, gets other properties or is touched; in between it may or may not be asked again. With a
+  /// of the two boxes gets other bounds or properties or is touched; in between it may or may not be asked again. With a
   /// parallel executor it is called from several threads.
   std::function<bool(BoxId, BoxId)> accept;
 
   /// Where parallel work runs; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
+
+  /// Where memory comes from: working memory and the lists of a step, which point into it. Queries allocate what they
+  /// return, and what they need meanwhile, by operator new. Null means aligned operator new, with
+  /// large pages for large blocks where the system has them. Not owned; fixed when the object is made, and must outlive
+  /// it. With a parallel executor it is called from several threads. docs/memory.md says more.
+  std::pmr::memory_resource* memory = nullptr;
 
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.
   std::string_view instructionSet;
@@ -118,13 +126,14 @@ struct QueryFilter {
 /// The results of many queries: those of query i are values[offsets[i]] to values[offsets[i + 1] - 1].
 template <class T>
 struct ResultLists {
-  std::span<const std::size_t> offsets;  ///< One more than there are queries.
-  std::span<const T> values;
+  std::vector<std::size_t> offsets;  ///< One more than there are queries.
+  std::vector<T> values;
 
   [[nodiscard]] std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }
-  [[nodiscard]] std::span<const T> operator[](std::size_t i) const noexcept {
-    return values.subspan(offsets[i], offsets[i + 1] - offsets[i]);
+  [[nodiscard]] std::span<const T> operator[](std::size_t i) const& noexcept {
+    return std::span(values).subspan(offsets[i], offsets[i + 1] - offsets[i]);
   }
+  std::span<const T> operator[](std::size_t i) const&& = delete;  // of a temporary: nothing would hold the values
 };
 
 }  // namespace allpairs

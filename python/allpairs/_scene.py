@@ -134,7 +134,14 @@ class Detection(NamedTuple):
         return [(names[first], names[second]) for first, second in self.pairs.tolist()]
 
 
-def load(path: Path, *, search_roots: Iterable[Path] = (), partial: bool = False) -> Scene:
+def load(
+    path: Path,
+    *,
+    search_roots: Iterable[Path] = (),
+    partial: bool = False,
+    allow_outside: bool = False,
+    max_memory: int = 0,
+) -> Scene:
     """Reads a SOFA scene (.scn, .xml), a mesh file, a folder of mesh files, or boxes (.npy, .csv).
 
     Parameters
@@ -144,6 +151,11 @@ def load(path: Path, *, search_roots: Iterable[Path] = (), partial: bool = False
         Folders to search for files that a scene names, after its own folder.
     partial : bool
         Leave out what cannot be placed, with a remark, instead of raising.
+    allow_outside : bool
+        Read files that the input names wherever they are, not only in its own folder and the search roots.
+    max_memory : int
+        The most bytes that reading may take; by default, 0, half of the machine's memory and no more than 256 MiB plus
+        256 bytes for each byte of the files that are read.
 
     Raises
     ------
@@ -151,7 +163,7 @@ def load(path: Path, *, search_roots: Iterable[Path] = (), partial: bool = False
         With the file, line and column; it is a ValueError and an OSError.
     """
     roots = [os.fspath(root) for root in search_roots]
-    return Scene(_core.load(os.fspath(path), roots, partial))
+    return Scene(_core.load(os.fspath(path), roots, partial, allow_outside, max_memory))
 
 
 def detect(
@@ -159,6 +171,8 @@ def detect(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
+    allow_outside: bool = False,
+    max_memory: int = 0,
     margin: float | None = None,
     region: npt.ArrayLike | None = None,
     strategy: str = "auto",
@@ -177,6 +191,8 @@ def detect(
     array([[1, 0],
            [2, 0]], dtype=uint32)
     """
-    scene = load(path, search_roots=search_roots, partial=partial)
+    scene = load(
+        path, search_roots=search_roots, partial=partial, allow_outside=allow_outside, max_memory=max_memory
+    )
     pairs = scene.detect(margin=margin, region=region, strategy=strategy, threads=threads, verify=verify)
     return Detection(scene, pairs)

@@ -4,6 +4,7 @@
 
 #include "Bindings.h"
 #include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::python {
 namespace py = pybind11;

@@ -16,12 +16,15 @@ namespace {
 
 using Bounds = std::array<double, 6>;
 
+// NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
 std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
-                                  bool partial) {
+                                  bool partial, bool allowOutside, std::uint64_t maxMemory) {
   const py::gil_scoped_release release;
   scene::ReadOptions options;
   options.searchRoots = std::move(searchRoots);
   options.partial = partial;
+  options.allowOutside = allowOutside;
+  options.maxMemory = maxMemory;
   return std::make_shared<LoadedScene>(path, options);
 }
 

@@ -5,7 +5,8 @@
 // NOLINTBEGIN(readability-identifier-naming): names are C's.
 
 struct allpairs_elements {
-  std::unique_ptr<allpairs::Executor> executor;  // before the candidates, which use it to their end
+  std::unique_ptr<allpairs::c::CallerMemory> memory;
+  std::unique_ptr<allpairs::Executor> executor;
   allpairs::elements::ElementCandidates candidates;
 };
 
@@ -33,13 +34,14 @@ CandidateKind kindOf(int kind) {
   throw InvalidArgument("no kind of candidates " + std::to_string(kind));
 }
 
-CandidateOptions optionsOf(const allpairs_elements_options& given, Executor* executor) {
+CandidateOptions optionsOf(const allpairs_elements_options& given, Executor* executor, CallerMemory* memory) {
   CandidateOptions options;
   options.margin = given.margin;
   options.withinMeshes = !given.skip_within;
   options.betweenMeshes = !given.skip_between;
   options.order = orderOf(numberIn(given.order));
   options.executor = executor;
+  options.memory = memory;
   return options;
 }
 
@@ -81,14 +83,20 @@ allpairs_status allpairs_elements_create(const allpairs_mesh* meshes, size_t cou
     allpairs_elements*& result = required(elements, "elements");
     const allpairs_elements_options given = known(options);
     std::unique_ptr<allpairs::Executor> executor = executorFor(given.threads);
+    std::unique_ptr<CallerMemory> memory = memoryOf(given.memory);
     allpairs::elements::ElementCandidates made(topologyOf(requiredSpan(meshes, count, "meshes")),
-                                               optionsOf(given, executor.get()));
-    result = std::make_unique<allpairs_elements>(allpairs_elements{std::move(executor), std::move(made)}).release();
+                                               optionsOf(given, executor.get(), memory.get()));
+    allpairs_elements handle{std::move(memory), std::move(executor), std::move(made)};
+    result = std::make_unique<allpairs_elements>(std::move(handle)).release();
   });
 }
 
 void allpairs_elements_destroy(allpairs_elements* elements) {
   delete elements;  // NOLINT(cppcoreguidelines-owning-memory): C's handle
+}
+
+allpairs_status allpairs_elements_shrink(allpairs_elements* elements) {
+  return guarded([&] { candidatesOf(elements).shrink(); });
 }
 
 allpairs_status allpairs_elements_before(const allpairs_elements* elements, size_t mesh,

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <memory_resource>
+#include <new>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,13 +19,42 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 
-// What C's handles point to. NOLINTBEGIN(readability-identifier-naming): names are C's.
+namespace allpairs::c {
+
+/// Memory that the caller's functions give.
+class CallerMemory final : public std::pmr::memory_resource {
+ public:
+  explicit CallerMemory(const allpairs_memory& memory) : m_memory(memory) {}
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* memory = m_memory.allocate(m_memory.context, bytes, alignment);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    m_memory.deallocate(m_memory.context, memory, bytes, alignment);
+  }
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  allpairs_memory m_memory;
+};
+
+/// The caller's memory, or null for the default.
+///
+/// Bad input: one function without the other throws InvalidArgument.
+[[nodiscard]] std::unique_ptr<CallerMemory> memoryOf(const allpairs_memory& memory);
+
+}  // namespace allpairs::c
+
+// What C's handles point to; memory and executor first, which what follows uses to its end. NOLINTBEGIN(readability-identifier-naming): names are C's.
 
 struct allpairs_set {
   allpairs::BoxSet boxes;
 };
 
 struct allpairs_search {
+  std::unique_ptr<allpairs::c::CallerMemory> memory;
   std::unique_ptr<allpairs::Executor> executor;
   allpairs::Overlaps overlaps;
   allpairs_filter first{};
@@ -31,8 +62,18 @@ struct allpairs_search {
 };
 
 struct allpairs_world {
-  std::unique_ptr<allpairs::Executor> executor;  // before the world, which uses it to its end
+  std::unique_ptr<allpairs::c::CallerMemory> memory;
+  std::unique_ptr<allpairs::Executor> executor;
   allpairs::World world;
+
+  // What the last query of each kind gave.
+  std::vector<allpairs::BoxId> ids{};
+  std::vector<allpairs::SweepHit> hits{};
+  std::vector<allpairs::Neighbor> neighbors{};
+  std::vector<allpairs::Pair> between{};
+  allpairs::ResultLists<allpairs::BoxId> idLists{};
+  allpairs::ResultLists<allpairs::SweepHit> hitLists{};
+  allpairs::ResultLists<allpairs::Neighbor> neighborLists{};
 };
 
 // NOLINTEND(readability-identifier-naming)

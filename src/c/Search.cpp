@@ -70,7 +70,11 @@ using namespace allpairs::c;
 allpairs_status allpairs_search_create(const allpairs_options* options, allpairs_search** search) {
   return guarded([&] {
     allpairs_search*& result = required(search, "search");
-    auto handle = std::make_unique<allpairs_search>();
+    allpairs::OverlapOptions memoryOnly;
+    std::unique_ptr<CallerMemory> memory = memoryOf(known(options).memory);
+    memoryOnly.memory = memory.get();
+    auto handle = std::make_unique<allpairs_search>(
+        allpairs_search{std::move(memory), nullptr, allpairs::Overlaps(std::move(memoryOnly)), {}, {}});
     setOptions(*handle, options);
     result = handle.release();
   });
@@ -82,6 +86,10 @@ allpairs_status allpairs_search_set_options(allpairs_search* search, const allpa
 
 void allpairs_search_destroy(allpairs_search* search) {
   delete search;  // NOLINT(cppcoreguidelines-owning-memory): C's handle
+}
+
+allpairs_status allpairs_search_shrink(allpairs_search* search) {
+  return guarded([&] { required(search, "search").overlaps.shrink(); });
 }
 
 allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs) {

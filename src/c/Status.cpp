@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <pthread.h>
+
 #include <cstring>
+#include <memory>
 #include <new>
 
 #include "Handles.h"
@@ -11,17 +14,62 @@ namespace {
 static_assert(sizeof(allpairs_pair) == sizeof(Pair) && alignof(allpairs_pair) == alignof(Pair));
 static_assert(offsetof(allpairs_pair, second) == offsetof(Pair, second));
 
-/// The last failure of a thread. The text has a size of its own, so that noting it can't fail.
+/// The last failure of a thread.
 struct Failure {
   char message[512] = "";
   std::uint64_t index = 0;
 };
 
-thread_local Failure lastFailure;
+/// What a thread has that has failed, and had no memory to say how.
+Failure noMemory{"out of memory, for a message too"};
+
+/// The last failure of each thread.
+///
+/// Not thread_local: in a library that is loaded later, the C library allocates a thread's copy at its first use, and ends
+/// the process if it can't. Of threads that are alive when the library is unloaded a note of half a kilobyte is lost,
+/// except of the one that unloads it.
+class Failures {
+ public:
+  Failures() noexcept : m_hasKey(pthread_key_create(&m_key, forget) == 0) {}
+  Failures(const Failures&) = delete;
+  Failures& operator=(const Failures&) = delete;
+  ~Failures() {
+    if (!m_hasKey) return;
+    forget(find());
+    pthread_key_delete(m_key);
+    m_hasKey = false;
+  }
+
+  /// That of this thread, or null.
+  [[nodiscard]] Failure* find() const noexcept {
+    return m_hasKey ? static_cast<Failure*>(pthread_getspecific(m_key)) : nullptr;
+  }
+
+  /// A place for that of this thread, or null.
+  [[nodiscard]] Failure* make() const noexcept {
+    Failure* mine = find();
+    if (!m_hasKey || (mine != nullptr && mine != &noMemory)) return mine;
+    auto made = std::unique_ptr<Failure>(new (std::nothrow) Failure);
+    if (pthread_setspecific(m_key, made != nullptr ? made.get() : &noMemory) != 0) return nullptr;
+    return made.release();
+  }
+
+ private:
+  static void forget(void* failure) noexcept {
+    if (failure != &noMemory) delete static_cast<Failure*>(failure);  // NOLINT(cppcoreguidelines-owning-memory)
+  }
+
+  pthread_key_t m_key{};
+  bool m_hasKey;
+};
+
+Failures failures;
 
 allpairs_status note(allpairs_status status, const char* message, std::uint64_t index = 0) noexcept {
-  std::strncpy(lastFailure.message, message, sizeof(lastFailure.message) - 1);
-  lastFailure.index = index;
+  Failure* mine = failures.make();
+  if (mine == nullptr) return status;
+  std::strncpy(mine->message, message, sizeof(mine->message) - 1);
+  mine->index = index;
   return status;
 }
 
@@ -80,6 +128,13 @@ std::unique_ptr<Executor> executorFor(std::size_t threads) {
   return std::make_unique<parallel::TbbExecutor>(threads == ALLPAIRS_ALL_THREADS ? 0 : threads);
 }
 
+std::unique_ptr<CallerMemory> memoryOf(const allpairs_memory& memory) {
+  if ((memory.allocate == nullptr) != (memory.deallocate == nullptr)) {
+    throw InvalidArgument("memory has only one of allocate and deallocate");
+  }
+  return memory.allocate == nullptr ? nullptr : std::make_unique<CallerMemory>(memory);
+}
+
 allpairs_pairs toC(std::span<const Pair> pairs) {
   return {reinterpret_cast<const allpairs_pair*>(pairs.data()), pairs.size()};
 }
@@ -90,8 +145,16 @@ Box boxOf(const double* bounds) { return {{bounds[0], bounds[1], bounds[2]}, {bo
 
 // NOLINTBEGIN(readability-identifier-naming): names are C's.
 
-const char* allpairs_error_message(void) { return allpairs::c::lastFailure.message; }
-uint64_t allpairs_error_index(void) { return allpairs::c::lastFailure.index; }
+const char* allpairs_error_message(void) {
+  const allpairs::c::Failure* failure = allpairs::c::failures.find();
+  return failure != nullptr ? failure->message : "";
+}
+
+uint64_t allpairs_error_index(void) {
+  const allpairs::c::Failure* failure = allpairs::c::failures.find();
+  return failure != nullptr ? failure->index : 0;
+}
+
 const char* allpairs_version(void) { return ALLPAIRS_VERSION; }
 
 // NOLINTEND(readability-identifier-naming)

@@ -10,10 +10,11 @@ BoxProperties propertiesOf(const allpairs_properties& given) {
   return {given.category, given.mask, given.group, given.owner, given.margin, given.is_static};
 }
 
-WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor) {
+WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor, CallerMemory* memory) {
   WorldOptions options;
   options.distance = given.distance;
   options.executor = executor;
+  options.memory = memory;
   if (given.accept != nullptr) {
     options.accept = [accept = given.accept, context = given.accept_context](BoxId a, BoxId b) {
       return accept(context, a, b);
@@ -35,13 +36,19 @@ allpairs_status allpairs_world_create(const allpairs_world_options* options, all
     allpairs_world*& result = required(world, "world");
     const allpairs_world_options given = known(options);
     std::unique_ptr<allpairs::Executor> executor = executorFor(given.threads);
-    allpairs::World made(optionsOf(given, executor.get()));
-    result = std::make_unique<allpairs_world>(allpairs_world{std::move(executor), std::move(made)}).release();
+    std::unique_ptr<CallerMemory> memory = memoryOf(given.memory);
+    allpairs::World made(optionsOf(given, executor.get(), memory.get()));
+    allpairs_world handle{std::move(memory), std::move(executor), std::move(made)};
+    result = std::make_unique<allpairs_world>(std::move(handle)).release();
   });
 }
 
 void allpairs_world_destroy(allpairs_world* world) {
   delete world;  // NOLINT(cppcoreguidelines-owning-memory): C's handle
+}
+
+allpairs_status allpairs_world_shrink(allpairs_world* world) {
+  return guarded([&] { worldOf(world).shrink(); });
 }
 
 allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
@@ -70,9 +77,10 @@ allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids) {
 allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_ids ids,
                                               const allpairs_properties* properties) {
   return guarded([&] {
+    const std::span<const allpairs_properties> given = requiredSpan(properties, ids.count, "properties");
     std::vector<allpairs::BoxProperties> each;
-    each.reserve(ids.count);
-    for (const auto& given : requiredSpan(properties, ids.count, "properties")) each.push_back(propertiesOf(given));
+    each.reserve(given.size());
+    for (const allpairs_properties& one : given) each.push_back(propertiesOf(one));
     worldOf(world).setProperties(idsOf(ids), each);
   });
 }

@@ -31,11 +31,11 @@ BoxSweep sweepOf(const allpairs_sweep& sweep) { return {boxOf(sweep.box), vector
 
 allpairs_hit toC(const SweepHit& hit) { return {hit.id, hit.t}; }
 
-allpairs_hits toC(std::span<const SweepHit> hits) {
+allpairs_hits toC(const std::vector<SweepHit>& hits) {
   return {reinterpret_cast<const allpairs_hit*>(hits.data()), hits.size()};
 }
 
-allpairs_neighbors toC(std::span<const Neighbor> neighbors) {
+allpairs_neighbors toC(const std::vector<Neighbor>& neighbors) {
   return {reinterpret_cast<const allpairs_neighbor*>(neighbors.data()), neighbors.size()};
 }
 
@@ -76,7 +76,8 @@ allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const dou
                                                 const allpairs_query_filter* filter, allpairs_ids* ids) {
   return guarded([&] {
     allpairs_ids& result = required(ids, "ids");
-    const auto found = worldOf(world).findOverlapping(boxOf(&required(box, "box")), filterOf(filter));
+    auto& found = required(world, "world").ids;
+    found = worldOf(world).findOverlapping(boxOf(&required(box, "box")), filterOf(filter));
     result = {found.data(), found.size()};
   });
 }
@@ -93,7 +94,9 @@ allpairs_status allpairs_world_find_all(allpairs_world* world, const allpairs_ra
                                         const allpairs_query_filter* filter, allpairs_hits* hits) {
   return guarded([&] {
     allpairs_hits& result = required(hits, "hits");
-    result = toC(worldOf(world).findAll(rayOf(required(ray, "ray")), filterOf(filter)));
+    auto& found = required(world, "world").hits;
+    found = worldOf(world).findAll(rayOf(required(ray, "ray")), filterOf(filter));
+    result = toC(found);
   });
 }
 
@@ -109,7 +112,9 @@ allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_s
                                          const allpairs_query_filter* filter, allpairs_hits* hits) {
   return guarded([&] {
     allpairs_hits& result = required(hits, "hits");
-    result = toC(worldOf(world).findAll(sweepOf(required(sweep, "sweep")), filterOf(filter)));
+    auto& found = required(world, "world").hits;
+    found = worldOf(world).findAll(sweepOf(required(sweep, "sweep")), filterOf(filter));
+    result = toC(found);
   });
 }
 
@@ -118,7 +123,9 @@ allpairs_status allpairs_world_find_nearest(allpairs_world* world, const allpair
   return guarded([&] {
     allpairs_neighbors& result = required(neighbors, "neighbors");
     const allpairs_nearest& wanted = required(nearest, "nearest");
-    result = toC(worldOf(world).findNearest(vectorOf(wanted.point), wanted.count, filterOf(filter)));
+    auto& found = required(world, "world").neighbors;
+    found = worldOf(world).findNearest(vectorOf(wanted.point), wanted.count, filterOf(filter));
+    result = toC(found);
   });
 }
 
@@ -126,7 +133,8 @@ allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, cons
                                                      const allpairs_query_filter* filter, allpairs_id_lists* lists) {
   return guarded([&] {
     allpairs_id_lists& result = required(lists, "lists");
-    const auto found = worldOf(world).findOverlapping(required(boxes, "boxes").boxes, filterOf(filter));
+    auto& found = required(world, "world").idLists;
+    found = worldOf(world).findOverlapping(required(boxes, "boxes").boxes, filterOf(filter));
     result = toC<allpairs_id_lists>(found);
   });
 }
@@ -140,7 +148,9 @@ allpairs_status allpairs_world_find_all_many(allpairs_world* world, allpairs_ray
                                              const allpairs_query_filter* filter, allpairs_hit_lists* lists) {
   return guarded([&] {
     allpairs_hit_lists& result = required(lists, "lists");
-    result = toC<allpairs_hit_lists>(worldOf(world).findAll(raysOf(rays), filterOf(filter)));
+    auto& found = required(world, "world").hitLists;
+    found = worldOf(world).findAll(raysOf(rays), filterOf(filter));
+    result = toC<allpairs_hit_lists>(found);
   });
 }
 
@@ -153,7 +163,9 @@ allpairs_status allpairs_world_sweep_all_many(allpairs_world* world, allpairs_sw
                                               const allpairs_query_filter* filter, allpairs_hit_lists* lists) {
   return guarded([&] {
     allpairs_hit_lists& result = required(lists, "lists");
-    result = toC<allpairs_hit_lists>(worldOf(world).findAll(sweepsOf(sweeps), filterOf(filter)));
+    auto& found = required(world, "world").hitLists;
+    found = worldOf(world).findAll(sweepsOf(sweeps), filterOf(filter));
+    result = toC<allpairs_hit_lists>(found);
   });
 }
 
@@ -163,14 +175,18 @@ allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const al
     allpairs_neighbor_lists& result = required(lists, "lists");
     const allpairs_nearest_many& wanted = required(nearest, "nearest");
     const auto points = sameAs<std::array<double, 3>>(wanted.points, wanted.point_count, "nearest.points");
-    result = toC<allpairs_neighbor_lists>(worldOf(world).findNearest(points, wanted.count, filterOf(filter)));
+    auto& found = required(world, "world").neighborLists;
+    found = worldOf(world).findNearest(points, wanted.count, filterOf(filter));
+    result = toC<allpairs_neighbor_lists>(found);
   });
 }
 
 allpairs_status allpairs_world_find_between(allpairs_world* world, allpairs_world* other, allpairs_pairs* pairs) {
   return guarded([&] {
     allpairs_pairs& result = required(pairs, "pairs");
-    result = toC(worldOf(world).findBetween(required(other, "other").world));
+    auto& found = required(world, "world").between;
+    found = worldOf(world).findBetween(required(other, "other").world);
+    result = toC(std::span<const allpairs::Pair>(found));
   });
 }
 

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "ElementBoxes.h"
-#include "Memory.h"
 #include "PairChecks.h"
+#include "memory/Memory.h"
+#include "search/InUse.h"
 
 namespace allpairs::elements {
 namespace {
@@ -28,6 +29,8 @@ struct Sets {
 
 /// The pairs of a kind that were found, in memory that the next search writes over.
 struct Found {
+  explicit Found(std::pmr::memory_resource* memory) : pairs(memory) {}
+
   engine::Buffer<Pair> pairs;
   std::size_t size = 0;
 };
@@ -65,13 +68,17 @@ struct ElementCandidates::State {
       : topology(std::move(meshes)),
         options(wanted),
         corners(topology.triangles().begin(), topology.triangles().end()),
-        boxes(topology) {}
+        boxes(topology),
+        search(engineOptions(options.order)),
+        found(engine::makeArray<Found, 3>(engine::memoryOr(options.memory))),
+        batch(engine::memoryOr(options.memory)) {}
 
   OverlapOptions engineOptions(Order order) const {
     OverlapOptions engine;
     engine.order = order;
     engine.distance = options.margin;
     engine.executor = options.executor;
+    engine.memory = options.memory;
     engine.batchSize = kBatch;
     return engine;
   }
@@ -108,8 +115,9 @@ struct ElementCandidates::State {
   ElementBoxes boxes;
   Overlaps search;
   SerialExecutor serial;
+  engine::InUse inUse;
   std::array<Found, 3> found;
-  std::vector<Pair> batch;
+  std::pmr::vector<Pair> batch;
 };
 
 template <class Elements, class Use>
@@ -166,18 +174,38 @@ ElementCandidates::~ElementCandidates() = default;
 ElementCandidates::ElementCandidates(ElementCandidates&&) noexcept = default;
 ElementCandidates& ElementCandidates::operator=(ElementCandidates&&) noexcept = default;
 
-const MeshTopology& ElementCandidates::topology() const noexcept { return m_state->topology; }
+ElementCandidates::State& ElementCandidates::state() {
+  if (m_state == nullptr) m_state = std::make_unique<State>(MeshTopology(), CandidateOptions());
+  m_state->inUse.check("ElementCandidates");
+  return *m_state;
+}
+
+void ElementCandidates::shrink() {
+  if (m_state == nullptr) return;
+  State& state = this->state();
+  state.search.shrink();
+  state.batch.clear();
+  state.batch.shrink_to_fit();
+}
+
+const MeshTopology& ElementCandidates::topology() const noexcept {
+  static const MeshTopology kNone;
+  return m_state != nullptr ? m_state->topology : kNone;
+}
 
 void ElementCandidates::setPositions(std::size_t mesh, std::span<const float> start, std::span<const float> end) {
-  m_state->boxes.setPositions(m_state->topology, mesh, start, end);
+  State& state = this->state();
+  state.boxes.setPositions(state.topology, mesh, start, end);
 }
 
 void ElementCandidates::setPositions(std::size_t mesh, std::span<const double> start, std::span<const double> end) {
-  m_state->boxes.setPositions(m_state->topology, mesh, start, end);
+  State& state = this->state();
+  state.boxes.setPositions(state.topology, mesh, start, end);
 }
 
 std::span<const Pair> ElementCandidates::find(CandidateKind kind) {
-  State& state = *m_state;
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
   Found& found = state.found[static_cast<std::size_t>(kind)];
   found.size = 0;
   if (found.pairs.capacity() == 0) found.pairs.require(firstCapacity(state.topology.counts()));
@@ -194,13 +222,17 @@ std::span<const Pair> ElementCandidates::find(CandidateKind kind) {
 }
 
 std::uint64_t ElementCandidates::count(CandidateKind kind) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
   std::uint64_t count = 0;
-  m_state->streamIn(Order::Unordered, kind, [&count](std::span<const Pair> pairs) { count += pairs.size(); });
+  state.streamIn(Order::Unordered, kind, [&count](std::span<const Pair> pairs) { count += pairs.size(); });
   return count;
 }
 
 void ElementCandidates::stream(CandidateKind kind, PairVisitor visitor) {
-  m_state->streamIn(m_state->options.order, kind, visitor);
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  state.streamIn(state.options.order, kind, visitor);
 }
 
 }  // namespace allpairs::elements

@@ -84,6 +84,7 @@ MeshTopology::MeshTopology(std::span<const MeshView> meshes) : m_before(1) {
 }
 
 const ElementCounts& MeshTopology::before(std::size_t mesh) const {
+  if (mesh == meshCount()) return counts();
   if (mesh < m_before.size()) return m_before[mesh];
   throw InvalidArgument("there is no mesh " + std::to_string(mesh) + " among " + std::to_string(meshCount()));
 }

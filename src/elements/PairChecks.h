@@ -45,7 +45,7 @@ struct TwoFaces {
 /// Which meshes the two elements may be of.
 struct MeshRule {
   const std::uint32_t* meshOfVertex = nullptr;  ///< Null where meshes need not be told apart.
-  bool wantSame = true;
+  bool wantSame;
 
   template <class Elements>
   [[nodiscard]] bool allows(const Elements& elements, Pair pair) const noexcept {

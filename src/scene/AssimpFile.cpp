@@ -1,50 +1,48 @@
 // SPDX-License-Identifier: MIT
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <algorithm>
 #include <array>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cmath>
+#include <cstring>
 #include <limits>
+#include <memory>
 #include <new>
 #include <span>
 #include <string_view>
 
+#include "ChildProcess.h"
 #include "FileBytes.h"
 #include "MeshObject.h"
-#include "allpairs/Error.h"
+#include "ReadScope.h"
+#include "Transform.h"
+#include "Words.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {
 
 using Path = std::filesystem::path;
 
-/// A node's transform into the world: three rows of four, in double.
-using Transform = std::array<std::array<double, 4>, 3>;
+/// The most levels of nodes: those of Assimp are taken apart by recursion.
+constexpr std::size_t kMaxNodeDepth = 1000;
 
-constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+// What the answer of the process that runs Assimp begins with.
+constexpr char kResult = 'R';
+constexpr char kProblem = 'P';
 
-Transform multiply(const Transform& parent, const aiMatrix4x4& child) {
+Transform transformOf(const aiMatrix4x4& matrix) {
   Transform result{};
   for (unsigned row = 0; row < 3; ++row) {
-    for (unsigned column = 0; column < 4; ++column) {
-      double sum = column == 3 ? parent[row][3] : 0.0;
-      for (unsigned k = 0; k < 3; ++k) sum += parent[row][k] * static_cast<double>(child[k][column]);
-      result[row][column] = sum;
-    }
+    for (unsigned column = 0; column < 4; ++column) result[row][column] = static_cast<double>(matrix[row][column]);
   }
   return result;
 }
 
-Point apply(const Transform& transform, const aiVector3D& position) {
-  const std::array<double, 3> p{static_cast<double>(position.x), static_cast<double>(position.y),
-                                static_cast<double>(position.z)};
-  Point result{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    const std::array<double, 4>& m = transform[row];
-    result[row] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
-  }
-  return result;
+Point pointOf(const aiVector3D& position) {
+  return {static_cast<double>(position.x), static_cast<double>(position.y), static_cast<double>(position.z)};
 }
 
 template <class T>
@@ -55,22 +53,22 @@ std::span<T* const> spanOf(T* const* items, unsigned count) {
 /// Names that Assimp's readers make up where the file has none.
 bool isMadeUp(std::string_view name) {
   static constexpr std::array<std::string_view, 2> kMadeUp{"ROOT", "<DummyRootNode>"};
-  const bool isNumberedGltf = (name.starts_with("nodes[") || name.starts_with("meshes[")) && name.ends_with(']');
-  return name.empty() || isNumberedGltf || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
+  return name.empty() || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
 }
 
 class NodeReader {
  public:
-  NodeReader(const aiScene& scene, const Path& path) : m_scene(scene), m_path(path) {}
+  NodeReader(const aiScene& scene, const Path& path, ReadScope& scope) : m_scene(scene), m_path(path), m_scope(scope) {}
 
   std::vector<MeshObject> read() {
-    addNode(*m_scene.mRootNode, kIdentity);
+    addNode(*m_scene.mRootNode, kIdentity, 0);
     return std::move(m_objects);
   }
 
  private:
-  void addNode(const aiNode& node, const Transform& parent) {
-    const Transform world = multiply(parent, node.mTransformation);
+  void addNode(const aiNode& node, const Transform& parent, std::size_t depth) {
+    if (depth > kMaxNodeDepth) throw FileError(m_path, "has nodes that are nested too deep");
+    const Transform world = multiply(parent, transformOf(node.mTransformation));
     if (node.mNumMeshes != 0) {
       MeshObject& object = m_objects.emplace_back();
       object.name = nameOf(node);
@@ -78,7 +76,7 @@ class NodeReader {
         addMesh(object, *m_scene.mMeshes[index], world);
       }
     }
-    for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) addNode(*child, world);
+    for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) addNode(*child, world, depth + 1);
   }
 
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
@@ -93,9 +91,10 @@ class NodeReader {
   void addMesh(MeshObject& object, const aiMesh& mesh, const Transform& world) {
     const std::size_t base = object.positions.size();
     if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) fail(object, "has too many vertices");
+    m_scope.take(mesh.mNumVertices * sizeof(Point));
     object.positions.reserve(base + mesh.mNumVertices);
     for (const aiVector3D& position : std::span(mesh.mVertices, mesh.mNumVertices)) {
-      object.positions.push_back(apply(world, position));
+      object.positions.push_back(placed(world, pointOf(position)));
     }
     for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) addFace(object, face, base);
     if (mesh.mNumFaces == 0) addAllPoints(object, base);
@@ -103,6 +102,7 @@ class NodeReader {
 
   /// A face of more than three corners becomes a fan. Assimp's own triangulation ends the program on bad faces.
   void addFace(MeshObject& object, const aiFace& face, std::size_t base) {
+    m_scope.takeElements(face.mNumIndices, sizeof(MeshObject::triangles[0]));
     if (face.mNumIndices == 0) fail(object, "has a face without vertices");
     const auto corner = [&](unsigned i) {
       if (face.mIndices[i] >= object.positions.size() - base) fail(object, "names a vertex that isn't there");
@@ -123,12 +123,146 @@ class NodeReader {
 
   const aiScene& m_scene;
   const Path& m_path;
+  ReadScope& m_scope;
   std::vector<MeshObject> m_objects;
 };
 
-std::string problemOf(const Assimp::Importer& importer) {
-  const std::string_view text = importer.GetErrorString();
-  return text.empty() ? "it is no mesh" : std::string(text);
+/// Opens what Assimp asks for: the input, and what it may name.
+class ScopedFiles final : public Assimp::IOSystem {
+ public:
+  ScopedFiles(const Path& input, ReadScope& scope) : m_input(input), m_scope(scope) {}
+
+  bool Exists(const char* name) const override {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(name, ignored) && isAllowed(name);
+  }
+
+  char getOsSeparator() const override { return '/'; }
+
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    const bool writes = std::string_view(mode).find_first_of("wa+") != std::string_view::npos;
+    if (writes || !Exists(name)) return nullptr;
+    m_opensOthers |= name != m_input;
+    m_scope.admit(name);
+    const std::string text = readText(name);
+    auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+    std::copy(text.begin(), text.end(), bytes.get());
+    return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
+  }
+
+  void Close(Assimp::IOStream* stream) override { const std::unique_ptr<Assimp::IOStream> closed(stream); }
+
+  /// The mesh outside that the input names; empty if there is none. What else it may name, such as materials, is left
+  /// alone without a word: it has no geometry.
+  [[nodiscard]] const std::string& refused() const { return m_refused; }
+
+  /// Whether what goes wrong may be due to another file, of which no message must show anything.
+  [[nodiscard]] bool opensOthers() const { return m_opensOthers; }
+
+ private:
+  bool isAllowed(const char* name) const {
+    if (name == m_input || m_scope.allows(name)) return true;
+    if (isAssimpFile(name)) m_refused = name;
+    return false;
+  }
+
+  const Path& m_input;
+  ReadScope& m_scope;
+  mutable std::string m_refused;
+  bool m_opensOthers = false;
+};
+
+/// Carries objects from one process to another of the same program.
+class ObjectTransfer {
+ public:
+  static std::string pack(const std::vector<MeshObject>& objects) {
+    std::string bytes(1, kResult);
+    for (const MeshObject& object : objects) {
+      put(bytes, object.name);
+      put(bytes, object.positions);
+      put(bytes, object.triangles);
+      put(bytes, object.lines);
+      put(bytes, object.points);
+    }
+    return bytes;
+  }
+
+  static std::vector<MeshObject> unpack(std::string_view bytes) {
+    std::vector<MeshObject> objects;
+    while (!bytes.empty()) {
+      MeshObject& object = objects.emplace_back();
+      take(bytes, object.name);
+      take(bytes, object.positions);
+      take(bytes, object.triangles);
+      take(bytes, object.lines);
+      take(bytes, object.points);
+      check(object);
+    }
+    return objects;
+  }
+
+ private:
+  template <class List>
+  static void put(std::string& bytes, const List& list) {
+    const std::uint64_t count = list.size();
+    bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+    bytes.append(reinterpret_cast<const char*>(list.data()), count * sizeof(list[0]));
+  }
+
+  template <class List>
+  static void take(std::string_view& bytes, List& list) {
+    std::uint64_t count = 0;
+    copy(bytes, &count, sizeof(count));
+    if (count > bytes.size() / sizeof(list[0])) throw Error("a mesh arrived in pieces");
+    list.resize(static_cast<std::size_t>(count));
+    copy(bytes, list.data(), list.size() * sizeof(list[0]));
+  }
+
+  static void copy(std::string_view& bytes, void* to, std::size_t count) {
+    if (count > bytes.size()) throw Error("a mesh arrived in pieces");
+    if (count != 0) std::memcpy(to, bytes.data(), count);
+    bytes.remove_prefix(count);
+  }
+
+  /// A child that a hostile file has taken over may send anything.
+  static void check(const MeshObject& object) {
+    const auto isVertex = [&object](std::uint32_t index) { return index < object.positions.size(); };
+    const auto areVertices = [&](const auto& corners) { return std::all_of(corners.begin(), corners.end(), isVertex); };
+    const bool isWhole = areVertices(object.points) &&
+                         std::all_of(object.lines.begin(), object.lines.end(), areVertices) &&
+                         std::all_of(object.triangles.begin(), object.triangles.end(), areVertices);
+    if (!isWhole) throw Error("a mesh arrived in pieces");
+  }
+};
+
+std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope) {
+  Assimp::Importer importer;
+  auto owned = std::make_unique<ScopedFiles>(path, scope);
+  const ScopedFiles* files = owned.get();
+  importer.SetIOHandler(owned.release());  // which owns it
+  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (!files->refused().empty()) {
+    throw FileError(path, "names the file '" + files->refused() + "', which " + ReadScope::kOutside);
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    const std::string reason = files->opensOthers() ? "" : importer.GetErrorString();
+    if (reason == std::bad_alloc().what()) throw std::bad_alloc();  // which Assimp has caught
+    throw FileError(path, "cannot be read as a mesh" + (reason.empty() ? "" : ": " + reason));
+  }
+  return NodeReader(*scene, path, scope).read();
+}
+
+/// The objects, or what is wrong.
+std::string importInChild(const Path& path, ReadScope& scope) {
+  try {
+    return ObjectTransfer::pack(importObjects(path, scope));
+  } catch (const FileError& problem) {
+    return kProblem + problem.problem();
+  } catch (const std::bad_alloc&) {
+    return kProblem + std::string("takes more memory to read than --max-memory allows");
+  } catch (const std::exception& problem) {
+    return kProblem + std::string("cannot be read as a mesh: ") + problem.what();
+  }
 }
 
 }  // namespace
@@ -138,21 +272,18 @@ bool isAssimpFile(const Path& path) {
   return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
-std::vector<MeshObject> readAssimpObjects(const Path& path) {
+std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope) {
   requireFile(path);
-  Assimp::Importer importer;
-  const aiScene* scene = nullptr;
-  try {
-    scene = importer.ReadFile(path.string(), 0);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& problem) {
-    throw FileError(path, std::string("cannot be read as a mesh: ") + problem.what());
-  }
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw FileError(path, "cannot be read as a mesh: " + problemOf(importer));
-  }
-  return NodeReader(*scene, path).read();
+  constexpr std::uint64_t kSeconds = 10;
+  constexpr std::uint64_t kBytesPerSecond = 1 << 20;  // the slowest of Assimp's readers on honest files
+  std::error_code ignored;
+  const std::uint64_t size = std::filesystem::file_size(path, ignored);
+  const std::string answer = runInChild([&] { return importInChild(path, scope); },
+                                        {.memory = scope.left(), .cpuSeconds = kSeconds + size / kBytesPerSecond},
+                                        [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
+  if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
+  if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
+  return ObjectTransfer::unpack(std::string_view(answer).substr(1));
 }
 
 }  // namespace allpairs::scene

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <utility>
 
+#include "CsvLine.h"
 #include "FileBytes.h"
+#include "ReadScope.h"
 #include "UniqueNames.h"
 #include "allpairs/Error.h"
 
@@ -86,7 +88,9 @@ bool isBoxArrayFile(const std::filesystem::path& path) {
 
 BoxArray readBoxArray(const std::filesystem::path& path, const ReadOptions& options) {
   if (options.progress) options.progress({.done = 0, .total = 1, .file = path});
-  if (lowerExtension(path) == ".csv") return readCsv(path);
+  ReadScope scope(path, options);
+  if (lowerExtension(path) == ".csv") return readCsv(path, scope);
+  scope.admit(path);  // twice its size is more than it takes
   return readNpy(path);
 }
 

@@ -10,6 +10,7 @@
 #include "FileBytes.h"
 #include "NpyInput.h"
 #include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "CsvLine.h"
 #include "FileBytes.h"
-#include "allpairs/Error.h"
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {
@@ -91,7 +91,7 @@ CsvLayout layoutOfHeader(const std::vector<CsvField>& fields, const TextPlace& p
 
 class CsvReader {
  public:
-  explicit CsvReader(const Path& path) : m_place{path} {}
+  CsvReader(const Path& path, ReadScope& scope) : m_place{path}, m_scope(scope) {}
 
   void readLine(std::string_view line) {
     ++m_place.line;
@@ -121,11 +121,13 @@ class CsvReader {
                           std::to_string(m_layout.columns),
                       m_place.line);
     }
+    m_scope.takeElements(2, kCoordinates * sizeof(double));  // once more when it is finished
     for (const std::size_t column : m_layout.coordinates) m_values.push_back(csvNumber(m_fields[column], m_place));
     if (m_layout.name != kNoColumn) m_names.add(m_fields[m_layout.name].text);
   }
 
   TextPlace m_place;
+  ReadScope& m_scope;
   CsvLayout m_layout;
   std::vector<CsvField> m_fields;
   std::vector<double> m_values;
@@ -134,7 +136,8 @@ class CsvReader {
 
 }  // namespace
 
-BoxArray readCsv(const Path& path) {
+BoxArray readCsv(const Path& path, ReadScope& scope) {
+  scope.admit(path);
   const std::string text = readText(path);
   std::string_view rest = text;
   if (const std::size_t zero = rest.find('\0'); zero != std::string_view::npos) {
@@ -143,13 +146,18 @@ BoxArray readCsv(const Path& path) {
     throw FileError(path, "is no text: it holds a byte of zero, as UTF-16 does; UTF-8 can be read", line + 1);
   }
   if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
-  CsvReader reader(path);
+  CsvReader reader(path, scope);
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     reader.readLine(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return reader.finish();
+}
+
+BoxArray readCsv(const Path& path) {
+  ReadScope scope(path, {});
+  return readCsv(path, scope);
 }
 
 }  // namespace allpairs::scene

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {

@@ -7,7 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "ReadScope.h"
+#include "allpairs/scene/BoxArray.h"
+
 namespace allpairs::scene {
+
+/// Boxes of a text file, within what may be taken.
+[[nodiscard]] BoxArray readCsv(const std::filesystem::path& path, ReadScope& scope);
 
 /// Where in a text file something stands; both count from 1, columns in bytes.
 struct TextPlace {

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {

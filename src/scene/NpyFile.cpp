@@ -7,6 +7,7 @@
 #include "NpyInput.h"
 #include "allpairs/Error.h"
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {

@@ -10,7 +10,7 @@
 #include "MeshObject.h"
 #include "Position.h"
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {
@@ -44,7 +44,7 @@ void forEachLine(const std::string& text, Visit visit) {
 
 class ObjReader {
  public:
-  explicit ObjReader(const Path& path) : m_path(path) {}
+  ObjReader(const Path& path, ReadScope& scope) : m_path(path), m_scope(scope) {}
 
   std::vector<MeshObject> read() {
     const std::string text = readText(m_path);
@@ -70,6 +70,7 @@ class ObjReader {
   }
 
   void addPosition(std::string_view line) {
+    m_scope.takeElements(1, sizeof(Point));
     m_positions.push_back(readPosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
   }
 
@@ -79,6 +80,7 @@ class ObjReader {
     for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line)) {
       corners.push_back(resolve(word.substr(0, word.find('/'))));
     }
+    m_scope.takeElements(corners.size(), sizeof(MeshObject::triangles[0]));
     MeshObject& object = m_objects[m_current];
     if (corners.empty()) fail("an element has no vertices");
     if (kind == 'p' || corners.size() == 1) {
@@ -112,6 +114,7 @@ class ObjReader {
       m_current = known->second;
       if (!isNew) return;
     }
+    m_scope.takeElements(1, sizeof(MeshObject) + name.size());
     m_current = m_objects.size();
     m_objects.emplace_back().name = std::move(name);
   }
@@ -175,6 +178,7 @@ class ObjReader {
   };
 
   const Path& m_path;
+  ReadScope& m_scope;
   std::size_t m_line = 0;
   std::string_view m_objectKeyword;
   std::vector<Point> m_positions;
@@ -188,6 +192,6 @@ class ObjReader {
 
 }  // namespace
 
-std::vector<MeshObject> readObjObjects(const Path& path) { return ObjReader(path).read(); }
+std::vector<MeshObject> readObjObjects(const Path& path, ReadScope& scope) { return ObjReader(path, scope).read(); }
 
 }  // namespace allpairs::scene

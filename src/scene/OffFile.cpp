@@ -7,7 +7,7 @@
 #include "MeshObject.h"
 #include "Position.h"
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {
@@ -16,7 +16,7 @@ using Path = std::filesystem::path;
 
 class OffReader {
  public:
-  OffReader(const std::string& text, const Path& path) : m_rest(text), m_path(path) {}
+  OffReader(const std::string& text, const Path& path, ReadScope& scope) : m_rest(text), m_path(path), m_scope(scope) {}
 
   std::vector<MeshObject> read() {
     readHeader();
@@ -36,7 +36,7 @@ class OffReader {
       const std::string_view content = trimmed(line.substr(0, line.find('#')));
       if (!content.empty()) return content;
     }
-    fail("ends before all that its header announces");
+    fail("truncated: its header promises more than the file has");
   }
 
   /// OFF, or with prefixes that say what stands behind each position: COFF, NOFF, STOFF. The counts may follow in the
@@ -66,6 +66,7 @@ class OffReader {
   }
 
   void addPosition(std::string_view line) {
+    m_scope.takeElements(1, sizeof(Point));
     m_object.positions.push_back(
         readPosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
   }
@@ -80,6 +81,7 @@ class OffReader {
       if (word.empty()) {
         fail("a face names " + std::to_string(m_corners.size()) + " vertices instead of " + std::to_string(size));
       }
+      m_scope.takeElements(1, sizeof(m_object.triangles[0]));
       m_corners.push_back(resolve(word));
     }
     if (size == 1) m_object.points.push_back(m_corners[0]);
@@ -102,6 +104,7 @@ class OffReader {
 
   std::string_view m_rest;
   const Path& m_path;
+  ReadScope& m_scope;
   std::size_t m_line = 0;
   std::uint64_t m_vertices = 0;
   std::uint64_t m_faces = 0;
@@ -111,10 +114,10 @@ class OffReader {
 
 }  // namespace
 
-std::vector<MeshObject> readOffObjects(const Path& path) {
+std::vector<MeshObject> readOffObjects(const Path& path, ReadScope& scope) {
   const std::string text = readText(path);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw FileError(path, "is empty");
-  return OffReader(text, path).read();
+  return OffReader(text, path, scope).read();
 }
 
 }  // namespace allpairs::scene

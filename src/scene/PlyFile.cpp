@@ -11,7 +11,7 @@
 #include "MeshObject.h"
 #include "PlyHeader.h"
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {
@@ -38,7 +38,7 @@ class PlyBody {
       ++begin;
     }
     m_text.remove_prefix(begin);
-    if (m_text.empty()) fail("ends before all that its header announces");
+    if (m_text.empty()) fail("truncated: its header promises more than the file has");
     const std::string_view word = m_text.substr(0, m_text.find_first_of(" \t\r\f\v\n"));
     const std::optional<double> value = parseNumber(word);
     if (!value) fail("'" + std::string(word) + "' is not a number");
@@ -70,7 +70,7 @@ class PlyBody {
 
   template <class T>
   T take() {
-    if (m_text.size() < sizeof(T)) fail("ends before all that its header announces");
+    if (m_text.size() < sizeof(T)) fail("truncated: its header promises more than the file has");
     std::array<char, sizeof(T)> bytes{};
     std::memcpy(bytes.data(), m_text.data(), sizeof(T));
     m_text.remove_prefix(sizeof(T));
@@ -87,8 +87,8 @@ class PlyBody {
 
 class PlyReader {
  public:
-  PlyReader(const std::string& text, const Path& path)
-      : m_header(parsePlyHeader(text, path)), m_body(text, m_header, path) {}
+  PlyReader(const std::string& text, const Path& path, ReadScope& scope)
+      : m_scope(scope), m_header(parsePlyHeader(text, path)), m_body(text, m_header, path) {}
 
   std::vector<MeshObject> read() {
     for (const PlyElement& element : m_header.elements) {
@@ -135,6 +135,7 @@ class PlyReader {
       if (!std::isfinite(coordinate))
         m_body.fail(m_place.text() + " has a coordinate that is missing or no finite number");
     }
+    m_scope.takeElements(1, sizeof(Point));
     m_object.positions.push_back(position);
   }
 
@@ -146,6 +147,7 @@ class PlyReader {
     m_corners.clear();
     for (double i = 0; i < count; ++i) {
       const double value = m_body.next(property.type);
+      m_scope.takeElements(1, sizeof(m_object.triangles[0]));
       if (isFace && element.name == "face") m_corners.push_back(index(value));
       if (isFace && element.name == "tristrips") addToStrip(value);
     }
@@ -199,6 +201,7 @@ class PlyReader {
 
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
+  ReadScope& m_scope;
   PlyHeader m_header;
   PlyBody m_body;
   MeshObject m_object;
@@ -209,9 +212,9 @@ class PlyReader {
 
 }  // namespace
 
-std::vector<MeshObject> readPlyObjects(const Path& path) {
+std::vector<MeshObject> readPlyObjects(const Path& path, ReadScope& scope) {
   const std::string text = readText(path);
-  return PlyReader(text, path).read();
+  return PlyReader(text, path, scope).read();
 }
 
 }  // namespace allpairs::scene

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {

@@ -6,8 +6,9 @@
 
 #include "FileBytes.h"
 #include "MeshObject.h"
-#include "allpairs/Error.h"
+#include "ReadScope.h"
 #include "allpairs/collision/BoxModel.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadSofaScene.h"
 
 namespace allpairs::scene {
@@ -25,11 +26,24 @@ Scene toScene(const BoxArray& boxes) {
   return scene;
 }
 
+namespace {
+
+/// Boxes as models take far more memory than the file that holds them.
+Scene readBoxes(const std::filesystem::path& path, const ReadOptions& options) {
+  const BoxArray boxes = readBoxArray(path, options);
+  ReadScope scope(path, options);
+  scope.admit(path);
+  scope.take(ReadScope::kBytesPerModel * boxes.size());
+  return toScene(boxes);
+}
+
+}  // namespace
+
 Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return readMeshFolder(path, options);
   requireFile(path);
-  if (isBoxArrayFile(path)) return toScene(readBoxArray(path, options));
+  if (isBoxArrayFile(path)) return readBoxes(path, options);
   const std::string extension = lowerExtension(path);
   if (extension == ".scn" || extension == ".xml") return readSofaScene(path, options);
   if (extension == ".obj" || extension == ".ply" || isAssimpFile(path)) return readMesh(path, options);

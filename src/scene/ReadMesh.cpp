@@ -12,6 +12,7 @@
 #include "allpairs/collision/LineModel.h"
 #include "allpairs/collision/PointModel.h"
 #include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::scene {
@@ -19,21 +20,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<MeshObject> readObjects(const fs::path& path) {
+std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope) {
+  scope.admit(path);
   const std::string extension = lowerExtension(path);
-  if (extension == ".obj") return readObjObjects(path);
-  if (extension == ".ply") return readPlyObjects(path);
-  if (extension == ".stl") return readStlObjects(path);
-  if (extension == ".off") return readOffObjects(path);
-  return readAssimpObjects(path);
+  if (extension == ".obj") return readObjObjects(path, scope);
+  if (extension == ".ply") return readPlyObjects(path, scope);
+  if (extension == ".stl") return readStlObjects(path, scope);
+  if (extension == ".off") return readOffObjects(path, scope);
+  if (extension == ".gltf" || extension == ".glb") return readGltfObjects(path, scope);
+  return readAssimpObjects(path, scope);
 }
 
 /// Makes the models of one object, all of one owner.
 class ObjectModels {
  public:
-  ObjectModels(Scene& scene, UniqueNames& names) : m_scene(scene), m_names(names) {}
+  ObjectModels(Scene& scene, UniqueNames& names, ReadScope& scope) : m_scene(scene), m_names(names), m_scope(scope) {}
 
   void add(MeshObject object) {
+    m_scope.take(ReadScope::kBytesPerModel +
+                 4 * object.name.size());  // its owner, its model and the names in use have it too
     m_scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
     m_name = std::move(object.name);
     std::vector<Point> isolated;
@@ -59,6 +64,7 @@ class ObjectModels {
 
   Scene& m_scene;
   UniqueNames& m_names;
+  ReadScope& m_scope;
   std::string m_name;
   std::unique_ptr<collision::CollisionModel> m_lines;
   std::unique_ptr<collision::CollisionModel> m_points;
@@ -100,19 +106,19 @@ std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Re
   return meshes;
 }
 
-/// What an error says after its file and line, which a remark says on its own.
-std::string withoutPlace(const FileError& error) {
-  const std::string_view text = error.what();
-  const std::size_t end = text.find(": ", error.path().string().size());
-  return std::string(end == std::string_view::npos ? text : text.substr(end + 2));
+/// A link in a folder may lead out of it.
+void requireAllowed(const fs::path& path, const ReadScope& scope) {
+  if (scope.allows(path)) return;
+  throw FileError(
+      path, "is a link to a file outside of the folder and of those given with --data; --allow-outside allows it");
 }
 
 /// Reads the objects of one file behind what the scene has.
-void readInto(Scene& scene, UniqueNames& names, const fs::path& path) {
-  ObjectModels models(scene, names);
+void readInto(Scene& scene, UniqueNames& names, const fs::path& path, ReadScope& scope) {
+  ObjectModels models(scene, names, scope);
   const std::size_t before = scene.models.size();
   try {
-    for (MeshObject& object : readObjects(path)) {
+    for (MeshObject& object : readObjects(path, scope)) {
       if (object.name.empty()) object.name = path.filename().string();
       models.add(std::move(object));
     }
@@ -128,25 +134,28 @@ Scene readMesh(const fs::path& path, const ReadOptions& options) {
   if (options.progress) options.progress({.done = 0, .total = 1, .file = path});
   Scene scene = emptyScene();
   UniqueNames names;
-  readInto(scene, names, path);
+  ReadScope scope(path, options);
+  readInto(scene, names, path, scope);
   return scene;
 }
 
 Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
   Scene scene = emptyScene();
   UniqueNames names;
+  ReadScope scope(path, options);
   const std::vector<fs::path> meshes = chooseMeshes(sortedEntries(path), scene.remarks);
   if (meshes.empty()) throw FileError(path, "is a folder without mesh files");
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     if (options.progress) options.progress({.done = i, .total = meshes.size(), .file = meshes[i]});
     try {
-      readInto(scene, names, meshes[i]);
+      requireAllowed(meshes[i], scope);
+      readInto(scene, names, meshes[i], scope);
     } catch (const FileError& problem) {
       if (!options.partial) throw;
       scene.remarks.push_back({.file = meshes[i],
                                .line = problem.line(),
                                .subject = meshes[i].filename().string(),
-                               .reason = withoutPlace(problem),
+                               .reason = problem.problem(),
                                .isPartial = true});
     }
   }

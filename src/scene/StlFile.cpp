@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string_view>
 
 #include "FileBytes.h"
+#include "LittleEndian.h"
 #include "MeshObject.h"
 #include "Position.h"
 #include "Words.h"
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::scene {
 namespace {
@@ -21,15 +18,6 @@ using Path = std::filesystem::path;
 constexpr std::size_t kHeaderSize = 84;  // eighty bytes of anything, and the number of facets
 constexpr std::size_t kFacetSize = 50;   // a normal, three corners, and two bytes that mean nothing
 constexpr std::size_t kNormalSize = 12;
-
-/// A number of a binary file, which is little-endian wherever it was written.
-template <class T>
-T littleEndian(std::string_view bytes) {
-  std::array<char, sizeof(T)> copy{};
-  std::memcpy(copy.data(), bytes.data(), sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(copy.begin(), copy.end());
-  return std::bit_cast<T>(copy);
-}
 
 /// Adds a triangle of the last three positions.
 void addTriangle(MeshObject& object) {
@@ -48,12 +36,15 @@ bool isBinary(std::string_view text) {
   return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
 }
 
-std::vector<MeshObject> readBinary(std::string_view text, const Path& path) {
+std::vector<MeshObject> readBinary(std::string_view text, const Path& path, ReadScope& scope) {
   if (text.empty()) throw FileError(path, "is empty");
   if (text.size() < kHeaderSize) throw FileError(path, "is too short for an STL file");
-  if (text.size() < binarySize(text)) throw FileError(path, "ends before all that its header announces");
+  if (text.size() < binarySize(text))
+    throw FileError(path, "truncated: the header promises " + std::to_string(binarySize(text)) +
+                              " bytes, the file has " + std::to_string(text.size()));
   const std::uint32_t count = littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
   if (count > std::numeric_limits<std::uint32_t>::max() / 3) throw FileError(path, "has too many facets");
+  scope.takeElements(count, 3 * sizeof(Point) + sizeof(MeshObject::triangles[0]));
   MeshObject object;
   for (std::size_t facet = 0; facet < count; ++facet) {
     std::string_view bytes = text.substr(kHeaderSize + facet * kFacetSize + kNormalSize);
@@ -74,7 +65,7 @@ std::vector<MeshObject> readBinary(std::string_view text, const Path& path) {
 
 class TextReader {
  public:
-  TextReader(std::string_view text, const Path& path) : m_rest(text), m_path(path) {}
+  TextReader(std::string_view text, const Path& path, ReadScope& scope) : m_rest(text), m_path(path), m_scope(scope) {}
 
   std::vector<MeshObject> read() {
     while (!m_rest.empty()) {
@@ -91,6 +82,7 @@ class TextReader {
     if (word == "solid") {
       if (m_isInSolid) fail("a solid begins within another");
       m_isInSolid = true;
+      m_scope.takeElements(1, sizeof(MeshObject) + line.size());
       m_objects.emplace_back().name = std::string(trimmed(line));
     } else if (word == "endsolid") {
       requireCorners(0);
@@ -116,6 +108,7 @@ class TextReader {
   void addPosition(std::string_view line) {
     if (!m_isInSolid) fail("a vertex stands outside of any solid");
     ++m_corners;
+    m_scope.takeElements(1, sizeof(Point) + sizeof(MeshObject::triangles[0]));
     m_objects.back().positions.push_back(
         readPosition(line, "a vertex", [this](const std::string& problem) { fail(problem); }));
   }
@@ -124,6 +117,7 @@ class TextReader {
 
   std::string_view m_rest;
   const Path& m_path;
+  ReadScope& m_scope;
   std::size_t m_line = 0;
   bool m_isInSolid = false;
   std::size_t m_corners = 0;
@@ -132,9 +126,9 @@ class TextReader {
 
 }  // namespace
 
-std::vector<MeshObject> readStlObjects(const Path& path) {
+std::vector<MeshObject> readStlObjects(const Path& path, ReadScope& scope) {
   const std::string text = readText(path);
-  return isBinary(text) ? readBinary(text, path) : TextReader(text, path).read();
+  return isBinary(text) ? readBinary(text, path, scope) : TextReader(text, path, scope).read();
 }
 
 }  // namespace allpairs::scene

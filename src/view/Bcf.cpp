@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <pugixml.hpp>
+#include <sstream>
+
 #include "ClashPicture.h"
-#include "Xml.h"
+#include "Text.h"
 #include "Zip.h"
 
 namespace allpairs::view {
 namespace {
 
-constexpr const char* kHead = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+using Node = pugi::xml_node;
 
 std::string viewpointGuid(const Clash& clash) { return guidOf({clash.guid, "viewpoint"}); }
 
@@ -20,53 +23,95 @@ std::string descriptionOf(const Clash& clash) {
                      clash.overlap[0], clash.overlap[1], clash.overlap[2], clash.volume);
 }
 
+void addText(Node parent, const char* name, const std::string& text) {
+  parent.append_child(name).text().set(printable(text).c_str());
+}
+
+void addNumber(Node parent, const char* name, double value) { addText(parent, name, fmt::to_string(value)); }
+
+/// Appends an element with one attribute.
+Node addElement(Node parent, const char* name, const char* attribute, const std::string& value) {
+  Node element = parent.append_child(name);
+  element.append_attribute(attribute).set_value(value.c_str());
+  return element;
+}
+
+std::string textOf(pugi::xml_document& document) {
+  Node declaration = document.prepend_child(pugi::node_declaration);
+  declaration.append_attribute("version").set_value("1.0");
+  declaration.append_attribute("encoding").set_value("UTF-8");
+  std::ostringstream text;
+  document.save(text, "  ");
+  return text.str();
+}
+
+std::string version() {
+  pugi::xml_document document;
+  addText(addElement(document.root(), "Version", "VersionId", "2.1"), "DetailedVersion", "2.1");
+  return textOf(document);
+}
+
 std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
-  std::string text = kHead;
-  text += fmt::format("<Markup>\n  <Header><File isExternal=\"true\"><Filename>{}</Filename></File></Header>\n",
-                      escapeXml(scene.title));
-  text += fmt::format("  <Topic Guid=\"{}\" TopicType=\"Clash\" TopicStatus=\"Open\">\n", clash.guid);
-  text += fmt::format("    <Title>{}</Title>\n    <Index>{}</Index>\n", escapeXml(titleOf(scene, clash)), clash.number);
-  text +=
-      fmt::format("    <CreationDate>{}</CreationDate>\n    <CreationAuthor>Allpairs</CreationAuthor>\n", options.date);
-  text += fmt::format("    <Description>{}</Description>\n  </Topic>\n", descriptionOf(clash));
-  text += fmt::format("  <Viewpoints Guid=\"{}\">\n    <Viewpoint>viewpoint.bcfv</Viewpoint>\n", viewpointGuid(clash));
-  return text + "    <Snapshot>snapshot.png</Snapshot>\n    <Index>0</Index>\n  </Viewpoints>\n</Markup>\n";
+  pugi::xml_document document;
+  Node root = document.append_child("Markup");
+  addText(addElement(root.append_child("Header"), "File", "isExternal", "true"), "Filename", scene.title);
+  Node topic = addElement(root, "Topic", "Guid", clash.guid);
+  topic.append_attribute("TopicType").set_value("Clash");
+  topic.append_attribute("TopicStatus").set_value("Open");
+  addText(topic, "Title", titleOf(scene, clash));
+  addText(topic, "Index", std::to_string(clash.number));
+  addText(topic, "CreationDate", options.date);
+  addText(topic, "CreationAuthor", "Allpairs");
+  addText(topic, "Description", descriptionOf(clash));
+  Node viewpoints = addElement(root, "Viewpoints", "Guid", viewpointGuid(clash));
+  addText(viewpoints, "Viewpoint", "viewpoint.bcfv");
+  addText(viewpoints, "Snapshot", "snapshot.png");
+  addText(viewpoints, "Index", "0");
+  return textOf(document);
 }
 
-std::string vector(const char* name, const std::array<double, 3>& v) {
-  return fmt::format("    <{0}><X>{1}</X><Y>{2}</Y><Z>{3}</Z></{0}>\n", name, v[0], v[1], v[2]);
+void addVector(Node parent, const char* name, const std::array<double, 3>& v) {
+  Node vector = parent.append_child(name);
+  addNumber(vector, "X", v[0]);
+  addNumber(vector, "Y", v[1]);
+  addNumber(vector, "Z", v[2]);
 }
 
-std::string component(const std::string& name) {
-  return fmt::format(
-      "      <Component><OriginatingSystem>Allpairs</OriginatingSystem>"
-      "<AuthoringToolId>{}</AuthoringToolId></Component>\n",
-      escapeXml(name));
+void addComponent(Node selection, const std::string& name) {
+  Node component = selection.append_child("Component");
+  addText(component, "OriginatingSystem", "Allpairs");
+  addText(component, "AuthoringToolId", name);
 }
 
-std::string viewpoint(const ViewScene& scene, const Clash& clash, double metresPerUnit) {
-  const ParallelCamera camera = cameraOf(scene, clash);
+void addCamera(Node parent, const ParallelCamera& camera, double metresPerUnit) {
   std::array<double, 3> eye{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     eye[axis] = (camera.centre[axis] - 2.0 * camera.height * camera.direction[axis]) * metresPerUnit;
   }
-  std::string text = kHead;
-  text += fmt::format("<VisualizationInfo Guid=\"{}\">\n  <Components>\n    <Selection>\n", viewpointGuid(clash));
-  text += component(scene.name(clash.first));
-  if (!clash.isSelf()) text += component(scene.name(clash.second));
-  text += "    </Selection>\n    <Visibility DefaultVisibility=\"true\"/>\n  </Components>\n  <OrthogonalCamera>\n";
-  text += vector("CameraViewPoint", eye) + vector("CameraDirection", camera.direction);
-  text += vector("CameraUpVector", camera.up);
-  text += fmt::format("    <ViewToWorldScale>{}</ViewToWorldScale>\n", camera.height * metresPerUnit);
-  return text + "  </OrthogonalCamera>\n</VisualizationInfo>\n";
+  Node element = parent.append_child("OrthogonalCamera");
+  addVector(element, "CameraViewPoint", eye);
+  addVector(element, "CameraDirection", camera.direction);
+  addVector(element, "CameraUpVector", camera.up);
+  addNumber(element, "ViewToWorldScale", camera.height * metresPerUnit);
+}
+
+std::string viewpoint(const ViewScene& scene, const Clash& clash, double metresPerUnit) {
+  pugi::xml_document document;
+  Node root = addElement(document.root(), "VisualizationInfo", "Guid", viewpointGuid(clash));
+  Node components = root.append_child("Components");
+  Node selection = components.append_child("Selection");
+  addComponent(selection, scene.name(clash.first));
+  if (!clash.isSelf()) addComponent(selection, scene.name(clash.second));
+  addElement(components, "Visibility", "DefaultVisibility", "true");
+  addCamera(root, cameraOf(scene, clash), metresPerUnit);
+  return textOf(document);
 }
 
 }  // namespace
 
 std::string makeBcf(const ViewScene& scene, std::span<const Clash> clashes, const BcfOptions& options) {
   Zip archive;
-  archive.add("bcf.version",
-              std::string(kHead) + "<Version VersionId=\"2.1\"><DetailedVersion>2.1</DetailedVersion></Version>\n");
+  archive.add("bcf.version", version());
   for (const Clash& clash : clashes) {
     archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
     archive.add(clash.guid + "/viewpoint.bcfv", viewpoint(scene, clash, options.metresPerUnit));

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "Xml.h"
+#include "Text.h"
 
 namespace allpairs::view {
 namespace {
@@ -34,9 +34,9 @@ td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-spa
 constexpr std::size_t kMostRows = 10'000;  // of more, browsers take seconds to lay out the page
 
 std::string namesOf(const ViewScene& scene, const Clash& clash) {
-  std::string text = fmt::format("<span class=\"first\">{}</span>", escapeXml(scene.name(clash.first)));
+  std::string text = fmt::format("<span class=\"first\">{}</span>", escapeHtml(scene.name(clash.first)));
   if (clash.isSelf()) return text + " with itself";
-  return text + fmt::format("<br><span class=\"second\">{}</span>", escapeXml(scene.name(clash.second)));
+  return text + fmt::format("<br><span class=\"second\">{}</span>", escapeHtml(scene.name(clash.second)));
 }
 
 /// Four digits, and no exponent before a number has ten.
@@ -47,7 +47,7 @@ std::string shortNumber(double value) {
 
 std::string figureOf(const ViewScene& scene, const Clash& clash) {
   std::string text = fmt::format("<figure id=\"clash-{}\"><img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" ",
-                                 clash.number, pictureName(clash.number), escapeXml(titleOf(scene, clash)));
+                                 clash.number, pictureName(clash.number), escapeHtml(titleOf(scene, clash)));
   text += fmt::format("loading=\"lazy\"><figcaption>{}. {}", clash.number, namesOf(scene, clash));
   if (!clash.isSelf()) {
     text +=
@@ -61,8 +61,8 @@ std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
   const std::string number =
       hasPicture ? fmt::format("<a href=\"#clash-{0}\">{0}</a>", clash.number) : std::to_string(clash.number);
   std::string text =
-      fmt::format("<tr><td class=\"number\">{}</td><td>{}</td><td>{}</td>", number, escapeXml(scene.name(clash.first)),
-                  clash.isSelf() ? "itself" : escapeXml(scene.name(clash.second)));
+      fmt::format("<tr><td class=\"number\">{}</td><td>{}</td><td>{}</td>", number, escapeHtml(scene.name(clash.first)),
+                  clash.isSelf() ? "itself" : escapeHtml(scene.name(clash.second)));
   for (const double extent : clash.overlap) text += fmt::format("<td class=\"number\">{}</td>", shortNumber(extent));
   return text + fmt::format("<td class=\"number\">{}</td></tr>\n", shortNumber(clash.volume));
 }
@@ -86,8 +86,8 @@ bool isAscii(const std::string& text) {
 }
 
 std::string introduction(const ViewScene& scene, std::size_t count, std::size_t pictured) {
-  std::string text = fmt::format("<h1>{}</h1>\n<p>{} models, {} pairs. {}.</p>\n", escapeXml(scene.title),
-                                 scene.modelCount, count, escapeXml(scene.method));
+  std::string text = fmt::format("<h1>{}</h1>\n<p>{} models, {} pairs. {}.</p>\n", escapeHtml(scene.title),
+                                 scene.modelCount, count, escapeHtml(scene.method));
   if (count == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
   text +=
       "<p>A pair is two models whose axis-aligned bounding boxes are near enough: they may touch, and only a look at "
@@ -118,7 +118,7 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
   sink("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
   sink("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self' file:; ");
   sink("style-src 'unsafe-inline'\">\n");
-  sink(fmt::format("<title>{} – clashes</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", escapeXml(scene.title),
+  sink(fmt::format("<title>{} – clashes</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", escapeHtml(scene.title),
                    kStyle));
   sink(introduction(scene, clashes.size(), pictured));
   sink("<section class=\"clashes\">\n");

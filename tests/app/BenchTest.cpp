@@ -91,7 +91,7 @@ TEST(Bench, WithAnUnknownInstructionSetSaysSo) {
 }
 
 TEST(Bench, OnAnUnknownInstructionSetIsWrongUsage) {
-  expectFailure(runProgram({"bench", "uniform", "--instruction-set", "FOO"}), 2, "'FOO' is none");
+  expectFailure(runProgram({"bench", "uniform", "--instruction-set", "FOO"}), 2, "'FOO' is not available");
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(Elements, OfFramesThatDoNotFitNameTheFileAndTheElement) {
 TEST(Elements, WithoutAnEndOrUnderANameOfAnotherFormatIsWrongUsage) {
   const TempFolder folder;
   const std::string start = folder.write("start.obj", kStart);
-  expectFailure(runProgram({"elements", start}), 2, "needs its END");
+  expectFailure(runProgram({"elements", start}), 2, "has no END");
   expectFailure(runProgram({"elements", start, start, "-o", folder.path() / "x.npy"}), 2, "x.npy");
   expectFailure(runProgram({"elements", start, start, "--margin", "far"}), 2, "'far'");
 }

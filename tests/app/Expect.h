@@ -10,6 +10,9 @@
 
 namespace allpairs::test {
 
+inline constexpr int kWrongUsage = 2;
+inline constexpr int kBadInput = 3;
+
 /// The run ended well and complained about nothing.
 inline void expectSuccess(const ProgramRun& run) {
   EXPECT_EQ(run.status, 0);

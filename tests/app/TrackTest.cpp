@@ -122,7 +122,7 @@ TEST(Track, OfBadFramesNamesFileFrameAndBox) {
 TEST(Track, OfSeveralArraysIsWrongUsage) {
   const TempFolder folder;
   const std::string file = folder.write("frames.npy", framesBytes(passing()));
-  expectFailure(runProgram({"track", file, file}), 2, "stands alone");
+  expectFailure(runProgram({"track", file, file}), 2, "one mesh file per frame");
 }
 
 TEST(Track, OfNoFramesOrNoBoxesCountsNothing) {

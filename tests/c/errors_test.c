@@ -93,6 +93,8 @@ static void anUnknownIdIsNamed(void) {
   ALLPAIRS_CHECK(allpairs_world_remove(world, ids) == ALLPAIRS_INVALID_BOX && says("41"));
   ALLPAIRS_CHECK(allpairs_world_box(world, id, bounds) == ALLPAIRS_INVALID_BOX);
   ALLPAIRS_CHECK(allpairs_world_size(world) == 0 && !allpairs_world_contains(world, id));
+  const allpairs_ids tooMany = {&id, SIZE_MAX};
+  ALLPAIRS_CHECK(allpairs_world_set_properties(world, tooMany, NULL) == ALLPAIRS_INVALID_ARGUMENT && says("null"));
   allpairs_world_destroy(world);
 }
 

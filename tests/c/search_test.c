@@ -179,6 +179,30 @@ static void onSets(void (*test)(allpairs_set*)) {
   }
 }
 
+/// 93,000 boxes in one place: more pairs than 32 bits hold are counted, and allowed.
+static void numbersOfPairsHave64Bits(void) {
+  const float corner[3] = {0, 0, 0};
+  const allpairs_corner_f32 all = {corner, 0, 1};
+  const size_t size = 93000;
+  allpairs_set* many = NULL;
+  allpairs_set* few = NULL;
+  allpairs_search* search = NULL;
+  allpairs_pairs found;
+  uint64_t count = 0;
+  allpairs_options options = allpairs_default_options();
+  options.strategy = ALLPAIRS_EXHAUSTIVE;
+  options.max_pairs = (uint64_t)1 << 32U;
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_create_strided_f32(size, all, all, &many) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_create_strided_f32(100, all, all, &few) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_count(search, many, &count) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(count == (uint64_t)size * (size - 1) / 2);
+  ALLPAIRS_CHECK(allpairs_find(search, few, &found) == ALLPAIRS_OK && found.count == 4950);
+  allpairs_set_destroy(many);
+  allpairs_set_destroy(few);
+  allpairs_search_destroy(search);
+}
+
 int main(void) {
   checkFill(rows, kBoxes, 3);
   for (size_t i = 0; i < kBoxes; ++i) {
@@ -191,5 +215,6 @@ int main(void) {
   onSets(streamsComeInBatchesAndCanBeStopped);
   onSets(twoSetsAreMet);
   marginsAreAdded();
+  numbersOfPairsHave64Bits();
   return EXIT_SUCCESS;
 }

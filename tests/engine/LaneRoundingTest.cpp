@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "LaneReader.h"
+#include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 namespace {

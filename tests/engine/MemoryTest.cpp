@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "Memory.h"
+#include "memory/Memory.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <new>
 #include <thread>
 #include <utility>
-#include <vector>
 
 namespace allpairs::engine {
 namespace {
 
-using Numbers = Buffer<std::uint64_t>;
+struct Numbers : Buffer<std::uint64_t> {
+  explicit Numbers(std::pmr::memory_resource* memory = defaultMemory()) : Buffer(memory) {}
+};
 
 std::uint64_t numberAt(std::size_t i, std::uint64_t seed) { return (i + seed) * 0x9E3779B97F4A7C15U; }
 
@@ -40,7 +44,7 @@ TEST(Memory, WhatIsThereStaysWhenABufferGrowsOverAllSizesOfBlocks) {
   for (const double factor : {1.5, 2.0, 5.0}) EXPECT_TRUE(holds(grown(kSize, factor, 1), kSize, 1)) << factor;
 }
 
-TEST(Memory, BlocksThatHaveGrownAreUsedAgainAndGrowAgain) {
+TEST(Memory, TwoBuffersThatGrowByTurnsKeepWhatIsTheirs) {
   constexpr std::size_t kSize = std::size_t{3} << 20;
   for (std::uint64_t round = 0; round < 6; ++round) {
     const Numbers first = grown(kSize, 2.0, round);
@@ -58,26 +62,49 @@ TEST(Memory, ABlockOfOneThreadMayBeFreedByAnother) {
   std::thread([taken = std::move(numbers)]() mutable { EXPECT_TRUE(holds(grown(kSize, 2.0, 8), kSize, 8)); }).join();
 }
 
-#if defined(__linux__)
-// Fresh memory is zero; that of a block which was kept is as it was left.
-TEST(Memory, WhatSearchesOfOtherSizesLeftMakesRoom) {
-  constexpr std::size_t kOther = std::size_t{3} << 20;
-  constexpr std::size_t kSize = std::size_t{2} << 20;
-  constexpr std::uint64_t kMark = 0x5EED;
-  {
-    std::vector<Numbers> others(12);
-    for (Numbers& numbers : others) numbers.require(kOther);
+/// Refuses blocks of more than so many bytes.
+class BoundedMemory final : public std::pmr::memory_resource {
+ public:
+  explicit BoundedMemory(std::size_t largest) : m_largest(largest) {}
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    if (bytes > m_largest) throw std::bad_alloc();
+    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
   }
-  bool isKept = false;
-  for (int round = 0; round < 1000 && !isKept; ++round) {
-    Numbers numbers;
-    numbers.require(kSize);
-    isKept = numbers[kSize - 1] == kMark;
-    numbers[kSize - 1] = kMark;
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
   }
-  EXPECT_TRUE(isKept);
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  std::size_t m_largest;
+};
+
+TEST(Memory, ABufferThatCannotGrowIsAsItWas) {
+  BoundedMemory memory(1000 * sizeof(std::uint64_t));
+  Numbers numbers(&memory);
+  numbers.grow(1000);
+  for (std::size_t i = 0; i < 1000; ++i) numbers[i] = numberAt(i, 3);
+  EXPECT_THROW(numbers.grow(1001), std::bad_alloc);
+  EXPECT_EQ(numbers.capacity(), 1000U);
+  EXPECT_TRUE(holds(numbers, 1000, 3));
 }
-#endif
+
+TEST(Memory, ABufferThatCannotBeReplacedIsEmptyAndMayBeUsedAgain) {
+  BoundedMemory memory(1000 * sizeof(std::uint64_t));
+  Numbers numbers(&memory);
+  numbers.require(500);
+  EXPECT_THROW(numbers.require(1001), std::bad_alloc);
+  EXPECT_EQ(numbers.capacity(), 0U);
+  numbers.require(1000);
+  EXPECT_EQ(numbers.capacity(), 1000U);
+}
+
+TEST(Memory, SizesBeyondTheAddressSpaceAreOutOfMemory) {
+  Numbers numbers;
+  EXPECT_THROW(numbers.grow(std::numeric_limits<std::size_t>::max() / 2), std::bad_alloc);
+  EXPECT_THROW(numbers.require(std::numeric_limits<std::size_t>::max() / 8 + 2), std::bad_alloc);
+}
 
 TEST(Memory, IsAlignedToACacheLine) {
   for (const std::size_t size : {std::size_t{1}, std::size_t{1000}, std::size_t{100000}, std::size_t{10000000}}) {

@@ -378,5 +378,23 @@ TEST(Overlaps, CrowdsInACornerOfTheSceneMissNoPair) {
   EXPECT_EQ(overlaps(boxes, blocked), test::oracle(test::toDouble(boxes)));
 }
 
+TEST(Overlaps, CountsMorePairsThan32BitsHold) {
+  const std::vector<BoxF> boxes(93000, BoxF{{0, 0, 0}, {1, 1, 1}});
+  OverlapOptions options;
+  options.strategy = Strategy::Exhaustive;
+  Overlaps search(options);
+  EXPECT_EQ(search.count(boxes), std::uint64_t{93000} * 92999 / 2);
+  EXPECT_EQ(search.statistics().pairs, std::uint64_t{93000} * 92999 / 2);
+}
+
+TEST(Overlaps, AllowsMorePairsThan32BitsHold) {
+  const std::vector<Box> boxes(100, test::cube(0, 0, 0));
+  for (const std::uint64_t most : {std::uint64_t{1} << 32U, (std::uint64_t{1} << 32U) + 1}) {
+    OverlapOptions options;
+    options.maxPairs = most;
+    EXPECT_EQ(overlaps(boxes, options).size(), 4950U);
+  }
+}
+
 }  // namespace
 }  // namespace allpairs

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <random>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "CheckOptions.h"
-#include "PairSort.h"
-#include "RadixRun.h"
-#include "allpairs/Overlaps.h"
 #include "allpairs/parallel/TbbExecutor.h"
+#include "bvh/RadixSort.h"
+#include "order/PairSort.h"
 
 namespace allpairs::engine {
 namespace {
@@ -33,26 +31,19 @@ std::vector<Pair> sortedBy(Order order, std::vector<Pair> pairs) {
   return pairs;
 }
 
-class PairSortOf : public testing::TestWithParam<std::string> {
- protected:
-  PairSortOf() { m_options.instructionSet = GetParam(); }
+void expectSorted(std::size_t size, std::uint32_t keys, Order order, Executor& executor) {
+  const std::vector<Pair> given = randomPairs(size, keys);
+  std::vector<Pair> pairs = given;
+  std::vector<Pair> spare(size % 2 == 0 ? size : 0);
+  PairSort(defaultMemory()).sort(pairs, {keys, keys, order, spare}, executor);
+  ASSERT_TRUE(sortedBy(order, given) == pairs) << size << " pairs of " << keys;
+}
 
-  void expectSorted(std::size_t size, std::uint32_t keys, Order order, Executor& executor) {
-    const std::vector<Pair> given = randomPairs(size, keys);
-    std::vector<Pair> pairs = given;
-    std::vector<Pair> spare(size % 2 == 0 ? size : 0);
-    PairSort().sort(pairs, {keys, keys, order, &chooseKernels(m_options), spare}, executor);
-    ASSERT_TRUE(sortedBy(order, given) == pairs) << size << " pairs of " << keys;
-  }
-
-  OverlapOptions m_options;
-};
-
-TEST_P(PairSortOf, SortsSparseAndDensePairsByEitherIndex) {
+TEST(PairSort, SortsSparseAndDensePairsByEitherIndex) {
   SerialExecutor serial;
   parallel::TbbExecutor threads(2);
   for (const std::size_t size :
-       {std::size_t{0}, std::size_t{1}, std::size_t{51}, std::size_t{3001}, std::size_t{90000}}) {
+       {std::size_t{0}, std::size_t{1}, std::size_t{51}, std::size_t{3001}, std::size_t{90000}, std::size_t{300001}}) {
     for (const std::uint32_t keys : {1U, 40U, 5000U, 70000U, 3000000U}) {
       for (const Order order : {Order::ByFirst, Order::BySecond}) {
         expectSorted(size, keys, order, serial);
@@ -62,25 +53,19 @@ TEST_P(PairSortOf, SortsSparseAndDensePairsByEitherIndex) {
   }
 }
 
-TEST_P(PairSortOf, SortsPairsOfWhichOneIndexHasThousands) {
+TEST(PairSort, SortsPairsOfWhichOneIndexHasThousands) {
   std::vector<Pair> given = randomPairs(60000, 90000);
   for (std::size_t i = 0; i < given.size(); i += 13) given[i].first = 4711;
   for (std::size_t i = 1; i < given.size(); i += 13) given[i].second = 815;
   SerialExecutor serial;
   for (const Order order : {Order::ByFirst, Order::BySecond}) {
     std::vector<Pair> pairs = given;
-    PairSort().sort(pairs, {90000, 90000, order, &chooseKernels(m_options), {}}, serial);
+    PairSort(defaultMemory()).sort(pairs, {90000, 90000, order, {}}, serial);
     ASSERT_TRUE(sortedBy(order, given) == pairs);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PairSortOf, testing::ValuesIn([] {
-                           std::vector<std::string> names;
-                           for (const std::string_view name : instructionSets()) names.emplace_back(name);
-                           return names;
-                         }()));
-
-TEST(RadixRun, SortsRunsOfAnyLengthByTheBitsAboveTheIndex) {
+TEST(RadixSort, SortsRunsOfAnyLengthByTheBitsAboveTheIndex) {
   std::mt19937_64 generator(11);
   for (const std::size_t size : {0U, 1U, 2U, 24U, 25U, 500U, 1535U, 1536U, 8191U, 8192U, 40000U}) {
     for (const unsigned bits : {32U, 33U, 40U, 50U, 62U}) {
@@ -92,7 +77,7 @@ TEST(RadixRun, SortsRunsOfAnyLengthByTheBitsAboveTheIndex) {
       std::vector<std::uint64_t> expected = from;
       std::sort(expected.begin(), expected.end());
       std::vector<std::uint64_t> to(size);
-      sortRun(from.data(), to.data(), size, bits, 32);
+      if (radixSort(from.data(), to.data(), size, 32, bits) == from.data()) std::swap(from, to);
       ASSERT_TRUE(expected == to) << size << " numbers of " << bits << " bits";
     }
   }

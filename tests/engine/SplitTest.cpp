@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "CheckOptions.h"
-#include "HierarchyBuilder.h"
-#include "TaskCut.h"
 #include "allpairs/generate/BoxScenes.h"
+#include "bvh/BvhBuilder.h"
+#include "input/Options.h"
+#include "search/TaskCut.h"
 
 namespace allpairs::engine {
 namespace {
@@ -25,18 +25,18 @@ std::vector<std::uint64_t> workOfTasks(const std::string& scene, std::size_t thr
   const BoxSet boxes = BoxSet::fromRows(std::span<const float>(rows));
   const OverlapOptions options;
   SerialExecutor serial;
-  HierarchyBuilder builder;
+  BvhBuilder builder(defaultMemory());
   const Kernels& kernels = chooseKernels(options);
-  builder.build(LaneReader(boxes, options), kernels, serial);
-  const std::size_t leaves = builder.hierarchy().level[0].blockCount();
+  builder.build(BoxReader(boxes, options, kernels), serial);
+  const BvhView view = builder.levels().view();
+  const std::size_t leaves = view.level[0].blockCount();
   const TaskCut cut = TaskCut::ofLeaves(leaves, builder.firstLarge() / kFanOut, threads);
-  JoinScratch scratch;
+  JoinScratch scratch(defaultMemory());
   std::vector<std::uint64_t> work;
   for (std::size_t task = 0; task < cut.tasks(); ++task) {
     Hits hits;
     hits.countOnly = true;
-    kernels.join({&builder.hierarchy(), &builder.hierarchy(), true, cut.begin(task), cut.begin(task + 1), &scratch},
-                 hits);
+    kernels.join({&view, &view, true, cut.begin(task), cut.begin(task + 1), &scratch}, hits);
     work.push_back(hits.boxTests + hits.groupTests);
   }
   return work;

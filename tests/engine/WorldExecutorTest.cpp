@@ -2,6 +2,8 @@
 // Threads change nothing: the same lists, step by step, with one and with several.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <thread>
 #include <vector>
 
 #include "allpairs/World.h"
@@ -71,6 +73,56 @@ TEST(WorldExecutor, SeveralThreadsGiveTheQueriesOfOne) {
             std::vector(one.offsets.begin(), one.offsets.end()));
   EXPECT_EQ(std::vector(several.values.begin(), several.values.end()),
             std::vector(one.values.begin(), one.values.end()));
+}
+
+/// Everything that a query of each kind finds.
+struct Answers {
+  std::vector<BoxId> overlapping;
+  std::vector<SweepHit> hits;
+  SweepHit first;
+  std::vector<Neighbor> nearest;
+  std::vector<std::size_t> offsets;
+  std::vector<Pair> between;
+
+  friend bool operator==(const Answers&, const Answers&) = default;
+};
+
+Answers answersOf(const World& world, const World& other, const Box& box) {
+  Answers answers;
+  answers.overlapping = world.findOverlapping(box);
+  const Ray ray{box.min, {0.5, 0.25, 1.0}, 20.0};
+  answers.hits = world.findAll(ray);
+  answers.first = world.findFirst(BoxSweep{box, {1.0, 0.0, 0.0}, 5.0});
+  answers.nearest = world.findNearest(box.min, 7);
+  const std::vector<Box> boxes{box, world.box(0), world.box(1)};
+  answers.offsets = world.findOverlapping(BoxSet(boxes)).offsets;
+  answers.between = world.findBetween(other);
+  return answers;
+}
+
+TEST(WorldQueries, AnswerSeveralThreadsAtOnceEvenTheFirstOnesAfterAMove) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(1500, 81));
+  std::vector<Box> moved = test::toDouble(test::randomBoxes(1500, 82));
+  World world;
+  World other;
+  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  (void)other.add(BoxSet(std::span<const Box>(boxes).first(200)));
+  for (int round = 0; round < 5; ++round) {
+    World calm;
+    (void)calm.add(BoxSet(moved));
+    std::vector<Answers> expected;
+    for (int i = 0; i < 8; ++i) expected.push_back(answersOf(calm, other, boxes[static_cast<std::size_t>(i)]));
+
+    world.move(ids, moved);  // Whichever thread asks first brings the order up to date.
+    std::vector<Answers> found(8);
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < 8; ++i) {
+      threads.emplace_back([&, i] { found[i] = answersOf(world, other, boxes[i]); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(found, expected);
+    std::ranges::reverse(moved);
+  }
 }
 
 }  // namespace

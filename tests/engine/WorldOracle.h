@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -69,20 +70,43 @@ struct WorldOracle {
     return result;
   }
 
+  /// The bounds with the margin added; an infinite margin reaches everywhere.
+  static double lowOf(const Entry& e, std::size_t k) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    return e.properties.margin == infinity ? -infinity : e.box.min[k] - e.properties.margin;
+  }
+  static double highOf(const Entry& e, std::size_t k) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    return e.properties.margin == infinity ? infinity : e.box.max[k] + e.properties.margin;
+  }
+
+  /// By the greatest component, which is made 0.5 to 1 where squares would overflow or vanish.
+  static double length(const std::array<double, 3>& v) {
+    const double sum = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const double most = std::max({v[0], v[1], v[2]});
+    if ((sum > 1e-280 && std::isfinite(sum)) || most == 0.0 || !std::isfinite(most)) return std::sqrt(sum);
+    int exponent = 0;
+    std::frexp(most, &exponent);
+    double scaled = 0.0;
+    for (const double gap : v) scaled += std::ldexp(gap, -exponent) * std::ldexp(gap, -exponent);
+    return std::ldexp(std::sqrt(scaled), exponent);
+  }
+
   /// When a swept box meets a box: each axis says when it does, and all must at once.
-  static double meeting(const BoxSweep& s, const Box& b, double margin) {
+  static double meeting(const BoxSweep& s, const Entry& e) {
     double from = 0.0;
     double to = s.length;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double low = b.min[k] - margin;
-      const double high = b.max[k] + margin;
+      const double low = lowOf(e, k);
+      const double high = highOf(e, k);
       if (s.motion[k] == 0.0) {
         if (low > s.box.max[k] || high < s.box.min[k]) return std::numeric_limits<double>::infinity();
       } else {
         const double t1 = (low - s.box.max[k]) / s.motion[k];
         const double t2 = (high - s.box.min[k]) / s.motion[k];
-        from = std::max(from, s.motion[k] > 0.0 ? t1 : t2);
-        to = std::min(to, s.motion[k] > 0.0 ? t2 : t1);
+        // A difference of infinities, of bounds that are equal, says nothing of t.
+        from = std::fmax(from, s.motion[k] > 0.0 ? t1 : t2);
+        to = std::fmin(to, s.motion[k] > 0.0 ? t2 : t1);
       }
     }
     return from <= to ? from : std::numeric_limits<double>::infinity();
@@ -92,7 +116,7 @@ struct WorldOracle {
     std::vector<SweepHit> result;
     for (const auto& [id, e] : boxes) {
       if (!looksAt(e.properties, filter) || empty(e.box) || empty(sweep.box)) continue;
-      const double t = meeting(sweep, e.box, e.properties.margin);
+      const double t = meeting(sweep, e);
       if (t != std::numeric_limits<double>::infinity()) result.push_back({id, t});
     }
     std::stable_sort(result.begin(), result.end(), [](const SweepHit& a, const SweepHit& b) { return a.t < b.t; });
@@ -104,14 +128,13 @@ struct WorldOracle {
     std::vector<Neighbor> result;
     for (const auto& [id, e] : boxes) {
       if (!looksAt(e.properties, filter) || empty(e.box)) continue;
-      double sum = 0.0;
+      std::array<double, 3> gaps{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const double below = (e.box.min[k] - e.properties.margin) - p[k];
-        const double above = p[k] - (e.box.max[k] + e.properties.margin);
-        const double gap = std::max(0.0, std::max(below, above));
-        sum += gap * gap;
+        const double below = lowOf(e, k) - p[k];
+        const double above = p[k] - highOf(e, k);
+        gaps[k] = std::max(0.0, std::max(below, above));
       }
-      result.push_back({id, std::sqrt(sum)});
+      result.push_back({id, length(gaps)});
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });

@@ -29,6 +29,12 @@ class ExtremeNumbers {
     return value * kScales[below(std::size(kScales))];
   }
 
+  double margin() {
+    const std::size_t kind = below(8);
+    if (kind == 0) return kInfinity;
+    return kind == 1 ? -0.125 : std::abs(any());
+  }
+
   std::array<double, 3> point() { return {any(), any(), any()}; }
 
   Box box() {
@@ -38,6 +44,7 @@ class ExtremeNumbers {
       const double b = below(2) == 0 ? any() : a + 0.5;
       box.min[axis] = below(20) == 0 ? -kInfinity : std::min(a, b);
       box.max[axis] = below(20) == 0 ? kInfinity : std::max(a, b);
+      if (below(40) == 0) box.min[axis] = box.max[axis] = below(2) == 0 ? kInfinity : -kInfinity;
     }
     if (below(20) == 0) box.max[below(3)] = -1e35;  // most often empty
     return box;
@@ -49,7 +56,11 @@ class ExtremeNumbers {
 
 class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
  protected:
-  void SetUp() override {
+  void SetUp() override { fill(false); }
+
+  void fill(bool withMargins) {
+    m_withMargins = withMargins;
+    m_oracle = {};
     WorldOptions options;
     options.instructionSet = GetParam();
     m_world = World(options);
@@ -57,9 +68,14 @@ class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
       const Box box = m_numbers.box();
       BoxProperties properties;
       properties.isStatic = m_numbers.below(3) == 0;
+      if (m_withMargins) properties.margin = m_numbers.margin();
       m_oracle.boxes[m_world.add(box, properties)] = {box, properties};
     }
   }
+
+  void compareSweeps();
+  void compareNearest();
+  void compareOverlapping();
 
   template <class T>
   static std::vector<T> listOf(std::span<const T> values) {
@@ -67,6 +83,7 @@ class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
   }
 
   ExtremeNumbers m_numbers{5};
+  bool m_withMargins = false;
   World m_world;
   test::WorldOracle m_oracle;
 };
@@ -74,7 +91,7 @@ class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
 INSTANTIATE_TEST_SUITE_P(EachInstructionSet, WorldQueryExtremes,
                          ::testing::ValuesIn(instructionSets().begin(), instructionSets().end()));
 
-TEST_P(WorldQueryExtremes, SweptBoxesMeetWhatTheOracleMeets) {
+void WorldQueryExtremes::compareSweeps() {
   std::vector<BoxSweep> sweeps;
   for (int i = 0; i < 400; ++i) sweeps.push_back({m_numbers.box(), m_numbers.point(), std::abs(m_numbers.any())});
   for (int i = 0; i < 50; ++i) sweeps.push_back({m_numbers.box(), m_numbers.point(), kInfinity});
@@ -91,7 +108,7 @@ TEST_P(WorldQueryExtremes, SweptBoxesMeetWhatTheOracleMeets) {
   EXPECT_GT(hits, 1000U);
 }
 
-TEST_P(WorldQueryExtremes, PointsAreAsFarFromBoxesAsTheOracleSays) {
+void WorldQueryExtremes::compareNearest() {
   std::vector<std::array<double, 3>> points;
   for (int i = 0; i < 300; ++i) points.push_back(m_numbers.point());
   for (const std::size_t count : {std::size_t{1}, std::size_t{9}, std::size_t{1000}}) {
@@ -102,13 +119,60 @@ TEST_P(WorldQueryExtremes, PointsAreAsFarFromBoxesAsTheOracleSays) {
   }
 }
 
-TEST_P(WorldQueryExtremes, BoxesOverlapWhatTheOracleSays) {
+void WorldQueryExtremes::compareOverlapping() {
   std::vector<Box> boxes;
   for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
   const ResultLists<BoxId> lists = m_world.findOverlapping(BoxSet(std::span<const Box>(boxes)));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     EXPECT_EQ(listOf(lists[i]), m_oracle.overlapping(boxes[i], {})) << "box " << i;
   }
+}
+
+TEST_P(WorldQueryExtremes, SweptBoxesMeetWhatTheOracleMeets) { compareSweeps(); }
+TEST_P(WorldQueryExtremes, PointsAreAsFarFromBoxesAsTheOracleSays) { compareNearest(); }
+TEST_P(WorldQueryExtremes, BoxesOverlapWhatTheOracleSays) { compareOverlapping(); }
+
+TEST_P(WorldQueryExtremes, MarginsOfAnySizeChangeNothingOfThat) {
+  fill(true);
+  compareSweeps();
+  compareNearest();
+  compareOverlapping();
+}
+
+TEST_P(WorldQueryExtremes, PairsAreThoseOfTheOracle) {
+  for (const bool withMargins : {false, true}) {
+    fill(withMargins);
+    m_oracle.step();
+    const std::span<const Pair> pairs = m_world.step().pairs;
+    EXPECT_EQ(std::vector<Pair>(pairs.begin(), pairs.end()), m_oracle.pairs);
+    EXPECT_GT(pairs.size(), 1000U);
+  }
+}
+
+TEST(WorldQuery, ABoxAtInfinityWithAnInfiniteMarginIsNearestToEveryPoint) {
+  World world;
+  BoxProperties everywhere;
+  everywhere.margin = kInfinity;
+  const BoxId near = world.add(Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  const BoxId all = world.add(Box{{kInfinity, 0.0, 0.0}, {kInfinity, 1.0, 1.0}}, everywhere);
+  const BoxId far = world.add(Box{{kInfinity, 0.0, 0.0}, {kInfinity, 1.0, 1.0}});
+  const std::vector<Neighbor> found = world.findNearest({5.0, 0.5, 0.5}, 3);
+  EXPECT_EQ(std::vector<Neighbor>(found.begin(), found.end()),
+            (std::vector<Neighbor>{{all, 0.0}, {near, 4.0}, {far, kInfinity}}));
+}
+
+TEST(WorldQuery, DistancesWhoseSquaresNoNumberHoldsAreStillTold) {
+  World world;
+  const BoxId far = world.add(Box{{3e200, 4e200, 0.0}, {3e200, 4e200, 0.0}});
+  const BoxId farther = world.add(Box{{6e200, 8e200, 0.0}, {6e200, 8e200, 0.0}});
+  const BoxId near = world.add(Box{{-3e-200, -4e-200, 0.0}, {-3e-200, -4e-200, 0.0}});
+  const std::vector<Neighbor> found = world.findNearest({0.0, 0.0, 0.0}, 3);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].id, near);
+  EXPECT_DOUBLE_EQ(found[0].distance, 5e-200);
+  EXPECT_EQ(found[1].id, far);
+  EXPECT_DOUBLE_EQ(found[1].distance, 5e200);
+  EXPECT_EQ(found[2].id, farther);
 }
 
 TEST(WorldQuery, AnEmptyBoxOverlapsNothingNotEvenWhatLiesAroundIt) {

@@ -24,6 +24,7 @@ using ::testing::IsEmpty;
 
 using test::cube;
 
+using test::kInfinity;
 using test::kNan;
 
 /// The index that an InvalidBox names, after a look at its message.
@@ -265,6 +266,28 @@ TEST(World, ACrowdCostsNoMoreTestsThanOthers) {
   static_cast<void>(world.add(boxes));
   EXPECT_EQ(test::toVector(world.step().pairs), overlaps(boxes));
   EXPECT_LT(world.statistics().boxTests + world.statistics().groupTests, 20000U * 200U);
+}
+
+TEST(World, AMotionThatEndsAtANanIsRefusedAndNothingIsDone) {
+  World world;
+  const Box endless{{0, 0, 0}, {kInfinity, 1, 1}};
+  const BoxId id = world.add(endless);
+  const std::array velocity{-1e300, 0.0, 0.0};
+  const auto move = [&] { world.moveSwept({&id, 1}, std::array{endless}, velocity, 1e300); };
+  EXPECT_EQ(invalidBox(move, "ends at a NaN"), 0U);
+  EXPECT_EQ(world.box(id), endless);
+}
+
+TEST(World, MakingRoomMovesNoBoxAwayFromUnderAStepOrAQuery) {
+  World world;
+  const BoxId near = world.add(cube(0, 0, 0));
+  const BoxId far = world.add(cube(5, 0, 0));
+  (void)world.step();
+  world.reserve(100'000);
+  EXPECT_THAT(world.findNearest({-1, 0, 0}, 1), ElementsAre(Neighbor{near, 1.0}));
+  world.reserve(200'000);
+  world.move(far, cube(1, 0, 0));
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{near, far}));
 }
 
 TEST(World, IsEmptyAfterClear) {

@@ -22,7 +22,13 @@ foreach(name IN ITEMS allpairs liballpairs-dev)
   if(NOT EXISTS ${root}/usr/share/doc/${name}/changelog.gz)
     message(FATAL_ERROR "no compressed changelog is in ${name}")
   endif()
+  run(${CMAKE_CURRENT_LIST_DIR}/check-sbom ${root}/usr/share/doc/${name}/sbom.spdx.json ${name})
 endforeach()
+
+# The bill of materials names what the command and the libraries are linked with.
+if(APP)
+  run(${CMAKE_CURRENT_LIST_DIR}/check-sbom ${root}/usr/share/doc/allpairs/sbom.spdx.json allpairs libc6 libhwy1 libtbb12 libpugixml1v5)
+endif()
 
 # Nothing is in two packages, and nothing of the build is in one.
 set(seen)

@@ -29,7 +29,7 @@ configure_consumer(${WORK}/all ${found} -D PARTS=${COMPONENTS})
 build_and_run(${WORK}/all)
 
 set(bare)
-foreach(package IN ITEMS TBB assimp pugixml tinyobjloader fmt nlohmann_json CLI11)
+foreach(package IN ITEMS TBB assimp pugixml fmt nlohmann_json CLI11)
   list(APPEND bare -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 configure_consumer(${WORK}/engine ${found} ${bare} -D PARTS=engine)

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::test {
 

@@ -6,6 +6,7 @@
 #include "Expect.h"
 #include "SceneText.h"
 #include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "support/TempFolder.h"
 

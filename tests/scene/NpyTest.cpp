@@ -7,6 +7,7 @@
 
 #include "Expect.h"
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/FileError.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/TempFolder.h"

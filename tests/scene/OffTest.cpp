@@ -52,7 +52,8 @@ TEST(OffMesh, FilesCutAnywhereAreRefused) {
 }
 
 TEST(OffMesh, HugeClaimsEndWithTheFile) {
-  expectOffProblem("OFF\n99999999 99999999 0\n0 0 0\n", "mesh.off:3: ends before all that its header announces");
+  expectOffProblem("OFF\n99999999 99999999 0\n0 0 0\n",
+                   "mesh.off:3: truncated: its header promises more than the file has");
   expectOffProblem("OFF\n99999999999 1 0\n", "mesh.off:2: claims more vertices than can be numbered");
 }
 

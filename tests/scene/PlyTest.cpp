@@ -3,6 +3,7 @@
 
 #include "Expect.h"
 #include "SceneText.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "support/Npy.h"
 #include "support/TempFolder.h"
@@ -73,14 +74,14 @@ TEST(PlyMesh, FilesCutAnywhereAreRefused) {
 TEST(PlyMesh, HugeClaimsEndWithTheFile) {
   const std::string huge =
       "element vertex 18446744073709551615\nproperty float x\nproperty float y\nproperty float z\n";
-  expectFileError([&] { (void)read(ascii(huge, "0 0 0\n")); }, "ends before all");
+  expectFileError([&] { (void)read(ascii(huge, "0 0 0\n")); }, "truncated: its header promises more than the file has");
   expectFileError([&] { (void)read(ascii("element nothing 18446744073709551615\n", "")); }, "holds no triangles");
   expectFileError(
       [&] {
         (void)read(ascii(std::string(kVertices) + "element face 1\nproperty list uint int vertex_indices\n",
                          "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4294967295 0 1 2\n"));
       },
-      "ends before all");
+      "truncated: its header promises more than the file has");
 }
 
 TEST(PlyMesh, ErrorsNameTheLine) {

@@ -96,7 +96,8 @@ TEST(StlMesh, ErrorsNameTheLine) {
 TEST(StlMesh, HugeClaimsEndWithTheFile) {
   std::string bytes(80, '\0');
   appendNumber(bytes, std::numeric_limits<std::uint32_t>::max(), false);
-  expectStlProblem(bytes + std::string(50, '\0'), "mesh.stl: ends before all that its header announces");
+  expectStlProblem(bytes + std::string(50, '\0'),
+                   "mesh.stl: truncated: the header promises 214748364834 bytes, the file has 134");
 }
 
 }  // namespace

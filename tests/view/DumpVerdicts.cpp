@@ -8,8 +8,8 @@
 #include <string>
 
 #include "Explain.h"
-#include "app/MakeViewScene.h"
-#include "app/ViewFrames.h"
+#include "app/view/MakeViewScene.h"
+#include "app/view/ViewFrames.h"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "app/MakeViewScene.h"
-#include "app/ViewFrames.h"
+#include "app/view/MakeViewScene.h"
+#include "app/view/ViewFrames.h"
 #include "support/Data.h"
 #include "support/TempFolder.h"
 

@@ -8,7 +8,7 @@
 
 #include "Base64.h"
 #include "PageSize.h"
-#include "Xml.h"
+#include "Text.h"
 #include "allpairs/Error.h"
 #include "app/Expect.h"
 #include "support/Npy.h"
@@ -43,10 +43,10 @@ TEST(Base64, GivesTheTextsOfTheStandard) {
   EXPECT_EQ(base64(std::string(600'001, 'a')).size(), 800'004U);
 }
 
-TEST(EscapeXml, LeavesNoMarkupAndNoBytesThatXmlLacks) {
-  EXPECT_EQ(view::escapeXml("a<b>&\"'c\n"), "a&lt;b&gt;&amp;&quot;&#39;c ");
-  EXPECT_EQ(view::escapeXml("\x01\xff"), "\xEF\xBF\xBD\xEF\xBF\xBD");
-  EXPECT_EQ(view::escapeXml("Größe"), "Größe");
+TEST(EscapeHtml, LeavesNoMarkupAndNoBytesThatHtmlLacks) {
+  EXPECT_EQ(view::escapeHtml("a<b>&\"'c\n"), "a&lt;b&gt;&amp;&quot;&#39;c ");
+  EXPECT_EQ(view::escapeHtml("\x01\xff"), "\xEF\xBF\xBD\xEF\xBF\xBD");
+  EXPECT_EQ(view::escapeHtml("Größe"), "Größe");
 }
 
 TEST(View, WritesNamesAsDataThatCannotEndTheScript) {
@@ -90,8 +90,8 @@ TEST(View, BoxesOverTimeGiveFramesAndStandAlone) {
   const ProgramRun run = runProgram({"view", input});
   expectSuccess(run);
   EXPECT_EQ(Json::parse(scriptOf(run.out, "allpairs-scene"))["frames"], 2);
-  expectFailure(runProgram({"view", input, input}), 2, "boxes over time cannot be put together");
-  expectFailure(runProgram({"report", input, "-o", folder.path() / "r"}), 2, "a report is of one moment");
+  expectFailure(runProgram({"view", input, input}), 2, "an array of frames must be the only input");
+  expectFailure(runProgram({"report", input, "-o", folder.path() / "r"}), 2, "a report shows one frame");
 }
 
 constexpr const char* kTwoTriangles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {}\nv 1 0 {}\nv 0 1 {}\nf 1 2 3\nf 4 5 6\n";
@@ -133,7 +133,7 @@ TEST(View, SaysWhatIsWrongWithMeshesOverTime) {
   const std::string two = folder.write("two.obj", twoTriangles("1"));
   const std::string one = folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   expectFailure(runProgram({"view", "--sequence", two, one}), 3, "one.obj");
-  expectFailure(runProgram({"view", "--sequence", two, "--partial"}), 2, "--partial and --data do not go with");
+  expectFailure(runProgram({"view", "--sequence", two, "--partial"}), 2, "--partial and --data do not apply to");
 }
 
 TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {

@@ -183,6 +183,20 @@ TEST(Report, NamesAreTextInThePageAndInBcf) {
   }
 }
 
+TEST(Report, ControlCharactersInANameAreReplacedInBcf) {
+  const TempFolder folder;
+  const std::string input = folder.write("names.csv", "a\x01\tb,0,0,0,2,2,2\nc\xff,1,1,1,3,3,3\n");
+  expectSuccess(runProgram({"report", input, "-o", folder.path() / "out"}));
+  std::size_t topics = 0;
+  for (const auto& [file, bytes] : filesOf(folder.path() / "out/clashes.bcf")) {
+    if (!file.ends_with("markup.bcf")) continue;
+    const std::string title = parse(bytes).child("Markup").child("Topic").child_value("Title");
+    EXPECT_EQ(title, "c\xEF\xBF\xBD and a\xEF\xBF\xBD b");
+    ++topics;
+  }
+  EXPECT_EQ(topics, 1U);
+}
+
 std::vector<std::string> filesIn(const fs::path& folder) {
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -232,11 +246,11 @@ TEST(Report, ThatCannotBeWrittenLeavesNothingBehind) {
 TEST(Report, SaysWhatIsWrong) {
   const TempFolder folder;
   const std::string file = folder.write("file", "");
-  expectFailure(runProgram({"report", kDemo, "-o", file + "/out"}), 3, "cannot make this folder");
-  expectFailure(runProgram({"report", kDemo, "-o", file}), 3, "is a file, and -o names a folder");
-  expectFailure(runProgram({"report", kDemo}), 2, "-o DIR is needed");
+  expectFailure(runProgram({"report", kDemo, "-o", file + "/out"}), 3, "cannot create this folder");
+  expectFailure(runProgram({"report", kDemo, "-o", file}), 3, "is a file; -o takes a folder");
+  expectFailure(runProgram({"report", kDemo}), 2, "no -o DIR given");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
-                "a number above 0");
+                "must be above 0");
 }
 
 }  // namespace

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <poll.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "app/Expect.h"
@@ -124,6 +133,102 @@ TEST(Serve, IsForThisMachineAlone) {
   }
   std::fclose(table);
   EXPECT_EQ(addresses, std::vector<std::string>{"0100007F"});
+}
+
+/// A connection that says what it is told to, and no more.
+class RawConnection {
+ public:
+  explicit RawConnection(int port) : m_socket(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (::connect(m_socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+      throw std::runtime_error("cannot connect");
+    }
+  }
+  RawConnection(const RawConnection&) = delete;
+  RawConnection& operator=(const RawConnection&) = delete;
+  RawConnection(RawConnection&&) = delete;
+  RawConnection& operator=(RawConnection&&) = delete;
+  ~RawConnection() { ::close(m_socket); }
+
+  /// Returns false once the other end is closed.
+  bool send(std::string_view text) const {
+    return ::send(m_socket, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+
+  /// Whether the other end closes within that time, whatever it sends before.
+  [[nodiscard]] bool isClosedWithin(std::chrono::milliseconds time) const {
+    std::array<char, 4096> bytes{};
+    pollfd poll{m_socket, POLLIN, 0};
+    while (::poll(&poll, 1, static_cast<int>(time.count())) > 0) {
+      if (::recv(m_socket, bytes.data(), bytes.size(), 0) <= 0) return true;
+    }
+    return false;
+  }
+
+ private:
+  int m_socket;
+};
+
+/// Many connections, each of which goes on sending a byte of a request that never ends.
+class SlowClients {
+ public:
+  SlowClients(int port, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      m_connections.push_back(std::make_unique<RawConnection>(port));
+      m_connections.back()->send("GET / HTTP/1.1\r\nX-Slow: ");
+    }
+    m_thread = std::jthread([this](const std::stop_token& stop) {
+      while (!stop.stop_requested()) {
+        for (const auto& connection : m_connections) connection->send("x");
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      }
+    });
+  }
+
+  [[nodiscard]] std::size_t countOpen() const {
+    return static_cast<std::size_t>(std::ranges::count_if(m_connections, [](const auto& connection) {
+      return !connection->isClosedWithin(std::chrono::milliseconds(0));
+    }));
+  }
+
+ private:
+  std::vector<std::unique_ptr<RawConnection>> m_connections;
+  std::jthread m_thread;
+};
+
+TEST(Serve, AnswersWhileThreeHundredSlowConnectionsAreOpen) {
+  const Served served;
+  const SlowClients slow(served.port(), 300);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(answer(served, "/").status, 200);
+  EXPECT_LE(slow.countOpen(), 64U);
+}
+
+TEST(Serve, ClosesAConnectionWhoseRequestDoesNotCome) {
+  const Served served;
+  const RawConnection silent(served.port());
+  EXPECT_TRUE(silent.isClosedWithin(std::chrono::minutes(5)));
+}
+
+TEST(Serve, ClosesAConnectionThatSendsMoreThanARequest) {
+  const Served served;
+  const RawConnection chatty(served.port());
+  chatty.send("GET / HTTP/1.1\r\n");
+  const std::string header = "X-More: " + std::string(1000, 'x') + "\r\n";
+  int sent = 0;
+  while (sent < 100'000 && chatty.send(header)) ++sent;
+  EXPECT_LT(sent, 100'000);
+}
+
+TEST(Serve, AnswersARequestForManyRangesWithThePage) {
+  const Served served;
+  std::string ranges = "bytes=0-";
+  for (int i = 0; i < 1000; ++i) ranges += ",0-";
+  const httplib::Response page = answer(served, "/", {{"Range", ranges}});
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.body, answer(served, "/").body);
 }
 
 TEST(Serve, EndsWithCtrlC) {

@@ -47,6 +47,9 @@ class VerificationError : public Error {
 ///            bound its distance. Steps like those before allocate nothing.
 /// Threads:   one step at a time per object; the search runs on the executor, rules and intersectors are called from
 ///            the calling thread.
+/// Memory:    after a call that threw, std::bad_alloc or what a model or method throws included, the list of pairs is the
+///            one before it, reading it tries again, and the next step gives what a new object gives.
+/// Callbacks: models and methods may use other objects; they must not call the broad phase that asks them.
 class BruteForceBroadPhase : public BroadPhaseDetection {
  public:
   BruteForceBroadPhase();

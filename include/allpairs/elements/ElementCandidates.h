@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <span>
 
 #include "allpairs/Executor.h"
@@ -33,6 +34,10 @@ struct CandidateOptions {
 
   /// Where parallel work runs; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
+
+  /// Where candidates and the memory of the search come from, as in OverlapOptions; the meshes and the boxes of their
+  /// elements lie elsewhere. Null means aligned operator new. Not owned; must outlive the object.
+  std::pmr::memory_resource* memory = nullptr;
 };
 
 /// Finds the pairs of elements of deforming triangle meshes that may touch during a step, for continuous collision
@@ -45,12 +50,19 @@ struct CandidateOptions {
 ///            or -infinity throw InvalidArgument that names mesh and vertex.
 /// Cost:      of a search as in Overlaps; 48 bytes an element besides.
 /// Threads:   one call at a time per object; parallel inside when the options name an executor.
+/// Memory:    a call that throws, std::bad_alloc or what a visitor throws included, leaves all positions as they were;
+///            the next search gives what a new object gives.
+/// Callbacks: a visitor may use other objects; of the one that calls it, all but topology() throws InvalidArgument.
+/// Moving:    an object that has been moved from is as a new one of no meshes.
 class ElementCandidates {
  public:
   explicit ElementCandidates(MeshTopology topology, CandidateOptions options = {});
   ~ElementCandidates();
   ElementCandidates(ElementCandidates&&) noexcept;
   ElementCandidates& operator=(ElementCandidates&&) noexcept;
+
+  /// Gives back the memory that is kept for the next search. Candidates that were found stay valid.
+  void shrink();
 
   [[nodiscard]] const MeshTopology& topology() const noexcept;
 
@@ -70,6 +82,7 @@ class ElementCandidates {
 
  private:
   struct State;
+  State& state();
   std::unique_ptr<State> m_state;
 };
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "allpairs/DebugMode.h"
+
 namespace allpairs::elements {
 
 /// Two vertices, the smaller first.
@@ -44,10 +46,13 @@ class MeshTopology {
   explicit MeshTopology(const MeshView& mesh);
   explicit MeshTopology(std::span<const MeshView> meshes);
 
-  [[nodiscard]] std::size_t meshCount() const noexcept { return m_before.size() - 1; }
+  /// No meshes, as in a topology that has been moved from.
+  MeshTopology() = default;
+
+  [[nodiscard]] std::size_t meshCount() const noexcept { return m_before.empty() ? 0 : m_before.size() - 1; }
 
   /// How many elements there are in all.
-  [[nodiscard]] const ElementCounts& counts() const noexcept { return m_before.back(); }
+  [[nodiscard]] const ElementCounts& counts() const noexcept { return m_before.empty() ? kNone : m_before.back(); }
 
   /// How many elements come before those of a mesh: its first vertex, edge and triangle.
   ///
@@ -64,7 +69,9 @@ class MeshTopology {
   void add(const MeshView& mesh);
   void extractEdges();
 
-  std::vector<ElementCounts> m_before;
+  static constexpr ElementCounts kNone{};
+
+  std::vector<ElementCounts> m_before;  ///< Of each mesh, and of one more; may be empty where there are none.
   std::vector<Edge> m_edges;
   std::vector<Triangle> m_triangles;
   std::vector<std::uint32_t> m_meshOfVertex;

@@ -7,11 +7,10 @@
 #include <string>
 
 #include "allpairs/Error.h"
+#include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// If one id in so many is in a list, going through all of them is faster than through the list.
 constexpr std::size_t kShareOfIds = 16;
@@ -31,7 +30,7 @@ void checkProperties(std::span<const BoxProperties> properties, std::size_t boxe
     checkLength(properties.size(), "properties", boxes);
   }
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (std::isnan(properties[i].margin) || properties[i].margin == -kInfinity) {
+    if (std::isnan(properties[i].margin) || properties[i].margin == -std::numeric_limits<double>::infinity()) {
       throw InvalidBox(i, "box " + std::to_string(i) + " of the batch: its margin is NaN or -infinity");
     }
   }
@@ -78,16 +77,86 @@ Box readBounds(const T* row) {
   return box;
 }
 
+bool anyMargin(std::span<const BoxProperties> properties) {
+  return std::any_of(properties.begin(), properties.end(), [](const BoxProperties& p) { return p.margin != 0.0; });
+}
+
+/// Room for so many values; at least doubles, so that adding boxes one by one is linear.
+template <class T>
+void makeRoom(std::pmr::vector<T>& values, std::size_t size) {
+  if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
+}
+
 }  // namespace
 
 void BoxStore::reserve(std::size_t boxes) {
-  if (m_isFloat64) {
-    m_rows64.reserve(6 * boxes);
+  if (boxes > kNoBox) throw InvalidArgument(std::to_string(boxes) + " boxes; at most 4294967295 can be numbered");
+  m_setIsCurrent = false;  // The rows may move.
+  reserveRoom(boxes, false, !m_margins.empty());
+}
+
+/// Allocates what boxes with ids below the bound need, and changes nothing else.
+void BoxStore::reserveRoom(std::size_t bound, bool float64, bool margins) {
+  makeRoom(m_flags, bound);
+  makeRoom(m_filters, bound);
+  makeRoom(m_touched, bound + 1);
+  makeRoom(m_stale, bound + 1);
+  if (margins) makeRoom(m_margins, bound);
+  if (m_isFloat64 || float64) {
+    makeRoom(m_rows64, 6 * bound);
   } else {
-    m_rows32.reserve(6 * boxes);
+    makeRoom(m_rows32, 6 * bound);
   }
-  m_filters.reserve(boxes);
-  m_flags.reserve(boxes);
+}
+
+/// Makes ids below the bound, float64 rows and margins where they are needed and not there yet. All that a change
+/// allocates is allocated before anything is changed: a batch is done as a whole or not at all.
+void BoxStore::prepare(std::size_t bound, bool float64, bool margins) {
+  margins = margins || !m_margins.empty();
+  reserveRoom(bound, float64, margins);
+  // Nothing below throws: there is room.
+  if (float64 && !m_isFloat64) widenToDouble();
+  m_setIsCurrent = m_setIsCurrent && bound == idBound() && m_margins.empty() == !margins;
+  m_flags.resize(bound, 0);
+  m_filters.resize(bound);
+  m_touched.resize(bound + 1);
+  m_stale.resize(bound + 1);
+  if (margins) m_margins.resize(bound, 0.0);
+  if (m_isFloat64) {
+    m_rows64.resize(6 * bound, 0.0);
+  } else {
+    m_rows32.resize(6 * bound, 0.0F);
+  }
+}
+
+void BoxStore::shrink() noexcept {
+  std::size_t bound = idBound();
+  while (bound > 0 && m_flags[bound - 1] == 0) --bound;  // Neither live nor in a list of what changed.
+  std::erase_if(m_free, [&](BoxId id) { return id >= bound; });
+  m_rows32.resize(m_isFloat64 ? 0 : 6 * bound);
+  m_rows64.resize(m_isFloat64 ? 6 * bound : 0);
+  m_margins.resize(m_margins.empty() ? 0 : bound);
+  m_filters.resize(bound);
+  m_flags.resize(bound);
+  m_touched.resize(bound + 1);
+  m_stale.resize(bound + 1);
+  const auto trim = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
+  trim(m_rows32, m_rows64, m_margins, m_filters, m_flags, m_free, m_removed, m_touched, m_stale, m_resettled);
+  m_setIsCurrent = false;
+}
+
+/// Room for so many more resettled boxes, of all with ids below the bound.
+void BoxStore::reserveResettled(std::size_t boxes, std::size_t bound) {
+  makeRoom(m_resettled, std::min(m_resettled.size() + boxes, bound));
+}
+
+/// Whether boxes have bounds that the rows, as they are, don't hold exactly.
+bool BoxStore::needsFloat64(const BoxSet& boxes) const {
+  if (m_isFloat64 || !boxes.isFloat64()) return false;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (!isFloat32(boxes[i])) return true;
+  }
+  return false;
 }
 
 void BoxStore::check(std::span<const BoxId> ids) const {
@@ -106,50 +175,30 @@ void BoxStore::add(const BoxSet& boxes, std::span<const BoxProperties> propertie
   if (fresh > kNoBox - idBound()) {
     throw InvalidArgument(std::to_string(boxes.size()) + " more boxes; at most 4294967295 can be numbered");
   }
+  const std::size_t bound = idBound() + fresh;
+  reserveResettled(boxes.size(), bound);
+  auto next = static_cast<BoxId>(idBound());
+  prepare(bound, needsFloat64(boxes), anyMargin(properties));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const BoxId id = takeId();
-    ids[i] = id;
-    m_flags[id] |= kLive;
-    assign(id, at(properties, i));
-    write(id, boxes[i]);
-    noteResettled(id);
+    ids[i] = m_free.empty() ? next++ : m_free.back();
+    if (!m_free.empty()) m_free.pop_back();
+    m_flags[ids[i]] |= Live;
+    assign(ids[i], at(properties, i));
+    write(ids[i], boxes[i]);
+    noteResettled(ids[i]);
   }
   m_size += boxes.size();
 }
 
-BoxId BoxStore::takeId() {
-  if (m_free.empty()) {
-    grow(idBound() + 1);
-    return static_cast<BoxId>(idBound() - 1);
-  }
-  const BoxId id = m_free.back();
-  m_free.pop_back();
-  return id;
-}
-
-void BoxStore::grow(std::size_t bound) {
-  m_flags.resize(bound, 0);
-  m_filters.resize(bound);
-  m_touched.resize(bound + 1);
-  m_stale.resize(bound + 1);
-  if (!m_margins.empty()) m_margins.resize(bound, 0.0);
-  if (m_isFloat64) {
-    m_rows64.resize(6 * bound, 0.0);
-  } else {
-    m_rows32.resize(6 * bound, 0.0F);
-  }
-  m_setIsCurrent = false;
-}
-
 void BoxStore::widenToDouble() {
   m_rows64.assign(m_rows32.begin(), m_rows32.end());
-  m_rows32 = {};
+  m_rows32.clear();
+  m_rows32.shrink_to_fit();
   m_isFloat64 = true;
   m_setIsCurrent = false;
 }
 
 void BoxStore::write(BoxId id, const Box& box) {
-  if (!m_isFloat64 && !isFloat32(box)) widenToDouble();
   const std::size_t row = std::size_t{6} * id;
   const bool changed = m_isFloat64 ? copyBounds(box, &m_rows64[row]) : copyBounds(box, &m_rows32[row]);
   if (changed) note(id);
@@ -160,12 +209,14 @@ void BoxStore::writeEmpty(BoxId id) { write(id, kEmptyBox); }
 void BoxStore::move(BoxId id, const Box& box) {
   if (!contains(id)) throwUnknown(0, id);
   if (hasNan(box)) throw InvalidBox(0, "the box with the id " + std::to_string(id) + " has a NaN");
+  if (!m_isFloat64 && !isFloat32(box)) prepare(idBound(), true, false);
   write(id, box);
 }
 
 void BoxStore::move(std::span<const BoxId> ids, const BoxSet& boxes) {
   checkLength(boxes.size(), "boxes", ids.size());
   check(ids);
+  if (needsFloat64(boxes)) prepare(idBound(), true, false);
   if (!m_isFloat64 && !boxes.isFloat64() && boxes.float32().isPacked()) {
     copyRows(ids, boxes.float32().min.data, m_rows32.data());
   } else if (m_isFloat64 && boxes.isFloat64() && boxes.float64().isPacked()) {
@@ -194,27 +245,36 @@ void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
 
 void BoxStore::remove(std::span<const BoxId> ids) {
   std::size_t known = 0;
-  while (known < ids.size() && contains(ids[known]) && (m_flags[ids[known]] & kLeaving) == 0) {
-    m_flags[ids[known++]] |= kLeaving;
+  while (known < ids.size() && contains(ids[known]) && (m_flags[ids[known]] & Leaving) == 0) {
+    m_flags[ids[known++]] |= Leaving;
   }
-  for (std::size_t i = 0; i < known; ++i) m_flags[ids[i]] &= static_cast<std::uint8_t>(~kLeaving);
+  for (std::size_t i = 0; i < known; ++i) m_flags[ids[i]] &= static_cast<std::uint8_t>(~Leaving);
   // Unknown, or there twice.
   if (known < ids.size()) throwUnknown(known, ids[known]);
+  prepareRemoval(ids.size());
   for (const BoxId id : ids) removeOne(id);
+}
+
+/// Room in the lists of ids, now and at the end of the step, which must not fail.
+void BoxStore::prepareRemoval(std::size_t boxes) {
+  reserveResettled(boxes, idBound());
+  makeRoom(m_removed, m_removed.size() + boxes);
+  makeRoom(m_free, m_free.size() + m_removed.size() + boxes);
 }
 
 void BoxStore::removeOne(BoxId id) {
   noteResettled(id);
   writeEmpty(id);
-  const bool stepped = (m_flags[id] & kStepped) != 0;
+  const bool stepped = (m_flags[id] & Stepped) != 0;
   if (isStatic(id)) --m_staticCount;
   assign(id, {});
-  m_flags[id] &= static_cast<std::uint8_t>(~(kLive | kStepped));
+  m_flags[id] &= static_cast<std::uint8_t>(~(Live | Stepped));
   --m_size;
   (stepped ? m_removed : m_free).push_back(id);
 }
 
 void BoxStore::clear() {
+  prepareRemoval(m_size);
   for (std::size_t id = 0; id < idBound(); ++id) {
     if (contains(static_cast<BoxId>(id))) removeOne(static_cast<BoxId>(id));
   }
@@ -223,6 +283,8 @@ void BoxStore::clear() {
 void BoxStore::setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties) {
   checkProperties(properties, ids.size(), false);
   check(ids);
+  reserveResettled(ids.size(), idBound());
+  prepare(idBound(), false, anyMargin(properties));
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const bool wasStatic = isStatic(ids[i]);
     if (wasStatic) --m_staticCount;
@@ -240,14 +302,13 @@ void BoxStore::touch(std::span<const BoxId> ids) {
 void BoxStore::assign(BoxId id, const BoxProperties& properties) {
   m_filters[id] = {properties.category, properties.mask, properties.group, properties.owner};
   m_filtered = m_filtered || m_filters[id] != FilterRow{};
-  if (properties.margin != 0.0 && m_margins.empty()) m_margins.assign(idBound(), 0.0);
   if (!m_margins.empty()) {
     m_margins[id] = properties.margin;
     m_setIsCurrent = false;
   }
-  m_flags[id] &= static_cast<std::uint8_t>(~kStatic);
+  m_flags[id] &= static_cast<std::uint8_t>(~Static);
   if (properties.isStatic) {
-    m_flags[id] |= kStatic;
+    m_flags[id] |= Static;
     ++m_staticCount;
   }
 }
@@ -273,26 +334,26 @@ const BoxSet& BoxStore::set() {
 
 void BoxStore::noteResettled(BoxId id) {
   note(id);
-  if ((m_flags[id] & kResettled) == 0) m_resettled.push_back(id);
-  m_flags[id] |= kResettled;
+  if ((m_flags[id] & Resettled) == 0) m_resettled.push_back(id);
+  m_flags[id] |= Resettled;
 }
 
 void BoxStore::settle() noexcept {
-  constexpr auto kKept = static_cast<std::uint8_t>(~(kStale | kResettled));
+  const auto kept = static_cast<std::uint8_t>(~(Stale | Resettled));
   if (m_staleCount * kShareOfIds > idBound()) {
-    for (std::uint8_t& flags : m_flags) flags &= kKept;
+    for (std::uint8_t& flags : m_flags) flags &= kept;
   } else {
-    for (const BoxId id : stale()) m_flags[id] &= kKept;
+    for (const BoxId id : stale()) m_flags[id] &= kept;
   }
   m_staleCount = 0;
   m_resettled.clear();
 }
 
-void BoxStore::endStep() {
-  static_assert(kStepped == kLive << 4U);
+void BoxStore::endStep() noexcept {
+  static_assert(Stepped == Live << 4U);
   // All boxes that there are have been part of a step now.
   const auto ended = [](std::uint8_t flags) {
-    return static_cast<std::uint8_t>((flags & ~kTouched) | ((flags & kLive) << 4U));
+    return static_cast<std::uint8_t>((flags & ~Touched) | ((flags & Live) << 4U));
   };
   if (m_touchedCount * kShareOfIds > idBound()) {
     for (std::uint8_t& flags : m_flags) flags = ended(flags);

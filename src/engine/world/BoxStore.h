@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "LaneReader.h"
-#include "Memory.h"
 #include "allpairs/BoxSet.h"
 #include "allpairs/WorldTypes.h"
+#include "memory/Memory.h"
+#include "search/PairTest.h"
 
 namespace allpairs::engine {
 
@@ -23,24 +23,40 @@ struct FilterRow {
   friend constexpr bool operator==(const FilterRow&, const FilterRow&) = default;
 };
 
-[[nodiscard]] inline bool mayPair(const FilterRow& a, const FilterRow& b) noexcept {
-  return ((a.category & b.mask) != 0) & ((b.category & a.mask) != 0) & ((a.group == 0) | (a.group != b.group)) &
-         ((a.owner == 0) | (a.owner != b.owner));
-}
-
 /// The boxes of a world by id, in float32 as long as that holds them all exactly, and what has become of them since the
 /// last step and since the hierarchies were last brought up to date.
 ///
 /// The row of an id that is not in use holds an empty box, which whatever reads it skips.
+/// Memory: what throws has changed nothing; a batch is done as a whole or not at all.
 class BoxStore {
  public:
-  static constexpr std::uint8_t kLive = 1;
-  static constexpr std::uint8_t kStatic = 2;
-  static constexpr std::uint8_t kTouched = 4;   ///< Changed since the last step.
-  static constexpr std::uint8_t kStale = 8;     ///< Changed since the hierarchies were brought up to date.
-  static constexpr std::uint8_t kStepped = 16;  ///< Has been part of a step, and so may have pairs.
+  /// What is known of a box, in bits.
+  enum Flag : std::uint8_t {
+    Live = 1,
+    Static = 2,
+    Touched = 4,    ///< Changed since the last step.
+    Stale = 8,      ///< Changed since the hierarchies were brought up to date.
+    Stepped = 16,   ///< Has been part of a step, and so may have pairs.
+    Leaving = 32,   ///< While a batch is checked: in it, to be removed.
+    Resettled = 64  ///< May belong to another hierarchy than before.
+  };
+
+  explicit BoxStore(std::pmr::memory_resource* memory)
+      : m_rows32(memory),
+        m_rows64(memory),
+        m_margins(memory),
+        m_filters(memory),
+        m_flags(memory),
+        m_free(memory),
+        m_removed(memory),
+        m_touched(memory),
+        m_stale(memory),
+        m_resettled(memory) {}
 
   void reserve(std::size_t boxes);
+
+  /// Gives back room that no box has, and the highest ids that are free.
+  void shrink() noexcept;
 
   void add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
   void move(std::span<const BoxId> ids, const BoxSet& boxes);
@@ -55,11 +71,18 @@ class BoxStore {
 
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::size_t idBound() const noexcept { return m_flags.size(); }
-  [[nodiscard]] bool contains(BoxId id) const noexcept { return id < m_flags.size() && (m_flags[id] & kLive) != 0; }
-  [[nodiscard]] bool isStatic(BoxId id) const noexcept { return (m_flags[id] & kStatic) != 0; }
-  [[nodiscard]] bool isTouched(BoxId id) const noexcept { return (m_flags[id] & kTouched) != 0; }
+  [[nodiscard]] bool contains(BoxId id) const noexcept { return id < m_flags.size() && (m_flags[id] & Live) != 0; }
+  [[nodiscard]] bool isStatic(BoxId id) const noexcept { return (m_flags[id] & Static) != 0; }
+  [[nodiscard]] bool isTouched(BoxId id) const noexcept { return (m_flags[id] & Touched) != 0; }
   [[nodiscard]] Box box(BoxId id) const noexcept;
   [[nodiscard]] double margin(BoxId id) const noexcept { return m_margins.empty() ? 0.0 : m_margins[id]; }
+  /// What a pair test looks at; set() has been called since anything changed.
+  [[nodiscard]] TestedBoxes tested() const noexcept {
+    if (!m_filtered) return {&m_set};
+    const FilterRow* rows = m_filters.data();
+    static_assert(sizeof(FilterRow) == 4 * sizeof(std::uint32_t));
+    return {&m_set, &rows->category, &rows->mask, &rows->group, &rows->owner, 4};
+  }
   [[nodiscard]] const FilterRow& filter(BoxId id) const noexcept { return m_filters[id]; }
   [[nodiscard]] BoxProperties properties(BoxId id) const noexcept;
 
@@ -85,12 +108,9 @@ class BoxStore {
   void settle() noexcept;
 
   /// Ends a step: forgets what was touched, and gives the ids of removed boxes back for use.
-  void endStep();
+  void endStep() noexcept;
 
  private:
-  static constexpr std::uint8_t kResettled = 64;  ///< May belong to another hierarchy than before.
-  static constexpr std::uint8_t kLeaving = 32;    ///< While a batch is checked: in it, to be removed.
-
   /// Where the next id goes in the lists of what changed, which are as long as there are ids.
   struct ListEnds {
     BoxId* touched;
@@ -100,9 +120,9 @@ class BoxStore {
     void note(BoxId id, std::uint8_t& flags) noexcept {
       *touched = id;
       *stale = id;
-      touched += (flags & kTouched) == 0 ? 1 : 0;
-      stale += (flags & kStale) == 0 ? 1 : 0;
-      flags = static_cast<std::uint8_t>(flags | kTouched | kStale);
+      touched += (flags & Touched) == 0 ? 1 : 0;
+      stale += (flags & Stale) == 0 ? 1 : 0;
+      flags = static_cast<std::uint8_t>(flags | Touched | Stale);
     }
   };
   [[nodiscard]] ListEnds listEnds() noexcept {
@@ -120,8 +140,11 @@ class BoxStore {
   void noteResettled(BoxId id);
   template <class T>
   void copyRows(std::span<const BoxId> ids, const T* from, T* to);
-  BoxId takeId();
-  void grow(std::size_t bound);
+  void reserveRoom(std::size_t bound, bool float64, bool margins);
+  void reserveResettled(std::size_t boxes, std::size_t bound);
+  void prepare(std::size_t bound, bool float64, bool margins);
+  void prepareRemoval(std::size_t boxes);
+  [[nodiscard]] bool needsFloat64(const BoxSet& boxes) const;
   void widenToDouble();
   void write(BoxId id, const Box& box);
   void writeEmpty(BoxId id);
@@ -133,16 +156,16 @@ class BoxStore {
   bool m_isFloat64 = false;
   bool m_filtered = false;
   bool m_setIsCurrent = false;
-  std::vector<float> m_rows32;
-  std::vector<double> m_rows64;
-  std::vector<double> m_margins;  ///< Empty while all are 0.
-  std::vector<FilterRow> m_filters;
-  std::vector<std::uint8_t> m_flags;
-  std::vector<BoxId> m_free;
-  std::vector<BoxId> m_removed;  ///< Since the last step: not yet free.
-  std::vector<BoxId> m_touched;  ///< One more than there are ids: written before it is known whether it counts.
-  std::vector<BoxId> m_stale;
-  std::vector<BoxId> m_resettled;
+  std::pmr::vector<float> m_rows32;
+  std::pmr::vector<double> m_rows64;
+  std::pmr::vector<double> m_margins;  ///< Empty while all are 0.
+  std::pmr::vector<FilterRow> m_filters;
+  std::pmr::vector<std::uint8_t> m_flags;
+  std::pmr::vector<BoxId> m_free;
+  std::pmr::vector<BoxId> m_removed;  ///< Since the last step: not yet free.
+  std::pmr::vector<BoxId> m_touched;  ///< One more than there are ids: written before it is known whether it counts.
+  std::pmr::vector<BoxId> m_stale;
+  std::pmr::vector<BoxId> m_resettled;
   std::size_t m_touchedCount = 0;
   std::size_t m_staleCount = 0;
   BoxSet m_set;

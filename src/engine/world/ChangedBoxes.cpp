@@ -3,18 +3,21 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace allpairs::engine {
 
-void ChangedBoxes::gather(std::span<const BoxId> changed, KeptHierarchy& from, const Kernels& kernels,
+void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels,
                           Executor& executor) {
-  const LevelStack& source = from.levels();
+  const BvhLevels& source = from.levels();
   const std::size_t words = (source.places() + 63) / 64;
+  // What another call has marked before it threw.
+  if (std::exchange(m_marking, true)) std::fill(m_marked.begin(), m_marked.end(), std::uint64_t{0});
   if (m_marked.size() < words) m_marked.resize(words + words / 4, 0);
   std::size_t count = 0;
   for (const BoxId id : changed) {
     const std::uint32_t place = from.placeOf(id);
-    if (place == KeptHierarchy::kNowhere) continue;
+    if (place == DynamicBvh::kNowhere) continue;
     m_marked[place / 64] |= std::uint64_t{1} << (place % 64);
     ++count;
   }
@@ -33,6 +36,7 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, KeptHierarchy& from, c
       m_levels.id(next++) = source.id(place);
     }
   }
+  m_marking = false;
   m_size = count;
   m_levels.boundAll(kernels, executor);
 }

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "Kernels.h"
 #include "allpairs/Executor.h"
-#include "world/KeptHierarchy.h"
-#include "world/LevelStack.h"
+#include "bvh/BvhLevels.h"
+#include "kernels/Kernels.h"
+#include "world/DynamicBvh.h"
 
 namespace allpairs::engine {
 
@@ -18,16 +18,19 @@ namespace allpairs::engine {
 /// many boxes as all the blocks in between together.
 class ChangedBoxes {
  public:
-  void gather(std::span<const BoxId> changed, KeptHierarchy& from, const Kernels& kernels, Executor& executor);
+  explicit ChangedBoxes(std::pmr::memory_resource* memory) : m_marked(memory), m_levels(memory) {}
 
-  [[nodiscard]] LevelStack& levels() noexcept { return m_levels; }
+  void gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels, Executor& executor);
+
+  [[nodiscard]] BvhLevels& levels() noexcept { return m_levels; }
 
   /// How many boxes it holds.
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
  private:
-  std::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
-  LevelStack m_levels;
+  std::pmr::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
+  bool m_marking = false;                    ///< Not all of them have been read.
+  BvhLevels m_levels;
   std::size_t m_size = 0;
 };
 

@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "Join.h"
-#include "Lanes.h"
 #include "allpairs/Box.h"
 #include "allpairs/WorldTypes.h"
+#include "kernels/BvhView.h"
+#include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 
@@ -33,80 +33,48 @@ struct Arrival {
 
 /// Calls take(arrival) for all boxes that may be met, where lanesOf(block) has a bit for each lane that may be.
 template <class LanesOf, class Take>
-class Descent {
- public:
-  Descent(const Hierarchy& hierarchy, const LanesOf& lanesOf, const Take& take)
-      : m_hierarchy(hierarchy), m_lanesOf(lanesOf), m_take(take) {}
-
-  void run() const { descend(m_hierarchy.depth - 1, 0); }
-
- private:
-  // Depth is at most kMaxLevels, whatever the input.
-  // NOLINTNEXTLINE(misc-no-recursion)
-  void descend(std::size_t level, std::size_t block) const {
-    const LaneBlock& lanes = m_hierarchy.level[level].blocks[block];
-    for (std::uint32_t bits = m_lanesOf(lanes); bits != 0; bits &= bits - 1) {
+void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
+  // As deep as there are levels, at most kMaxLevels.
+  const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
+    const LaneBlock& lanes = view.level[level].blocks[block];
+    for (std::uint32_t bits = lanesOf(lanes); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t child = block * kFanOut + lane;
-      if (level == 0) {
-        m_take(Arrival{m_hierarchy.ids[child], lanes, lane});
-      } else {
-        descend(level - 1, child);
-      }
+      level == 0 ? take(Arrival{view.ids[child], lanes, lane}) : self(self, level - 1, child);
     }
-  }
+  };
+  visit(visit, view.depth - 1, 0);
+}
 
-  const Hierarchy& m_hierarchy;
-  const LanesOf& m_lanesOf;
-  const Take& m_take;
-};
+/// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
+[[nodiscard]] inline std::size_t cheapestLane(std::uint32_t bits, const std::array<float, kFanOut>& costs) noexcept {
+  auto best = static_cast<std::size_t>(std::countr_zero(bits));
+  for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    best = costs[lane] < costs[best] ? lane : best;
+  }
+  return best;
+}
 
 /// Calls take(arrival) for the boxes in about the order of a cost, as far as it is within a limit that take() may lower.
 ///
 /// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
 /// lanes: no more than those of whatever they hold, and not negative.
 template <class LanesOf, class Take>
-class CheapestDescent {
- public:
-  CheapestDescent(const Hierarchy& hierarchy, const LanesOf& lanesOf, const float& limit, const Take& take)
-      : m_hierarchy(hierarchy), m_lanesOf(lanesOf), m_limit(limit), m_take(take) {}
-
-  void run() const { descend(m_hierarchy.depth - 1, 0); }
-
- private:
-  /// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
-  static std::size_t cheapest(std::uint32_t bits, const std::array<float, kFanOut>& costs) {
-    auto best = static_cast<std::size_t>(std::countr_zero(bits));
-    for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      best = costs[lane] < costs[best] ? lane : best;
-    }
-    return best;
-  }
-
-  // Depth is at most kMaxLevels, whatever the input.
-  // NOLINTNEXTLINE(misc-no-recursion)
-  void descend(std::size_t level, std::size_t block) const {
+void descendByCost(const BvhView& view, const LanesOf& lanesOf, const float& limit, const Take& take) {
+  const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
     std::array<float, kFanOut> costs;
-    const LaneBlock& lanes = m_hierarchy.level[level].blocks[block];
-    std::uint32_t bits = m_lanesOf(lanes, costs.data());
+    const LaneBlock& lanes = view.level[level].blocks[block];
+    std::uint32_t bits = lanesOf(lanes, costs.data());
     while (bits != 0) {
-      const std::size_t lane = cheapest(bits, costs);
-      if (costs[lane] > m_limit) return;
+      const std::size_t lane = cheapestLane(bits, costs);
+      if (costs[lane] > limit) return;
       bits &= ~(1U << lane);
       const std::size_t child = block * kFanOut + lane;
-      if (level == 0) {
-        m_take(Arrival{m_hierarchy.ids[child], lanes, lane});
-      } else {
-        descend(level - 1, child);
-      }
+      level == 0 ? take(Arrival{view.ids[child], lanes, lane}) : self(self, level - 1, child);
     }
-  }
-
-  const Hierarchy& m_hierarchy;
-  const LanesOf& m_lanesOf;
-  const float& m_limit;
-  const Take& m_take;
-};
+  };
+  visit(visit, view.depth - 1, 0);
+}
 
 }  // namespace allpairs::engine

@@ -18,16 +18,27 @@ std::uint64_t keyOf(Pair pair) { return (std::uint64_t{pair.first} << 32U) | pai
 
 }  // namespace
 
-void PairHistory::begin(std::size_t idBound, std::size_t finders, Joined looksFor) {
+void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFor) {
   m_looksFor = looksFor;
+  m_result = {m_result.pairs, {}, {}, {}};
   m_rowsAreCurrent = m_rowsAreCurrent && idBound == m_idBound;
   m_idBound = idBound;
-  if (m_fresh.size() < finders) m_fresh.resize(finders);
+  while (m_fresh.size() < workers) m_fresh.emplace_back(m_fresh.get_allocator().resource());
   for (Fresh& fresh : m_fresh) fresh.size = 0;
   if (looksFor == Joined::All) return;
   if (!m_rowsAreCurrent) findRows();
   makeRoom(m_seen, m_result.pairs.size());
   std::fill_n(m_seen.data(), m_result.pairs.size(), std::uint8_t{0});
+}
+
+void PairHistory::shrink() noexcept {
+  PairHistory rest(m_fresh.get_allocator().resource());
+  rest.m_pairs = std::move(m_pairs);
+  rest.m_began = std::move(m_began);
+  rest.m_persisted = std::move(m_persisted);
+  rest.m_ended = std::move(m_ended);
+  rest.m_result = m_result;
+  *this = std::move(rest);
 }
 
 /// Where the old pairs of each box begin.
@@ -83,22 +94,34 @@ std::size_t PairHistory::freshSize() const noexcept {
 }
 
 /// Puts what is fresh in order, with memory that may be overwritten.
-void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, const Kernels& kernels, Executor& executor) {
+void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor) {
   Pair* end = to.data();
   for (const Fresh& fresh : m_fresh) end = std::copy_n(fresh.pairs.data(), fresh.size, end);
   PairSort::Task task;
   task.firsts = m_idBound;
   task.seconds = m_idBound;
-  task.kernels = &kernels;
   task.spare = spare;
   m_sort.sort({to.data(), end}, task, executor);
 }
 
-void PairHistory::finishAll(const Kernels& kernels, Executor& executor) {
+/// Makes all the room that the end of a step needs before it changes anything.
+void PairHistory::makeRoomForChanges() {
+  const std::size_t old = m_result.pairs.size();
+  const std::size_t fresh = freshSize();
+  makeRoom(m_began, fresh);
+  makeRoom(m_persisted, std::max(old, fresh));
+  makeRoom(m_ended, old);
+  m_pairs.grow(old + fresh + 1);
+  m_result.pairs = {m_pairs.data(), old};
+}
+
+void PairHistory::finishAll(Executor& executor) {
   const std::size_t size = freshSize();
   makeRoom(m_next, size);
   makeRoom(m_persisted, size);
-  sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, kernels, executor);
+  makeRoom(m_began, size);
+  makeRoom(m_ended, m_result.pairs.size());
+  sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, executor);
   compare({m_next.data(), size});
   std::swap(m_pairs, m_next);
   m_result.pairs = {m_pairs.data(), size};
@@ -106,10 +129,8 @@ void PairHistory::finishAll(const Kernels& kernels, Executor& executor) {
 }
 
 /// Compares two ordered lists, without branches: what is in both persists, what is in one only has begun or ended.
-void PairHistory::compare(std::span<const Pair> now) {
+void PairHistory::compare(std::span<const Pair> now) noexcept {
   const std::span<const Pair> old = m_result.pairs;
-  makeRoom(m_began, now.size());
-  makeRoom(m_ended, old.size());
   Pair* persisted = m_persisted.data();
   Pair* began = m_began.data();
   Pair* ended = m_ended.data();
@@ -137,11 +158,10 @@ void PairHistory::compare(std::span<const Pair> now) {
 }
 
 /// Merges what persists with what began.
-void PairHistory::mergeFresh() {
+void PairHistory::mergeFresh() noexcept {
   shiftRows();
   const std::span<const Pair> persisted = m_result.persisted;
   const std::size_t size = persisted.size() + m_result.began.size();
-  makeRoom(m_pairs, size);
   Pair* to = m_pairs.data();
   const Pair* next = persisted.data();
   const Pair* const end = next + persisted.size();
@@ -155,7 +175,7 @@ void PairHistory::mergeFresh() {
 }
 
 /// Moves the beginnings of the rows by what began and ended before them.
-void PairHistory::shiftRows() {
+void PairHistory::shiftRows() noexcept {
   const std::size_t rows = m_rowBegin.size();
   const std::span<const Pair> began = m_result.began;
   const std::span<const Pair> ended = m_result.ended;

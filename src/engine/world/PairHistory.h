@@ -6,12 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "Kernels.h"
-#include "Memory.h"
-#include "PairSort.h"
 #include "allpairs/Executor.h"
 #include "allpairs/Pair.h"
 #include "allpairs/WorldTypes.h"
+#include "memory/Memory.h"
+#include "order/PairSort.h"
 #include "world/RebuildRule.h"
 
 namespace allpairs::engine {
@@ -21,36 +20,53 @@ namespace allpairs::engine {
 /// Where all pairs are looked for, they are gathered, sorted, and compared with the old ones, list against list. Where
 /// only those of changed boxes are, each is looked up among the old ones and ticked off, and those that are new are sorted:
 /// what was not ticked off has ended, or was not looked for because neither of its boxes changed.
+/// Memory: until a step has come to its end the pairs are those of the last one that has.
 class PairHistory {
  public:
-  /// Starts a step: nothing found. All ids are below the bound. There are `finders` that work side by side.
-  void begin(std::size_t idBound, std::size_t finders, Joined looksFor);
+  explicit PairHistory(std::pmr::memory_resource* memory)
+      : m_fresh(memory),
+        m_rowBegin(memory),
+        m_seen(memory),
+        m_pairs(memory),
+        m_next(memory),
+        m_began(memory),
+        m_persisted(memory),
+        m_ended(memory),
+        m_sort(memory) {}
+
+  /// Starts a step: nothing found. All ids are below the bound. There are `workers` that work side by side.
+  void begin(std::size_t idBound, std::size_t workers, Joined looksFor);
 
   /// Takes pairs that have been found, each with first < second and once in a step.
   ///
-  /// Threads: one call at a time per finder.
-  void take(std::span<const Pair> found, std::size_t finder) {
-    m_looksFor == Joined::All ? gather(found, m_fresh[finder]) : tickOff(found, m_fresh[finder]);
+  /// Threads: one call at a time per worker.
+  void take(std::span<const Pair> found, std::size_t worker) {
+    m_looksFor == Joined::All ? gather(found, m_fresh[worker]) : tickOff(found, m_fresh[worker]);
   }
 
   /// Ends a step that has looked for all pairs.
-  void finishAll(const Kernels& kernels, Executor& executor);
+  void finishAll(Executor& executor);
 
   /// Ends a step that has looked for changed boxes' pairs: those of which `lookedFor(pair)` is true.
   template <class LookedFor>
-  void finishChanged(const LookedFor& lookedFor, const Kernels& kernels, Executor& executor) {
+  void finishChanged(const LookedFor& lookedFor, Executor& executor) {
+    makeRoomForChanges();
+    sortFresh(m_began, {m_persisted.data(), m_persisted.capacity()}, executor);
+    // Nothing throws any more.
     split(lookedFor);
-    makeRoom(m_began, freshSize());
-    // The old pairs have been split up: their memory is where the sort moves pairs to and fro.
-    sortFresh(m_began, {m_pairs.data(), m_pairs.capacity()}, kernels, executor);
     m_result.began = {m_began.data(), freshSize()};
     mergeFresh();
   }
+
+  /// Gives back all memory but that of the result.
+  void shrink() noexcept;
 
   [[nodiscard]] const StepResult& result() const noexcept { return m_result; }
 
  private:
   struct Fresh {
+    explicit Fresh(std::pmr::memory_resource* memory) : pairs(memory) {}
+
     Buffer<Pair> pairs;
     std::size_t size = 0;
   };
@@ -59,8 +75,6 @@ class PairHistory {
   template <class LookedFor>
   void split(const LookedFor& lookedFor) {
     const std::span<const Pair> old = m_result.pairs;
-    makeRoom(m_persisted, old.size());
-    makeRoom(m_ended, old.size());
     std::size_t persisted = 0;
     std::size_t ended = 0;
     for (std::size_t i = 0; i < old.size(); ++i) {
@@ -83,18 +97,20 @@ class PairHistory {
   void tickOff(std::span<const Pair> found, Fresh& fresh);
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
   [[nodiscard]] std::size_t freshSize() const noexcept;
-  void sortFresh(Buffer<Pair>& to, std::span<Pair> spare, const Kernels& kernels, Executor& executor);
-  void compare(std::span<const Pair> now);
-  void mergeFresh();
+  void sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor);
+  void makeRoomForChanges();
+  void compare(std::span<const Pair> now) noexcept;
+  void mergeFresh() noexcept;
   void findRows();
-  void shiftRows();
+  void shiftRows() noexcept;
 
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
   Joined m_looksFor = Joined::All;
   std::size_t m_idBound = 0;
-  std::vector<Fresh> m_fresh;           ///< By finder.
-  std::vector<std::size_t> m_rowBegin;  ///< By id: where the pairs of which it is the first begin; one more at the end.
+  std::pmr::vector<Fresh> m_fresh;  ///< By worker.
+  std::pmr::vector<std::size_t>
+      m_rowBegin;  ///< By id: where the pairs of which it is the first begin; one more at the end.
   bool m_rowsAreCurrent = false;
   Buffer<std::uint8_t> m_seen;  ///< By old pair: whether it was found again.
   Buffer<Pair> m_pairs;

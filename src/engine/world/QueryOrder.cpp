@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "Lanes.h"
-#include "RadixRun.h"
+#include "bvh/CurveKey.h"
+#include "bvh/RadixSort.h"
+#include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 namespace {
@@ -14,7 +16,6 @@ namespace {
 constexpr std::size_t kFewQueries = 64;
 
 constexpr unsigned kBitsPerAxis = 9;
-constexpr unsigned kPointIndexBits = 32;
 
 /// Spreads nine bits so that each is followed by two others.
 std::uint32_t spreadBits(std::uint32_t bits) noexcept {
@@ -24,19 +25,8 @@ std::uint32_t spreadBits(std::uint32_t bits) noexcept {
   return (bits | bits << 2U) & 0x09249249U;
 }
 
-/// The cells of one axis.
-struct AxisCells {
-  float begin = 0.0F;
-  float perUnit = 0.0F;
-
-  [[nodiscard]] std::uint32_t cellOf(float value) const noexcept {
-    constexpr float kLast = static_cast<float>((1U << kBitsPerAxis) - 1U);
-    const float cell = (value - begin) * perUnit;
-    return cell > 0.0F ? static_cast<std::uint32_t>(std::min(cell, kLast)) : 0U;  // a NaN is in the first
-  }
-};
-
-AxisCells cellsOf(std::span<const std::array<float, 3>> points, std::size_t axis) {
+/// Where the cells of one axis begin, and how many there are to a unit.
+std::pair<float, float> cellsOf(std::span<const std::array<float, 3>> points, std::size_t axis) {
   float least = kNever;
   float greatest = -kNever;
   for (const auto& point : points) {
@@ -48,6 +38,12 @@ AxisCells cellsOf(std::span<const std::array<float, 3>> points, std::size_t axis
   return {least, static_cast<float>(1U << kBitsPerAxis) / (greatest - least)};
 }
 
+std::uint32_t cellOf(float value, std::pair<float, float> cells) noexcept {
+  const float cell = (value - cells.first) * cells.second;
+  const auto last = static_cast<float>((1U << kBitsPerAxis) - 1U);
+  return cell > 0.0F ? static_cast<std::uint32_t>(std::min(cell, last)) : 0U;  // a NaN is in the first
+}
+
 }  // namespace
 
 void QueryOrder::sort(std::span<const std::array<float, 3>> points) {
@@ -57,13 +53,16 @@ void QueryOrder::sort(std::span<const std::array<float, 3>> points) {
     return;
   }
   m_spare.require(points.size());
-  const std::array<AxisCells, 3> cells{cellsOf(points, 0), cellsOf(points, 1), cellsOf(points, 2)};
+  const std::array<std::pair<float, float>, 3> cells{cellsOf(points, 0), cellsOf(points, 1), cellsOf(points, 2)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::uint64_t key = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) key |= spreadBits(cells[axis].cellOf(points[i][axis])) << axis;
-    m_spare[i] = key << kPointIndexBits | i;
+    for (std::size_t axis = 0; axis < 3; ++axis) key |= spreadBits(cellOf(points[i][axis], cells[axis])) << axis;
+    m_spare[i] = key << kIndexBits | i;
   }
-  sortRun(m_spare.data(), m_keys.data(), points.size(), kPointIndexBits + 3 * kBitsPerAxis, kPointIndexBits);
+  if (radixSort(m_spare.data(), m_keys.data(), points.size(), kIndexBits, kIndexBits + 3 * kBitsPerAxis) !=
+      m_keys.data()) {
+    std::swap(m_spare, m_keys);
+  }
 }
 
 }  // namespace allpairs::engine

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "Memory.h"
+#include "memory/Memory.h"
 
 namespace allpairs::engine {
 
@@ -14,6 +14,8 @@ namespace allpairs::engine {
 /// so that they find in the cache what they read.
 class QueryOrder {
  public:
+  explicit QueryOrder(std::pmr::memory_resource* memory) : m_keys(memory), m_spare(memory) {}
+
   /// Orders the queries by the points at which they begin. Points at infinity are anywhere.
   void sort(std::span<const std::array<float, 3>> points);
 

@@ -10,13 +10,15 @@
 
 #include "allpairs/Box.h"
 #include "allpairs/WorldTypes.h"
+#include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// A box with its margin added, in double.
+/// A box with its margin added, in double. An infinite margin reaches everywhere, from wherever the box is.
 [[nodiscard]] inline Box widened(const Box& box, double margin) noexcept {
+  if (margin == kFar) return {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
   Box result = box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     result.min[axis] -= margin;
@@ -47,18 +49,77 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   return enter;
 }
 
+/// The length of a vector whose components are not negative.
+[[nodiscard]] inline double lengthOf(const std::array<double, 3>& vector) noexcept {
+  const auto scaled = [&](double scale) {
+    double squares = 0.0;
+    for (const double component : vector) squares += (component * scale) * (component * scale);
+    return squares;
+  };
+  constexpr double kLeast = 0x1p-960;
+  constexpr double kLarge = 0x1p600;
+  const double squares = scaled(1.0);
+  // Beyond that squares lose digits, or all; a power of two loses none.
+  if (squares == kFar) return std::sqrt(scaled(1.0 / kLarge)) * kLarge;
+  if (squares < kLeast) return std::sqrt(scaled(kLarge)) / kLarge;
+  return std::sqrt(squares);
+}
+
 /// The Euclidean distance of a point from a box.
 [[nodiscard]] inline double distanceFrom(const std::array<double, 3>& point, const Box& box) noexcept {
-  double squares = 0.0;
+  std::array<double, 3> apart;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double apart = std::max({box.min[axis] - point[axis], point[axis] - box.max[axis], 0.0});
-    squares += apart * apart;
+    apart[axis] = std::max({box.min[axis] - point[axis], point[axis] - box.max[axis], 0.0});
   }
-  return std::sqrt(squares);
+  return lengthOf(apart);
 }
 
 [[nodiscard]] inline BoxSweep sweepOf(const Ray& ray) noexcept {
   return {{ray.origin, ray.origin}, ray.direction, ray.length};
+}
+
+// Queries as the kernels take them: in float32, and never asking for less than the query in double does.
+
+/// The least float32 that is no less, infinity included.
+[[nodiscard]] inline float roundUpFar(double value) noexcept {
+  return value > static_cast<double>(kLaneMax) ? kNever : roundUp(value);
+}
+
+[[nodiscard]] inline SweepLanes lanesOf(const BoxSweep& sweep) noexcept {
+  constexpr double kMost = 1e30;
+  SweepLanes lanes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lanes.min[axis] = -roundUpFar(-sweep.box.min[axis]);
+    lanes.max[axis] = roundUpFar(sweep.box.max[axis]);
+    const double speed = std::abs(sweep.motion[axis]);
+    if (speed == 0.0) {
+      lanes.axis[axis] = SweepLanes::Axis::Rests;
+    } else if (speed > kMost || speed < 1.0 / kMost) {
+      lanes.axis[axis] = SweepLanes::Axis::Unbounded;
+    } else {
+      lanes.axis[axis] = sweep.motion[axis] > 0.0 ? SweepLanes::Axis::Forward : SweepLanes::Axis::Backward;
+      lanes.inverse[axis] = static_cast<float>(1.0 / speed);
+    }
+  }
+  return lanes;
+}
+
+[[nodiscard]] inline PointLanes lanesOf(const std::array<double, 3>& point) noexcept {
+  PointLanes lanes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lanes.below[axis] = -roundUpFar(-point[axis]);
+    lanes.above[axis] = roundUpFar(point[axis]);
+  }
+  return lanes;
+}
+
+[[nodiscard]] inline LaneBox lanesOf(const Box& box) noexcept {
+  LaneBox lanes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lanes.bound[axis] = roundDown(box.min[axis]);
+    lanes.bound[axis + 3] = roundUp(box.max[axis]);
+  }
+  return lanes;
 }
 
 }  // namespace allpairs::engine

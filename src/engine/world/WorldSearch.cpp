@@ -5,7 +5,8 @@
 #include <atomic>
 #include <mutex>
 
-#include "LaneReader.h"
+#include "input/BoxReader.h"
+#include "order/PairSort.h"
 
 namespace allpairs::engine {
 namespace {
@@ -32,15 +33,25 @@ std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
 }  // namespace
 
 void WorldSearch::update(BoxStore& store) {
-  if (store.stale().empty()) return;
+  const BoxSet& boxes = store.set();
+  if (store.stale().empty() && m_dynamic.isWhole() && m_static.isWhole()) return;
   OverlapOptions lanes;
   // Queries ask for the boxes themselves: lanes are never smaller than those.
   lanes.distance = std::max(0.0, m_options.distance);
-  const LaneReader reader(store.set(), lanes);
-  const UpdateTools tools{reader, m_kernels, executor()};
-  m_statistics.rebuilds += m_dynamic.update(store, tools) ? 1U : 0U;
-  m_statistics.rebuilds += m_static.update(store, tools) ? 1U : 0U;
+  const BoxReader reader(boxes, lanes, m_kernels);
+  m_statistics.rebuilds += m_dynamic.update(store, reader, executor()) ? 1U : 0U;
+  m_statistics.rebuilds += m_static.update(store, reader, executor()) ? 1U : 0U;
   store.settle();
+}
+
+void WorldSearch::shrink() noexcept {
+  std::pmr::memory_resource* const from = memory();
+  m_dynamic.release();
+  m_static.release();
+  m_changedDynamic = ChangedBoxes(from);
+  m_changedStatic = ChangedBoxes(from);
+  m_runner = JoinRunner(from);
+  m_history.shrink();
 }
 
 StepResult WorldSearch::step(BoxStore& store) {
@@ -50,99 +61,104 @@ StepResult WorldSearch::step(BoxStore& store) {
   m_statistics.exactTests = 0;
   m_statistics.changed = store.touched().size();
   m_statistics.joinedAll = store.touched().size() > store.size() / kShareOfChanged;
-  m_history.begin(store.idBound(), m_finder.prepare(executor()),
-                  m_statistics.joinedAll ? Joined::All : Joined::Changed);
-  if (m_statistics.joinedAll) {
-    joinAll(store);
-    m_history.finishAll(m_kernels, executor());
-  } else {
-    joinChanged(store);
-    m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
-                            m_kernels, executor());
-  }
+  m_statistics.joinedAll ? joinAll(store) : joinChanged(store);
   store.endStep();
   return m_history.result();
 }
 
-std::uint64_t WorldSearch::join(const PairFinder::Job& job, PairFinder::Taker taker) {
-  const PairFinder::Counts counts = m_finder.run(job, m_kernels, executor(), taker);
-  m_statistics.boxTests += counts.boxTests;
-  m_statistics.groupTests += counts.groupTests;
-  return counts.boxTests;
+/// The test of pairs of this world and that other one, or of this one alone.
+PairTest WorldSearch::testOf(const BoxStore& store, const BoxStore& other, double distance, bool exact) const {
+  PairTest test(store.tested(), other.tested(), distance, m_options.accept);
+  test.requireExactTest(!exact || distance != 0.0);
+  return test;
+}
+
+/// Joins two hierarchies; returns how many tests of boxes that took.
+std::uint64_t WorldSearch::join(const BvhLevels& first, const BvhLevels& second, JoinRunner& runner) const {
+  const BvhPair both(first, second);
+  return join(JoinRunner::Job::ofJoin(both.first, both.second), runner);
+}
+
+std::uint64_t WorldSearch::join(const JoinRunner::Job& job, JoinRunner& runner) const {
+  const std::uint64_t before = runner.totals().boxTests;
+  runner.run(job, executor());
+  return runner.totals().boxTests - before;
+}
+
+void WorldSearch::noteTotals() {
+  const OverlapStatistics totals = m_runner.totals();
+  m_statistics.boxTests = totals.boxTests;
+  m_statistics.groupTests = totals.groupTests;
+  m_statistics.exactTests = totals.exactTests;
 }
 
 void WorldSearch::joinAll(const BoxStore& store) {
-  const PairSelect rules{store, store, m_options.accept, m_options.distance, !isExact() || m_options.distance != 0.0};
-  std::atomic<std::uint64_t> tested = 0;
-  const auto take = [&](std::span<Pair> pairs, std::size_t finder) {
-    tested += pairs.size();
-    m_history.take(pairs.first(rules.select(pairs)), finder);
+  const PairTest test = testOf(store, store, m_options.distance, isExact());
+  const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
+    m_history.take(pairs, worker);
+    return pairs.size();
   };
-  LevelStack& dynamics = m_dynamic.levels();
-  LevelStack& statics = m_static.levels();
-  const Hierarchy all = dynamics.hierarchy();
-  std::uint64_t tests = join({all, all, true, PairSide::SmallerFirst}, take);
-  m_dynamic.rule().note(Joined::All, m_dynamic.size(), tests);
-  const std::size_t depth = std::max(dynamics.depth(), statics.depth());
-  tests = join({dynamics.hierarchy(depth), statics.hierarchy(depth), false, PairSide::SmallerFirst}, take);
-  m_static.rule().note(Joined::All, m_dynamic.size(), tests);
-  m_statistics.exactTests = rules.exactTest ? tested.load() : 0;
-}
-
-std::uint64_t WorldSearch::joinChangedWith(ChangedBoxes& changed, KeptHierarchy& with, PairFinder::Taker taker) {
-  const std::size_t depth = std::max(changed.levels().depth(), with.levels().depth());
-  const PairFinder::Job job{changed.levels().hierarchy(depth), with.levels().hierarchy(depth), false,
-                            PairSide::RowFirst};
-  const std::uint64_t tests = join(job, taker);
-  with.rule().note(Joined::Changed, changed.size(), tests);
-  return tests;
+  SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
+  sink.emit.emplace(take);
+  m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::All);
+  const BvhView all = m_dynamic.levels().view();
+  m_dynamic.rule().note(Joined::All, m_dynamic.size(), join(JoinRunner::Job::ofJoin(all, all), m_runner));
+  m_static.rule().note(Joined::All, m_dynamic.size(), join(m_dynamic.levels(), m_static.levels(), m_runner));
+  noteTotals();
+  m_history.finishAll(executor());
 }
 
 void WorldSearch::joinChanged(const BoxStore& store) {
-  const PairSelect rules{store, store, m_options.accept, m_options.distance, !isExact() || m_options.distance != 0.0};
+  const PairTest test = testOf(store, store, m_options.distance, isExact());
   std::atomic<std::uint64_t> tested = 0;
-  const auto take = [&](std::span<Pair> pairs, std::size_t finder) {
+  const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
     const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
     tested += once.size();
-    m_history.take(once.first(rules.select(once)), finder);
+    m_history.take(once.first(test.select(once)), worker);
+    return pairs.size();
   };
+  SinkOptions sink{&m_kernels};
+  sink.emit.emplace(take);
+  m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::Changed);
   m_changedDynamic.gather(store.touched(), m_dynamic, m_kernels, executor());
   m_changedStatic.gather(store.touched(), m_static, m_kernels, executor());
-  joinChangedWith(m_changedDynamic, m_dynamic, take);
-  joinChangedWith(m_changedDynamic, m_static, take);
-  joinChangedWith(m_changedStatic, m_dynamic, take);
-  m_statistics.exactTests = rules.exactTest ? tested.load() : 0;
+  const auto joinWith = [&](ChangedBoxes& changed, DynamicBvh& with) {
+    with.rule().note(Joined::Changed, changed.size(), join(changed.levels(), with.levels(), m_runner));
+  };
+  joinWith(m_changedDynamic, m_dynamic);
+  joinWith(m_changedDynamic, m_static);
+  joinWith(m_changedStatic, m_dynamic);
+  noteTotals();
+  m_statistics.exactTests = test.exactTestNeeded() ? tested.load() : 0;
+  m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
+                          executor());
 }
 
-std::span<const Pair> WorldSearch::findBetween(const BoxStore& store, WorldSearch& other, const BoxStore& otherStore) {
+std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSearch& other,
+                                           const BoxStore& otherStore) const {
   const bool exact = isExact() && other.isExact() && m_options.distance == 0.0 && other.m_options.distance == 0.0;
   // Half of each: what the lanes of the two worlds have been widened by.
   const double distance = 0.5 * m_options.distance + 0.5 * other.m_options.distance;
-  const PairSelect rules{store, otherStore, m_options.accept, distance, !exact};
+  const PairTest test = testOf(store, otherStore, distance, exact);
   std::mutex mutex;
-  std::size_t size = 0;
+  std::vector<Pair> found;
   const auto take = [&](std::span<Pair> pairs, std::size_t) {
-    const std::size_t kept = rules.select(pairs);
     const std::lock_guard lock(mutex);
-    m_between.grow(size + kept);
-    std::copy_n(pairs.data(), kept, m_between.data() + size);
-    size += kept;
+    found.insert(found.end(), pairs.begin(), pairs.end());
+    return pairs.size();
   };
-  m_finder.prepare(executor());
-  for (KeptHierarchy* mine : {&m_dynamic, &m_static}) {
-    for (KeptHierarchy* theirs : {&other.m_dynamic, &other.m_static}) {
-      const std::size_t depth = std::max(mine->levels().depth(), theirs->levels().depth());
-      const PairFinder::Job job{mine->levels().hierarchy(depth), theirs->levels().hierarchy(depth), false,
-                                PairSide::RowFirst};
-      m_finder.run(job, m_kernels, executor(), take);
-    }
+  SinkOptions sink{&m_kernels, &test};
+  sink.emit.emplace(take);
+  JoinRunner runner(defaultMemory());
+  runner.start(sink, executor());
+  for (const DynamicBvh* mine : {&m_dynamic, &m_static}) {
+    for (const DynamicBvh* theirs : {&other.m_dynamic, &other.m_static}) join(mine->levels(), theirs->levels(), runner);
   }
   PairSort::Task task;
   task.firsts = std::max<std::size_t>(1, store.idBound());
   task.seconds = std::max<std::size_t>(1, otherStore.idBound());
-  task.kernels = &m_kernels;
-  m_betweenSort.sort({m_between.data(), size}, task, executor());
-  return {m_between.data(), size};
+  PairSort(defaultMemory()).sort(found, task, executor());
+  return found;
 }
 
 }  // namespace allpairs::engine

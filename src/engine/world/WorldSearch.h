@@ -4,24 +4,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "Kernels.h"
-#include "Memory.h"
-#include "PairSort.h"
 #include "allpairs/WorldTypes.h"
+#include "kernels/Kernels.h"
+#include "search/JoinRunner.h"
+#include "search/PairTest.h"
 #include "world/BoxStore.h"
 #include "world/ChangedBoxes.h"
-#include "world/KeptHierarchy.h"
-#include "world/PairFinder.h"
+#include "world/DynamicBvh.h"
 #include "world/PairHistory.h"
-#include "world/PairSelect.h"
 
 namespace allpairs::engine {
 
 /// The pairs of a world: hierarchies over its dynamic and its static boxes, and what was found in them.
 class WorldSearch {
  public:
-  WorldSearch(const WorldOptions& options, const Kernels& kernels) : m_options(options), m_kernels(kernels) {}
+  WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
+      : m_options(options),
+        m_kernels(kernels),
+        m_dynamic(memory, false),
+        m_static(memory, true),
+        m_changedDynamic(memory),
+        m_changedStatic(memory),
+        m_runner(memory),
+        m_history(memory) {}
 
   /// Brings the hierarchies up to date with the store.
   void update(BoxStore& store);
@@ -29,37 +36,43 @@ class WorldSearch {
   /// Finds the pairs of the boxes as they are now.
   StepResult step(BoxStore& store);
 
+  /// Gives back all memory but that of the last step's result.
+  void shrink() noexcept;
+
   [[nodiscard]] StepResult result() const noexcept { return m_history.result(); }
 
   /// The pairs of a box of this world and a box of another, in order. Both are up to date.
-  std::span<const Pair> findBetween(const BoxStore& store, WorldSearch& other, const BoxStore& otherStore);
+  [[nodiscard]] std::vector<Pair> findBetween(const BoxStore& store, const WorldSearch& other,
+                                              const BoxStore& otherStore) const;
 
-  [[nodiscard]] KeptHierarchy& dynamicBoxes() noexcept { return m_dynamic; }
-  [[nodiscard]] KeptHierarchy& staticBoxes() noexcept { return m_static; }
+  [[nodiscard]] const DynamicBvh& dynamicBoxes() const noexcept { return m_dynamic; }
+  [[nodiscard]] const DynamicBvh& staticBoxes() const noexcept { return m_static; }
   [[nodiscard]] const WorldStatistics& statistics() const noexcept { return m_statistics; }
+  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_runner.memory(); }
   [[nodiscard]] const Kernels& kernels() const noexcept { return m_kernels; }
-  [[nodiscard]] Executor& executor() noexcept { return m_options.executor != nullptr ? *m_options.executor : m_serial; }
+  [[nodiscard]] Executor& executor() const noexcept {
+    return m_options.executor != nullptr ? *m_options.executor : m_serial;
+  }
 
  private:
   [[nodiscard]] bool isExact() const noexcept { return m_dynamic.exact() && m_static.exact(); }
+  [[nodiscard]] PairTest testOf(const BoxStore& store, const BoxStore& other, double distance, bool exact) const;
   void joinAll(const BoxStore& store);
   void joinChanged(const BoxStore& store);
-  std::uint64_t join(const PairFinder::Job& job, PairFinder::Taker taker);
-  std::uint64_t joinChangedWith(ChangedBoxes& changed, KeptHierarchy& with, PairFinder::Taker taker);
-  void noteTests(std::uint64_t pairs, bool exact);
+  std::uint64_t join(const BvhLevels& first, const BvhLevels& second, JoinRunner& runner) const;
+  std::uint64_t join(const JoinRunner::Job& job, JoinRunner& runner) const;
+  void noteTotals();
 
   const WorldOptions& m_options;
   const Kernels& m_kernels;
-  SerialExecutor m_serial;
-  KeptHierarchy m_dynamic{false};
-  KeptHierarchy m_static{true};
+  mutable SerialExecutor m_serial;
+  DynamicBvh m_dynamic;
+  DynamicBvh m_static;
   ChangedBoxes m_changedDynamic;
   ChangedBoxes m_changedStatic;
-  PairFinder m_finder;
+  JoinRunner m_runner;
   PairHistory m_history;
   WorldStatistics m_statistics;
-  Buffer<Pair> m_between;
-  PairSort m_betweenSort;
 };
 
 }  // namespace allpairs::engine

@@ -39,6 +39,7 @@ std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, s
   if (name != "points") return std::nullopt;
   auto points = evaluation.points(engine, {"position1"});
   const auto others = evaluation.points(engine, {"position2"});
+  evaluation.takePoints(engine, points.size() + others.size());  // a chain of these doubles with each
   points.insert(points.end(), others.begin(), others.end());
   return toNumbers(points);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/FileBytes.h"
 #include "scene/sofa/Links.h"
 
 namespace allpairs::scene::sofa {
@@ -81,6 +82,12 @@ Index toIndex(const Component& component, std::string_view name, double value) {
   return static_cast<Index>(value);
 }
 
+std::uint64_t sizeOf(const Mesh& mesh) {
+  const auto bytes = [](const auto& list) { return list.size() * sizeof(list[0]); };
+  return bytes(mesh.positions) + bytes(mesh.edges) + bytes(mesh.triangles) + bytes(mesh.quads) +
+         bytes(mesh.tetrahedra) + bytes(mesh.hexahedra);
+}
+
 bool isEngine(ComponentKind kind) {
   return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints || kind == ComponentKind::BoxRoi;
 }
@@ -107,7 +114,7 @@ class Evaluation::Busy {
   std::vector<std::pair<const Component*, std::string>>& m_busy;
 };
 
-Evaluation::Evaluation(const Node& root, const FileFinder& finder) : m_finder(finder) { indexMappings(root); }
+Evaluation::Evaluation(const Node& root, ReadScope& scope) : m_scope(scope) { indexMappings(root); }
 
 void Evaluation::indexMappings(const Node& node) {
   if (!node.active) return;
@@ -136,10 +143,20 @@ const Component* Evaluation::topologicalMappingOf(const Component& topology) con
   return found == m_topologicalMappings.end() ? nullptr : found->second;
 }
 
+void Evaluation::takePoints(const Component& component, std::uint64_t count) {
+  try {
+    m_scope.takeElements(count, sizeof(Vec3));
+  } catch (const FileError& problem) {
+    throw Unplaceable(component, "with " + std::to_string(count) + " points it " + problem.problem());
+  }
+}
+
 const Mesh& Evaluation::mesh(const Component& loader) {
   if (const auto found = m_meshes.find(&loader); found != m_meshes.end()) return found->second;
   const Busy busy(*this, loader, "mesh");
-  return m_meshes.emplace(&loader, loadMesh(*this, loader)).first->second;
+  auto mesh = loadMesh(*this, loader);
+  m_scope.take(sizeOf(mesh));
+  return m_meshes.emplace(&loader, std::move(mesh)).first->second;
 }
 
 Topology& Evaluation::topology(const Component& component) {
@@ -147,6 +164,7 @@ Topology& Evaluation::topology(const Component& component) {
   const Busy busy(*this, component, "topology");
   const auto* mapping = topologicalMappingOf(component);
   auto topology = mapping != nullptr ? mapTopology(*this, *mapping, component) : buildTopology(*this, component);
+  m_scope.take(sizeOf(topology.given));
   return m_topologies.emplace(&component, std::move(topology)).first->second;
 }
 
@@ -154,6 +172,7 @@ const State& Evaluation::state(const Component& component) {
   if (const auto found = m_states.find(&component); found != m_states.end()) return found->second;
   const Busy busy(*this, component, "position");
   auto state = initialState(*this, component);
+  takePoints(component, state.positions.size());
   if (const auto* mapping = mappingOf(component)) state = mapState(*this, *mapping, std::move(state));
   for (const auto& position : state.positions)
     if (!isFinite(position)) throw Unplaceable(component, "one of its positions is not finite");
@@ -170,7 +189,7 @@ const State& Evaluation::knownState(const Component& component) {
 std::optional<Numbers> Evaluation::written(const Component& component, std::string_view name, const std::string& text) {
   if (text.starts_with('@')) return linked(component, name, text);
   std::string bad;
-  auto values = isIndexList(name) ? parseIntegers(text, bad) : parseNumbers(text, bad);
+  auto values = isIndexList(name) ? parseIntegers(text, bad, m_scope) : parseNumbers(text, bad);
   if (!values) throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) + "' is not a finite number");
   return Numbers{std::move(*values), 1};
 }
@@ -318,10 +337,20 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
   for (const auto name : names) {
     const auto* text = component.attributes.find(name);
     if (text == nullptr || text->empty()) continue;
-    if (auto path = m_finder.find(*text, *component.place.file)) return path;
-    throw Unplaceable(component, "the file '" + *text + "' is nowhere to be found");
+    auto found = m_scope.find(*text, *component.place.file);
+    if (!found.problem.empty()) throw Unplaceable(component, "the file '" + *text + "' " + found.problem);
+    m_scope.admit(found.path);
+    return std::move(found.path);
   }
   return std::nullopt;
+}
+
+std::string Evaluation::objFileOf(const Component& topology) const {
+  const auto* text = topology.attributes.find(topology.attributes.has("src") ? "src" : "triangles");
+  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  const auto* from = link ? followPath(*topology.node, &topology, link->path).component : &topology;
+  const auto* name = from != nullptr ? from->attributes.find("filename") : nullptr;
+  return name != nullptr && lowerExtension(*name) == ".obj" ? *name : std::string{};
 }
 
 Numbers toNumbers(const std::vector<Vec3>& points) {

@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "scene/sofa/FileFinder.h"
+#include "scene/ReadScope.h"
 #include "scene/sofa/Math.h"
 #include "scene/sofa/Mesh.h"
 #include "scene/sofa/SceneGraph.h"
@@ -19,8 +19,8 @@
 
 namespace allpairs::scene::sofa {
 
-/// No scene has as many points; a file that asks for more asks for all of the memory.
-inline constexpr std::size_t kMaxPoints = 20'000'000;
+/// More points than this no list of elements can number.
+inline constexpr double kMaxPoints = 4e9;
 
 /// A map of space that keeps straight lines.
 struct AffineMap {
@@ -54,7 +54,7 @@ struct State {
 /// Bad input: what cannot be computed throws Unplaceable, or FileError for a mesh file, and nothing is remembered.
 class Evaluation {
  public:
-  Evaluation(const Node& root, const FileFinder& finder);
+  Evaluation(const Node& root, ReadScope& scope);
 
   /// What a loader has loaded and transformed.
   const Mesh& mesh(const Component& loader);
@@ -63,6 +63,10 @@ class Evaluation {
   const State& state(const Component& component);
   /// The same, but throws if the points themselves are not known.
   const State& knownState(const Component& component);
+
+  /// Counts points that a component is about to make, of which a scene may ask for more than it writes out.
+  void takePoints(const Component& component, std::uint64_t count);
+  [[nodiscard]] ReadScope& scope() { return m_scope; }
 
   using Names = std::initializer_list<std::string_view>;
   /// As a width: all numbers in a row, whatever entries they make where they come from.
@@ -82,6 +86,8 @@ class Evaluation {
   std::vector<std::size_t> indices(const Component& component, Names names);
   /// The file that an attribute names; nothing if the component has no such attribute.
   std::optional<std::filesystem::path> file(const Component& component, Names names);
+  /// The Wavefront file that a topology takes its triangles from; empty where it takes them from elsewhere.
+  [[nodiscard]] std::string objFileOf(const Component& topology) const;
   /// Whether a data's value comes from elsewhere.
   [[nodiscard]] bool isLinked(const Component& component, Names names) const;
   [[nodiscard]] bool isGiven(const Component& component, Names names) const;
@@ -101,7 +107,7 @@ class Evaluation {
   const Component* source(const Component& component) const;
   void indexMappings(const Node& node);
 
-  const FileFinder& m_finder;
+  ReadScope& m_scope;
   std::unordered_map<const Component*, Mesh> m_meshes;
   std::unordered_map<const Component*, Topology> m_topologies;
   std::unordered_map<const Component*, State> m_states;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 #include "scene/sofa/Mesh.h"
 #include "scene/sofa/TextScanner.h"
 

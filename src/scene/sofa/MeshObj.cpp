@@ -31,6 +31,7 @@ class ObjReader {
         readFace();
       m_text.skipLine();
     }
+    if (m_mesh.positions.empty()) m_text.fail("this is no Wavefront mesh: it has no line of 'v' with a point");
     if (m_options.splitSeams) splitSeams();
     for (const auto& face : m_faces) addFace(face);
     return std::move(m_mesh);

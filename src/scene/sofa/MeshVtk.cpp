@@ -5,8 +5,8 @@
 #include <cstring>
 #include <pugixml.hpp>
 
-#include "allpairs/Error.h"
-#include "scene/sofa/FileFinder.h"
+#include "allpairs/scene/FileError.h"
+#include "scene/FileBytes.h"
 #include "scene/sofa/LineIndex.h"
 #include "scene/sofa/Mesh.h"
 #include "scene/sofa/TextScanner.h"
@@ -120,7 +120,7 @@ class LegacyVtkReader {
 /// The XML format with its arrays in text.
 class XmlVtkReader {
  public:
-  explicit XmlVtkReader(const std::filesystem::path& path) : m_path(path), m_bytes(readWholeFile(path)) {
+  explicit XmlVtkReader(const std::filesystem::path& path) : m_path(path), m_bytes(readText(path)) {
     const auto result = m_document.load_buffer(m_bytes.data(), m_bytes.size());
     if (!result) {
       const auto place = LineIndex(m_bytes).at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
@@ -160,7 +160,7 @@ class XmlVtkReader {
     if (array && format != "ascii" && !format.empty()) fail("only arrays in ASCII can be read");
     std::string bad;
     auto values = parseNumbers(array.child_value(), bad);
-    if (!values) fail("'" + bad + "' is not a finite number");
+    if (!values) fail("an array holds something that is not a finite number");
     return std::move(*values);
   }
 
@@ -180,7 +180,7 @@ class XmlVtkReader {
 }  // namespace
 
 Mesh readVtk(const std::filesystem::path& path) {
-  const auto start = readWholeFile(path).substr(0, 4096);
+  const auto start = readText(path).substr(0, 4096);
   if (start.starts_with("# vtk DataFile")) return LegacyVtkReader(path).read();
   if (start.find("<VTKFile") != std::string::npos) return XmlVtkReader(path).read();
   throw FileError(path, "this is no VTK file");

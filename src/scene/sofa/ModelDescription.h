@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "allpairs/scene/ReadOptions.h"
 #include "scene/sofa/Math.h"
 #include "scene/sofa/Mesh.h"
 
@@ -75,11 +76,6 @@ struct SceneDescription {
   std::vector<Ignored> ignored;
 };
 
-struct ReadSettings {
-  std::vector<std::filesystem::path> searchRoots;  ///< Where files are looked for that aren't beside the scene.
-  bool partial = false;                            ///< Leave out models that can't be placed instead of throwing.
-};
-
 /// Reads a .scn or .xml scene of SOFA.
 ///
 /// Bad input: a scene that is malformed, refers to missing files, or holds a model whose place depends on something
@@ -87,6 +83,6 @@ struct ReadSettings {
 ///            this reader does not know throws FileError with file, line, component and reason; with `partial` such
 ///            models are listed in `ignored`, and only a scene that cannot be read at all throws.
 /// Reference: SEMANTICS, section 8.
-[[nodiscard]] SceneDescription describeScene(const std::filesystem::path& path, const ReadSettings& settings);
+[[nodiscard]] SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace allpairs::scene::sofa

@@ -17,9 +17,14 @@ const State& stateOf(Evaluation& evaluation, const Component& model) {
   return evaluation.knownState(*which);
 }
 
-Topology& topologyOf(Evaluation& evaluation, const Component& model) {
+const Component& topologyComponentOf(const Component& model) {
   const auto* which = inContext(*model.node, [](const Component& c) { return isTopology(c.kind()); });
   if (which == nullptr) throw Unplaceable(model, "there is no topology in its node or above");
+  return *which;
+}
+
+Topology& topologyOf(Evaluation& evaluation, const Component& model) {
+  const auto* which = &topologyComponentOf(model);
   auto& topology = evaluation.topology(*which);
   if (topology.sparse) throw Unplaceable(model, "the cells of its sparse grid are not known to this reader");
   return topology;
@@ -60,6 +65,12 @@ std::vector<double> padded(Evaluation& evaluation, const Component& model, std::
   return values;
 }
 
+/// A model of triangles from a Wavefront file without faces would be silently empty: most likely it is another file.
+void checkObj(const Evaluation& evaluation, const Component& model) {
+  const auto file = evaluation.objFileOf(topologyComponentOf(model));
+  if (!file.empty()) throw Unplaceable(model, "it needs triangles, and '" + file + "' has no line of 'f' with a face");
+}
+
 void describeTriangles(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = pointsOf(evaluation, component).positions;
   auto& topology = topologyOf(evaluation, component);
@@ -68,6 +79,7 @@ void describeTriangles(Evaluation& evaluation, const Component& component, Model
     model.triangles.push_back({q[1], q[2], q[0]});
     model.triangles.push_back({q[3], q[0], q[2]});
   }
+  if (model.triangles.empty()) checkObj(evaluation, component);
   checkCorners(component, model.triangles, model.positions.size());
 }
 
@@ -214,7 +226,9 @@ ModelDescription describeModel(Evaluation& evaluation, const Component& componen
   model.file = *component.place.file;
   model.line = component.place.line;
   describeRules(evaluation, component, model);
+  evaluation.scope().take(ReadScope::kBytesPerModel + 4 * model.path.size());
   if (model.active) describeElements(evaluation, component, model);
+  evaluation.takePoints(component, model.positions.size() + model.elementCount());
   return model;
 }
 

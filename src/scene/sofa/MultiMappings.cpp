@@ -33,8 +33,10 @@ void append(State& to, const State& from, std::size_t index) {
 State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
   child.resize(0);
   child.fromTopology.reset();
-  for (const auto* input : inputsOf(evaluation, mapping))
+  for (const auto* input : inputsOf(evaluation, mapping)) {
+    evaluation.takePoints(mapping, input->positions.size());
     for (std::size_t i = 0; i < input->positions.size(); ++i) append(child, *input, i);
+  }
   return child;
 }
 

@@ -13,6 +13,7 @@
 #include "allpairs/collision/SphereModel.h"
 #include "allpairs/collision/TetrahedronModel.h"
 #include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadSofaScene.h"
 #include "scene/sofa/ModelDescription.h"
 
@@ -117,7 +118,7 @@ std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescriptio
 }  // namespace
 
 Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& options) {
-  auto description = sofa::describeScene(path, {.searchRoots = options.searchRoots, .partial = options.partial});
+  auto description = sofa::describeScene(path, options);
   Scene scene;
   scene.intersection = makeMethod(description.method);
   scene.intersectionName = description.method.name;

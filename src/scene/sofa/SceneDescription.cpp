@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "allpairs/scene/FileError.h"
 #include "scene/sofa/Evaluation.h"
 #include "scene/sofa/Links.h"
 #include "scene/sofa/ModelDescription.h"
@@ -53,13 +54,6 @@ std::optional<RegionDescription> describeRegion(Evaluation& evaluation, const Co
   return RegionDescription{corners[0], corners[1]};
 }
 
-/// What an error says after its file and line.
-std::string withoutPlace(const FileError& error) {
-  const std::string text = error.what();
-  const auto end = text.find(": ", error.path().string().size());
-  return end == std::string::npos ? text : text.substr(end + 2);
-}
-
 class Traversal {
  public:
   Traversal(Evaluation& evaluation, bool partial, SceneDescription& scene)
@@ -84,13 +78,13 @@ class Traversal {
                               : "; " + component.describe() + " depends on it";
       leaveOut(component, problem, problem.reason() + needed);
     } catch (const FileError& problem) {
-      leaveOut(component, problem, withoutPlace(problem) + "; " + component.describe() + " depends on it");
+      leaveOut(component, problem, problem.problem() + "; " + component.describe() + " depends on it");
     }
   }
 
   void leaveOut(const Component& component, const FileError& problem, const std::string& reason) {
     if (!m_partial) throw FileError(problem.path(), reason, problem.line(), problem.column());
-    m_scene.ignored.push_back({problem.path(), problem.line(), component.path(), reason});
+    m_scene.ignored.push_back({problem.path(), problem.line(), component.path(), oneLine(reason)});
   }
 
   std::size_t ownerOf(const Component& component) {
@@ -107,16 +101,16 @@ class Traversal {
 
 }  // namespace
 
-SceneDescription describeScene(const std::filesystem::path& path, const ReadSettings& settings) {
-  const FileFinder finder(settings.searchRoots);
-  const auto root = readSceneGraph(path, finder);
-  Evaluation evaluation(*root, finder);
+SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options) {
+  ReadScope scope(path, options);
+  const auto root = readSceneGraph(path, scope);
+  Evaluation evaluation(*root, scope);
   SceneDescription scene;
   const auto* pipeline = firstBelow(*root, ofKind(ComponentKind::Pipeline));
   const Node& top = pipeline != nullptr ? *pipeline->node : *root;
   scene.method = describeMethod(evaluation, firstBelow(top, [](const Component& c) { return isMethod(c.kind()); }));
   scene.region = describeRegion(evaluation, firstBelow(top, ofKind(ComponentKind::BroadPhase)));
-  Traversal(evaluation, settings.partial, scene).visit(top);
+  Traversal(evaluation, options.partial, scene).visit(top);
   return scene;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/sofa/SceneGraph.h"
+#include "allpairs/scene/FileError.h"
 
 #include <algorithm>
 

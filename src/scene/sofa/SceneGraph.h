@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
 #include "scene/sofa/ComponentKind.h"
 
 namespace allpairs::scene::sofa {

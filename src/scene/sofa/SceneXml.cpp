@@ -6,15 +6,18 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "allpairs/scene/FileError.h"
+#include "scene/FileBytes.h"
 #include "scene/sofa/LineIndex.h"
 #include "scene/sofa/Values.h"
 
 namespace allpairs::scene::sofa {
 namespace {
 
-constexpr std::size_t kMaxDepth = 200;           // No scene nests deeper than a dozen; the stack must not overflow.
-constexpr std::size_t kMaxIncludeDepth = 32;     // Includes of includes of includes: scenes use three.
-constexpr std::size_t kMaxElements = 1'000'000;  // Includes can double with every level; memory must not.
+constexpr std::size_t kMaxDepth = 200;          // No scene nests deeper than a dozen; the stack must not overflow.
+constexpr std::size_t kMaxIncludeDepth = 32;    // Includes of includes of includes: scenes use three.
+constexpr std::size_t kBytesPerElement = 1000;  // In memory, besides its attributes.
+constexpr std::size_t kBytesPerValue = 100;     // Of an attribute, besides its text.
 
 /// An element of a scene file on its way to a node or a component.
 struct Element {
@@ -38,7 +41,7 @@ struct SourceFile {
   pugi::xml_document document;
 
   explicit SourceFile(const std::filesystem::path& file)
-      : path(std::make_shared<const std::filesystem::path>(file)), text(readWholeFile(file)), lines(text) {
+      : path(std::make_shared<const std::filesystem::path>(file)), text(readText(file)), lines(text) {
     const auto result = document.load_buffer(text.data(), text.size());
     if (!result) {
       const auto [line, column] = lines.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
@@ -52,9 +55,19 @@ struct SourceFile {
   }
 };
 
-void setReplacement(Element& element, std::string_view name, std::string_view value, std::string_view onlyIn) {
-  if (onlyIn.empty() || element.name == onlyIn) element.replacements.set(name, value);
-  for (auto& child : element.children) setReplacement(child, name, value, onlyIn);
+/// What an include puts in the place of attributes of what it includes.
+struct Replacement {
+  std::string_view name;
+  std::string_view value;
+  std::string_view onlyIn;  ///< The element of that name alone; all where it is empty.
+};
+
+void setReplacement(Element& element, const Replacement& replacement, ReadScope& scope) {
+  if (replacement.onlyIn.empty() || element.name == replacement.onlyIn) {
+    scope.take(kBytesPerValue + replacement.value.size());
+    element.replacements.set(replacement.name, replacement.value);
+  }
+  for (auto& child : element.children) setReplacement(child, replacement, scope);
 }
 
 Element::Splice spliceOf(std::string_view name) {
@@ -92,7 +105,7 @@ void addChild(Element& parent, Element&& child) {
 /// Reads elements, follows includes, and numbers what has no name.
 class ElementReader {
  public:
-  explicit ElementReader(const FileFinder& finder) : m_finder(finder) {}
+  explicit ElementReader(ReadScope& scope) : m_scope(scope) {}
 
   Element readFile(const std::filesystem::path& path) {
     if (m_openFiles.size() >= kMaxIncludeDepth) throw FileError(path, "included too many levels deep");
@@ -101,7 +114,10 @@ class ElementReader {
       throw FileError(path, "this file includes itself, directly or through another");
     m_openFiles.push_back(canonical);
     auto& file = m_files[canonical];
-    if (!file) file = std::make_unique<SourceFile>(path);
+    if (!file) {
+      m_scope.admit(path);
+      file = std::make_unique<SourceFile>(path);
+    }
     auto root = read(*file, file->document.document_element());
     m_openFiles.pop_back();
     if (!root || !root->isNode) throw FileError(path, "the outermost element of a scene must be a Node");
@@ -125,7 +141,7 @@ class ElementReader {
   }
 
   std::optional<Element> makeElement(const SourceFile& file, const pugi::xml_node& xml) {
-    if (++m_elements > kMaxElements) throw FileError(*file.path, "more elements than a scene can have");
+    m_scope.take(kBytesPerElement);  // includes can double with every level
     const std::string_view tag = xml.name();
     const bool typed = xml.attribute("type");
     Element element;
@@ -137,6 +153,7 @@ class ElementReader {
     element.name = xml.attribute("name").value();
     for (const auto& attribute : xml.attributes()) {
       const std::string_view name = attribute.name();
+      m_scope.take(kBytesPerValue + 2 * std::string_view{attribute.value()}.size());
       if (name != "name" && name != "type") element.attributes.set(name, attribute.value());
     }
     for (const auto& child : xml.children("Attribute"))
@@ -147,30 +164,30 @@ class ElementReader {
   std::optional<Element> readInclude(const SourceFile& file, const pugi::xml_node& xml, const std::string& name) {
     const auto place = file.placeOf(xml);
     if (name.empty()) throw Unplaceable(place, "an include without href");
-    const auto path = m_finder.find(name, *file.path);
-    if (!path) throw Unplaceable(place, "the included file '" + name + "' is nowhere to be found");
-    auto included = readFile(*path);
+    const auto found = m_scope.find(name, *file.path);
+    if (!found.problem.empty()) throw Unplaceable(place, "the included file '" + name + "' " + found.problem);
+    auto included = readFile(found.path);
     included.splice = spliceOf(included.name);
     for (const auto& attribute : xml.attributes()) replace(included, attribute.name(), attribute.value());
     return included;
   }
 
-  static void replace(Element& included, std::string_view name, std::string_view value) {
+  void replace(Element& included, std::string_view name, std::string_view value) const {
     if (name == "href") return;
     if (name == "name") {
       included.name = value;
       included.splice = spliceOf(value);
     } else if (const auto split = name.find("__"); split != std::string_view::npos && split > 0) {
-      setReplacement(included, name.substr(split + 2), value, name.substr(0, split));
+      setReplacement(included, {name.substr(split + 2), value, name.substr(0, split)}, m_scope);
     } else {
-      setReplacement(included, name, value, {});
+      setReplacement(included, {name, value, {}}, m_scope);
     }
   }
 
   /// Old scenes write <TorusFEM .../> for the file Objects/TorusFEM.xml.
   std::optional<std::string> replacementFor(const std::string& type, const std::filesystem::path& from) const {
     std::string name = "Objects/" + type + ".xml";
-    if (type.find('/') == std::string::npos && m_finder.find(name, from)) return name;
+    if (type.find('/') == std::string::npos && m_scope.find(name, from).problem.empty()) return name;
     return std::nullopt;
   }
 
@@ -179,12 +196,11 @@ class ElementReader {
     return stem + std::to_string(++m_counters[stem]);
   }
 
-  const FileFinder& m_finder;
+  ReadScope& m_scope;
   std::vector<std::filesystem::path> m_openFiles;
   std::map<std::filesystem::path, std::unique_ptr<SourceFile>> m_files;
   std::map<std::string, std::size_t> m_counters;
   std::size_t m_depth = 0;
-  std::size_t m_elements = 0;
 };
 
 void addComponent(Node& node, Element&& element) {
@@ -222,8 +238,8 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
 
 }  // namespace
 
-std::unique_ptr<Node> readSceneGraph(const std::filesystem::path& path, const FileFinder& finder) {
-  return toNode(ElementReader(finder).readFile(path), nullptr);
+std::unique_ptr<Node> readSceneGraph(const std::filesystem::path& path, ReadScope& scope) {
+  return toNode(ElementReader(scope).readFile(path), nullptr);
 }
 
 }  // namespace allpairs::scene::sofa

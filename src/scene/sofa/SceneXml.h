@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "scene/sofa/FileFinder.h"
+#include "scene/ReadScope.h"
 #include "scene/sofa/SceneGraph.h"
 
 namespace allpairs::scene::sofa {
@@ -13,6 +13,6 @@ namespace allpairs::scene::sofa {
 ///
 /// Bad input: a file that is missing, not well formed, that includes itself, nests nodes without end or has more
 ///            elements than any scene throws FileError with the line.
-[[nodiscard]] std::unique_ptr<Node> readSceneGraph(const std::filesystem::path& path, const FileFinder& finder);
+[[nodiscard]] std::unique_ptr<Node> readSceneGraph(const std::filesystem::path& path, ReadScope& scope);
 
 }  // namespace allpairs::scene::sofa

@@ -125,6 +125,7 @@ void takePoints(Evaluation& evaluation, const Component& component, State& state
   if (tooLate && (which->attributes.has("filename") || evaluation.topologicalMappingOf(*which) != nullptr)) return;
   if (!topology.hasPositions) return;
   state.resize(0);
+  evaluation.takePoints(component, tooLate ? 0 : topology.pointCount);
   state.resize(tooLate ? 0 : topology.pointCount);
   for (std::size_t i = 0; i < state.positions.size(); ++i) state.positions[i] = topology.position(i);
   state.fromTopology = AffineMap{};
@@ -141,8 +142,7 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
   const auto* text = component.attributes.find("size");
   const double size = text != nullptr ? parseWholeFloat(*text).value_or(-1) : -1;
   if (size < 0) return standard;
-  if (size > static_cast<double>(kMaxPoints))
-    throw Unplaceable(component, "size=\"" + *text + "\" is out of all reason");
+  if (size > kMaxPoints) throw Unplaceable(component, "size=\"" + *text + "\" is out of all reason");
   return static_cast<std::size_t>(size);
 }
 
@@ -169,8 +169,11 @@ State initialState(Evaluation& evaluation, const Component& component) {
   state.resize(1);
   if (const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1}))
     setPositions(state, *given);
-  if (const auto size = declaredSize(component, state.positions.size()); !evaluation.isLinked(component, {"position"}))
+  if (const auto size = declaredSize(component, state.positions.size());
+      !evaluation.isLinked(component, {"position"})) {
+    evaluation.takePoints(component, size);
     state.resize(size);
+  }
   std::size_t largest = 1;
   for (const auto name : {"rest_position", "reset_position"})
     largest = std::max(largest, countOf(evaluation, component, name, width));

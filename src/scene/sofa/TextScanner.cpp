@@ -5,19 +5,18 @@
 #include <charconv>
 #include <cmath>
 
-#include "allpairs/Error.h"
-#include "scene/sofa/FileFinder.h"
+#include "allpairs/scene/FileError.h"
+#include "scene/FileBytes.h"
 
 namespace allpairs::scene::sofa {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 constexpr std::string_view kBlanksInLine = " \t\r\v\f";
-constexpr std::size_t kQuoted = 40;  // Characters of a word at fault that a message repeats.
 
 }  // namespace
 
-TextScanner::TextScanner(const std::filesystem::path& path) : m_path(path), m_text(readWholeFile(path)) {}
+TextScanner::TextScanner(const std::filesystem::path& path) : m_path(path), m_text(readText(path)) {}
 
 bool TextScanner::atEnd() { return m_text.find_first_not_of(kBlanks, m_position) == std::string::npos; }
 
@@ -44,9 +43,7 @@ double TextScanner::number() { return toNumber(word()); }
 std::int64_t TextScanner::integer() { return toInteger(word()); }
 
 void TextScanner::expect(std::string_view wanted) {
-  const auto found = word();
-  if (found != wanted)
-    fail("expected '" + std::string{wanted} + "', found '" + std::string{found.substr(0, kQuoted)} + "'");
+  if (word() != wanted) fail("expected '" + std::string{wanted} + "'");
 }
 
 void TextScanner::skipLine() {
@@ -69,7 +66,7 @@ double TextScanner::toNumber(std::string_view word) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos) return 0;
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    fail("'" + std::string{word.substr(0, kQuoted)} + "' is not a finite number");
+    fail("what stands here is not a finite number");
   return value;
 }
 
@@ -77,8 +74,7 @@ std::int64_t TextScanner::toInteger(std::string_view word) const {
   if (word.empty()) fail("an integer is missing");
   std::int64_t value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size())
-    fail("'" + std::string{word.substr(0, kQuoted)} + "' is not an integer");
+  if (error != std::errc{} || end != word.data() + word.size()) fail("what stands here is not an integer");
   return value;
 }
 

@@ -9,7 +9,8 @@
 
 namespace allpairs::scene::sofa {
 
-/// Reads a text word by word and says at which line it went wrong.
+/// Reads a text word by word and says at which line it went wrong. What stands there it does not repeat: a scene may
+/// name any file for a mesh, and its messages must not show what is in it.
 class TextScanner {
  public:
   /// Reads the whole file; throws FileError.

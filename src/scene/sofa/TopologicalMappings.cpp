@@ -74,6 +74,7 @@ void fill(Evaluation& evaluation, const Component& mapping, Topology& from, Topo
       break;
     case Hexa2Quad:
       to.given.quads = borderOf(from.quads(), from.hexahedra());
+      evaluation.takePoints(mapping, from.pointCount);
       for (std::size_t i = 0; i < from.pointCount; ++i) to.given.positions.push_back(from.position(i));
       to.hasPositions = from.pointCount > 0;
       break;

@@ -50,7 +50,7 @@ Topology containerTopology(Evaluation& evaluation, const Component& component) {
   topology.family = Topology::Family::Container;
   topology.given = containerLists(evaluation, component);
   const double count = evaluation.number(component, {"nbPoints"}, 0);
-  topology.pointCount = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(kMaxPoints)));
+  topology.pointCount = static_cast<std::size_t>(std::clamp(count, 0.0, kMaxPoints));
   Mesh counted;  // Only edges and tetrahedra make room for the points that they use.
   if (topology.given.positions.empty()) counted.edges = topology.given.edges;
   counted.tetrahedra = topology.given.tetrahedra;
@@ -62,7 +62,7 @@ Topology containerTopology(Evaluation& evaluation, const Component& component) {
 std::array<std::size_t, 3> toCounts(const Component& grid, const Vec3& numbers) {
   double product = 1;
   for (const double n : numbers) product *= std::max(1.0, n);
-  if (!(product <= static_cast<double>(kMaxPoints)))
+  if (!(product <= kMaxPoints))
     throw Unplaceable(grid, fmt::format("a grid of {} points is more than this reader makes", product));
   return {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1]),
           static_cast<std::size_t>(numbers[2])};
@@ -125,6 +125,8 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   }
   if (component.attributes.has("p0")) shape.origin = evaluation.vector(component, {"p0"}, {});
   shape.points = toCounts(component, counts);
+  constexpr std::uint64_t kElements = 8;  // points of a grid have so many times their own size in elements
+  evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
 
   Topology topology;
   const auto [nx, ny, nz] = shape.points;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/sofa/Values.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -9,6 +10,7 @@ namespace allpairs::scene::sofa {
 namespace {
 
 constexpr std::string_view kListBlanks = " \t\r\n\v\f";
+constexpr double kMaxIndex = 1e12;
 constexpr double kMaxRange = 50'000'000;  // "0-4000000000" is a mistake, not a list.
 
 std::string_view nextWord(std::string_view& text) {
@@ -38,11 +40,15 @@ std::optional<double> parseFinite(std::string_view word) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-bool appendRange(std::string_view word, std::vector<double>& values) {
+bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& scope) {
   const auto dash = word.find('-', 1);
   if (dash == std::string_view::npos) return false;
   const auto first = parseFinite(word.substr(0, dash)), last = parseFinite(word.substr(dash + 1));
   if (!first || !last || *last - *first > kMaxRange) return false;
+  if (std::abs(*first) > kMaxIndex || std::abs(*last) > kMaxIndex) return false;  // from where on one more is no more
+  const auto count = static_cast<std::uint64_t>(std::max(0.0, *last - *first + 1));
+  if (count > scope.left() / (4 * sizeof(double))) return false;
+  scope.takeElements(count, sizeof(double));
   for (double value = *first; value <= *last; ++value) values.push_back(value);
   return true;
 }
@@ -73,13 +79,13 @@ std::optional<std::vector<double>> parseNumbers(std::string_view text, std::stri
   return values;
 }
 
-std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad) {
+std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad, ReadScope& scope) {
   std::vector<double> values;
   for (auto word = nextWord(text); !word.empty(); word = nextWord(text)) {
     const auto value = parseFinite(word);
     if (value) {
       values.push_back(*value);
-    } else if (!appendRange(word, values)) {
+    } else if (!appendRange(word, values, scope)) {
       bad = word;
       return std::nullopt;
     }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/ReadScope.h"
+
 namespace allpairs::scene::sofa {
 
 /// The value of one of a component's data: numbers, and how many of them make one entry.
@@ -24,7 +26,9 @@ struct Numbers {
 [[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad);
 
 /// As the integers of an index list, where "3-7" means 3 4 5 6 7.
-[[nodiscard]] std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad);
+/// A range that is larger than may be read is no list.
+[[nodiscard]] std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad,
+                                                               ReadScope& scope);
 
 /// Yes and no in the ways in which scenes write them.
 [[nodiscard]] std::optional<bool> parseBool(std::string_view text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
+#include "allpairs/scene/FileError.h"
 #include "scene/sofa/DataScenes.h"
 #include "scene/sofa/SceneText.h"
 

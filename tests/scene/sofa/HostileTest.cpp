@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "allpairs/scene/FileError.h"
 #include "scene/sofa/SceneText.h"
 
 namespace allpairs::scene::sofa {
@@ -56,8 +57,8 @@ TEST_F(SofaHostile, MissingScenesAndFoldersAreNamed) {
     }
     return {};
   };
-  EXPECT_THAT(said(m_folder.path() / "gone.scn"), HasSubstr("gone.scn: there is no such file"));
-  EXPECT_THAT(said(m_folder.path()), HasSubstr("not a file"));
+  EXPECT_THAT(said(m_folder.path() / "gone.scn"), HasSubstr("gone.scn: no such file or folder"));
+  EXPECT_THAT(said(m_folder.path()), HasSubstr("is a folder, not a file"));
 }
 
 TEST_F(SofaHostile, NodesNestedWithoutEndAreAnErrorAndNoCrash) {

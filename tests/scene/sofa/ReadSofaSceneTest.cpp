@@ -5,6 +5,7 @@
 
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
 #include "scene/sofa/DataScenes.h"
 #include "scene/sofa/SceneText.h"
 

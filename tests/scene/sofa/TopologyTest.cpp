@@ -117,9 +117,9 @@ TEST_F(SofaGrid, AResolutionBelowOneBecomesTwo) {
 TEST_F(SofaGrid, ResolutionsOutOfAllReasonDoNotEatTheMemory) {
   for (const auto n : {"1000000000 1 1", "100000 100000 100000", "1e300 1 1"})
     EXPECT_THAT(complaintIn("<RegularGridTopology n='" + std::string{n} + "'/><MechanicalObject/><PointModel/>"),
-                HasSubstr("more than this reader makes"));
+                testing::AnyOf(HasSubstr("more than this reader makes"), HasSubstr("points it takes more than")));
   EXPECT_THAT(complaintIn("<RegularGridTopology cellWidth='1e-9'/><MechanicalObject/><PointModel/>"),
-              HasSubstr("more than this reader makes"));
+              testing::AnyOf(HasSubstr("more than this reader makes"), HasSubstr("points it takes more than")));
 }
 
 // Mappings between topologies.

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "cli/Arguments.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "cli/ExitStatus.h"
+
+namespace allpairs::app {
+namespace {
+
+std::optional<double> parseNumber(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size() || std::isnan(value)) return std::nullopt;
+  return value;
+}
+
+std::string describeOrder(const Box& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] < box.max[axis]) continue;
+    return std::string("its min must be less than its max on every axis, and is not in ") + "xyz"[axis];
+  }
+  return {};
+}
+
+/// What stands behind "--" is no option, though it begins like one. CLI11 knows that before the first input only.
+std::string asPath(std::string_view word) { return (word.starts_with('-') ? "./" : "") + std::string(word); }
+
+}  // namespace
+
+std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
+  std::vector<std::string> joined;
+  for (int i = 1; i < count; ++i) {
+    const std::string_view argument = arguments[i];
+    if (argument == "--") {
+      for (++i; i < count; ++i) joined.push_back(asPath(arguments[i]));
+      break;
+    }
+    joined.emplace_back(argument);
+    const bool takesNumbers = argument == "--margin" || argument == "--box";
+    if (takesNumbers && i + 1 < count && !std::string_view(arguments[i + 1]).starts_with("--")) {
+      joined.back() += '=';
+      joined.back() += arguments[++i];
+    }
+  }
+  return joined;
+}
+
+double parseMargin(const std::string& text) {
+  const std::optional<double> value = parseNumber(text);
+  if (!value || *value == -std::numeric_limits<double>::infinity()) {
+    throw UsageError("--margin: '" + text + "' is not a distance");
+  }
+  return *value;
+}
+
+std::size_t parseThreads(const std::string& text) {
+  constexpr std::size_t kMostDigits = 4;
+  const bool isCount = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  if (!isCount || text.size() > kMostDigits)
+    throw UsageError("--threads: '" + text + "' is not a number of threads from 0 to 9999");
+  return static_cast<std::size_t>(std::stoul(text));
+}
+
+std::uint64_t parseMemory(const std::string& text) {
+  constexpr std::string_view kUnits = "KMGT";
+  std::uint64_t value = 0;
+  const char* last = text.data() + text.size();
+  const auto [end, problem] = std::from_chars(text.data(), last, value);
+  const std::size_t unit = end + 1 == last ? kUnits.find(*end) : std::string_view::npos;
+  const auto shift = unit == std::string_view::npos ? 0 : 10 * (unit + 1);
+  const bool isWhole = end == last || shift != 0;
+  if (problem != std::errc() || !isWhole || value == 0 || value > std::numeric_limits<std::uint64_t>::max() >> shift) {
+    throw UsageError("--max-memory: '" + text + "' is not a size, such as 512M or 8G");
+  }
+  return value << shift;
+}
+
+Box parseRegion(const std::string& text) {
+  std::array<double, 6> values{};
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin <= text.size(); ++count) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::optional<double> value = parseNumber(std::string_view(text).substr(begin, end - begin));
+    if (!value) throw UsageError("--box: '" + text.substr(begin, end - begin) + "' in '" + text + "' is not a number");
+    if (count < values.size()) values[count] = *value;
+    begin = end + 1;
+  }
+  if (count != values.size()) {
+    throw UsageError("--box: '" + text + "' has " + std::to_string(count) + " numbers; x0,y0,z0,x1,y1,z1 are needed");
+  }
+  const Box box{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
+  const std::string problem = describeOrder(box);
+  if (!problem.empty()) throw UsageError("--box: '" + text + "': " + problem);
+  return box;
+}
+
+}  // namespace allpairs::app

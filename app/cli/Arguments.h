@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "allpairs/Box.h"
+
+namespace allpairs::app {
+
+/// The arguments as the parser needs them: an option that takes numbers is joined with its value, which may begin with
+/// a minus and would otherwise be taken for an option. What follows "--" are paths.
+[[nodiscard]] std::vector<std::string> joinNumbers(int count, const char* const* arguments);
+
+/// The number that follows --margin.
+///
+/// Bad input: anything but a number, NaN and -infinity throw UsageError.
+[[nodiscard]] double parseMargin(const std::string& text);
+
+/// The number that follows --threads.
+///
+/// Bad input: throws UsageError.
+[[nodiscard]] std::size_t parseThreads(const std::string& text);
+
+/// The bytes that follow --max-memory: a whole number above 0, with K, M, G or T behind it for powers of 1024.
+///
+/// Bad input: throws UsageError.
+[[nodiscard]] std::uint64_t parseMemory(const std::string& text);
+
+/// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
+///
+/// Bad input: throws UsageError.
+[[nodiscard]] Box parseRegion(const std::string& text);
+
+}  // namespace allpairs::app

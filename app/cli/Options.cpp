@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "cli/Options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <filesystem>
+
+namespace allpairs::app {
+
+void addReadLimits(CLI::App& command, ReadLimits& limits) {
+  command.add_flag("--allow-outside", limits.allowOutside, "Let inputs name files outside of their own folders");
+  command.add_option("--max-memory", limits.maxMemory, "Read within so much memory; by default half of the machine's")
+      ->type_name("SIZE");
+}
+
+void addInputs(CLI::App& command, InputSettings& settings) {
+  command.add_option("INPUT", settings.paths, "Scenes, meshes, folders of meshes, box arrays; taken together")
+      ->required()
+      ->type_name("");
+  command.add_flag("--partial", settings.partial, "Ignore what cannot be placed or read");
+  command
+      .add_option("--data", settings.searchRoots, "Also search this folder for files that a scene names; repeatable")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  addReadLimits(command, settings.limits);
+}
+
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
+                       std::vector<std::string> choices) {
+  const auto check = [choices = std::move(choices)](const std::string& text) {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
+    return fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", "));
+  };
+  return command.add_option(name, value)->type_name("WORD")->check(check);
+}
+
+CLI::Option* addMargin(CLI::App& command, std::string& margin, const std::string& description) {
+  return command.add_option("--margin", margin, description)->type_name("D");
+}
+
+void addThreads(CLI::App& command, std::string& threads) {
+  command.add_option("--threads", threads, "Number of threads; 0: one per core")->type_name("N")->capture_default_str();
+}
+
+void addStrategy(CLI::App& command, std::string& strategy) {
+  addChoice(command, "--strategy", strategy, {"auto", "exhaustive", "blocked"})
+      ->description("Algorithm: auto, exhaustive or blocked; all give the same pairs")
+      ->capture_default_str();
+}
+
+void addFormat(CLI::App& command, std::string& format, const std::vector<std::string>& formats) {
+  addChoice(command, "--format", format, formats)
+      ->description(fmt::format("Output format: {}; default: by the extension of FILE, else {}",
+                                fmt::join(formats, ", "), formats.front()));
+}
+
+std::string formatOf(const std::string& format, const std::string& output, const std::vector<std::string>& formats) {
+  if (!format.empty()) return format;
+  const std::string extension = lowerExtension(output);
+  const auto named = std::find_if(formats.begin() + 1, formats.end(),
+                                  [&extension](const std::string& name) { return extension == '.' + name; });
+  return named == formats.end() ? formats.front() : *named;
+}
+
+void addOutput(CLI::App& command, std::string& path) {
+  command.add_option("-o,--output", path, "Write to FILE; it appears only when complete")
+      ->type_name("FILE")
+      ->check([](const std::string& text) { return text.empty() ? "the name of a file is needed" : std::string(); });
+}
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
+class App;
+class Option;
+}  // namespace CLI
+
+namespace allpairs::app {
+
+/// What the inputs may touch: the files that they name, and memory.
+struct ReadLimits {
+  bool allowOutside = false;
+  std::string maxMemory;  ///< As written; empty for the default.
+};
+
+/// Which inputs to read, and how: what every command that reads has in common.
+struct InputSettings {
+  std::vector<std::string> paths;
+  std::vector<std::string> searchRoots;
+  bool partial = false;
+  ReadLimits limits{};
+};
+
+/// Declares --allow-outside and --max-memory SIZE.
+void addReadLimits(CLI::App& command, ReadLimits& limits);
+
+/// Declares these, INPUT..., --partial and --data, which every command that reads has.
+void addInputs(CLI::App& command, InputSettings& settings);
+
+/// Declares an option whose value is one of a few words.
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
+                       std::vector<std::string> choices);
+
+/// Declares --margin D, whose value parseMargin() takes.
+CLI::Option* addMargin(CLI::App& command, std::string& margin, const std::string& description);
+
+/// Declares --threads N, whose value parseThreads() takes.
+void addThreads(CLI::App& command, std::string& threads);
+
+/// Declares --strategy WORD, whose value strategyOf() takes.
+void addStrategy(CLI::App& command, std::string& strategy);
+
+/// Declares --format WORD, one of these.
+void addFormat(CLI::App& command, std::string& format, const std::vector<std::string>& formats);
+
+/// The format that was chosen; else the one that the name of the output ends in, if it is one of these; else the first.
+[[nodiscard]] std::string formatOf(const std::string& format, const std::string& output,
+                                   const std::vector<std::string>& formats);
+
+/// Declares -o FILE; `path` stays empty where it isn't given.
+void addOutput(CLI::App& command, std::string& path);
+
+/// The end of a file's name from its last dot, in lower case; empty where there is none.
+[[nodiscard]] std::string lowerExtension(const std::string& path);
+
+}  // namespace allpairs::app

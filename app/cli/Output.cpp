@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "cli/Output.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "allpairs/scene/FileError.h"
+#include "cli/ExitStatus.h"
+#include "cli/SignalCleanup.h"
+
+namespace allpairs::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t kNewFileMode = 0666;  // as any program creates files; the umask takes away what it must
+
+/// The file that a path means in the end, so that a link stays a link and its target is replaced.
+fs::path resolved(const fs::path& path) {
+  std::error_code ignored;
+  fs::path target = fs::weakly_canonical(path, ignored);
+  return target.empty() ? path : target;
+}
+
+mode_t modeFor(const fs::path& target) {
+  struct stat existing {};
+  if (::stat(target.c_str(), &existing) == 0) return existing.st_mode & 07777;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return kNewFileMode & ~mask;
+}
+
+std::string descriptorPath(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
+/// The descriptor of this program that a path such as /dev/stdout or /dev/fd/3 means.
+std::optional<int> ownDescriptor(const fs::path& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  if (path.parent_path() != "/dev/fd" && path.parent_path() != "/proc/self/fd") return std::nullopt;
+  const std::string digits = path.filename().string();
+  int descriptor = -1;
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), descriptor);
+  if (problem != std::errc() || end != digits.data() + digits.size() || descriptor < 0) return std::nullopt;
+  return descriptor;
+}
+
+/// A file without a name in the folder of `place`; below 0 where the system has no such files, or couldn't name them.
+int openNameless([[maybe_unused]] const fs::path& place) {
+#ifdef O_TMPFILE
+  const std::string folder = place.has_parent_path() ? place.parent_path().string() : ".";
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (descriptor < 0 || ::access(descriptorPath(descriptor).c_str(), F_OK) == 0) return descriptor;
+  ::close(descriptor);
+#endif
+  return -1;
+}
+
+}  // namespace
+
+Output::Output(const std::optional<fs::path>& path) {
+  if (!path) {
+    m_descriptor = STDOUT_FILENO;
+    return;
+  }
+  m_target = *path;
+  openTarget();
+}
+
+void Output::openTarget() {
+  if (const std::optional<int> own = ownDescriptor(m_target)) {
+    m_descriptor = ::fcntl(*own, F_DUPFD_CLOEXEC, 0);
+    if (m_descriptor < 0) fail("opened for writing");
+    return;
+  }
+  std::error_code ignored;
+  const fs::file_status status = fs::status(m_target, ignored);
+  if (fs::is_directory(status)) throw FileError(m_target, "is a folder; -o takes a file");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    m_descriptor = ::open(m_target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (m_descriptor < 0) fail("opened for writing");
+    return;
+  }
+  openBeside();
+}
+
+void Output::openBeside() {
+  const fs::path place = resolved(m_target);
+  if (::access(place.c_str(), F_OK) == 0 && ::access(place.c_str(), W_OK) != 0) fail("replaced");
+  m_descriptor = openNameless(place);
+  m_isNameless = m_descriptor >= 0;
+  if (!m_isNameless) openNamed(place);
+  if (::fchmod(m_descriptor, modeFor(place)) != 0) fail("given its permissions");
+}
+
+void Output::openNamed(const fs::path& place) {
+  std::string name = place.string() + ".XXXXXX";
+  m_descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  if (m_descriptor < 0) fail("created");
+  m_temporary = name;
+  removeOnSignal(name);
+}
+
+/// A link cannot replace a file, and a rename can: the complete file gets a name beside its place first.
+void Output::giveName() {
+  const std::string source = descriptorPath(m_descriptor);
+  const std::string base = resolved(m_target).string() + '.' + std::to_string(::getpid());
+  for (int attempt = 0; m_temporary.empty(); ++attempt) {
+    const std::string name = base + '-' + std::to_string(attempt);
+    if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      m_temporary = name;
+    } else if (errno != EEXIST) {
+      fail("put in its place");
+    }
+  }
+  removeOnSignal(m_temporary.string());
+  m_isNameless = false;
+}
+
+Output::~Output() {
+  if (m_descriptor >= 0 && m_descriptor != STDOUT_FILENO) ::close(m_descriptor);
+  if (m_temporary.empty()) return;
+  ::unlink(m_temporary.c_str());
+  removeOnSignal({});
+}
+
+bool Output::isTerminal() const { return ::isatty(m_descriptor) == 1; }
+
+void Output::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("written");
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void Output::commit() {
+  if (m_target.empty()) return;
+  if (m_isNameless) giveName();
+  if (::close(std::exchange(m_descriptor, -1)) != 0) fail("written");
+  if (m_temporary.empty()) return;
+  if (::rename(m_temporary.c_str(), resolved(m_target).c_str()) != 0) fail("put in its place");
+  m_temporary.clear();
+  removeOnSignal({});
+}
+
+void Output::fail(const char* action) const {
+  const int problem = errno;
+  if (problem == EPIPE) throw ClosedPipe();
+  const std::string name = m_target.empty() ? "standard output" : m_target.string();
+  throw FileError(name, std::string("cannot be ") + action + ": " + std::generic_category().message(problem));
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "cli/Table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "cli/Text.h"
+
+namespace allpairs::app {
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
+  if (seconds < 1.0) return fmt::format("{:.1f} ms", seconds * 1e3);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+std::string pairLines(const scene::ResultView& result) {
+  const std::size_t shown = std::min(result.pairs.size(), kPairsShown);
+  std::vector<std::pair<std::string, std::string>> names;
+  std::size_t width = 0;
+  for (const Pair& pair : result.pairs.first(shown)) {
+    names.emplace_back(printable(result.model(result.swapped ? pair.second : pair.first).name),
+                       printable(result.model(result.swapped ? pair.first : pair.second).name));
+    width = std::max(width, std::min(names.back().first.size(), kNameWidth));
+  }
+  std::string text;
+  for (const auto& [first, second] : names) text += fmt::format("  {:<{}}   {}\n", first, width, second);
+  text += moreLine(result.pairs.size() - shown);
+  return text.empty() ? text : text + '\n';
+}
+
+std::string testLines(const scene::DetectionStatistics& statistics) {
+  std::string text = fmt::format("tests    {} of boxes", grouped(statistics.testsMade));
+  if (statistics.candidates != 0) text += fmt::format(", {} of flags and groups", grouped(statistics.candidates));
+  text += fmt::format("; the double loop makes {}\n", grouped(statistics.testsOfAllPairs));
+  if (statistics.verified) text += "verify   the exhaustive strategy gives the same pairs in the same order\n";
+  return text;
+}
+
+}  // namespace
+
+std::string moreLine(std::size_t left) {
+  if (left == 0) return {};
+  return fmt::format("  ... and {} more; --format csv or json gives all\n", grouped(left));
+}
+
+std::string tableHead(const scene::ResultView& result, const TableNotes& notes) {
+  std::string text = fmt::format("models   {}, of which {} simulated\n", grouped(result.modelCount),
+                                 notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
+  text += fmt::format("method   {}\n", notes.method);
+  if (notes.remarkCount != 0) {
+    text += fmt::format("ignored  {}; 'allpairs info{}' lists them\n",
+                        counted(notes.remarkCount, "part of the input", "parts of the input"),
+                        notes.isPartial ? " --partial" : "");
+  }
+  return text;
+}
+
+std::string tableFoot(const scene::ResultView& result, std::optional<double> exactSeconds) {
+  const scene::DetectionStatistics& statistics = result.statistics;
+  const std::string exact = exactSeconds ? ", " + duration(*exactSeconds) + " to look at shapes" : "";
+  return testLines(statistics) + fmt::format("time     {} to read, {} to detect on {}{}\n",
+                                             duration(statistics.readSeconds), duration(statistics.detectSeconds),
+                                             counted(statistics.threads, "thread"), exact);
+}
+
+void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink) {
+  const std::string count = fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
+  sink(tableHead(result, notes) + count + pairLines(result) + tableFoot(result));
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "cli/Text.h"
+
+#include <fmt/format.h>
+
+namespace allpairs::app {
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t position = digits.size(); position > 3;) {
+    position -= 3;
+    digits.insert(position, 1, ',');
+  }
+  return digits;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {
+  if (count != 1 && !plural.empty()) return fmt::format("{} {}", grouped(count), plural);
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string printable(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    result += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return result;
+}
+
+std::string boxText(const Box& box) {
+  if (isEmpty(box)) return "empty";
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]", box.min[0], box.min[1], box.min[2],
+                     box.max[0], box.max[1], box.max[2]);
+}
+
+}  // namespace allpairs::app

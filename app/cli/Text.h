@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "allpairs/Box.h"
+
+namespace allpairs::app {
+
+/// 1234567 as 1,234,567.
+[[nodiscard]] std::string grouped(std::uint64_t number);
+
+/// `count` and the noun, in the plural unless it is 1: "3 boxes".
+[[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});
+
+/// The text with its control characters written as \x1b, so that a terminal shows them and does not obey them.
+[[nodiscard]] std::string printable(const std::string& text);
+
+/// A box as [0, 0, 0] to [1, 1, 1], short enough to read.
+[[nodiscard]] std::string boxText(const Box& box);
+
+}  // namespace allpairs::app

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Commands.h"
+#include "allpairs/scene/ReadInput.h"
+#include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
+#include "cli/Options.h"
+#include "cli/Output.h"
+#include "cli/Progress.h"
+#include "cli/Table.h"
+#include "cli/Text.h"
+#include "cli/Timer.h"
+#include "detect/Detection.h"
+#include "detect/Exact.h"
+#include "detect/SearchArguments.h"
+#include "input/Inputs.h"
+
+namespace allpairs::app {
+namespace {
+
+struct DetectSettings {
+  InputSettings input;
+  SearchArguments search;
+  std::string strategy = "auto";
+  std::string threads = "0";
+  bool verify = false;
+  bool exact = false;
+  std::string format;  ///< Empty: as the output file's extension says, else a table.
+  std::string output;
+};
+
+constexpr const char* kDetectExamples = R"(INPUT is one or more of
+  .scn, .xml                     a SOFA scene
+  .obj .stl .ply .glb .off ...   a mesh file: each object or node is a model
+  a folder                       all mesh files in it
+  .npy                           boxes as a NumPy array (n, 6), float32 or float64:
+                                 minx miny minz maxx maxy maxz
+  .csv                           the same as text, with a name in the first or last column
+
+Examples:
+  allpairs detect scene.scn
+  allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
+  allpairs detect parts/ --margin 0.5
+  allpairs detect parts/ --exact
+  allpairs detect boxes.npy -o pairs.npy
+  allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
+  allpairs detect scene.scn --verify --format json | jq '.pairs | length'
+
+Boxes are closed: boxes that share a corner are a pair.)";
+
+const std::vector<std::string> kDetectFormats = {"table", "csv", "json", "npy"};
+
+DetectionOptions detectionOptions(const DetectSettings& settings) {
+  DetectionOptions options = detectionOptions(settings.search);
+  options.strategy = strategyOf(settings.strategy);
+  options.threads = parseThreads(settings.threads);
+  options.verify = settings.verify;
+  return options;
+}
+
+void write(const scene::ResultView& result, const TableNotes& notes, const std::string& format, Output& output) {
+  const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
+  if (format == "json") {
+    scene::writeJson(result, sink);
+  } else if (format == "csv") {
+    scene::writeCsv(result, sink);
+  } else if (format == "npy") {
+    scene::writeNpy(result, sink);
+  } else {
+    writeTable(result, notes, sink);
+  }
+}
+
+std::string boxMethod(const DetectionOptions& options) {
+  std::string text = "boxes";
+  if (options.margin) text += fmt::format(" at most {} apart on every axis", *options.margin);
+  if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
+  return text;
+}
+
+/// A detection and all that is needed to write it down.
+struct Outcome {
+  Detection detection{};
+  scene::ResultView result{};
+  TableNotes notes{};
+  std::optional<ExactReport> exact{};
+};
+
+void writeExact(const Outcome& outcome, const std::string& format, Output& output) {
+  const scene::ResultView& result = outcome.result;
+  const ExactReport& exact = *outcome.exact;
+  const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
+  if (format == "json") {
+    writeExactJson(result, exact, sink);
+  } else if (format == "csv") {
+    writeExactCsv(result, exact, sink);
+  } else if (format == "npy") {
+    const std::vector<Pair> kept = withoutFalse(result.pairs, exact);
+    scene::ResultView found = result;
+    found.pairs = kept;
+    scene::writeNpy(found, sink);
+  } else {
+    writeExactTable(result, exact, outcome.notes, sink);
+  }
+}
+
+template <class Work>
+Detection withClock(std::size_t count, const Work& work) {
+  const ProgressClock clock("finding pairs among " + counted(count, "model"));
+  return work();
+}
+
+Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
+  const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
+  Outcome outcome{.detection = withClock(boxes.size(), [&] { return detectBoxes(boxes, order, options); }),
+                  .notes = {.method = boxMethod(options), .simulated = boxes.size()}};
+  outcome.result.modelCount = boxes.size();
+  outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
+  return outcome;
+}
+
+/// Says on standard error that the result is not of the whole input.
+void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
+  const auto count = std::count_if(scene.remarks.begin(), scene.remarks.end(),
+                                   [](const scene::Remark& remark) { return remark.isPartial; });
+  if (count == 0) return;
+  const std::string inputs = printable(fmt::format("{}", fmt::join(input.paths, " ")));
+  fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
+             counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");
+}
+
+Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
+  warnOfPart(scene, settings.input);
+  Outcome outcome{.detection = withClock(scene.models.size(), [&] { return detectScene(scene, options); })};
+  if (settings.exact) outcome.exact = examine(scene, outcome.detection.pairs);
+  const auto& models = scene.models;
+  outcome.notes.method = methodText(scene);
+  outcome.notes.remarkCount = scene.remarks.size();
+  outcome.notes.isPartial = settings.input.partial;
+  outcome.result.ignored = scene.remarks;
+  for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
+  outcome.result.modelCount = models.size();
+  outcome.result.model = [&models](std::size_t i) { return scene::modelRecord(*models[i]); };
+  return outcome;
+}
+
+/// Boxes become models, which have shapes.
+void makeScene(Inputs& inputs) {
+  if (const auto* boxes = std::get_if<scene::BoxArray>(&inputs)) inputs = scene::toScene(*boxes);
+}
+
+void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
+  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  if (settings.format == "npy" && output.isTerminal()) {
+    throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
+  }
+  if (settings.exact) requireExact();
+  const Timer timer;
+  Inputs inputs = readInputs(settings.input);
+  if (settings.exact) makeScene(inputs);
+  const double readSeconds = timer.seconds();
+  Outcome outcome = std::visit([&](auto& input) { return detect(input, settings, options); }, inputs);
+  outcome.result.pairs = outcome.detection.pairs;
+  outcome.result.swapped = outcome.detection.swapped;
+  outcome.result.statistics = outcome.detection.statistics;
+  outcome.result.statistics.readSeconds = readSeconds;
+  std::optional<ProgressClock> clock;
+  if (!settings.output.empty()) clock.emplace("writing");  // not into a pager, which may wait for long
+  if (outcome.exact) {
+    writeExact(outcome, settings.format, output);
+  } else {
+    write(outcome.result, outcome.notes, settings.format, output);
+  }
+  output.commit();
+}
+
+}  // namespace
+
+void addDetect(CLI::App& program) {
+  const auto settings = std::make_shared<DetectSettings>();
+  CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
+  command->footer(kDetectExamples);
+  addInputs(*command, settings->input);
+  addSearchOptions(*command, settings->search);
+  addStrategy(*command, settings->strategy);
+  addThreads(*command, settings->threads);
+  command->add_flag("--verify", settings->verify, "Also search exhaustively; fail on any difference");
+  command->add_flag("--exact", settings->exact,
+                    "Test the shapes too: contacts with depth and position, distances of the other pairs");
+  addFormat(*command, settings->format, kDetectFormats);
+  addOutput(*command, settings->output);
+  command->callback([settings] {
+    settings->format = formatOf(settings->format, settings->output, kDetectFormats);
+    runDetect(*settings, detectionOptions(*settings));
+  });
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "detect/Detection.h"
+
+#include <chrono>
+
+#include "allpairs/parallel/TbbExecutor.h"
+
+namespace allpairs::app {
+namespace {
+
+/// Below this a search takes less than waking a pool of threads does.
+constexpr std::size_t kWorthThreads = 20'000;
+
+}  // namespace
+
+Strategy strategyOf(const std::string& name) {
+  if (name == "exhaustive") return Strategy::Exhaustive;
+  return name == "blocked" ? Strategy::Blocked : Strategy::Automatic;
+}
+
+std::string strategyName(Strategy strategy) {
+  if (strategy == Strategy::Exhaustive) return "exhaustive";
+  return strategy == Strategy::Blocked ? "blocked" : "auto";
+}
+
+std::unique_ptr<Executor> makeExecutor(std::size_t threads, std::size_t models) {
+  if (threads == 1 || models < kWorthThreads) return nullptr;
+  return std::make_unique<parallel::TbbExecutor>(threads);
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "detect/SearchArguments.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "cli/Arguments.h"
+
+namespace allpairs::app {
+
+void addSearchOptions(CLI::App& command, SearchArguments& arguments) {
+  command
+      .add_option("--margin", arguments.margin,
+                  "Report pairs up to D apart on every axis; replaces a scene's alarmDistance")
+      ->type_name("D");
+  command.add_option("--box", arguments.box, "Ignore models outside of this region")->type_name("x0,y0,z0,x1,y1,z1");
+}
+
+DetectionOptions detectionOptions(const SearchArguments& arguments) {
+  DetectionOptions options;
+  if (arguments.margin) options.margin = parseMargin(*arguments.margin);
+  if (arguments.box) options.region = parseRegion(*arguments.box);
+  return options;
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/Options.h"
+#include "detect/Detection.h"
+
+namespace allpairs::app {
+
+/// Which pairs to look for, as the command line says: what detect, view and report have in common.
+struct SearchArguments {
+  std::optional<std::string> margin;
+  std::optional<std::string> box;
+};
+
+/// Declares --margin and --box.
+void addSearchOptions(CLI::App& command, SearchArguments& arguments);
+
+/// Bad input: a margin that is no number or a box that is no region throws UsageError.
+[[nodiscard]] DetectionOptions detectionOptions(const SearchArguments& arguments);
+
+}  // namespace allpairs::app

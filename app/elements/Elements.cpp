@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Commands.h"
+#include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
+#include "cli/NpyOutput.h"
+#include "cli/Options.h"
+#include "cli/Output.h"
+#include "cli/Progress.h"
+#include "cli/Timer.h"
+#include "detect/Detection.h"
+#include "elements/ElementReport.h"
+#include "input/Inputs.h"
+#include "input/MeshSteps.h"
+
+namespace allpairs::app {
+namespace {
+
+struct ElementSettings {
+  std::vector<std::string> paths;
+  std::string margin = "0";
+  std::string threads = "0";
+  std::string format;
+  std::string output;
+  bool between = false;
+  ReadLimits limits;
+};
+
+constexpr const char* kElementsExamples =
+    R"(START and END are mesh files (.obj .ply .stl ...), or folders of them, with the same
+triangles: the vertices at the start and at the end of a step. For several meshes,
+such as a cloth and the body it falls on, give a START and an END for each; for a
+mesh that does not move, give the same file twice.
+
+With -o FILE the candidates are written beside FILE as NumPy arrays (m, 2), uint32:
+BASE.vertex_face.npy, BASE.edge_edge.npy and BASE.face_face.npy; and the elements that
+they index, BASE.edges.npy and BASE.faces.npy. BASE is FILE without its extension.
+
+Examples:
+  allpairs elements cloth_92.ply cloth_93.ply
+  allpairs elements cloth_92.ply cloth_93.ply --margin 0.001 -o cloth.json
+  allpairs elements cloth_92.ply cloth_93.ply ball.ply ball.ply --between)";
+
+std::vector<MeshStep> readSteps(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+  if (paths.size() % 2 != 0) throw UsageError("START and END come in pairs: '" + paths.back() + "' has no END");
+  ProgressLine line;
+  std::vector<MeshStep> steps;
+  for (std::size_t i = 0; i < paths.size(); i += 2) {
+    line.show("reading: " + std::filesystem::path(paths[i]).filename().string());
+    for (MeshStep& step : readMeshSteps(paths[i], paths[i + 1], options)) steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+elements::MeshTopology topologyOf(const std::vector<MeshStep>& steps) {
+  std::vector<elements::MeshView> views;
+  views.reserve(steps.size());
+  for (const MeshStep& step : steps) views.push_back({step.start.positions.size() / 3, step.start.triangles});
+  return elements::MeshTopology(views);
+}
+
+/// FILE without an extension that says what is in it, and ".key.npy".
+std::string besideOutput(const std::string& output, std::string_view key) {
+  const std::string extension = lowerExtension(output);
+  const bool isReport = extension == ".json" || extension == ".txt";
+  const std::string base = isReport ? output.substr(0, output.size() - extension.size()) : output;
+  return base + '.' + std::string(key) + ".npy";
+}
+
+/// Writes rows of numbers beside the output, and notes the file; complete when the report is.
+class ElementFiles {
+ public:
+  ElementFiles(std::string output, ElementReport& report) : m_output(std::move(output)), m_report(report) {}
+
+  void write(std::string_view key, std::size_t columns, std::span<const std::uint32_t> numbers) {
+    if (m_output.empty()) return;
+    const std::string path = besideOutput(m_output, key);
+    m_files.push_back(std::make_unique<Output>(std::filesystem::path(path)));
+    NpyOutput(*m_files.back(), "<u4", {numbers.size() / columns, columns}).add(numbers);
+    m_report.files.push_back({std::string(key), path});
+  }
+
+  void commit() {
+    for (const auto& file : m_files) file->commit();
+  }
+
+ private:
+  std::string m_output;
+  ElementReport& m_report;
+  std::vector<std::unique_ptr<Output>> m_files;
+};
+
+/// Rows of whole numbers, one after the other in memory, as the numbers.
+template <class Row>
+std::span<const std::uint32_t> numbersOf(std::span<const Row> rows) {
+  static_assert(sizeof(Row) % sizeof(std::uint32_t) == 0);
+  return {reinterpret_cast<const std::uint32_t*>(rows.data()), rows.size_bytes() / sizeof(std::uint32_t)};
+}
+
+void findAll(elements::ElementCandidates& candidates, bool wantsLists, ElementFiles& files, ElementReport& report) {
+  const Timer timer;
+  std::array<std::span<const Pair>, kKindNames.size()> found;
+  for (std::size_t i = 0; i < kKindNames.size(); ++i) {
+    if (wantsLists) found[i] = candidates.find(kKindNames[i].kind);
+    report.candidates[i] = wantsLists ? found[i].size() : candidates.count(kKindNames[i].kind);
+  }
+  report.findSeconds = timer.seconds();
+  for (std::size_t i = 0; i < kKindNames.size(); ++i) files.write(kKindNames[i].key, 2, numbersOf(found[i]));
+  files.write("edges", 2, numbersOf(candidates.topology().edges()));
+  files.write("faces", 3, numbersOf(candidates.topology().triangles()));
+}
+
+void describeMeshes(const elements::MeshTopology& topology, const std::vector<MeshStep>& steps, ElementReport& report) {
+  report.counts = topology.counts();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const elements::ElementCounts& from = topology.before(i);
+    const elements::ElementCounts& to = topology.before(i + 1);
+    report.meshes.push_back(
+        {steps[i].start.name, {to.vertices - from.vertices, to.edges - from.edges, to.triangles - from.triangles}});
+  }
+}
+
+const std::vector<std::string> kElementFormats = {"table", "json"};
+
+/// A name that promises another format would be a lie.
+void checkElementsExtension(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension != ".npy" && extension != ".csv") return;
+  throw UsageError("-o: '" + path + "' names the report; the lists are written beside it: name it .json or .txt");
+}
+
+void runElements(const ElementSettings& settings) {
+  checkElementsExtension(settings.output);
+  ElementReport report;
+  report.margin = parseMargin(settings.margin);
+  report.betweenOnly = settings.between;
+  const std::size_t threads = parseThreads(settings.threads);
+  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  const Timer timer;
+  const std::vector<MeshStep> steps = readSteps(settings.paths, readOptions(settings.limits));
+  report.readSeconds = timer.seconds();
+
+  elements::MeshTopology topology = topologyOf(steps);
+  describeMeshes(topology, steps, report);
+  const std::unique_ptr<Executor> executor = makeExecutor(threads, topology.counts().edges);
+  const bool wantsLists = !settings.output.empty();
+  if (executor && wantsLists) report.threads = executor->concurrency();  // counting runs on one
+  elements::ElementCandidates candidates(
+      std::move(topology), {.margin = report.margin, .withinMeshes = !settings.between, .executor = executor.get()});
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    candidates.setPositions(i, std::span<const double>(steps[i].start.positions), steps[i].endPositions);
+  }
+  ElementFiles files(settings.output, report);
+  findAll(candidates, wantsLists, files, report);
+  output.write(formatOf(settings.format, settings.output, kElementFormats) == "json" ? jsonOf(report)
+                                                                                     : tableOf(report));
+  files.commit();
+  output.commit();
+}
+
+}  // namespace
+
+void addElements(CLI::App& program) {
+  const auto settings = std::make_shared<ElementSettings>();
+  CLI::App* command =
+      program.add_subcommand("elements", "Find candidate vertex, edge and face pairs of deforming meshes");
+  command->footer(kElementsExamples);
+  command->add_option("START END", settings->paths, "Mesh files at the start and the end of a step, alternating")
+      ->required()
+      ->type_name("");
+  addMargin(*command, settings->margin, "Report candidates up to D apart on every axis");
+  command->add_flag("--between", settings->between, "Only candidates between two meshes");
+  addThreads(*command, settings->threads);
+  addFormat(*command, settings->format, kElementFormats);
+  addReadLimits(*command, settings->limits);
+  addOutput(*command, settings->output);
+  command->callback([settings] { runElements(*settings); });
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "Commands.h"
+#include "cli/Options.h"
+#include "cli/Output.h"
+#include "cli/Text.h"
+#include "input/Inputs.h"
+
+namespace allpairs::app {
+namespace {
+
+constexpr const char* kInfoExamples =
+    R"(One line per model: index, name, type, number of elements, flags, groups and box.
+Flags: inactive (ignored), not simulated (two such models are never paired),
+static (does not move), self (may collide with itself).
+
+Examples:
+  allpairs info scene.scn
+  allpairs info parts/
+  allpairs info boxes.npy)";
+
+constexpr std::size_t kBoxesShown = 20;  // of an array that may hold millions
+
+using Row = std::array<std::string, 7>;
+
+std::string flagsText(const scene::ModelRecord& model) {
+  std::vector<std::string> flags;
+  if (!model.active) flags.emplace_back("inactive");
+  if (!model.simulated) flags.emplace_back("not simulated");
+  if (!model.moving) flags.emplace_back("static");
+  if (model.selfCollision) flags.emplace_back("self");
+  return flags.empty() ? "-" : fmt::format("{}", fmt::join(flags, ", "));
+}
+
+Row rowOf(std::size_t index, const scene::ModelRecord& model) {
+  const std::string groups = model.groups.empty() ? "-" : fmt::format("{}", fmt::join(model.groups, " "));
+  return {std::to_string(index), printable(model.name), model.type, grouped(model.elements), flagsText(model), groups,
+          boxText(model.box)};
+}
+
+std::string tableOf(std::size_t count, const std::function<scene::ModelRecord(std::size_t)>& model) {
+  std::vector<Row> rows{{"#", "name", "type", "elements", "flags", "groups", "box"}};
+  for (std::size_t i = 0; i < count; ++i) rows.push_back(rowOf(i, model(i)));
+  std::array<std::size_t, 7> widths{};
+  for (const Row& row : rows) {
+    for (std::size_t column = 0; column + 1 < row.size(); ++column) {
+      widths[column] = std::max(widths[column], row[column].size());
+    }
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    for (std::size_t column = 0; column + 1 < row.size(); ++column) {
+      const bool isNumber = column == 0 || column == 3;
+      text += isNumber ? fmt::format("{:>{}}  ", row[column], widths[column])
+                       : fmt::format("{:<{}}  ", row[column], widths[column]);
+    }
+    text += row.back() + '\n';
+  }
+  return text;
+}
+
+std::string remarkText(const scene::Remark& remark) {
+  std::string place = remark.file.string();
+  if (remark.line != 0) place += fmt::format(":{}", remark.line);
+  if (!place.empty()) place += ": ";
+  const bool repeats = remark.subject == remark.file.filename();  // a file that was left out as a whole
+  const std::string subject = repeats ? "" : remark.subject + ": ";
+  return fmt::format("  {}\n", printable(place + subject + remark.reason));
+}
+
+std::string describe(const scene::BoxArray& boxes) {
+  Box whole = kEmptyBox;
+  std::size_t empty = 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    whole = merge(whole, boxes.boxes()[i]);
+    empty += isEmpty(boxes.boxes()[i]) ? 1U : 0U;
+  }
+  std::string text = fmt::format("models   {}, {}\n", counted(boxes.size(), "box", "boxes"),
+                                 boxes.boxes().isFloat64() ? "float64" : "float32");
+  if (empty != 0) text += fmt::format("empty    {}\n", grouped(empty));
+  text += fmt::format("box      {}\n\n", boxText(whole));
+  const std::size_t shown = std::min(boxes.size(), kBoxesShown);
+  text += tableOf(shown, [&boxes](std::size_t i) { return boxRecord(boxes, i); });
+  if (shown < boxes.size()) text += fmt::format("... and {} more\n", grouped(boxes.size() - shown));
+  return text;
+}
+
+std::string describe(scene::Scene& scene) {
+  Box whole = kEmptyBox;
+  std::size_t elements = 0;
+  for (const auto& model : scene.models) {
+    if (!model->empty()) model->computeBoundingTree();
+    whole = merge(whole, scene::modelRecord(*model).box);
+    elements += model->getSize();
+  }
+  std::string text = fmt::format("models   {}, with {}\n", grouped(scene.models.size()), counted(elements, "element"));
+  text += fmt::format("method   {}\nbox      {}\n\n", methodText(scene), boxText(whole));
+  text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(*scene.models[i]); });
+  text += scene.remarks.empty() ? "\nnothing was ignored\n" : "\nignored\n";
+  for (const scene::Remark& remark : scene.remarks) text += remarkText(remark);
+  return text;
+}
+
+void runInfo(const InputSettings& settings) {
+  Inputs inputs = readInputs(settings);
+  Output(std::nullopt).write(std::visit([](auto& input) { return describe(input); }, inputs));
+}
+
+}  // namespace
+
+void addInfo(CLI::App& program) {
+  const auto settings = std::make_shared<InputSettings>();
+  CLI::App* command = program.add_subcommand("info", "Show the models of the input, and what was ignored");
+  command->footer(kInfoExamples);
+  addInputs(*command, *settings);
+  command->callback([settings] { runInfo(*settings); });
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/ReadOptions.h"
+#include "allpairs/scene/Scene.h"
+#include "allpairs/scene/WriteResult.h"
+#include "cli/Options.h"
+
+namespace allpairs::app {
+
+/// What the inputs hold together: boxes in one block where all are box arrays, else a scene of models.
+using Inputs = std::variant<scene::BoxArray, scene::Scene>;
+
+/// Bad input: throws UsageError.
+[[nodiscard]] scene::ReadOptions readOptions(const ReadLimits& limits);
+
+/// Reads the inputs and puts them together in the order given.
+[[nodiscard]] Inputs readInputs(const InputSettings& settings);
+
+/// What a result says about box i.
+[[nodiscard]] scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i);
+
+/// How a scene's models are tested, in words: the method and its alarm distance.
+[[nodiscard]] std::string methodText(const scene::Scene& scene);
+
+}  // namespace allpairs::app

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "input/MeshSteps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/ReadInput.h"
+#include "cli/Text.h"
+
+namespace allpairs::app {
+namespace {
+
+TriangleMesh toMesh(const collision::TriangleModel& model) {
+  TriangleMesh mesh{.name = model.getName(), .positions = {}, .triangles = {}};
+  mesh.positions.reserve(3 * model.positions().size());
+  for (const auto& point : model.positions()) mesh.positions.insert(mesh.positions.end(), point.begin(), point.end());
+  mesh.triangles.reserve(3 * model.triangles().size());
+  for (const auto& t : model.triangles()) mesh.triangles.insert(mesh.triangles.end(), t.begin(), t.end());
+  return mesh;
+}
+
+std::string triangleText(const std::uint32_t* corners) {
+  return fmt::format("({}, {}, {})", corners[0], corners[1], corners[2]);
+}
+
+void checkSameMesh(const TriangleMesh& earlier, const std::string& earlierName, const TriangleMesh& later,
+                   const std::filesystem::path& path) {
+  const std::string name = "mesh '" + printable(later.name) + "'";
+  if (earlier.positions.size() != later.positions.size()) {
+    throw FileError(
+        path, fmt::format("{} has {} where {} has {}", name, counted(later.positions.size() / 3, "vertex", "vertices"),
+                          earlierName, grouped(earlier.positions.size() / 3)));
+  }
+  if (earlier.triangles.size() != later.triangles.size()) {
+    throw FileError(path,
+                    fmt::format("{} has {} where {} has {}", name, counted(later.triangles.size() / 3, "triangle"),
+                                earlierName, grouped(earlier.triangles.size() / 3)));
+  }
+  const auto [there, here] = std::mismatch(earlier.triangles.begin(), earlier.triangles.end(), later.triangles.begin());
+  if (there == earlier.triangles.end()) return;
+  const auto triangle = static_cast<std::size_t>(there - earlier.triangles.begin()) / 3;
+  throw FileError(path, fmt::format("triangle {} of {} joins vertices {} where in {} it joins {}", triangle, name,
+                                    triangleText(&later.triangles[3 * triangle]), earlierName,
+                                    triangleText(&earlier.triangles[3 * triangle])));
+}
+
+}  // namespace
+
+std::vector<TriangleMesh> readTriangleMeshes(const std::filesystem::path& path, const scene::ReadOptions& options) {
+  const scene::Scene scene = scene::readInput(path, options);
+  std::vector<TriangleMesh> meshes;
+  for (const auto& model : scene.models) {
+    const auto* triangles = dynamic_cast<const collision::TriangleModel*>(model.get());
+    if (triangles != nullptr) meshes.push_back(toMesh(*triangles));
+  }
+  if (meshes.empty()) throw FileError(path, "holds no triangles");
+  return meshes;
+}
+
+void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesystem::path& earlierPath,
+                     const std::vector<TriangleMesh>& later, const std::filesystem::path& laterPath) {
+  const std::string earlierName = "'" + printable(earlierPath.string()) + "'";
+  if (earlier.size() != later.size()) {
+    throw FileError(laterPath, fmt::format("holds {} where {} holds {}", counted(later.size(), "mesh", "meshes"),
+                                           earlierName, grouped(earlier.size())));
+  }
+  for (std::size_t i = 0; i < later.size(); ++i) checkSameMesh(earlier[i], earlierName, later[i], laterPath);
+}
+
+std::vector<MeshStep> readMeshSteps(const std::filesystem::path& start, const std::filesystem::path& end,
+                                    const scene::ReadOptions& options) {
+  std::vector<TriangleMesh> first = readTriangleMeshes(start, options);
+  std::vector<TriangleMesh> last = readTriangleMeshes(end, options);
+  checkSameMeshes(first, start, last, end);
+  std::vector<MeshStep> steps(first.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = {std::move(first[i]), std::move(last[i].positions)};
+  return steps;
+}
+
+}  // namespace allpairs::app

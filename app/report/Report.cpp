@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "Report.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "Bcf.h"
+#include "Clash.h"
+#include "ClashPicture.h"
+#include "Commands.h"
+#include "Png.h"
+#include "cli/ExitStatus.h"
+#include "cli/Options.h"
+#include "cli/Progress.h"
+#include "detect/SearchArguments.h"
+#include "report/ReportFolder.h"
+#include "view/MakeViewScene.h"
+
+namespace allpairs::app {
+namespace {
+
+struct ReportSettings {
+  InputSettings input;
+  SearchArguments search;
+  std::string folder;
+  std::size_t pictures = 500;
+  double metresPerUnit = 1.0;
+};
+
+constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
+and a folder of pictures. Pairs with the largest shared volume come first.
+
+Examples:
+  allpairs report parts/ -o report
+  allpairs report assembly.glb --margin 0.01 -o report --pictures 100
+  allpairs report parts/ --metres-per-unit 0.001 -o report)";
+
+/// Now, or the moment that builds which must repeat exactly give in SOURCE_DATE_EPOCH.
+std::string dateText() {
+  std::time_t moment = std::time(nullptr);
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) {
+    char* end = nullptr;
+    const long long seconds = std::strtoll(fixed, &end, 10);
+    if (end != fixed && *end == '\0') moment = static_cast<std::time_t>(seconds);
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
+}
+
+/// The pictures of the first clashes as PNG files, by number.
+std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<const view::Clash> clashes) {
+  ProgressLine line;
+  std::vector<std::string> pictures;
+  for (const view::Clash& clash : clashes) {
+    line.show(fmt::format("drawing {} of {}", clash.number, clashes.size()));
+    pictures.push_back(view::encodePng(view::pictureOf(scene, clash, view::cameraOf(scene, clash))));
+  }
+  return pictures;
+}
+
+std::string bcfOf(const view::ViewScene& scene, std::span<const view::Clash> pictured,
+                  const std::vector<std::string>& pictures, double metresPerUnit) {
+  view::BcfOptions options;
+  options.date = dateText();
+  options.metresPerUnit = metresPerUnit;
+  options.picture = [&pictures](const view::Clash& clash) { return pictures[clash.number - 1]; };
+  return view::makeBcf(scene, pictured, options);
+}
+
+/// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind.
+void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
+  const std::vector<view::Clash> clashes = view::clashesOf(scene);
+  const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
+  const std::vector<std::string> pictures = drawPictures(scene, pictured);
+  const std::string bcf = bcfOf(scene, pictured, pictures, settings.metresPerUnit);
+  ReportFolder folder(settings.folder);
+  for (const view::Clash& clash : pictured) folder.write(view::pictureName(clash.number), pictures[clash.number - 1]);
+  folder.write("clashes.bcf", bcf);
+  folder.write("clashes.csv", [&](scene::ByteSink sink) { view::writeReportCsv(scene, clashes, sink); });
+  folder.write("index.html",  // last, so that what it refers to is there
+               [&](scene::ByteSink sink) { view::writeReportPage(scene, clashes, pictured.size(), sink); });
+  folder.commit(pictured.size());
+}
+
+void runReport(const ReportSettings& settings) {
+  if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
+  if (!(settings.metresPerUnit > 0.0)) throw UsageError("--metres-per-unit must be above 0");
+  checkReportFolder(settings.folder);
+  const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
+  if (scene.frames.size() > 1) throw UsageError("a report shows one frame: the input has several");
+  writeReport(scene, settings);
+}
+
+}  // namespace
+
+void addReport(CLI::App& program) {
+  const auto settings = std::make_shared<ReportSettings>();
+  CLI::App* command =
+      program.add_subcommand("report", "Write a folder with a page, a table and a BCF file of the pairs");
+  command->footer(kReportExamples);
+  addInputs(*command, settings->input);
+  addSearchOptions(*command, settings->search);
+  command->add_option("-o,--output", settings->folder, "Write to the folder DIR; it is created if missing")
+      ->type_name("DIR");
+  command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--metres-per-unit", settings->metresPerUnit, "Length of a unit of the input, for BCF's cameras")
+      ->type_name("M")
+      ->capture_default_str();
+  command->callback([settings] { runReport(*settings); });
+}
+
+}  // namespace allpairs::app

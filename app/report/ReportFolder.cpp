@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "report/ReportFolder.h"
+
+#include <utility>
+
+#include "Report.h"
+#include "allpairs/scene/FileError.h"
+#include "cli/Output.h"
+
+namespace allpairs::app {
+
+namespace fs = std::filesystem;
+
+void checkReportFolder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_regular_file(folder, ignored)) throw FileError(folder, "is a file; -o takes a folder");
+  for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+    if (fs::is_regular_file(above, ignored)) {
+      throw FileError(folder, "cannot create this folder: '" + above.string() + "' is a file");
+    }
+  }
+}
+
+ReportFolder::ReportFolder(fs::path folder)
+    : m_folder(std::move(folder)), m_hadReport(fs::exists(m_folder / "clashes.csv")) {
+  makeFolder(m_folder);
+  makeFolder(m_folder / "pictures");
+}
+
+ReportFolder::~ReportFolder() {
+  std::error_code ignored;  // a folder that others write into meanwhile is not empty, and stays
+  for (auto path = m_new.rbegin(); path != m_new.rend(); ++path) fs::remove(*path, ignored);
+}
+
+/// Makes a folder, and those above it, and notes which are new.
+void ReportFolder::makeFolder(const fs::path& folder) {
+  std::error_code problem;
+  if (fs::is_directory(folder, problem)) return;
+  const fs::path above = folder.has_filename() ? folder.parent_path() : folder.parent_path().parent_path();
+  if (!above.empty()) makeFolder(above);
+  if (fs::create_directory(folder, problem)) m_new.push_back(folder);
+  if (problem) throw FileError(folder, "cannot create this folder: " + problem.message());
+}
+
+void ReportFolder::write(const fs::path& name, std::string_view bytes) {
+  write(name, [bytes](scene::ByteSink sink) { sink(bytes); });
+}
+
+void ReportFolder::write(const fs::path& name, const std::function<void(scene::ByteSink)>& writer) {
+  const fs::path path = m_folder / name;
+  std::error_code ignored;
+  const bool isNew = !fs::exists(path, ignored);
+  Output output(path);
+  writer([&output](std::string_view bytes) { output.write(bytes); });
+  output.commit();
+  if (isNew) m_new.push_back(path);
+}
+
+void ReportFolder::commit(std::size_t pictures) {
+  m_new.clear();
+  if (!m_hadReport) return;
+  std::error_code ignored;
+  while (fs::remove(m_folder / view::pictureName(++pictures), ignored)) continue;
+}
+
+}  // namespace allpairs::app

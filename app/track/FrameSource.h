@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "allpairs/BoxSet.h"
+#include "allpairs/scene/ReadOptions.h"
+
+namespace allpairs::app {
+
+/// Boxes that move, frame by frame.
+class FrameSource {
+ public:
+  FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
+  FrameSource(FrameSource&&) = delete;
+  FrameSource& operator=(FrameSource&&) = delete;
+  virtual ~FrameSource() = default;
+
+  [[nodiscard]] virtual std::size_t frameCount() const = 0;
+
+  /// The boxes of the next frame, as many in each; valid until the next call.
+  ///
+  /// Bad input: throws FileError.
+  [[nodiscard]] virtual BoxSet next() = 0;
+
+  /// Which overlapping boxes are a pair; empty where all are. To be asked for after the first frame.
+  [[nodiscard]] virtual std::function<bool(std::uint32_t, std::uint32_t)> accept() const { return {}; }
+};
+
+/// The frames of one .npy file, (t, n, 6); or of mesh files, one each: the boxes of their triangles, of which two with a
+/// vertex in common are no pair.
+///
+/// Bad input: throws FileError; more than one .npy file, or one among meshes, throws UsageError.
+[[nodiscard]] std::unique_ptr<FrameSource> openFrames(const std::vector<std::string>& paths,
+                                                      const scene::ReadOptions& options);
+
+}  // namespace allpairs::app

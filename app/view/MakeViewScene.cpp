@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "view/MakeViewScene.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "Explain.h"
+#include "ModelMesh.h"
+#include "allpairs/collision/BoxModel.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+#include "cli/Text.h"
+#include "cli/Timer.h"
+#include "view/ViewBoxes.h"
+#include "view/ViewFrames.h"
+
+namespace allpairs::app {
+namespace {
+
+using collision::CollisionModel;
+namespace flag = view::flag;
+
+/// Numbers things by the order in which they first come.
+template <class Key>
+class Numbering {
+ public:
+  std::uint32_t numberOf(const Key& key) {
+    const auto [place, isNew] = m_numbers.emplace(key, static_cast<std::uint32_t>(m_keys.size()));
+    if (isNew) m_keys.push_back(key);
+    return place->second;
+  }
+
+  [[nodiscard]] const std::vector<Key>& keys() const { return m_keys; }
+
+ private:
+  std::map<Key, std::uint32_t> m_numbers;
+  std::vector<Key> m_keys;
+};
+
+/// Asks the broad phase about one model, as it does itself when the model is added.
+class ModelProbe : public collision::BruteForceBroadPhase {
+ public:
+  explicit ModelProbe(const scene::Scene& scene) {
+    setIntersectionMethod(scene.intersection.get());
+    if (scene.region) setBox(*scene.region);
+    init();
+  }
+
+  std::uint8_t flagsOf(CollisionModel& model) {
+    std::uint8_t flags = 0;
+    if (model.isActive()) flags |= flag::kActive;
+    if (model.isSimulated()) flags |= flag::kSimulated;
+    if (model.isMoving()) flags |= flag::kMoving;
+    if (model.getSelfCollision()) flags |= flag::kSelfCollision;
+    if (model.getLast()->empty()) return flags | flag::kNoElements;
+    if (getBox() && !intersectWithBoxModel(&model)) flags |= flag::kOutside;
+    if (doesSelfCollide(&model)) flags |= flag::kTouchesItself;
+    return flags;
+  }
+};
+
+void addColumns(const scene::Scene& from, view::ViewScene& to) {
+  Numbering<std::string> types;
+  Numbering<std::vector<int>> groups;
+  Numbering<const void*> owners;
+  groups.numberOf({});
+  for (const auto& model : from.models) {
+    const scene::ModelRecord record = scene::modelRecord(*model);
+    to.names.push_back(record.name);
+    to.types.push_back(types.numberOf(record.type));
+    to.groups.push_back(groups.numberOf(record.groups));
+    to.owners.push_back(owners.numberOf(model->getOwner()));
+    to.elements.push_back(static_cast<std::uint32_t>(record.elements));
+    to.contactDistances.push_back(record.contactDistance);
+    view::addModel(to.mesh, *model);
+  }
+  to.typeNames = types.keys();
+  to.groupSets = groups.keys();
+}
+
+view::ViewFrame frameOf(const scene::Scene& scene, const Detection& detection) {
+  ModelProbe probe(scene);
+  view::ViewFrame frame;
+  for (const auto& model : scene.models) {
+    frame.boxes.push_back(scene::modelRecord(*model).box);
+    frame.flags.push_back(probe.flagsOf(*model));
+  }
+  frame.pairs.assign(detection.pairs.begin(), detection.pairs.end());
+  return frame;
+}
+
+void fill(scene::Scene& from, const DetectionOptions& options, view::ViewScene& to) {
+  const Detection detection = detectScene(from, options);
+  to.method = methodText(from);
+  to.distance = from.intersection->getAlarmDistance();
+  to.addsContactDistances = from.intersection->addsContactDistances();
+  to.region = from.region;
+  to.modelCount = from.models.size();
+  to.ignored = from.remarks;
+  to.statistics = detection.statistics;
+  addColumns(from, to);
+  to.frames.push_back(frameOf(from, detection));
+  to.frames.front().excluded = view::excludedPairs(to, to.frames.front());
+}
+
+/// Names that are only indices are left out: the page knows them.
+void addBoxNames(const scene::BoxArray& boxes, view::ViewScene& to) {
+  bool areIndices = true;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    to.names.push_back(boxes.name(i));
+    areIndices = areIndices && to.names.back() == std::to_string(i);
+  }
+  if (areIndices) to.names.clear();
+}
+
+void fill(scene::BoxArray& from, const DetectionOptions& options, view::ViewScene& to) {
+  to.method = boxMethod(options);
+  to.distance = options.margin.value_or(0.0);
+  to.region = options.region;
+  addBoxColumns(from.size(), to);
+  addBoxNames(from, to);
+  const Detection detection = detectBoxes(from, BoxPairOrder::NewestFirst, options);
+  view::ViewFrame frame = boxFrame(from.boxes(), options);
+  for (const auto& [first, second] : detection.pairs) frame.pairs.push_back({second, first});
+  to.frames.push_back(std::move(frame));
+  to.statistics = detection.statistics;
+}
+
+}  // namespace
+
+view::ViewScene makeViewScene(const InputSettings& input, const DetectionOptions& options) {
+  if (isAnyBoxFrames(input.paths)) return makeViewFrames(input, options);
+  view::ViewScene result;
+  result.title = titleOf(input.paths);
+  const Timer timer;
+  Inputs inputs = readInputs(input);
+  const double readSeconds = timer.seconds();
+  std::visit([&](auto& content) { fill(content, options, result); }, inputs);
+  result.statistics.readSeconds = readSeconds;
+  return result;
+}
+
+}  // namespace allpairs::app

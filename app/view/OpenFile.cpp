@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "view/OpenFile.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <thread>
+
+#include "allpairs/Error.h"
+
+namespace allpairs::app {
+namespace {
+
+#ifdef __APPLE__
+constexpr const char* kOpener = "open";
+#else
+constexpr const char* kOpener = "xdg-open";
+#endif
+
+/// Starts the opener, without a word of its own on the terminal; 0, or why it did not start.
+int start(const std::string& target, pid_t& child) {
+  std::string program = kOpener;
+  std::string argument = target;
+  const std::array<char*, 3> words{program.data(), argument.data(), nullptr};  // no shell: names are never commands
+  posix_spawn_file_actions_t actions{};
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  const int problem = ::posix_spawnp(&child, kOpener, &actions, nullptr, words.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  return problem;
+}
+
+/// Whether it ended at once and badly. One that goes on is the browser itself, which nobody waits for.
+bool hasFailed(pid_t child) {
+  constexpr std::chrono::milliseconds kPatience{2000};
+  constexpr std::chrono::milliseconds kStep{20};
+  int status = 0;
+  for (auto waited = kStep; waited < kPatience; waited += kStep) {
+    if (::waitpid(child, &status, WNOHANG) == child) return !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+    std::this_thread::sleep_for(kStep);
+  }
+  return false;
+}
+
+}  // namespace
+
+void openInBrowser(const std::string& target) {
+  const std::string advice = ": open " + target + " in a browser yourself";
+  pid_t child = 0;
+  const int problem = start(target, child);
+  if (problem == ENOENT) throw Error(std::string("there is no ") + kOpener + " here" + advice);
+  if (problem != 0 || hasFailed(child)) throw Error(std::string(kOpener) + " found no way to open it" + advice);
+}
+
+}  // namespace allpairs::app

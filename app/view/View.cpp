@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Commands.h"
+#include "WritePage.h"
+#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
+#include "cli/ExitStatus.h"
+#include "cli/Options.h"
+#include "cli/Output.h"
+#include "detect/SearchArguments.h"
+#include "view/MakeViewScene.h"
+#include "view/OpenFile.h"
+#include "view/ServePage.h"
+#include "view/ViewFrames.h"
+
+namespace allpairs::app {
+namespace {
+
+struct ViewSettings {
+  InputSettings input;
+  SearchArguments search;
+  std::string output;
+  bool sequence = false;
+  bool open = false;
+  bool serve = false;
+  int port = 0;
+};
+
+constexpr const char* kViewExamples =
+    R"(The page needs no network and no other file. Press ? in it for help.
+
+Examples:
+  allpairs view scene.scn -o scene.html
+  allpairs view parts/ --margin 0.5 --open
+  allpairs view --sequence cloth_*.ply -o cloth.html
+  allpairs view boxes.npy --serve)";
+
+void writeFile(const view::ViewScene& scene, const std::optional<std::filesystem::path>& path) {
+  Output output(path);
+  if (output.isTerminal()) throw UsageError("a page is not written to a terminal: use -o FILE, --open or --serve");
+  view::writePage(scene, [&output](std::string_view bytes) { output.write(bytes); });
+  output.commit();
+}
+
+/// A new file in the folder for temporary files, which only the user may read.
+std::string temporaryFile() {
+  std::string name = std::filesystem::temp_directory_path() / "allpairs-XXXXXX.html";
+  const int descriptor = ::mkstemps(name.data(), 5);
+  if (descriptor < 0) throw FileError(name, "cannot create a temporary file");
+  ::close(descriptor);
+  return name;
+}
+
+/// While a page is served, it is no failure that it opens nowhere by itself.
+void tryToOpen(const std::string& address) {
+  try {
+    openInBrowser(address);
+  } catch (const Error& problem) {
+    fmt::print(stderr, "allpairs: {}\n", problem.what());
+  }
+}
+
+void serve(const view::ViewScene& scene, const ViewSettings& settings) {
+  std::string page;
+  view::writePage(scene, [&page](std::string_view bytes) { page += bytes; });
+  servePage(page, settings.port, [&settings](const std::string& address) {
+    fmt::print("{} (end with Ctrl+C)\n", address);
+    std::fflush(stdout);
+    if (settings.open) tryToOpen(address);
+  });
+}
+
+void runView(const ViewSettings& settings) {
+  const DetectionOptions options = detectionOptions(settings.search);
+  const view::ViewScene scene =
+      settings.sequence ? makeViewFrames(settings.input, options) : makeViewScene(settings.input, options);
+  std::optional<std::filesystem::path> path;
+  if (!settings.output.empty()) path = settings.output;
+  if (!path && settings.open && !settings.serve) path = temporaryFile();
+  if (path || !settings.serve) writeFile(scene, path);
+  if (settings.serve) return serve(scene, settings);
+  if (settings.open) openInBrowser(std::filesystem::absolute(*path));
+}
+
+}  // namespace
+
+void addView(CLI::App& program) {
+  const auto settings = std::make_shared<ViewSettings>();
+  CLI::App* command = program.add_subcommand("view", "Write an HTML page that shows models and pairs in 3D");
+  command->footer(kViewExamples);
+  addInputs(*command, settings->input);
+  addSearchOptions(*command, settings->search);
+  command->add_flag("--sequence", settings->sequence,
+                    "Each INPUT is one frame of the same meshes: show pairs of triangles, frame by frame");
+  addOutput(*command, settings->output);
+  command->add_flag("--open", settings->open, "Open the page in the browser");
+  command->add_flag("--serve", settings->serve, "Serve the page to this machine until the program is stopped");
+  command->add_option("--port", settings->port, "Port to serve on; 0, the default: any free port")
+      ->type_name("P")
+      ->check(CLI::Range(0, 65535));
+  command->callback([settings] { runView(*settings); });
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ViewScene.h"
+#include "allpairs/BoxSet.h"
+#include "detect/Detection.h"
+
+namespace allpairs::app {
+
+/// What the inputs are called, all together: the names of up to three, or how many.
+[[nodiscard]] std::string titleOf(const std::vector<std::string>& paths);
+
+/// How boxes are tested, in words.
+[[nodiscard]] std::string boxMethod(const DetectionOptions& options);
+
+/// Gives a scene the columns of so many boxes, which have neither flags nor groups.
+void addBoxColumns(std::size_t count, view::ViewScene& to);
+
+/// Boxes at one moment, without pairs.
+[[nodiscard]] view::ViewFrame boxFrame(const BoxSet& boxes, const DetectionOptions& options);
+
+}  // namespace allpairs::app

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "view/ViewFrames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "Explain.h"
+#include "PageSize.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/scene/BoxFrames.h"
+#include "cli/ExitStatus.h"
+#include "cli/Progress.h"
+#include "cli/Text.h"
+#include "cli/Timer.h"
+#include "input/Inputs.h"
+#include "input/MeshSteps.h"
+#include "view/ViewBoxes.h"
+
+namespace allpairs::app {
+namespace {
+
+/// Looks for the pairs of one frame after another.
+class FrameSearch {
+ public:
+  FrameSearch(view::ViewScene& scene, const DetectionOptions& options, std::size_t frames)
+      : m_scene(scene), m_options(options), m_frames(frames), m_executor(makeExecutor(options.threads, count())) {
+    OverlapOptions searchOptions;
+    searchOptions.order = Order::BySecond;
+    searchOptions.distance = scene.distance;
+    searchOptions.region = scene.region;
+    searchOptions.executor = m_executor.get();
+    if (!scene.corners.empty()) {
+      searchOptions.filter.accept = [&scene](std::uint32_t a, std::uint32_t b) {
+        return !view::shareVertex(scene, a, b);
+      };
+    }
+    m_search.setOptions(std::move(searchOptions));
+    m_scene.statistics.strategy = strategyName(options.strategy);
+    m_scene.statistics.distance = scene.distance;
+  }
+
+  /// Adds a frame of boxes, and of a sequence of meshes where the vertices are: its pairs newest first, as a scene's.
+  void add(const BoxSet& boxes, std::vector<double> positions = {}) {
+    const Timer timer;
+    view::ViewFrame frame = boxFrame(boxes, m_options);
+    frame.positions = std::move(positions);
+    for (const auto& [first, second] : m_search.find(boxes)) frame.pairs.push_back({second, first});
+    const std::uint64_t n = count();
+    m_scene.statistics.testsOfAllPairs += n == 0 ? 0 : n * (n - 1) / 2;
+    m_scene.statistics.testsMade += m_search.statistics().boxTests + m_search.statistics().groupTests;
+    m_scene.statistics.detectSeconds += timer.seconds();
+    m_pairs += frame.pairs.size();
+    view::checkPageSize(m_scene, m_frames * view::bytesOf(frame, 0) + m_pairs * sizeof(Pair));
+    m_scene.frames.push_back(std::move(frame));
+  }
+
+ private:
+  [[nodiscard]] std::size_t count() const { return m_scene.modelCount; }
+
+  view::ViewScene& m_scene;
+  const DetectionOptions& m_options;
+  std::size_t m_frames;
+  std::size_t m_pairs = 0;
+  std::unique_ptr<Executor> m_executor;
+  Overlaps m_search;
+};
+
+view::ViewScene emptyScene(const InputSettings& input, const DetectionOptions& options, std::size_t frames) {
+  view::ViewScene scene;
+  scene.title = titleOf(input.paths);
+  scene.method = fmt::format("{}, {}", boxMethod(options), counted(frames, "frame"));
+  scene.distance = options.margin.value_or(0.0);
+  scene.region = options.region;
+  return scene;
+}
+
+view::ViewScene makeBoxFrames(const InputSettings& input, const DetectionOptions& options) {
+  const Timer timer;
+  scene::BoxFrames frames(input.paths.front());
+  view::ViewScene scene = emptyScene(input, options, frames.frameCount());
+  addBoxColumns(frames.boxCount(), scene);
+  FrameSearch search(scene, options, frames.frameCount());
+  ProgressLine line;
+  for (std::size_t i = 0; i < frames.frameCount(); ++i) {
+    line.show(fmt::format("frame {} of {}", grouped(i + 1), grouped(frames.frameCount())));
+    search.add(frames.next());
+  }
+  scene.statistics.readSeconds = timer.seconds() - scene.statistics.detectSeconds;
+  return scene;
+}
+
+/// The columns of the triangles of all meshes; each is called by its number, and where there are several by its mesh.
+void addTriangles(const std::vector<TriangleMesh>& meshes, view::ViewScene& to) {
+  std::size_t firstVertex = 0;
+  for (const TriangleMesh& mesh : meshes) {
+    for (const std::uint32_t corner : mesh.triangles) {
+      to.corners.push_back(static_cast<std::uint32_t>(firstVertex + corner));
+    }
+    const std::string prefix = meshes.size() > 1 ? mesh.name + ": " : "";
+    for (std::size_t i = 0; i < mesh.triangles.size() / 3; ++i)
+      to.names.push_back(prefix + fmt::format("triangle {}", i));
+    firstVertex += mesh.positions.size() / 3;
+  }
+  addBoxColumns(to.corners.size() / 3, to);
+  to.typeNames = {"Triangle"};
+  to.method += "; triangles with a vertex in common are no pair";
+}
+
+std::vector<double> positionsOf(const std::vector<TriangleMesh>& meshes) {
+  std::vector<double> all;
+  for (const TriangleMesh& mesh : meshes) all.insert(all.end(), mesh.positions.begin(), mesh.positions.end());
+  return all;
+}
+
+std::vector<Box> triangleBoxes(const std::vector<std::uint32_t>& corners, const std::vector<double>& positions) {
+  std::vector<Box> boxes(corners.size() / 3, kEmptyBox);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Box& box = boxes[i / 3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double coordinate = positions[3 * std::size_t{corners[i]} + axis];
+      box.min[axis] = std::min(box.min[axis], coordinate);
+      box.max[axis] = std::max(box.max[axis], coordinate);
+    }
+  }
+  return boxes;
+}
+
+view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOptions& options) {
+  const Timer timer;
+  const std::vector<std::string>& paths = input.paths;
+  const scene::ReadOptions limits = readOptions(input.limits);
+  view::ViewScene scene = emptyScene(input, options, paths.size());
+  const std::vector<TriangleMesh> first = readTriangleMeshes(paths.front(), limits);
+  addTriangles(first, scene);
+  FrameSearch search(scene, options, paths.size());
+  ProgressLine line;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    line.show(
+        fmt::format("frame {} of {}: {}", i + 1, paths.size(), std::filesystem::path(paths[i]).filename().string()));
+    const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(paths[i], limits);
+    checkSameMeshes(first, paths.front(), meshes, paths[i]);
+    std::vector<double> positions = positionsOf(meshes);
+    const std::vector<Box> boxes = triangleBoxes(scene.corners, positions);
+    search.add(BoxSet::fromBoxes(boxes), std::move(positions));
+  }
+  scene.statistics.readSeconds = timer.seconds() - scene.statistics.detectSeconds;
+  return scene;
+}
+
+}  // namespace
+
+bool isAnyBoxFrames(const std::vector<std::string>& paths) {
+  return std::any_of(paths.begin(), paths.end(), [](const std::string& path) { return scene::isBoxFramesFile(path); });
+}
+
+view::ViewScene makeViewFrames(const InputSettings& input, const DetectionOptions& options) {
+  if (isAnyBoxFrames(input.paths)) {
+    if (input.paths.size() > 1) throw UsageError("an array of frames must be the only input");
+    return makeBoxFrames(input, options);
+  }
+  if (input.partial || !input.searchRoots.empty()) throw UsageError("--partial and --data do not apply to --sequence");
+  return makeMeshFrames(input, options);
+}
+
+}  // namespace allpairs::app

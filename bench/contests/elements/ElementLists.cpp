@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "ElementLists.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/ReadInput.h"
+
+namespace allpairs::bench {
+namespace {
+
+const collision::TriangleModel& meshOf(const scene::Scene& scene, const std::string& path) {
+  const auto* mesh = dynamic_cast<const collision::TriangleModel*>(scene.models.at(0).get());
+  if (mesh == nullptr) throw FileError(path, "holds no triangles");
+  return *mesh;
+}
+
+std::vector<double> numbersOf(const collision::TriangleModel& mesh) {
+  std::vector<double> numbers;
+  for (const auto& point : mesh.positions()) numbers.insert(numbers.end(), point.begin(), point.end());
+  return numbers;
+}
+
+float below(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) > value ? std::nextafterf(nearest, -std::numeric_limits<float>::infinity())
+                                              : nearest;
+}
+
+void addRow(const ElementStep& step, std::span<const std::uint32_t> vertices, std::vector<float>& rows) {
+  std::array<float, 6> row{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double min = std::numeric_limits<double>::infinity();
+    double max = -min;
+    for (const std::uint32_t vertex : vertices) {
+      const std::size_t i = 3 * std::size_t{vertex} + axis;
+      min = std::min({min, step.start[i], step.end[i]});
+      max = std::max({max, step.start[i], step.end[i]});
+    }
+    row[axis] = below(min);
+    row[axis + 3] = -below(-max);
+  }
+  rows.insert(rows.end(), row.begin(), row.end());
+}
+
+template <class Element>
+std::vector<float> rowsOf(const ElementStep& step, std::span<const Element> elements) {
+  std::vector<float> rows;
+  rows.reserve(6 * elements.size());
+  for (const Element& element : elements) addRow(step, element, rows);
+  return rows;
+}
+
+template <class A, class B>
+bool share(const A& a, const B& b) {
+  bool shared = false;
+  for (const std::uint32_t vertex : a) shared |= std::find(b.begin(), b.end(), vertex) != b.end();
+  return shared;
+}
+
+}  // namespace
+
+ElementStep readStep(const std::string& start, const std::string& end) {
+  const scene::Scene first = scene::readInput(start);
+  const scene::Scene last = scene::readInput(end);
+  ElementStep step{numbersOf(meshOf(first, start)), numbersOf(meshOf(last, end)), {}};
+  for (const auto& t : meshOf(first, start).triangles())
+    step.triangles.insert(step.triangles.end(), t.begin(), t.end());
+  return step;
+}
+
+std::vector<float> vertexRows(const ElementStep& step) {
+  std::vector<float> rows;
+  for (std::uint32_t v = 0; v < step.start.size() / 3; ++v) addRow(step, std::span(&v, 1), rows);
+  return rows;
+}
+
+std::vector<float> edgeRows(const ElementStep& step, const elements::MeshTopology& topology) {
+  return rowsOf(step, topology.edges());
+}
+
+std::vector<float> faceRows(const ElementStep& step, const elements::MeshTopology& topology) {
+  return rowsOf(step, topology.triangles());
+}
+
+std::vector<Pair> withoutShared(std::span<const Pair> pairs, elements::CandidateKind kind,
+                                const elements::MeshTopology& topology) {
+  const auto edges = topology.edges();
+  const auto faces = topology.triangles();
+  std::vector<Pair> kept;
+  for (const Pair& pair : pairs) {
+    const bool shared = kind == elements::CandidateKind::EdgeEdge   ? share(edges[pair.first], edges[pair.second])
+                        : kind == elements::CandidateKind::FaceFace ? share(faces[pair.first], faces[pair.second])
+                                                                    : share(std::array{pair.first}, faces[pair.second]);
+    if (!shared) kept.push_back(pair);
+  }
+  return kept;
+}
+
+}  // namespace allpairs::bench

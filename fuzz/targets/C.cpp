@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: MIT
+// The library for C as a state machine: calls in any order, on handles that may be null, with arguments that may make no
+// sense. Every call must give a status that fits, and what the calls say of one thing must agree.
+#include "allpairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "../Choices.h"
+
+namespace allpairs::fuzz {
+namespace {
+
+constexpr std::size_t kHandles = 3;
+constexpr std::size_t kMostCalls = 150;
+
+/// A set and the numbers that it views.
+struct SetHandle {
+  std::vector<float> float32;
+  std::vector<double> float64, margins;
+  allpairs_set* set = nullptr;
+};
+
+/// What the filters of a search point to: as long as any set here may be.
+struct Labels {
+  std::array<std::uint32_t, 256> values{};
+};
+
+bool isPair(const allpairs_pair& a, const allpairs_pair& b) { return a.first == b.first && a.second == b.second; }
+
+bool acceptSome(void* context, std::uint32_t first, std::uint32_t second) {
+  return (first * 3 + second + *static_cast<const std::uint8_t*>(context)) % 4 != 0;
+}
+
+struct Seen {
+  std::vector<allpairs_pair> pairs;
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+
+bool see(void* context, allpairs_pairs batch) {
+  auto& seen = *static_cast<Seen*>(context);
+  seen.pairs.insert(seen.pairs.end(), batch.data, batch.data + batch.count);
+  return seen.pairs.size() < seen.most;
+}
+
+class Calls {
+ public:
+  explicit Calls(Choices& choices) : m_choices(choices) {
+    for (std::uint32_t i = 0; i < m_labels.values.size(); ++i) m_labels.values[i] = i * 2654435761U >> 29;
+  }
+
+  ~Calls() {
+    for (SetHandle& each : m_sets) allpairs_set_destroy(each.set);
+    for (allpairs_search* each : m_searches) allpairs_search_destroy(each);
+    for (allpairs_world* each : m_worlds) allpairs_world_destroy(each);
+    for (allpairs_elements* each : m_elements) allpairs_elements_destroy(each);
+  }
+  Calls(const Calls&) = delete;
+  Calls& operator=(const Calls&) = delete;
+  Calls(Calls&&) = delete;
+  Calls& operator=(Calls&&) = delete;
+
+  void make() {
+    for (std::size_t i = 0; i < kMostCalls && !m_choices.done(); ++i) call();
+  }
+
+ private:
+  void call() {
+    using Operation = void (Calls::*)();
+    static constexpr std::array<Operation, 16> kOperations{
+        &Calls::createSet, &Calls::setMargins,    &Calls::createSearch,   &Calls::setOptions,
+        &Calls::find,      &Calls::findBetween,   &Calls::createWorld,    &Calls::add,
+        &Calls::change,    &Calls::change,        &Calls::step,           &Calls::query,
+        &Calls::queryMany, &Calls::betweenWorlds, &Calls::createElements, &Calls::useElements};
+    (this->*kOperations[m_choices.below(kOperations.size())])();
+  }
+
+  /// Passes a status on, after a look at what it promises.
+  allpairs_status checked(allpairs_status status) {
+    require(status != ALLPAIRS_INTERNAL, "no call fails for an internal reason");
+    require(status != ALLPAIRS_OUT_OF_MEMORY, "no call of this size runs out of memory");
+    require(status >= ALLPAIRS_OK && status <= ALLPAIRS_STOPPED, "a status is one of the declared");
+    if (status == ALLPAIRS_OK) return status;
+    const char* message = allpairs_error_message();
+    require(message != nullptr && *message != '\0', "a failure has a message");
+    require(std::strchr(message, '\n') == nullptr && std::strlen(message) < 512, "a message is one line");
+    return status;
+  }
+
+  template <class T>
+  T* maybeNull(T* value) {
+    return m_choices.byte() == 255 ? nullptr : value;
+  }
+
+  SetHandle& anySet() { return m_sets[m_choices.below(kHandles)]; }
+  allpairs_search* anySearch() { return m_searches[m_choices.below(kHandles)]; }
+  allpairs_world* anyWorld() { return m_worlds[m_choices.below(kHandles)]; }
+
+  void createSet() {
+    SetHandle& handle = anySet();
+    allpairs_set_destroy(handle.set);
+    handle = {};
+    std::vector<Box> boxes = m_choices.boxes(100);
+    const bool hasNan = m_choices.byte() == 255;
+    if (hasNan) boxes.back().max[1] = std::numeric_limits<double>::quiet_NaN();
+    for (const Box& box : boxes) {
+      handle.float64.insert(handle.float64.end(), box.min.begin(), box.min.end());
+      handle.float64.insert(handle.float64.end(), box.max.begin(), box.max.end());
+    }
+    for (const double value : handle.float64) handle.float32.push_back(static_cast<float>(value));
+    const allpairs_status status = checked(createFrom(handle, boxes.size()));
+    require(status == (hasNan ? ALLPAIRS_INVALID_BOX : ALLPAIRS_OK), "a set is refused for a NaN only");
+    require((handle.set == nullptr) == hasNan, "a set is there if its creation succeeded");
+    require(allpairs_set_size(handle.set) == (hasNan ? 0 : boxes.size()), "a set has the size of its boxes");
+  }
+
+  allpairs_status createFrom(SetHandle& handle, std::size_t count) {
+    require(checked(allpairs_set_create_f64(nullptr, count, &handle.set)) == ALLPAIRS_INVALID_ARGUMENT,
+            "null is refused");
+    const auto last = static_cast<std::ptrdiff_t>(6 * (count - 1));
+    const float* f = handle.float32.data();
+    const double* d = handle.float64.data();
+    switch (m_choices.below(4)) {
+      case 0:
+        return allpairs_set_create_f32(f, count, &handle.set);
+      case 1:
+        return allpairs_set_create_f64(d, count, &handle.set);
+      case 2:
+        return allpairs_set_create_strided_f32(count, {f + last, -6, 1}, {f + last + 3, -6, 1}, &handle.set);
+      default:
+        return allpairs_set_create_strided_f64(count, {d, 6, 1}, {d + 3, 6, 1}, &handle.set);
+    }
+  }
+
+  void setMargins() {
+    SetHandle& handle = anySet();
+    const double margin = m_choices.anyNumber();
+    const bool isFine =
+        handle.set != nullptr && !std::isnan(margin) && margin != -std::numeric_limits<double>::infinity();
+    require((checked(allpairs_set_margin(handle.set, margin)) == ALLPAIRS_OK) == isFine, "a margin is a number");
+    if (handle.set == nullptr || m_choices.flag()) return;
+    handle.margins.assign(allpairs_set_size(handle.set), 0.0);
+    for (double& each : handle.margins) each = m_choices.distance();
+    require(checked(allpairs_set_margins(handle.set, handle.margins.data())) == ALLPAIRS_OK, "margins are taken");
+    if (m_choices.flag()) checked(allpairs_set_margins(handle.set, nullptr));
+  }
+
+  allpairs_options options() {
+    allpairs_options result = allpairs_default_options();
+    const std::uint8_t parts = m_choices.byte();
+    result.strategy = static_cast<allpairs_strategy>(m_choices.below(3));
+    result.order = static_cast<allpairs_order>(m_choices.below(3));
+    result.distance = m_choices.anyNumber();
+    if ((parts & 1U) != 0) result.region = region();
+    if ((parts & 2U) != 0)
+      result.first = {m_labels.values.data(), m_labels.values.data() + 50, m_labels.values.data() + 99};
+    if ((parts & 4U) != 0) result.second = {m_labels.values.data() + 7, nullptr, m_labels.values.data() + 13};
+    if ((parts & 8U) != 0) result.accept = acceptSome;
+    result.accept_context = &m_salt;
+    if ((parts & 0xf0U) == 0xf0U) result.threads = 2;
+    if ((parts & 16U) != 0) result.max_pairs = m_choices.below(1000);
+    if ((parts & 32U) != 0) result.batch_size = m_choices.below(100);
+    if (m_choices.byte() == 255) result.struct_size = m_choices.below(300);
+    return result;
+  }
+
+  const double* region() {
+    for (double& bound : m_region) bound = m_choices.anyNumber();
+    return m_region.data();
+  }
+
+  void createSearch() {
+    allpairs_search*& search = m_searches[m_choices.below(kHandles)];
+    allpairs_search_destroy(search);
+    search = nullptr;
+    const allpairs_options given = options();
+    const allpairs_status status = checked(allpairs_search_create(maybeNull(&given), &search));
+    require((status == ALLPAIRS_OK) == (search != nullptr), "a search is there if its creation succeeded");
+  }
+
+  void setOptions() {
+    allpairs_search* search = anySearch();
+    const allpairs_options given = options();
+    const allpairs_status status = checked(allpairs_search_set_options(search, maybeNull(&given)));
+    require(search != nullptr || status == ALLPAIRS_INVALID_ARGUMENT, "no handle is an invalid argument");
+  }
+
+  void find() { compareSearch(anySearch(), anySet().set, nullptr); }
+  void findBetween() { compareSearch(anySearch(), anySet().set, anySet().set); }
+
+  /// Finding, counting and streaming agree; another set makes it a search between two.
+  void compareSearch(allpairs_search* search, const allpairs_set* set, const allpairs_set* other) {
+    allpairs_pairs pairs{};
+    std::uint64_t count = 0;
+    Seen seen;
+    const allpairs_visitor visitor{see, &seen};
+    const allpairs_status counted = checked(other == nullptr ? allpairs_count(search, set, &count)
+                                                             : allpairs_count_between(search, set, other, &count));
+    const allpairs_status streamed = checked(other == nullptr ? allpairs_stream(search, set, visitor)
+                                                              : allpairs_stream_between(search, set, other, visitor));
+    require(counted == streamed && count == seen.pairs.size(), "as many pairs are streamed as are counted");
+    const allpairs_status found = checked(other == nullptr ? allpairs_find(search, set, maybeNull(&pairs))
+                                                           : allpairs_find_between(search, set, other, &pairs));
+    if (search == nullptr || set == nullptr)
+      require(found == ALLPAIRS_INVALID_ARGUMENT, "no handle is an invalid argument");
+    if (found != ALLPAIRS_OK) return;
+    require(std::equal(pairs.data, pairs.data + pairs.count, seen.pairs.begin(), seen.pairs.end(), isPair),
+            "the pairs that are found are those that are streamed");
+    stopEarly(search, set, other, seen.pairs.size());
+  }
+
+  void stopEarly(allpairs_search* search, const allpairs_set* set, const allpairs_set* other, std::size_t count) {
+    if (count == 0) return;
+    Seen seen;
+    seen.most = 1;
+    const allpairs_visitor visitor{see, &seen};
+    require(checked(other == nullptr ? allpairs_stream(search, set, visitor)
+                                     : allpairs_stream_between(search, set, other, visitor)) == ALLPAIRS_STOPPED,
+            "a visitor stops the search");
+  }
+
+  void createWorld() {
+    allpairs_world*& world = m_worlds[m_choices.below(kHandles)];
+    allpairs_world_destroy(world);
+    world = nullptr;
+    allpairs_world_options given{};
+    given.struct_size = m_choices.byte() == 255 ? m_choices.below(100) : sizeof(given);
+    given.distance = m_choices.anyNumber();
+    if (m_choices.flag()) given.accept = acceptSome;
+    given.accept_context = &m_salt;
+    if (m_choices.byte() == 255) given.threads = 2;
+    const allpairs_status status = checked(allpairs_world_create(maybeNull(&given), &world));
+    require((status == ALLPAIRS_OK) == (world != nullptr), "a world is there if its creation succeeded");
+  }
+
+  allpairs_properties properties() {
+    allpairs_properties result = allpairs_default_properties();
+    if (m_choices.flag()) return result;
+    result.category = 1U << m_choices.below(3);
+    result.mask = m_choices.byte();
+    result.group = m_choices.byte() % 3U;
+    result.owner = m_choices.byte() % 3U;
+    result.margin = m_choices.anyNumber();
+    result.is_static = m_choices.flag();
+    return result;
+  }
+
+  void add() {
+    allpairs_world* world = anyWorld();
+    const SetHandle& handle = anySet();
+    const std::size_t before = allpairs_world_size(world);
+    if (before > 400) return;
+    const allpairs_properties given = properties();
+    std::vector<std::uint32_t> ids(allpairs_set_size(handle.set));
+    const allpairs_status status =
+        checked(allpairs_world_add(world, handle.set, maybeNull(&given), maybeNull(ids.data())));
+    const bool isDone = status == ALLPAIRS_OK;
+    require(allpairs_world_size(world) == before + (isDone ? ids.size() : 0), "boxes are added all or not at all");
+    for (const std::uint32_t id : ids)
+      require(!isDone || allpairs_world_contains(world, id), "what was added is there");
+  }
+
+  /// Ids of a world, now and then one that isn't there.
+  std::vector<std::uint32_t> ids(const allpairs_world* world, std::size_t count) {
+    std::vector<std::uint32_t> result;
+    std::uint32_t id = m_choices.byte();
+    for (std::size_t tries = 0; tries < 600 && result.size() < count; ++tries, ++id) {
+      if (allpairs_world_contains(world, id % 600)) result.push_back(id % 600);
+    }
+    if (m_choices.byte() >= 240) result.resize(count, m_choices.raw<std::uint32_t>());
+    return result;
+  }
+
+  void change() {
+    allpairs_world* world = anyWorld();
+    const SetHandle& handle = anySet();
+    const std::size_t kind = m_choices.below(6);
+    const std::size_t count = kind < 2 ? allpairs_set_size(handle.set) : 1 + m_choices.below(20);
+    const std::vector<std::uint32_t> list = ids(world, count);
+    const allpairs_ids view{list.data(), list.size()};
+    const std::vector<allpairs_properties> each(list.size(), properties());
+    const std::size_t before = allpairs_world_size(world);
+    allpairs_status status = ALLPAIRS_OK;
+    if (kind == 0) status = allpairs_world_move(world, view, handle.set);
+    if (kind == 1) status = allpairs_world_move_swept(world, view, handle.set, handle.set);
+    if (kind == 2) status = allpairs_world_remove(world, view);
+    if (kind == 3) status = allpairs_world_set_properties(world, view, each.data());
+    if (kind == 4) status = allpairs_world_touch(world, view);
+    if (kind == 5) status = allpairs_world_set_properties(world, {list.data(), std::size_t{0} - list.size()}, nullptr);
+    const bool isRemoved = checked(status) == ALLPAIRS_OK && kind == 2;
+    require(allpairs_world_size(world) == before - (isRemoved ? list.size() : 0),
+            "boxes are removed all or not at all");
+  }
+
+  void step() {
+    allpairs_world* world = anyWorld();
+    allpairs_step step{};
+    if (checked(allpairs_world_step(world, maybeNull(&step))) != ALLPAIRS_OK) return;
+    require(step.began.count + step.persisted.count == step.pairs.count, "a pair began or persisted");
+    for (std::size_t i = 0; i < step.pairs.count; ++i) {
+      const allpairs_pair& pair = step.pairs.data[i];
+      require(pair.first < pair.second, "a pair is ordered");
+      require(allpairs_world_contains(world, pair.first) && allpairs_world_contains(world, pair.second),
+              "a pair is of boxes that are there");
+      std::array<double, 6> bounds{};
+      require(checked(allpairs_world_box(world, pair.first, bounds.data())) == ALLPAIRS_OK, "a box can be asked for");
+    }
+  }
+
+  allpairs_query_filter filter() {
+    const std::uint8_t parts = m_choices.byte();
+    if (parts < 128) return {~0U, ~0U, false, false};
+    return {parts % 8U, parts % 16U, (parts & 16U) != 0, (parts & 32U) != 0};
+  }
+
+  allpairs_ray ray() {
+    allpairs_ray result{};
+    for (double& x : result.origin) x = m_choices.anyNumber();
+    for (double& x : result.direction) x = m_choices.anyNumber();
+    result.length = m_choices.anyNumber();
+    return result;
+  }
+
+  allpairs_sweep sweep() {
+    allpairs_sweep result{};
+    for (double& x : result.box) x = m_choices.anyNumber();
+    for (double& x : result.motion) x = m_choices.anyNumber();
+    result.length = m_choices.anyNumber();
+    return result;
+  }
+
+  void query() {
+    allpairs_world* world = anyWorld();
+    const allpairs_query_filter wanted = filter();
+    const allpairs_ray way = ray();
+    const allpairs_sweep moving = sweep();
+    allpairs_ids ids{};
+    allpairs_hit first{};
+    allpairs_hits hits{};
+    allpairs_neighbors neighbors{};
+    const allpairs_nearest nearest{{way.origin[0], way.origin[1], way.origin[2]}, m_choices.below(600)};
+    checked(allpairs_world_find_overlapping(world, moving.box, maybeNull(&wanted), &ids));
+    require(ids.count <= allpairs_world_size(world), "no box is found twice");
+    if (checked(allpairs_world_find_first(world, &way, &wanted, &first)) == ALLPAIRS_OK) {
+      require(checked(allpairs_world_find_all(world, &way, &wanted, &hits)) == ALLPAIRS_OK,
+              "all hits of a ray are found");
+      compareFirst(first, hits);
+    }
+    if (checked(allpairs_world_sweep_first(world, &moving, &wanted, &first)) == ALLPAIRS_OK) {
+      require(checked(allpairs_world_sweep_all(world, &moving, &wanted, &hits)) == ALLPAIRS_OK, "all hits are found");
+      compareFirst(first, hits);
+    }
+    checked(allpairs_world_find_nearest(world, &nearest, &wanted, &neighbors));
+    require(neighbors.count <= nearest.count, "no more neighbors are given than were asked for");
+  }
+
+  static void compareFirst(const allpairs_hit& first, const allpairs_hits& all) {
+    require((first.id == ALLPAIRS_NO_BOX) == (all.count == 0), "there is a first hit if there is any");
+    require(all.count == 0 || (all.data->id == first.id && all.data->t == first.t),
+            "the first hit is the first of all");
+  }
+
+  void queryMany() {
+    allpairs_world* world = anyWorld();
+    const allpairs_query_filter wanted = filter();
+    std::vector<allpairs_ray> rays(m_choices.below(4));
+    for (allpairs_ray& each : rays) each = ray();
+    std::vector<allpairs_sweep> sweeps(m_choices.below(4));
+    for (allpairs_sweep& each : sweeps) each = sweep();
+    std::vector<allpairs_hit> hits(std::max(rays.size(), sweeps.size()));
+    allpairs_id_lists ids{};
+    allpairs_hit_lists lists{};
+    allpairs_neighbor_lists neighbors{};
+    checked(allpairs_world_find_overlapping_many(world, anySet().set, &wanted, &ids));
+    checked(allpairs_world_find_first_many(world, {rays.data(), rays.size()}, &wanted, hits.data()));
+    checked(allpairs_world_find_all_many(world, {rays.data(), rays.size()}, &wanted, &lists));
+    checked(allpairs_world_sweep_first_many(world, {sweeps.data(), sweeps.size()}, &wanted, hits.data()));
+    checked(allpairs_world_sweep_all_many(world, {sweeps.data(), sweeps.size()}, &wanted, &lists));
+    std::vector<double> points;
+    for (const allpairs_ray& each : rays) points.insert(points.end(), each.origin, each.origin + 3);
+    const allpairs_nearest_many nearest{points.data(), rays.size(), m_choices.below(20)};
+    checked(allpairs_world_find_nearest_many(world, &nearest, &wanted, &neighbors));
+  }
+
+  void betweenWorlds() {
+    allpairs_pairs pairs{};
+    checked(allpairs_world_find_between(anyWorld(), anyWorld(), maybeNull(&pairs)));
+  }
+
+  void createElements() {
+    allpairs_elements*& elements = m_elements[m_choices.below(kHandles)];
+    allpairs_elements_destroy(elements);
+    elements = nullptr;
+    std::array<std::vector<std::uint32_t>, 2> corners;
+    std::array<allpairs_mesh, 2> meshes{};
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      const std::size_t vertices = m_choices.below(40);
+      corners[m].resize(3 * m_choices.below(30));
+      const bool mayBeMissing = m_choices.byte() >= 240;
+      for (std::uint32_t& corner : corners[m]) {
+        corner =
+            static_cast<std::uint32_t>(m_choices.below(std::max<std::size_t>(1, vertices + (mayBeMissing ? 2 : 0))));
+      }
+      meshes[m] = {vertices, corners[m].data(), corners[m].size() / 3};
+    }
+    allpairs_elements_options given{};
+    given.struct_size = sizeof(given);
+    given.margin = m_choices.anyNumber();
+    given.skip_within = m_choices.byte() >= 200;
+    given.skip_between = m_choices.byte() >= 200;
+    given.order = static_cast<allpairs_order>(m_choices.below(3));
+    const std::size_t count = m_choices.below(3);
+    const allpairs_status status =
+        checked(allpairs_elements_create(meshes.data(), count, maybeNull(&given), &elements));
+    require((status == ALLPAIRS_OK) == (elements != nullptr), "candidates are there if their creation succeeded");
+  }
+
+  void useElements() {
+    allpairs_elements* elements = m_elements[m_choices.below(kHandles)];
+    moveElements(elements, m_choices.below(3));
+    const auto kind = static_cast<allpairs_candidates>(m_choices.below(3));
+    std::uint64_t count = 0;
+    Seen seen;
+    allpairs_pairs pairs{};
+    const allpairs_status counted = checked(allpairs_elements_count(elements, kind, &count));
+    if (counted != ALLPAIRS_OK) return;
+    require(checked(allpairs_elements_stream(elements, kind, {see, &seen})) == ALLPAIRS_OK, "candidates are streamed");
+    require(checked(allpairs_elements_find(elements, kind, &pairs)) == ALLPAIRS_OK, "candidates are found");
+    require(count == pairs.count &&
+                std::equal(pairs.data, pairs.data + pairs.count, seen.pairs.begin(), seen.pairs.end(), isPair),
+            "the candidates that are found are those that are streamed");
+    checked(allpairs_elements_edges(elements, maybeNull(&pairs)));
+  }
+
+  void moveElements(allpairs_elements* elements, std::size_t mesh) {
+    allpairs_element_counts before{};
+    allpairs_element_counts after{};
+    if (checked(allpairs_elements_before(elements, mesh, &before)) != ALLPAIRS_OK) return;
+    if (checked(allpairs_elements_before(elements, mesh + 1, &after)) != ALLPAIRS_OK) return;
+    std::vector<double> start(3 * (after.vertices - before.vertices));
+    for (double& x : start) x = m_choices.byte() == 255 ? m_choices.anyNumber() : m_choices.finite();
+    std::vector<double> end = start;
+    for (double& x : end) x += m_choices.finite();
+    if (m_choices.flag()) {
+      checked(allpairs_elements_move_f64(elements, mesh, start.data(), end.data()));
+      return;
+    }
+    std::vector<float> first, last;
+    for (const double x : start) first.push_back(static_cast<float>(x));
+    for (const double x : end) last.push_back(static_cast<float>(x));
+    checked(allpairs_elements_move_f32(elements, mesh, first.data(), last.data()));
+  }
+
+  Choices& m_choices;
+  std::uint8_t m_salt = 1;
+  Labels m_labels;
+  std::array<double, 6> m_region{};
+  std::array<SetHandle, kHandles> m_sets;
+  std::array<allpairs_search*, kHandles> m_searches{};
+  std::array<allpairs_world*, kHandles> m_worlds{};
+  std::array<allpairs_elements*, kHandles> m_elements{};
+};
+
+void runC(Bytes bytes) {
+  Choices choices(bytes);
+  Calls(choices).make();
+}
+
+}  // namespace
+}  // namespace allpairs::fuzz
+
+ALLPAIRS_FUZZ_TARGET(c, allpairs::fuzz::runC)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "allpairs/Error.h"
+
+namespace allpairs {
+
+/// A file that is missing, unreadable, or malformed; `line()` and `column()` count from 1, 0 where there is none.
+class FileError : public Error {
+ public:
+  FileError(const std::filesystem::path& path, const std::string& problem, std::size_t line = 0, std::size_t column = 0)
+      : Error(describe(path, problem, line, column)),
+        m_path(path),
+        m_problem(oneLine(problem)),
+        m_line(line),
+        m_column(column) {}
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return m_path; }
+  /// What is wrong, without the place.
+  [[nodiscard]] const std::string& problem() const noexcept { return m_problem; }
+  [[nodiscard]] std::size_t line() const noexcept { return m_line; }
+  [[nodiscard]] std::size_t column() const noexcept { return m_column; }
+
+ private:
+  static std::string describe(const std::filesystem::path& path, const std::string& problem, std::size_t line,
+                              std::size_t column) {
+    std::string text = path.string();
+    if (line != 0) text += ':' + std::to_string(line);
+    if (line != 0 && column != 0) text += ':' + std::to_string(column);
+    return text + ": " + problem;
+  }
+
+  std::filesystem::path m_path;
+  std::string m_problem;
+  std::size_t m_line;
+  std::size_t m_column;
+};
+
+}  // namespace allpairs

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/BvhBuilder.h"
+
+#include <algorithm>
+
+namespace allpairs::engine {
+namespace {
+
+/// How many boxes ahead the gather asks for memory.
+constexpr std::size_t kPrefetchDistance = 32;
+
+}  // namespace
+
+void BvhBuilder::build(const BoxReader& reader, Executor& executor) {
+  m_levels.reset(reader.size());
+  // The blocks are not written before the order is known: until then they are the second buffer of the sort.
+  const std::span<const CurveKey> order = m_order.sort(reader, m_levels.memory<CurveKey>(), executor);
+  m_levels.resizeUnwritten(order.size());
+  gather(reader, order, executor);
+  m_levels.boundAll(reader.kernels(), executor);
+}
+
+void BvhBuilder::gather(const BoxReader& reader, std::span<const CurveKey> order, Executor& executor) {
+  const std::size_t blocks = m_levels.blockCount();
+  executor.run((blocks + BvhLevels::kBlocksPerTask - 1) / BvhLevels::kBlocksPerTask, [&](std::size_t task) {
+    for (std::size_t b = task * BvhLevels::kBlocksPerTask; b < std::min(blocks, (task + 1) * BvhLevels::kBlocksPerTask);
+         ++b) {
+      const std::size_t begin = b * kFanOut;
+      const std::size_t size = std::min(kFanOut, order.size() - begin);
+      for (std::size_t i = begin; i < begin + size; ++i) {
+        reader.prefetch(indexOf(order[std::min(i + kPrefetchDistance, order.size() - 1)]));
+        m_levels.id(i) = indexOf(order[i]);
+      }
+      static_cast<void>(reader.read({&m_levels.id(begin), 0, size}, m_levels.block(b)));
+    }
+  });
+}
+
+}  // namespace allpairs::engine

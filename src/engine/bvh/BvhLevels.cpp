@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/BvhLevels.h"
+
+#include <algorithm>
+
+namespace allpairs::engine {
+namespace {
+
+std::size_t blockCountFor(std::size_t size) { return (size + kFanOut - 1) / kFanOut; }
+
+void emptyBlock(LaneBlock& block) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    block.bound[axis].fill(kNever);
+    block.bound[axis + 3].fill(-kNever);
+  }
+}
+
+}  // namespace
+
+void BvhLevels::reset(std::size_t capacity) {
+  m_capacity = capacity;
+  m_ids.require(blockCountFor(capacity) * kFanOut);
+  std::size_t blocks = blockCountFor(capacity);
+  for (std::size_t level = 0; level < kMaxLevels && blocks > 0; ++level) {
+    m_levels[level].require(blocks);
+    blocks = blocks == 1 ? 0 : blockCountFor(blocks);
+  }
+  m_clean.fill(0);
+  m_places = 0;
+  m_depth = 0;
+  m_boundedDepth = 0;
+}
+
+void BvhLevels::resize(std::size_t places) {
+  const std::size_t before = m_clean[0] * kFanOut;
+  m_places = places;
+  m_depth = 0;
+  for (std::size_t blocks = blockCountFor(places); blocks > 0; blocks = blocks == 1 ? 0 : blockCountFor(blocks)) {
+    std::size_t& clean = m_clean[m_depth];
+    for (; clean < blocks; ++clean) emptyBlock(m_levels[m_depth][clean]);
+    ++m_depth;
+  }
+  for (std::size_t place = before; place < m_clean[0] * kFanOut; ++place) m_ids[place] = 0;
+}
+
+void BvhLevels::resizeUnwritten(std::size_t places) {
+  m_places = places;
+  m_depth = 0;
+  for (std::size_t blocks = blockCountFor(places); blocks > 0; blocks = blocks == 1 ? 0 : blockCountFor(blocks)) {
+    emptyBlock(m_levels[m_depth][blocks - 1]);
+    m_clean[m_depth++] = blocks;
+  }
+  for (std::size_t place = places; place < blockCount() * kFanOut; ++place) m_ids[place] = 0;
+}
+
+std::size_t BvhLevels::sizeOf(std::size_t level) const noexcept {
+  std::size_t size = m_places;
+  for (std::size_t k = 0; k < level; ++k) size = blockCountFor(size);
+  return size;
+}
+
+void BvhLevels::boundAll(const Kernels& kernels, Executor& executor) {
+  m_boundedDepth = m_depth;
+  std::size_t count = blockCount();
+  for (std::size_t level = 0; level + 1 < m_depth; ++level) {
+    const LaneBlock* blocks = m_levels[level].data();
+    LaneBlock* parents = m_levels[level + 1].data();
+    executor.run((count + kBlocksPerTask - 1) / kBlocksPerTask, [&](std::size_t task) {
+      kernels.boundBlocks(blocks, task * kBlocksPerTask, std::min(count, (task + 1) * kBlocksPerTask), parents);
+    });
+    count = blockCountFor(count);
+  }
+}
+
+void BvhLevels::boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor) {
+  // A level that has just come bounds nothing yet, not even what hasn't changed.
+  if (m_boundedDepth != m_depth) {
+    boundAll(kernels, executor);
+    return;
+  }
+  std::size_t count = blocks.size();
+  for (std::size_t level = 0; level + 1 < m_depth; ++level) {
+    std::size_t parents = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t b = blocks[i];
+      kernels.boundBlocks(m_levels[level].data(), b, std::size_t{b} + 1, m_levels[level + 1].data());
+      const auto parent = static_cast<std::uint32_t>(b / kFanOut);
+      if (parents == 0 || blocks[parents - 1] != parent) blocks[parents++] = parent;
+    }
+    count = parents;
+  }
+}
+
+LaneBox BvhLevels::boundsOf(const LaneBlock& block) const noexcept {
+  LaneBox result = block.get(0);
+  for (std::size_t lane = 1; lane < kFanOut; ++lane) {
+    const LaneBox box = block.get(lane);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.bound[axis] = std::min(result.bound[axis], box.bound[axis]);
+      result.bound[axis + 3] = std::max(result.bound[axis + 3], box.bound[axis + 3]);
+    }
+  }
+  return result;
+}
+
+BvhView BvhLevels::view() const {
+  BvhView result;
+  result.ids = m_ids.data();
+  for (; result.depth < m_depth; ++result.depth) {
+    result.level[result.depth] = {m_levels[result.depth].data(), sizeOf(result.depth)};
+  }
+  return result;
+}
+
+BvhView BvhLevels::view(std::size_t depth, Tops& tops) const {
+  BvhView result = view();
+  if (result.depth == 0) return result;
+  for (; result.depth < depth; ++result.depth) {
+    LaneBlock& top = tops[result.depth];
+    emptyBlock(top);
+    top.set(0, boundsOf(result.level[result.depth - 1].blocks[0]));
+    result.level[result.depth] = {&top, 1};
+  }
+  return result;
+}
+
+}  // namespace allpairs::engine

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "kernels/BvhView.h"
+#include "kernels/Kernels.h"
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// The memory of a hierarchy: blocks of boxes and, level upon level, their bounds. Boxes may come later and change in place.
+class BvhLevels {
+ public:
+  /// Blocks that one task gathers or bounds: some ten thousand boxes are worth a task.
+  static constexpr std::size_t kBlocksPerTask = 1024;
+
+  explicit BvhLevels(std::pmr::memory_resource* memory)
+      : m_levels(makeArray<Buffer<LaneBlock>, kMaxLevels>(memory)), m_ids(memory) {}
+
+  /// Makes room for so many places and empties all of them: their lanes overlap nothing, their ids are 0.
+  void reset(std::size_t capacity);
+
+  /// Has the first `places` count, of which none beyond the last ones were used; not more than the capacity.
+  void resize(std::size_t places);
+
+  /// Has the first `places` count, which are about to be written, all of them; empties only what is behind the last one.
+  void resizeUnwritten(std::size_t places);
+
+  [[nodiscard]] std::size_t places() const noexcept { return m_places; }
+  [[nodiscard]] std::size_t capacity() const noexcept { return m_capacity; }
+  [[nodiscard]] std::size_t blockCount() const noexcept { return (m_places + kFanOut - 1) / kFanOut; }
+  [[nodiscard]] std::size_t depth() const noexcept { return m_depth; }
+
+  [[nodiscard]] LaneBlock& block(std::size_t b) const noexcept { return m_levels[0][b]; }
+  /// The memory of the blocks of boxes, before they are written or when the hierarchy is not needed any more.
+  template <class T>
+  [[nodiscard]] std::span<T> memory() const noexcept {
+    return {reinterpret_cast<T*>(m_levels[0].data()), m_levels[0].capacity() * sizeof(LaneBlock) / sizeof(T)};
+  }
+  [[nodiscard]] std::uint32_t& id(std::size_t place) const noexcept { return m_ids[place]; }
+
+  /// Bounds all blocks anew.
+  void boundAll(const Kernels& kernels, Executor& executor);
+
+  /// Bounds some blocks anew, by ascending number, and what is above them. The list is lost.
+  void boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor);
+
+  /// The blocks of levels that are added on top of a hierarchy.
+  using Tops = std::array<LaneBlock, kMaxLevels>;
+
+  /// The hierarchy; of depth 0 where it is empty.
+  [[nodiscard]] BvhView view() const;
+
+  /// The same with levels of one node added on top of it, in memory of the caller's, until there are `depth`.
+  [[nodiscard]] BvhView view(std::size_t depth, Tops& tops) const;
+
+ private:
+  [[nodiscard]] std::size_t sizeOf(std::size_t level) const noexcept;
+  [[nodiscard]] LaneBox boundsOf(const LaneBlock& block) const noexcept;
+
+  std::array<Buffer<LaneBlock>, kMaxLevels> m_levels;
+  std::array<std::size_t, kMaxLevels> m_clean{};  ///< By level: blocks from here on hold lanes that overlap nothing.
+  Buffer<std::uint32_t> m_ids;
+  std::size_t m_places = 0;
+  std::size_t m_capacity = 0;
+  std::size_t m_depth = 0;
+  std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were bounded last.
+};
+
+/// Two hierarchies as a join wants them: of the same depth.
+struct BvhPair {
+  BvhPair(const BvhLevels& one, const BvhLevels& other)
+      : first(one.view(other.depth(), firstTops)), second(other.view(one.depth(), secondTops)) {}
+  BvhPair(const BvhPair&) = delete;
+  BvhPair& operator=(const BvhPair&) = delete;
+
+  BvhLevels::Tops firstTops;
+  BvhLevels::Tops secondTops;
+  BvhView first;
+  BvhView second;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/CurveKey.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+#include "input/Sampling.h"
+
+namespace allpairs::engine {
+namespace {
+
+constexpr std::size_t kMostSamples = 256;
+
+/// A box is large if it is this many times as long as the median one.
+constexpr float kLargeFactor = 6.0F;
+
+/// Sample widths beyond this many times the middle four fifths are taken for outliers.
+constexpr float kOutlierFactor = 64.0F;
+
+/// Centres and longest sides of some boxes.
+struct Sample {
+  std::size_t size = 0;
+  std::array<std::array<float, kMostSamples>, 3> centres;
+  std::array<float, kMostSamples> extents;
+
+  void take(const LaneBox& box) {
+    float longest = 0.0F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      centres[axis][size] = 0.5F * box.bound[axis] + 0.5F * box.bound[axis + 3];
+      longest = std::max(longest, box.bound[axis + 3] - box.bound[axis]);
+    }
+    extents[size++] = longest;
+  }
+};
+
+/// About a sixteenth of the boxes, so that sampling costs nothing to speak of.
+std::size_t sampleSize(std::size_t boxes) {
+  return std::min(boxes, std::clamp<std::size_t>(boxes / 16, 32, kMostSamples));
+}
+
+/// As many cells as boxes, and then four times as many along each axis, for sets that are crowded in places.
+unsigned bitsFor(std::size_t boxes) {
+  return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 1, CurveGrid::kMaxBitsPerAxis);
+}
+
+float nth(std::span<float> values, std::size_t n) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(n);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Where most of the values begin, and how wide they are spread: all of them, unless a few are very far away.
+std::pair<float, float> rangeOf(std::span<float> values) {
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const std::pair all{*least, std::min(*greatest - *least, kLaneMax)};
+  const std::size_t tenth = values.size() / 10;
+  const float low = nth(values, tenth);
+  const float middle = nth(values, values.size() - 1 - tenth) - low;
+  if (middle > 0.0F && all.second > kOutlierFactor * middle) return {low - middle, 3.0F * middle};
+  return all;
+}
+
+/// The grid for so many boxes of which these are some.
+CurveGrid fitTo(Sample& sample, std::size_t boxes) {
+  CurveGrid grid;
+  if (sample.size == 0) return grid;
+  std::array<float, 3> widths;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, range] = rangeOf({sample.centres[axis].data(), sample.size});
+    grid.origin[axis] = least;
+    widths[axis] = range;
+  }
+  const auto isNarrower = [&](std::uint32_t a, std::uint32_t b) {
+    return widths[a] < widths[b] || (widths[a] == widths[b] && a < b);
+  };
+  std::sort(grid.axes.begin(), grid.axes.end(), isNarrower);
+  const float width = widths[grid.axes[2]];
+  grid.bitsPerAxis = bitsFor(boxes);
+  const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
+  if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
+  grid.largeExtent = kLargeFactor * nth({sample.extents.data(), sample.size}, sample.size / 2);
+  return grid;
+}
+
+}  // namespace
+
+CurveGrid fitCurveGrid(const BoxReader& reader) {
+  Sample sample;
+  sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample.take(box); });
+  return fitTo(sample, reader.size());
+}
+
+CurveGrid fitCurveGrid(const BoxReader& reader, std::span<const CurveKey> boxes) {
+  Sample sample;
+  const std::size_t size = sampleSize(boxes.size());
+  LaneBlock block;
+  for (std::size_t part = 0; part < size; ++part) {
+    const std::uint32_t id = indexOf(boxes[sampleIndex(part, size, boxes.size())]);
+    static_cast<void>(reader.read({&id, 0, 1}, block));
+    sample.take(block.get(0));
+  }
+  return fitTo(sample, boxes.size());
+}
+
+}  // namespace allpairs::engine

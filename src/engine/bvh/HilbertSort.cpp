@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/HilbertSort.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "bvh/CurveKey.h"
+#include "bvh/RadixSort.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// A chunk smaller than this is not worth a task.
+constexpr std::size_t kBoxesPerChunk = std::size_t{1} << 13;
+
+/// Boxes whose keys are computed together: steps of one wait for each other, of several blocks they do not.
+constexpr std::size_t kBoxesAtOnce = 4 * kFanOut;
+
+/// Boxes of one key that are worth an order of their own: blocks of them would be as wide as their cell.
+constexpr std::size_t kDenseCell = 64;
+
+/// A grid within a cell within a cell: cells get narrower by some hundred times each time.
+constexpr unsigned kMostGrids = 4;
+
+std::uint64_t keyOf(CurveKey box) { return box >> kIndexBits; }
+
+/// Calls take(boxes) for runs of about kDenseCell or more boxes with the same key, of sorted boxes.
+template <class Take>
+void forEachDenseCell(std::span<CurveKey> boxes, Take&& take) {
+  for (std::size_t i = 0; i + kDenseCell <= boxes.size();) {
+    const std::uint64_t key = keyOf(boxes[i]);
+    if (keyOf(boxes[i + kDenseCell - 1]) != key) {
+      i += kDenseCell / 2;
+      continue;
+    }
+    std::size_t begin = i;
+    while (begin > 0 && keyOf(boxes[begin - 1]) == key) --begin;
+    const auto isSame = [&](CurveKey box) { return keyOf(box) == key; };
+    const auto rest = boxes.subspan(i);
+    const auto end = static_cast<std::size_t>(std::partition_point(rest.begin(), rest.end(), isSame) - boxes.begin());
+    take(boxes.subspan(begin, end - begin));
+    i = end;
+  }
+}
+
+/// Orders boxes that share a cell by a grid of their own, and again those that share a cell of that one.
+// Each call goes one grid deeper, of kMostGrids.
+// NOLINTNEXTLINE(misc-no-recursion)
+void sortDenseCell(std::span<CurveKey> cell, CurveKey* spare, const BoxReader& reader, unsigned grids) {
+  const CurveGrid grid = fitCurveGrid(reader, cell);
+  KeyRun run{spare};
+  std::array<std::uint32_t, kBoxesAtOnce> ids;
+  for (std::size_t i = 0; i < cell.size(); i += ids.size()) {
+    const std::size_t size = std::min(ids.size(), cell.size() - i);
+    for (std::size_t k = 0; k < size; ++k) ids[k] = indexOf(cell[i + k]);
+    writeKeys(reader, grid, {ids.data(), 0, size}, true, run);
+  }
+  const CurveKey* sorted = radixSort(spare, cell.data(), cell.size(), kIndexBits, run.usedBits());
+  if (sorted != cell.data()) std::copy_n(sorted, cell.size(), cell.data());
+  if (grids == kMostGrids || keyOf(cell.front()) == keyOf(cell.back())) return;
+  CurveKey* const begin = cell.data();
+  forEachDenseCell(cell, [&](std::span<CurveKey> inner) {
+    sortDenseCell(inner, spare + (inner.data() - begin), reader, grids + 1);
+  });
+}
+
+}  // namespace
+
+unsigned KeyRun::usedBits() const noexcept {
+  return std::max(kIndexBits, kIndexBits + static_cast<unsigned>(std::bit_width(allKeys)));
+}
+
+void writeKeys(const BoxReader& reader, const CurveGrid& grid, const BoxList& boxes, bool emptyToo, KeyRun& run) {
+  std::array<LaneBlock, kBoxesAtOnce / kFanOut> blocks{};
+  std::array<std::uint32_t, kBoxesAtOnce> keys;
+  for (std::size_t i = 0; i < boxes.size; i += keys.size()) {
+    const BoxList some = boxes.part(i, keys.size());
+    std::uint64_t skipped = 0;
+    std::size_t used = 0;
+    for (; used * kFanOut < some.size; ++used) {
+      const BlockRead read = reader.read(some.part(used * kFanOut, kFanOut), blocks[used]);
+      run.exact &= read.exact;
+      if (!emptyToo) skipped |= std::uint64_t{read.emptyLanes} << (used * kFanOut);
+    }
+    reader.kernels().curveKeys({blocks.data(), used}, grid, keys.data());
+    for (std::size_t k = 0; k < some.size; ++k) {
+      run.allKeys |= keys[k];
+      *run.end = (std::uint64_t{keys[k]} << kIndexBits) | some[k];
+      run.end += 1U - (skipped >> k & 1U);
+    }
+  }
+}
+
+void sortDenseCells(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader& reader, Executor& executor,
+                    std::pmr::vector<std::span<CurveKey>>& cells) {
+  cells.clear();
+  forEachDenseCell(boxes, [&](std::span<CurveKey> cell) { cells.push_back(cell); });
+  if (cells.empty()) return;
+  executor.run(cells.size(),
+               [&](std::size_t i) { sortDenseCell(cells[i], spare + (cells[i].data() - boxes.data()), reader, 1); });
+}
+
+/// Writes the keys; returns how many there are.
+std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, Executor& executor) {
+  const CurveGrid grid = fitCurveGrid(reader);
+  m_classShift = kIndexBits + grid.classShift();
+  const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
+  const std::size_t chunks = std::clamp<std::size_t>(std::min(most, reader.size() / kBoxesPerChunk), 1, 256);
+  const auto beginOf = [&](std::size_t c) { return reader.size() * c / chunks; };
+  m_chunks.resize(chunks);
+  executor.run(chunks, [&](std::size_t c) {
+    m_chunks[c] = {keyed + beginOf(c)};
+    writeKeys(reader, grid, {nullptr, beginOf(c), beginOf(c + 1) - beginOf(c)}, false, m_chunks[c]);
+  });
+  m_exact = true;
+  std::size_t used = 0;
+  for (std::size_t c = 0; c < chunks; ++c) {
+    m_exact &= m_chunks[c].exact;
+    const CurveKey* const begin = keyed + beginOf(c);
+    if (used != beginOf(c)) std::copy<const CurveKey*>(begin, m_chunks[c].end, keyed + used);
+    used += static_cast<std::size_t>(m_chunks[c].end - begin);
+  }
+  return used;
+}
+
+std::span<const CurveKey> HilbertSort::sort(const BoxReader& reader, std::span<CurveKey> spare, Executor& executor) {
+  m_boxes.require(reader.size());
+  const std::span<CurveKey> boxes(m_boxes.data(), readKeys(reader, spare.data(), executor));
+  unsigned bits = kIndexBits;
+  for (const KeyRun& chunk : m_chunks) bits = std::max(bits, chunk.usedBits());
+  m_radix.sort(spare.data(), boxes.data(), boxes.size(), kIndexBits, bits, executor);
+  const auto isUsual = [this](CurveKey box) { return box >> m_classShift == 0; };
+  m_firstLarge = static_cast<std::size_t>(std::partition_point(boxes.begin(), boxes.end(), isUsual) - boxes.begin());
+  sortDenseCells(boxes, spare.data(), reader, executor, m_denseCells);
+  return boxes;
+}
+
+}  // namespace allpairs::engine

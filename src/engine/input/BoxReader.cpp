@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "input/BoxReader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace allpairs::engine {
+namespace {
+
+/// Kernels take offsets of 32 bits, six values a box.
+constexpr std::size_t kMostOffsets = std::numeric_limits<std::int32_t>::max() / 6;
+
+/// Reads a box of float32 without margins: the lanes are the box, but that infinity becomes the largest number. Returns, as
+/// the others do, whether the lanes are exactly the box.
+bool readPlain(const BoxSet& boxes, std::size_t i, LaneBox& lanes) noexcept {
+  const auto& [min, max] = boxes.float32();
+  bool exact = true;
+  const auto row = static_cast<std::ptrdiff_t>(i);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<std::ptrdiff_t>(axis);
+    const float lo = min.data[row * min.boxStride + k * min.axisStride];
+    const float hi = max.data[row * max.boxStride + k * max.axisStride];
+    lanes.bound[axis] = std::clamp(lo, -kLaneMax, kLaneMax);
+    lanes.bound[axis + 3] = std::clamp(hi, -kLaneMax, kLaneMax);
+    exact &= (lanes.bound[axis] == lo) & (lanes.bound[axis + 3] == hi);
+  }
+  return exact;
+}
+
+/// A box of float64 without margins, rounded outward.
+bool readRounded(const BoxSet& boxes, std::size_t i, LaneBox& lanes) noexcept {
+  const Box box = boxes[i];
+  bool exact = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lanes.bound[axis] = roundDown(box.min[axis]);
+    lanes.bound[axis + 3] = roundUp(box.max[axis]);
+    exact &= (static_cast<double>(lanes.bound[axis]) == box.min[axis]) &
+             (static_cast<double>(lanes.bound[axis + 3]) == box.max[axis]);
+  }
+  return exact;
+}
+
+/// A box with a margin or a distance, in double, with a slack that is larger than what all roundings of the exact
+/// expression, max + ((distance + margin) + margin), can add up to.
+bool readWidened(const BoxSet& boxes, double distance, std::size_t i, LaneBox& lanes) noexcept {
+  constexpr double kSlack = 0x1p-48;
+  const Box box = boxes[i];
+  const double margin = boxes.margin(i);
+  const double half = 0.5 * distance + margin;
+  const double magnitude = 0.5 * std::abs(distance) + std::abs(margin);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float low = roundDown(box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude));
+    const float high = roundUp(box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude));
+    // A negative margin may turn a box over, and it can still meet a larger one. Turned back it is no smaller.
+    lanes.bound[axis] = std::min(low, high);
+    lanes.bound[axis + 3] = std::max(low, high);
+  }
+  return false;
+}
+
+}  // namespace
+
+BoxReader::BoxReader(const BoxSet& boxes, const OverlapOptions& options, const Kernels& kernels)
+    : m_boxes(&boxes), m_kernels(&kernels), m_distance(options.distance), m_region(options.region) {
+  if (m_distance != 0.0 || boxes.hasMargins() || m_region || boxes.size() > kMostOffsets) return;
+  if (boxes.isFloat64()) {
+    if (boxes.float64().isPacked()) m_rows64 = boxes.float64().min.data;
+  } else if (boxes.float32().isPacked()) {
+    m_rows32 = boxes.float32().min.data;
+  }
+}
+
+BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
+  if (boxes.size == kFanOut && (m_rows32 != nullptr || m_rows64 != nullptr)) {
+    if (boxes.ids == nullptr && m_rows32 != nullptr) return m_kernels->readRun32(m_rows32 + 6 * boxes.begin, block);
+    std::array<std::int32_t, kFanOut> offsets;
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) offsets[lane] = static_cast<std::int32_t>(6 * boxes[lane]);
+    return m_rows32 != nullptr ? m_kernels->readFloat32(m_rows32, offsets.data(), block)
+                               : m_kernels->readFloat64(m_rows64, offsets.data(), block);
+  }
+  const BoxSet& set = *m_boxes;
+  if (m_distance != 0.0 || set.hasMargins()) {
+    return readEach(
+        boxes, [&](std::size_t i, LaneBox& lanes) { return readWidened(set, m_distance, i, lanes); }, block);
+  }
+  if (set.isFloat64()) {
+    return readEach(
+        boxes, [&](std::size_t i, LaneBox& lanes) { return readRounded(set, i, lanes); }, block);
+  }
+  return readEach(
+      boxes, [&](std::size_t i, LaneBox& lanes) { return readPlain(set, i, lanes); }, block);
+}
+
+template <class LanesOf>
+BlockRead BoxReader::readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const {
+  BlockRead result;
+  LaneBox lanes;
+  for (std::size_t lane = 0; lane < boxes.size; ++lane) {
+    const std::size_t i = boxes[lane];
+    const bool exact = lanesOf(i, lanes);
+    block.set(lane, lanes);
+    const Box box = (*m_boxes)[i];
+    if (isEmpty(box) || (m_region && !overlap(box, *m_region, m_distance + m_boxes->margin(i)))) {
+      result.emptyLanes |= std::uint32_t{1} << lane;
+    } else {
+      result.exact &= exact;
+    }
+  }
+  return result;
+}
+
+void BoxReader::prefetch(std::size_t i) const noexcept {
+  const auto row = static_cast<std::ptrdiff_t>(i);
+  const auto ask = [&](const auto& corners) {
+    __builtin_prefetch(corners.min.data + row * corners.min.boxStride);
+    __builtin_prefetch(corners.max.data + row * corners.max.boxStride + 2);
+  };
+  m_boxes->isFloat64() ? ask(m_boxes->float64()) : ask(m_boxes->float32());
+}
+
+}  // namespace allpairs::engine

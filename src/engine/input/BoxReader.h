@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "allpairs/Box.h"
+#include "allpairs/BoxSet.h"
+#include "allpairs/OverlapOptions.h"
+#include "kernels/Kernels.h"
+#include "kernels/Lanes.h"
+
+namespace allpairs::engine {
+
+/// Some boxes of a set: those with the ids, or a run from `begin` on.
+struct BoxList {
+  const std::uint32_t* ids = nullptr;
+  std::size_t begin = 0;
+  std::size_t size = 0;
+
+  [[nodiscard]] std::uint32_t operator[](std::size_t i) const noexcept {
+    return ids != nullptr ? ids[i] : static_cast<std::uint32_t>(begin + i);
+  }
+
+  /// From place `first` on, as many as asked for if there are.
+  [[nodiscard]] BoxList part(std::size_t first, std::size_t most) const noexcept {
+    return {ids != nullptr ? ids + first : nullptr, begin + first, std::min(most, size - first)};
+  }
+};
+
+/// Reads the boxes of a set as float32 lanes that are never smaller than the boxes, with half the distance of the
+/// search and the box's own margin added on each side.
+///
+/// Boxes that can overlap nothing, because they are empty or outside of the region, are told apart.
+class BoxReader {
+ public:
+  BoxReader(const BoxSet& boxes, const OverlapOptions& options, const Kernels& kernels);
+
+  [[nodiscard]] std::size_t size() const noexcept { return m_boxes->size(); }
+  [[nodiscard]] const Kernels& kernels() const noexcept { return *m_kernels; }
+
+  /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.
+  BlockRead read(const BoxList& boxes, LaneBlock& block) const;
+
+  /// Asks for the memory of box i ahead of its use.
+  void prefetch(std::size_t i) const noexcept;
+
+ private:
+  template <class LanesOf>
+  BlockRead readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const;
+
+  const BoxSet* m_boxes;
+  const Kernels* m_kernels;
+  double m_distance;
+  std::optional<Box> m_region;
+  const float* m_rows32 = nullptr;  ///< Rows of six that a kernel can read sixteen at a time.
+  const double* m_rows64 = nullptr;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/BoxSet.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "allpairs/Error.h"
+
+namespace allpairs {
+
+const char containers::ALLPAIRS_CONTAINERS = 0;
+namespace {
+
+constexpr std::size_t kMaxBoxes = std::numeric_limits<std::uint32_t>::max();
+
+void checkCount(std::size_t size) {
+  if (size > kMaxBoxes) {
+    throw InvalidArgument("a set of " + std::to_string(size) + " boxes; at most 4294967295 can be numbered");
+  }
+}
+
+template <class T>
+std::size_t rowCount(std::span<const T> values, std::size_t width) {
+  if (values.size() % width != 0) {
+    throw InvalidArgument(std::to_string(values.size()) + " values are no whole number of rows of " +
+                          std::to_string(width));
+  }
+  return values.size() / width;
+}
+
+/// True where a corner coordinate of box i is a NaN.
+template <class T>
+bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
+  const T* row = corner.data + i * corner.boxStride;
+  const T x = row[0];
+  const T y = row[corner.axisStride];
+  const T z = row[2 * corner.axisStride];
+  return (x != x) | (y != y) | (z != z);
+}
+
+[[noreturn]] void throwNan(std::size_t index, const Box& box) {
+  static constexpr const char* kNames[] = {"min x", "min y", "min z", "max x", "max y", "max z"};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double value = k < 3 ? box.min[k] : box.max[k - 3];
+    if (std::isnan(value)) {
+      throw InvalidBox(index, "box " + std::to_string(index) + ": " + kNames[k] + " is not a number (NaN)");
+    }
+  }
+  throw InvalidBox(index, "box " + std::to_string(index) + " has a NaN");
+}
+
+/// Whether any of the values is a NaN; a loop that compilers turn into vectors.
+template <class T>
+bool anyNan(const T* values, std::size_t count) {
+  std::size_t nans = 0;
+  for (std::size_t i = 0; i < count; ++i) nans += values[i] != values[i] ? 1U : 0U;
+  return nans != 0;
+}
+
+template <class T>
+void checkNoNan(std::size_t size, const BoxSet::Corners<T>& corners, const BoxSet& set) {
+  if (corners.isPacked() && !anyNan(corners.min.data, 6 * size)) return;
+  const auto count = static_cast<std::ptrdiff_t>(size);
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    if (hasNanAt(corners.min, i) || hasNanAt(corners.max, i)) {
+      throwNan(static_cast<std::size_t>(i), set[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+template <class T>
+BoxSet setFromBoxes(std::span<const BasicBox<T>> boxes) {
+  static_assert(sizeof(BasicBox<T>) == 6 * sizeof(T));
+  if (boxes.empty()) return {};
+  return BoxSet::fromStrided(boxes.size(), CornerView<T>{boxes.data()->min.data(), 6, 1},
+                             CornerView<T>{boxes.data()->max.data(), 6, 1});
+}
+
+template <class T>
+BoxSet setFromRows(std::span<const T> rows) {
+  const std::size_t size = rowCount(rows, 6);
+  if (size == 0) return {};
+  return BoxSet::fromStrided(size, CornerView<T>{rows.data(), 6, 1}, CornerView<T>{rows.data() + 3, 6, 1});
+}
+
+template <class T>
+BoxSet setFromCorners(std::span<const T> min, std::span<const T> max) {
+  const std::size_t size = rowCount(min, 3);
+  if (rowCount(max, 3) != size) {
+    throw InvalidArgument(std::to_string(size) + " min corners, but " + std::to_string(max.size() / 3) +
+                          " max corners");
+  }
+  if (size == 0) return {};
+  return BoxSet::fromStrided(size, CornerView<T>{min.data(), 3, 1}, CornerView<T>{max.data(), 3, 1});
+}
+
+/// Moves the view to start at box `begin`.
+template <class T>
+void moveTo(BoxSet::Corners<T>& corners, std::size_t begin) {
+  if (corners.min.data == nullptr) return;
+  corners.min.data += static_cast<std::ptrdiff_t>(begin) * corners.min.boxStride;
+  corners.max.data += static_cast<std::ptrdiff_t>(begin) * corners.max.boxStride;
+}
+
+bool isMargin(double value) { return !std::isnan(value) && value != -std::numeric_limits<double>::infinity(); }
+
+}  // namespace
+
+BoxSet BoxSet::fromBoxes(std::span<const Box> boxes) { return setFromBoxes(boxes); }
+BoxSet BoxSet::fromBoxes(std::span<const BoxF> boxes) { return setFromBoxes(boxes); }
+
+BoxSet BoxSet::fromRows(std::span<const float> rows) { return setFromRows(rows); }
+BoxSet BoxSet::fromRows(std::span<const double> rows) { return setFromRows(rows); }
+
+BoxSet BoxSet::fromCorners(std::span<const float> min, std::span<const float> max) { return setFromCorners(min, max); }
+BoxSet BoxSet::fromCorners(std::span<const double> min, std::span<const double> max) {
+  return setFromCorners(min, max);
+}
+
+BoxSet BoxSet::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
+  checkCount(size);
+  BoxSet set;
+  set.m_size = size;
+  set.m_float32 = {min, max};
+  checkNoNan(size, set.m_float32, set);
+  return set;
+}
+
+BoxSet BoxSet::fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max) {
+  checkCount(size);
+  BoxSet set;
+  set.m_size = size;
+  set.m_isFloat64 = true;
+  set.m_float64 = {min, max};
+  checkNoNan(size, set.m_float64, set);
+  return set;
+}
+
+void BoxSet::setMargin(double margin) {
+  if (!isMargin(margin)) throw InvalidArgument("the margin of the set is NaN or -infinity");
+  m_margin = margin;
+}
+
+void BoxSet::setMargins(std::span<const double> margins) {
+  if (!margins.empty() && margins.size() != m_size) {
+    throw InvalidArgument(std::to_string(margins.size()) + " margins for " + std::to_string(m_size) + " boxes");
+  }
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    if (!isMargin(margins[i])) {
+      throw InvalidBox(i, "box " + std::to_string(i) + ": its margin is NaN or -infinity");
+    }
+  }
+  m_margins = margins;
+}
+
+BoxSet BoxSet::slice(std::size_t begin, std::size_t end) const {
+  if (begin > end || end > m_size) {
+    throw InvalidArgument("boxes " + std::to_string(begin) + " to " + std::to_string(end) + " of a set of " +
+                          std::to_string(m_size));
+  }
+  BoxSet part = *this;
+  part.m_size = end - begin;
+  moveTo(part.m_float32, begin);
+  moveTo(part.m_float64, begin);
+  if (!m_margins.empty()) part.m_margins = m_margins.subspan(begin, end - begin);
+  return part;
+}
+
+}  // namespace allpairs

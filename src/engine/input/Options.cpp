@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "input/Options.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "allpairs/Error.h"
+
+namespace allpairs::engine {
+namespace {
+
+void checkSpan(std::span<const std::uint32_t> values, std::size_t size, const std::string& name) {
+  if (values.empty() || values.size() == size) return;
+  throw InvalidArgument("the filter has " + std::to_string(values.size()) + ' ' + name + " for " +
+                        std::to_string(size) + " boxes");
+}
+
+void checkBits(const FilterBits& bits, std::size_t size) {
+  checkSpan(bits.categories, size, "categories");
+  checkSpan(bits.masks, size, "masks");
+  checkSpan(bits.groups, size, "groups");
+}
+
+void checkRegion(const Box& region) {
+  if (hasNan(region)) throw InvalidArgument("the region has a bound that is not a number (NaN)");
+  if (isEmpty(region)) throw InvalidArgument("the region is empty: its min is above its max on some axis");
+}
+
+}  // namespace
+
+void checkOptions(const Sets& sets, const OverlapOptions& options) {
+  if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
+    throw InvalidArgument("the distance is NaN or -infinity");
+  }
+  if (options.batchSize == 0) throw InvalidArgument("a batch size of 0 pairs");
+  if (options.region) checkRegion(*options.region);
+  checkBits(options.filter.first, sets.first.size());
+  if (!sets.one) checkBits(options.filter.second, sets.second.size());
+}
+
+const Kernels& chooseKernels(const OverlapOptions& options) {
+  if (const Kernels* kernels = findKernels(options.instructionSet)) return *kernels;
+  std::string known;
+  for (const std::string_view name : kernelNames()) known += (known.empty() ? "" : ", ") + std::string(name);
+  throw InvalidArgument("no instruction set '" + std::string(options.instructionSet) + "' here; there are: " + known);
+}
+
+}  // namespace allpairs::engine

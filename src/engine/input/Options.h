@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "allpairs/BoxSet.h"
+#include "allpairs/OverlapOptions.h"
+#include "kernels/Kernels.h"
+
+namespace allpairs::engine {
+
+/// The boxes to search: one set against itself, or two against each other.
+struct Sets {
+  const BoxSet& first;
+  const BoxSet& second;
+  bool one = true;
+};
+
+/// Throws InvalidArgument, with a message that names the setting, where options make no sense for these sets.
+void checkOptions(const Sets& sets, const OverlapOptions& options);
+
+/// The kernels that the options ask for; throws InvalidArgument for an instruction set that is not there.
+[[nodiscard]] const Kernels& chooseKernels(const OverlapOptions& options);
+
+}  // namespace allpairs::engine

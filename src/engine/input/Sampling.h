@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "input/BoxReader.h"
+
+namespace allpairs::engine {
+
+/// One index out of each of `count` equal parts of [0, size), at a place that looks random and is always the same.
+///
+/// Not at equal distances: input often has a period, and a sample with the same period sees one kind of box only.
+[[nodiscard]] inline std::size_t sampleIndex(std::size_t part, std::size_t count, std::size_t size) noexcept {
+  const std::size_t begin = size / count * part + std::min(part, size % count);
+  const std::size_t length = size / count + (part < size % count ? 1 : 0);
+  // The finaliser of splitmix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+  std::uint64_t bits = (part + 1) * 0x9E3779B97F4A7C15ULL;
+  bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBULL;
+  return begin + (bits ^ (bits >> 31U)) % std::max<std::size_t>(length, 1);
+}
+
+/// Calls take(lanes) for about `count` boxes that may overlap something: for each sampled one that may not, for the next
+/// one that may, if there is one within a hundred.
+template <class Take>
+void sampleBoxes(const BoxReader& reader, std::size_t count, Take&& take) {
+  constexpr std::size_t kLongestSearch = 100;
+  LaneBlock block;
+  for (std::size_t part = 0; part < count; ++part) {
+    std::size_t i = sampleIndex(part, count, reader.size());
+    const std::size_t end = std::min(reader.size(), i + kLongestSearch);
+    while (i < end && reader.read({nullptr, i, 1}, block).emptyLanes != 0) ++i;
+    if (i < end) take(block.get(0));
+  }
+}
+
+}  // namespace allpairs::engine

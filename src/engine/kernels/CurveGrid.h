@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/Lanes.h"
+
+namespace allpairs::engine {
+
+/// The grid that gives a box its place along the curve: cubic cells, since cells stretched to the extent of each axis
+/// would make blocks of a flat scene wide and flat too.
+///
+/// The key is a class, for boxes much larger than most, above the place along Hilbert's curve of the cell of the box's
+/// centre. Large boxes so come to lie with their like and do not blow up the bounds of blocks of small ones.
+struct CurveGrid {
+  static constexpr unsigned kMaxBitsPerAxis = 9;
+
+  unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells for each box: more would only make keys longer to sort.
+  /// The axes in the order in which the curve takes them: the one that the boxes are least spread along first, since the
+  /// curve crosses its middle only once; flat scenes lie on one side of it.
+  std::array<std::uint32_t, 3> axes{0, 1, 2};
+
+  std::array<float, 3> origin{};
+  float scale = 0.0F;        ///< Cells per unit of length.
+  float largeExtent = 0.0F;  ///< Boxes longer than this are of a class of their own.
+
+  /// Where the class begins in a key, and how many of a key's low bits can differ.
+  [[nodiscard]] unsigned classShift() const noexcept { return 3 * bitsPerAxis; }
+  [[nodiscard]] unsigned keyBits() const noexcept { return classShift() + 3; }
+
+  /// The class of a box that is longer than largeExtent, from 1 on: which axis it is long in, or how large it is.
+  [[nodiscard]] std::uint32_t classOf(const LaneBox& box) const noexcept;
+};
+
+inline std::uint32_t CurveGrid::classOf(const LaneBox& box) const noexcept {
+  /// A large box is long if its longest side is this many times the next one.
+  constexpr float kLongFactor = 3.0F;
+  const std::array<float, 3> extent{box.bound[3] - box.bound[0], box.bound[4] - box.bound[1],
+                                    box.bound[5] - box.bound[2]};
+  std::array<float, 3> sorted = extent;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted[2] > kLongFactor * sorted[1]) {
+    return 1U + static_cast<std::uint32_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
+  }
+  if (sorted[2] <= 8.0F * largeExtent) return 4U;
+  return sorted[2] <= 64.0F * largeExtent ? 5U : 6U;
+}
+
+}  // namespace allpairs::engine

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// The exhaustive search: every row against its columns.
+
+#if defined(ALLPAIRS_FLAT_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_FLAT_KERNEL_INL_H
+#undef ALLPAIRS_FLAT_KERNEL_INL_H
+#else
+#define ALLPAIRS_FLAT_KERNEL_INL_H
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include "hwy/cache_control.h"
+#include "kernels/Kernels.h"
+#include "kernels/RowKernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+/// Up to this many columns a branch around vectors without hits costs more than it saves.
+constexpr std::size_t kDenseColumns = 512;
+
+/// A row is dense if one of so many columns is a hit.
+constexpr std::size_t kDenseRow = 3;
+
+/// The columns that a row is tested against.
+struct Range {
+  std::size_t begin;
+  std::size_t end;
+
+  [[nodiscard]] HWY_INLINE std::size_t size() const { return end - std::min(begin, end); }
+};
+
+HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
+  return {search.tested == Columns::Following ? row + 1 : 0,
+          search.tested == Columns::Preceding ? row : search.columns.size};
+}
+
+/// One row against the columns [begin, end), tile by tile.
+template <Density kDensity, class Emitter>
+HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end, Hits& hits) {
+  constexpr std::size_t kTile = LaneTile::kCapacity;
+  const Query q = broadcast(search.rows.get(row));
+  const std::uint32_t id = search.rows.id(row);
+  while (begin < end) {
+    const std::size_t first = begin / kTile * kTile;
+    const std::size_t stop = std::min(end, first + kTile);
+    if (!hits.countOnly) hits.require(kTile);
+    Emitter emitter = Emitter::ofRow(hits, id);
+    emitRow<kDensity>(q, search.columns.tileOf(begin), begin - first, stop - first, emitter);
+    emitter.finish(hits);
+    begin = stop;
+  }
+}
+
+/// So many rows are counted at once: they share what is loaded of the columns.
+constexpr std::size_t kRowsAtOnce = 4;
+
+/// Those rows against the vectors of a tile that lie in [begin, end) as wholes; returns how many hits there are.
+template <class Tile>
+HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, const Tile& columns, std::size_t begin,
+                                    std::size_t end) {
+  const FloatTag d;
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const FloatMask m0 = overlapping(rows[0], columns.bound, i);
+    const FloatMask m1 = overlapping(rows[1], columns.bound, i);
+    const FloatMask m2 = overlapping(rows[2], columns.bound, i);
+    const FloatMask m3 = overlapping(rows[3], columns.bound, i);
+    if (hn::AllFalse(d, hn::Or(hn::Or(m0, m1), hn::Or(m2, m3)))) continue;
+    count += hn::CountTrue(d, m0) + hn::CountTrue(d, m1) + hn::CountTrue(d, m2) + hn::CountTrue(d, m3);
+  }
+  return count;
+}
+
+/// Those rows from `row` on against columns that all of them are tested against.
+void countColumns(const FlatSearch& search, std::size_t row, Range columns, Hits& hits) {
+  constexpr std::size_t kTile = LaneTile::kCapacity;
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  // Not filled in a loop: GCC 12 makes the constructor that a loop needs for the baseline, and refuses it on ARM.
+  const std::array<Query, kRowsAtOnce> queries{broadcast(search.rows.get(row)), broadcast(search.rows.get(row + 1)),
+                                               broadcast(search.rows.get(row + 2)),
+                                               broadcast(search.rows.get(row + 3))};
+  for (std::size_t begin = columns.begin; begin < columns.end;) {
+    const std::size_t first = begin / kTile * kTile;
+    const std::size_t stop = std::min(columns.end, first + kTile);
+    const auto& tile = search.columns.tileOf(begin);
+    const std::size_t whole = std::min((begin - first + lanes - 1) / lanes * lanes, stop - first);
+    const std::size_t wholeEnd = std::max((stop - first) / lanes * lanes, whole);
+    HitCounter counter;
+    for (const Query& q : queries) {
+      emitRow<Density::Dense>(q, tile, begin - first, whole, counter);
+      emitRow<Density::Dense>(q, tile, wholeEnd, stop - first, counter);
+    }
+    counter.finish(hits);
+    hits.count += countVectors(queries, tile, whole, wholeEnd);
+    begin = stop;
+  }
+}
+
+/// Counts several rows at a time, for as many as are left, and returns the first of those that remain.
+std::size_t countRows(const FlatSearch& search, Hits& hits) {
+  std::size_t row = search.rowBegin;
+  for (; row + kRowsAtOnce <= search.rowEnd; row += kRowsAtOnce) {
+    const Range first = columnsOf(search, row);
+    const Range last = columnsOf(search, row + kRowsAtOnce - 1);
+    const Range common{std::max(first.begin, last.begin), std::min(first.end, last.end)};
+    countColumns(search, row, common, hits);
+    for (std::size_t r = row; r < row + kRowsAtOnce; ++r) {
+      const Range columns = columnsOf(search, r);
+      searchRow<Density::Dense, HitCounter>(search, r, columns.begin, std::min(columns.end, common.begin), hits);
+      searchRow<Density::Dense, HitCounter>(search, r, std::max(columns.begin, common.end), columns.end, hits);
+      hits.boxTests += columns.size();
+    }
+  }
+  return row;
+}
+
+/// So many pairs are more than the caches near a core hold.
+constexpr std::size_t kCachedPairs = std::size_t{1} << 18;
+
+/// Where pairs are gathered to whole cache lines, which then go past the caches to where they stay: a line that is written
+/// in a cache is read into it first. Across rows, since a row ends anywhere within a line.
+class PairStream {
+ public:
+  /// Pairs follow on `to`, before which there are so many already.
+  HWY_INLINE void begin(Pair* to, std::size_t before) {
+    if (!m_started && before >= kCachedPairs) {
+      m_started = true;
+      m_size = before % kLinePairs;
+      std::copy_n(to - m_size, m_size, reinterpret_cast<Pair*>(m_pairs.data()));
+    }
+    m_line = reinterpret_cast<std::uint32_t*>(to - m_size);
+  }
+
+  /// Where the next vector of pairs goes.
+  [[nodiscard]] HWY_INLINE std::uint32_t* next() { return (m_started ? m_pairs.data() : m_line) + 2 * m_size; }
+
+  HWY_INLINE void add(std::size_t count) {
+    m_size += count;
+    if (m_started && m_size >= kBatch) flush();
+  }
+
+  /// Everything is where it belongs.
+  HWY_INLINE void finish() {
+    if (!m_started) return;
+    flush();
+    std::copy_n(m_pairs.data(), 2 * m_size, m_line);
+    hwy::FlushStream();
+  }
+
+ private:
+  static constexpr std::size_t kLinePairs = 8;
+  static constexpr std::size_t kBatch = 256;
+
+  HWY_INLINE void flush() {
+    const IdTag d;
+    const std::size_t whole = m_size / kLinePairs * kLinePairs;
+    for (std::size_t i = 0; i < 2 * whole; i += hn::Lanes(d)) hn::Stream(hn::Load(d, &m_pairs[i]), d, m_line + i);
+    m_line += 2 * whole;
+    m_size -= whole;
+    std::copy_n(&m_pairs[2 * whole], 2 * m_size, m_pairs.data());
+  }
+
+  alignas(64) std::array<std::uint32_t, 2 * (kBatch + Hits::kSlack)> m_pairs;
+  std::uint32_t* m_line = nullptr;
+  std::size_t m_size = 0;  // behind m_line
+  bool m_started = false;
+};
+
+/// Takes the hits of one row as pairs, to where they stay.
+struct PairWriter {
+  PairStream& stream;
+  hn::Vec<IdTag> rowIds;
+  bool rowSecond;
+  std::size_t size = 0;
+
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> partners) {
+    const IdTag d;
+    if (!hn::AllTrue(FloatTag(), mask)) partners = hn::Compress(partners, hn::RebindMask(d, mask));
+    if (rowSecond) {
+      hn::StoreInterleaved2(partners, rowIds, d, stream.next());
+    } else {
+      hn::StoreInterleaved2(rowIds, partners, d, stream.next());
+    }
+    const std::size_t count = hn::CountTrue(FloatTag(), mask);
+    stream.add(count);
+    size += count;
+  }
+};
+
+/// One row whose pairs are expected to be many; returns how many there are.
+HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range columns, PairStream& stream,
+                                Hits& hits) {
+  constexpr std::size_t kTile = LaneTile::kCapacity;
+  const Query q = broadcast(search.rows.get(row));
+  const RoomForPairs room = hits.roomForPairs(hits.receiver, hits, columns.size());
+  stream.begin(room.pairs, room.before);
+  PairWriter writer{stream, hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
+  for (std::size_t begin = columns.begin; begin < columns.end;) {
+    const std::size_t first = begin / kTile * kTile;
+    const std::size_t stop = std::min(columns.end, first + kTile);
+    emitRow<Density::Dense>(q, search.columns.tileOf(begin), begin - first, stop - first, writer);
+    begin = stop;
+  }
+  hits.takePairs(hits.receiver, writer.size);
+  return writer.size;
+}
+
+/// Rows of which most columns are hits: their pairs are written at once. Returns where rows are no longer like that.
+std::size_t writeRows(const FlatSearch& search, std::size_t row, Hits& hits) {
+  PairStream stream;
+  for (bool dense = true; dense && row < search.rowEnd; ++row) {
+    const Range columns = columnsOf(search, row);
+    dense = columns.size() != 0 && kDenseRow * writeRow(search, row, columns, stream, hits) > columns.size();
+    hits.boxTests += columns.size();
+  }
+  stream.finish();
+  return row;
+}
+
+template <Density kDensity, class Emitter>
+void searchRows(const FlatSearch& search, std::size_t rowBegin, Hits& hits) {
+  for (std::size_t row = rowBegin; row < search.rowEnd; ++row) {
+    const Range columns = columnsOf(search, row);
+    const std::size_t size = hits.size;
+    searchRow<kDensity, Emitter>(search, row, columns.begin, columns.end, hits);
+    hits.boxTests += columns.size();
+    if (hits.roomForPairs != nullptr && hits.size > size + kDenseColumns / kDenseRow &&
+        kDenseRow * (hits.size - size) > columns.size()) {
+      row = writeRows(search, row + 1, hits) - 1;
+    }
+  }
+}
+
+void searchFlat(const FlatSearch& search, Hits& hits) {
+  // Few boxes overlap a larger share of each other, unless their volume shrinks as their number grows.
+  const bool dense = search.columns.size <= kDenseColumns;
+  const std::size_t begin = search.rowBegin;
+  if (hits.countOnly) {
+    dense ? searchRows<Density::Dense, HitCounter>(search, begin, hits)
+          : searchRows<Density::Sparse, HitCounter>(search, countRows(search, hits), hits);
+  } else {
+    dense ? searchRows<Density::Dense, HitWriter>(search, begin, hits)
+          : searchRows<Density::Sparse, HitWriter>(search, begin, hits);
+  }
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_FLAT_KERNEL_INL_H

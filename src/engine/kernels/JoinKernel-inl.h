@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// The join of two hierarchies: each node of the first meets the list of nodes of the second that touch it.
+
+#if defined(ALLPAIRS_JOIN_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_JOIN_KERNEL_INL_H
+#undef ALLPAIRS_JOIN_KERNEL_INL_H
+#else
+#define ALLPAIRS_JOIN_KERNEL_INL_H
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+#include "kernels/Kernels.h"
+#include "kernels/RowKernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+/// A leaf block with the caller's ids of its boxes.
+struct Leaf {
+  const LaneBlock& block;
+  const std::uint32_t* ids;
+  std::size_t fill;
+};
+
+/// The bounds and ids of a leaf's boxes as vectors, to be held in registers.
+struct LeafVectors {
+  static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+  static constexpr std::size_t kVectors = kFanOut / kLanes;
+
+  FloatVector bound[6][kVectors];
+  hn::Vec<IdTag> id[kVectors];
+
+  HWY_INLINE explicit LeafVectors(const Leaf& leaf) {
+    const FloatTag d;
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      for (std::size_t row = 0; row < 6; ++row) bound[row][v] = hn::Load(d, &leaf.block.bound[row][v * kLanes]);
+      id[v] = hn::LoadU(IdTag(), leaf.ids + v * kLanes);
+    }
+  }
+
+  /// The boxes of vector v that overlap box `lane` of another block.
+  [[nodiscard]] HWY_INLINE FloatMask overlappingWith(const LaneBlock& block, std::size_t lane, std::size_t v) const {
+    const FloatTag d;
+    const auto broadcast = [&](std::size_t row) HWY_ATTR { return hn::Set(d, block.bound[row][lane]); };
+    const FloatMask x = meets(broadcast(0), broadcast(3), bound[0][v], bound[3][v]);
+    const FloatMask xy = meetsAlso(x, broadcast(1), broadcast(4), bound[1][v], bound[4][v]);
+    return meetsAlso(xy, broadcast(2), broadcast(5), bound[2][v], bound[5][v]);
+  }
+};
+
+/// The pairs within a leaf, each once: a box against those after it.
+template <class Emitter>
+HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hits) {
+  const FloatTag d;
+  if (!hits.countOnly) hits.require(kFanOut * kFanOut);
+  Emitter emitter = Emitter::ofLeaf(hits);
+  for (std::size_t lane = 0; lane + 1 < leaf.fill; ++lane) {
+    emitter.sharedId = leaf.ids[lane];
+    for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
+      const std::size_t first = v * LeafVectors::kLanes;
+      const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, LeafVectors::kLanes) : 0;
+      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), vectors.overlappingWith(leaf.block, lane, v));
+      emitter.emit(mask, vectors.id[v]);
+    }
+  }
+  emitter.finish(hits);
+}
+
+/// The boxes of a leaf, which stay in registers, against the boxes at some places of another hierarchy, one by one.
+///
+/// The other way round, rows of the leaf against a list of candidates, the candidates' bounds would have to be gathered
+/// first.
+template <class Emitter>
+HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std::span<const std::uint32_t> places,
+                          Hits& hits) {
+  constexpr std::size_t kStretch = 64;
+  const LaneBlock* blocks = other.level[0].blocks;
+  const std::uint32_t* ids = other.ids;
+  for (std::size_t i = 0; i < places.size();) {
+    const std::size_t stop = std::min(places.size(), i + kStretch);
+    if (!hits.countOnly) hits.require(kStretch * kFanOut);
+    Emitter emitter = Emitter::ofLeaf(hits);
+    for (; i < stop; ++i) {
+      const std::size_t place = places[i];
+      emitter.sharedId = ids[place];
+      for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
+        emitter.emit(vectors.overlappingWith(blocks[place / kFanOut], place % kFanOut, v), vectors.id[v]);
+      }
+    }
+    emitter.finish(hits);
+  }
+}
+
+/// A tile of candidates is full when another block might not fit.
+constexpr std::size_t kFullTile = CandidateTile::kCapacity - kFanOut;
+
+/// How many blocks ahead the members of a partner are asked for.
+constexpr std::size_t kPrefetchDistance = 4;
+
+HWY_INLINE void prefetchBlock(const LaneBlock& block) {
+  for (const auto& row : block.bound) __builtin_prefetch(row.data());
+}
+
+/// A tile that is being filled.
+struct TileFiller {
+  CandidateTile& tile;
+  std::size_t size = 0;
+
+  /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole vectors.
+  HWY_INLINE void append(const LaneBlock& block, std::size_t lane, std::size_t firstNode, FloatMask mask) {
+    const FloatTag d;
+    const IdTag di;
+    for (std::size_t row = 0; row < 6; ++row) {
+      hn::StoreU(hn::Compress(hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
+    }
+    const auto nodes = numbersFrom(firstNode + lane);
+    hn::StoreU(hn::Compress(nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
+    size += hn::CountTrue(d, mask);
+  }
+
+  /// Appends the members of block b of a level that touch the query.
+  HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b) {
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    const LaneBlock& block = level.blocks[b];
+    for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
+      append(block, lane, b * kFanOut, overlapping(q, block.bound, lane));
+    }
+  }
+
+  /// Appends all members of block b, so that member i of a node that meets itself is candidate i of its own list.
+  HWY_INLINE void appendAll(const Level& level, std::size_t b) {
+    const FloatTag d;
+    const std::size_t lanes = hn::Lanes(d);
+    const std::size_t fill = level.fill(b);
+    for (std::size_t lane = 0; lane < fill; lane += lanes) {
+      const FloatMask mask = hn::FirstN(d, std::min(fill - lane, lanes));
+      append(level.blocks[b], lane, b * kFanOut, mask);
+    }
+  }
+};
+
+/// One run of a task: the state that its functions share.
+class JoinRun {
+ public:
+  JoinRun(const JoinTask& task, Hits& hits) : m_task(task), m_hits(hits) {}
+
+  void run() {
+    const std::size_t top = m_task.first->depth - 1;
+    const std::uint32_t root = 0;
+    descend(top, 0, kEverythingLanes, &root, 1);
+  }
+
+ private:
+  // Depth is at most kMaxLevels, whatever the input.
+  // NOLINTNEXTLINE(misc-no-recursion)
+  void descend(std::size_t level, std::size_t node, const LaneBox& bounds, const std::uint32_t* partners,
+               std::size_t count) {
+    if (level == 0) {
+      m_hits.countOnly ? joinLeaf<HitCounter>(node, bounds, partners, count)
+                       : joinLeaf<HitWriter>(node, bounds, partners, count);
+      return;
+    }
+    gather(level, bounds, partners, count);
+    const std::size_t span = std::size_t{1} << (4 * (level - 1));
+    const Level& children = m_task.first->level[level];
+    const std::size_t begin = std::max(node * kFanOut, m_task.leafBegin / span);
+    const std::size_t end = std::min(node * kFanOut + children.fill(node), (m_task.leafEnd + span - 1) / span);
+    for (std::size_t child = begin; child < end; ++child) meetChild(level, node, child);
+  }
+
+  /// The children, on `level`, of the partners of a node, as far as they touch the node, in tiles.
+  void gather(std::size_t level, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
+    const Level& source = m_task.second->level[level];
+    JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
+    const Query q = broadcast(bounds);
+    scratch.tileCount = 0;
+    for (std::size_t i = 0; i < count;) {
+      TileFiller filler{scratch.nextTile()};
+      if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++]);
+      for (; i < count && filler.size <= kFullTile; ++i) filler.appendTouching(q, source, partners[i]);
+      scratch.sizes[scratch.tileCount - 1] = filler.size;
+    }
+    m_hits.groupTests += count * kFanOut;
+  }
+
+  /// Finds the partners of one child among the candidates of its node, and goes on with it.
+  // NOLINTNEXTLINE(misc-no-recursion)
+  void meetChild(std::size_t level, std::size_t node, std::size_t child) {
+    JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
+    const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
+    const Query q = broadcast(bounds);
+    PartnerWriter partners{scratch.roomFor(scratch.tileCount * CandidateTile::kCapacity + 1 + Hits::kSlack), 0};
+    std::size_t begin = 0;
+    if (m_task.withItself) {
+      partners.partners[partners.size++] = static_cast<std::uint32_t>(child);
+      begin = child - node * kFanOut + 1;
+    }
+    for (std::size_t t = 0; t < scratch.tileCount; ++t) {
+      emitRow<Density::Dense>(q, scratch.tiles[t][0], begin, scratch.sizes[t], partners);
+      m_hits.groupTests += scratch.sizes[t] - begin;
+      begin = 0;
+    }
+    if (partners.size != 0) descend(level - 1, child, bounds, partners.partners, partners.size);
+  }
+
+  /// The boxes of one leaf block against the boxes of its partners.
+  template <class Emitter>
+  void joinLeaf(std::size_t node, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
+    std::uint32_t* const places = m_task.scratch->level[0].roomFor((count + 1) * kFanOut + Hits::kSlack);
+    const std::size_t own = m_task.withItself ? 1 : 0;
+    const std::size_t size = listTouching(bounds, {partners + own, count - own}, places);
+    const Leaf leaf{m_task.first->level[0].blocks[node], m_task.first->ids + node * kFanOut,
+                    m_task.first->level[0].fill(node)};
+    const LeafVectors vectors(leaf);
+    if (m_task.withItself) selfJoin<Emitter>(leaf, vectors, m_hits);
+    crossJoin<Emitter>(vectors, *m_task.second, {places, size}, m_hits);
+    m_hits.groupTests += count * kFanOut;
+    m_hits.boxTests += (size + (m_task.withItself ? kFanOut / 2 : 0)) * leaf.fill;
+  }
+
+  /// Lists the places of the boxes, in blocks of the second hierarchy, that touch the bounds; returns how many.
+  std::size_t listTouching(const LaneBox& bounds, std::span<const std::uint32_t> blocks, std::uint32_t* places) {
+    const IdTag d;
+    const std::size_t lanes = hn::Lanes(d);
+    const LaneBlock* source = m_task.second->level[0].blocks;
+    const Query q = broadcast(bounds);
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      prefetchBlock(source[blocks[std::min(i + kPrefetchDistance, blocks.size() - 1)]]);
+      const std::size_t first = blocks[i] * kFanOut;
+      for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
+        const auto touching = hn::RebindMask(d, overlapping(q, source[blocks[i]].bound, lane));
+        const auto place = numbersFrom(first + lane);
+        hn::StoreU(hn::Compress(place, touching), d, places + size);
+        size += hn::CountTrue(d, touching);
+      }
+    }
+    return size;
+  }
+
+  const JoinTask& m_task;
+  Hits& m_hits;
+};
+
+void join(const JoinTask& task, Hits& hits) { JoinRun(task, hits).run(); }
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_JOIN_KERNEL_INL_H

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The table of one instruction set.
+
+#if defined(ALLPAIRS_KERNEL_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_KERNEL_TABLE_INL_H
+#undef ALLPAIRS_KERNEL_TABLE_INL_H
+#else
+#define ALLPAIRS_KERNEL_TABLE_INL_H
+#endif
+
+#include "kernels/CurveKernel-inl.h"
+#include "kernels/FlatKernel-inl.h"
+#include "kernels/JoinKernel-inl.h"
+#include "kernels/Kernels.h"
+#include "kernels/QueryKernel-inl.h"
+#include "kernels/ReadKernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+const Kernels* kernelTable() {
+  static const Kernels table{hwy::TargetName(HWY_TARGET),
+                             &searchFlat,
+                             &join,
+                             &boundBlocks,
+                             &writePairs,
+                             &curveKeys,
+                             &readRun32,
+                             &readFloat32,
+                             &readFloat64,
+                             &touchingLanes,
+                             &meetingLanes,
+                             &nearLanes};
+  return &table;
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_KERNEL_TABLE_INL_H

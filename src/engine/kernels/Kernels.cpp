@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Compiles the kernels once for each instruction set that the compiler knows, and finds them by name.
+#include "kernels/Kernels.h"
+
+// Vectors whose length the compiler doesn't know cannot be members of a struct, which the kernels rely on; on processors
+// with SVE the kernels for NEON run.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/Kernels.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+//
+#include "kernels/KernelTable-inl.h"
+
+#if HWY_ONCE
+
+#include <array>
+#include <iterator>
+
+namespace allpairs::engine {
+namespace {
+
+using TableFunction = const Kernels* (*)();
+
+struct Target {
+  std::int64_t bit;
+  TableFunction table;
+};
+
+/// Best first; null where this build has none.
+constexpr Target kTargets[] = {
+    {HWY_AVX3_DL, HWY_CHOOSE_AVX3_DL(kernelTable)}, {HWY_AVX3, HWY_CHOOSE_AVX3(kernelTable)},
+    {HWY_AVX2, HWY_CHOOSE_AVX2(kernelTable)},       {HWY_SSE4, HWY_CHOOSE_SSE4(kernelTable)},
+    {HWY_SSSE3, HWY_CHOOSE_SSSE3(kernelTable)},     {HWY_NEON, HWY_CHOOSE_NEON(kernelTable)},
+};
+
+/// What this processor has of them, and the scalar ones. Nothing to destroy: searches may come after all that is static.
+struct KernelList {
+  static constexpr std::size_t kMost = std::size(kTargets) + 2;
+
+  std::array<const Kernels*, kMost> kernels{};
+  std::array<std::string_view, kMost> names{};
+  std::size_t size = 0;
+
+  void add(const Kernels& added) {
+    kernels[size] = &added;
+    names[size++] = added.name;
+  }
+};
+
+KernelList availableKernels() {
+  KernelList result;
+  for (const Target& target : kTargets) {
+    if (target.table != nullptr && (hwy::SupportedTargets() & target.bit) != 0) result.add(*target.table());
+  }
+  const Kernels* baseline = HWY_STATIC_DISPATCH(kernelTable)();
+  if (result.size == 0 || result.kernels[result.size - 1] != baseline) result.add(*baseline);
+  if (baseline->name != scalarKernels().name) result.add(scalarKernels());
+  return result;
+}
+
+const KernelList& allKernels() {
+  static const KernelList kernels = availableKernels();
+  return kernels;
+}
+
+}  // namespace
+
+const Kernels* findKernels(std::string_view instructionSet) {
+  const KernelList& list = allKernels();
+  if (instructionSet.empty()) return list.kernels.front();
+  for (std::size_t i = 0; i < list.size; ++i) {
+    if (list.names[i] == instructionSet) return list.kernels[i];
+  }
+  return nullptr;
+}
+
+std::span<const std::string_view> kernelNames() { return {allKernels().names.data(), allKernels().size}; }
+
+}  // namespace allpairs::engine
+#endif  // HWY_ONCE

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "allpairs/Pair.h"
+#include "kernels/BvhView.h"
+#include "kernels/CurveGrid.h"
+#include "kernels/Hits.h"
+#include "kernels/Lanes.h"
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// Which columns each row is tested against.
+enum class Columns : std::uint8_t {
+  All,        ///< Two sets.
+  Following,  ///< One set, each pair at its smaller index.
+  Preceding,  ///< One set, each pair at its larger index.
+};
+
+/// Every row against its columns, row after row: the exhaustive search, or a part of it.
+struct FlatSearch {
+  LaneList rows;
+  LaneList columns;
+  std::size_t rowBegin = 0;
+  std::size_t rowEnd = 0;
+  Columns tested = Columns::All;
+};
+
+/// Working memory of a join, one per task that runs: at each level the candidates of the node in hand.
+struct JoinScratch {
+  explicit JoinScratch(std::pmr::memory_resource* memory) : level(makeArray<PerLevel, kMaxLevels>(memory)) {}
+
+  struct PerLevel {
+    explicit PerLevel(std::pmr::memory_resource* memory) : tiles(memory), sizes(memory), partners(memory) {}
+
+    std::pmr::vector<Buffer<CandidateTile>> tiles;
+    std::pmr::vector<std::size_t> sizes;  ///< How many candidates are in each tile.
+    std::size_t tileCount = 0;
+    Buffer<std::uint32_t> partners;
+
+    /// Room for the partners of a node; more than is asked for, so that scenes that move do not ask again and again.
+    std::uint32_t* roomFor(std::size_t size) {
+      constexpr std::size_t kLeastRoom = 4096;  // Few nodes have more.
+      if (size > partners.capacity()) partners.require(std::max(kLeastRoom, 2 * size));
+      return partners.data();
+    }
+
+    CandidateTile& nextTile() {
+      if (tileCount == tiles.size()) tiles.emplace_back(tiles.get_allocator().resource());
+      if (sizes.size() < tiles.size()) sizes.resize(tiles.size());
+      tiles[tileCount].require(1);  // There, unless it is new or there was no memory for it.
+      return tiles[tileCount++][0];
+    }
+  };
+  std::array<PerLevel, kMaxLevels> level;
+};
+
+/// The part of a join that starts from some leaf blocks of `first`.
+///
+/// Each node of `first` is met, from the top down and from left to right, with the list of the nodes of `second` on its
+/// level that touch it; in a join with itself, those from its own place on.
+struct JoinTask {
+  const BvhView* first = nullptr;
+  const BvhView* second = nullptr;
+  bool withItself = false;
+  std::size_t leafBegin = 0;
+  std::size_t leafEnd = 0;
+  JoinScratch* scratch = nullptr;
+};
+
+/// What is known of sixteen boxes after they were read from rows of six.
+struct BlockRead {
+  bool exact = true;             ///< Their lanes are exactly the boxes.
+  std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
+};
+
+/// What is compiled once for each instruction set. The results do not depend on which one runs.
+struct Kernels {
+  std::string_view name;
+
+  /// Tests rows of a list against a range of columns each, without any hierarchy.
+  void (*searchFlat)(const FlatSearch& search, Hits& hits);
+
+  /// Joins part of one hierarchy with another, or with itself.
+  void (*join)(const JoinTask& task, Hits& hits);
+
+  /// Bounds of blocks [begin, end), each written as one lane of `parents`.
+  void (*boundBlocks)(const LaneBlock* blocks, std::size_t begin, std::size_t end, LaneBlock* parents);
+
+  /// Turns hits into pairs.
+  void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
+
+  /// The keys of the boxes of some blocks, sixteen of each.
+  void (*curveKeys)(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys);
+
+  /// Reads sixteen boxes from rows that follow each other.
+  BlockRead (*readRun32)(const float* rows, LaneBlock& block);
+
+  /// Reads sixteen boxes, those that start `offsets` values after `rows`, as lanes that are no smaller.
+  BlockRead (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);
+  BlockRead (*readFloat64)(const double* rows, const std::int32_t* offsets, LaneBlock& block);
+
+  /// Which of sixteen boxes a query may meet, as bits: all that it does, and few others. Where a number is asked for, it
+  /// is no more than what the query comes to, for each of them: the time of meeting, the square of the distance.
+  std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
+  std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
+  std::uint32_t (*nearLanes)(const LaneBlock& block, const PointLanes& point, float limit, float* squares);
+};
+
+/// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.
+[[nodiscard]] const Kernels* findKernels(std::string_view instructionSet);
+
+/// The names of the instruction sets that this processor has, best first.
+[[nodiscard]] std::span<const std::string_view> kernelNames();
+
+/// The kernels with one lane, compiled without vector instructions.
+[[nodiscard]] const Kernels& scalarKernels();
+
+}  // namespace allpairs::engine

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The test of one box against a vector of boxes. Included once for each instruction set: see Kernels.cpp.
+
+#if defined(ALLPAIRS_LANE_TEST_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_LANE_TEST_INL_H
+#undef ALLPAIRS_LANE_TEST_INL_H
+#else
+#define ALLPAIRS_LANE_TEST_INL_H
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hwy/highway.h"
+#include "kernels/Lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Blocks of 16 lanes bound the width, so that a block is a whole number of vectors everywhere.
+using FloatTag = hn::CappedTag<float, kFanOut>;
+using IdTag = hn::CappedTag<std::uint32_t, kFanOut>;
+using FloatVector = hn::Vec<FloatTag>;
+using FloatMask = hn::Mask<FloatTag>;
+
+/// One box in all lanes.
+struct Query {
+  FloatVector minX, minY, minZ, maxX, maxY, maxZ;
+};
+
+HWY_INLINE Query broadcast(const LaneBox& box) {
+  const FloatTag d;
+  return {hn::Set(d, box.bound[0]), hn::Set(d, box.bound[1]), hn::Set(d, box.bound[2]),
+          hn::Set(d, box.bound[3]), hn::Set(d, box.bound[4]), hn::Set(d, box.bound[5])};
+}
+
+/// The lanes that meet the query on an axis. Both sides are boxes that are not empty, or lanes that never overlap.
+///
+/// Minima and maxima run on more ports of a processor than comparisons into a mask, so a mix of both is fastest: a
+/// conjunction of two comparisons under a mask on the first axis, max(min, min) <= min(max, max) on the others.
+HWY_INLINE FloatMask meets(FloatVector queryMin, FloatVector queryMax, FloatVector min, FloatVector max) {
+#if HWY_TARGET <= HWY_AVX3
+  return FloatMask{_mm512_mask_cmp_ps_mask(hn::Le(queryMin, max).raw, min.raw, queryMax.raw, _CMP_LE_OQ)};
+#else
+  return hn::Le(hn::Max(queryMin, min), hn::Min(queryMax, max));
+#endif
+}
+
+/// The lanes that meet on this axis too.
+HWY_INLINE FloatMask meetsAlso(FloatMask also, FloatVector queryMin, FloatVector queryMax, FloatVector min,
+                               FloatVector max) {
+#if HWY_TARGET <= HWY_AVX3
+  // A comparison under a mask: the conjunction costs nothing.
+  return FloatMask{
+      _mm512_mask_cmp_ps_mask(also.raw, hn::Max(queryMin, min).raw, hn::Min(queryMax, max).raw, _CMP_LE_OQ)};
+#else
+  return hn::And(also, meets(queryMin, queryMax, min, max));
+#endif
+}
+
+/// The lanes of six rows, each at its own pointer plus `i`, that overlap the query.
+template <class Rows>
+HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t i) {
+  const FloatTag d;
+  const FloatMask x = meets(q.minX, q.maxX, hn::LoadU(d, &bound[0][i]), hn::LoadU(d, &bound[3][i]));
+  const FloatMask xy = meetsAlso(x, q.minY, q.maxY, hn::LoadU(d, &bound[1][i]), hn::LoadU(d, &bound[4][i]));
+  return meetsAlso(xy, q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
+}
+
+alignas(64) inline constexpr std::array<std::uint32_t, kFanOut> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
+                                                                             8, 9, 10, 11, 12, 13, 14, 15};
+
+/// first, first + 1, and so on. Not hn::Iota, which GCC turns into a store of each number and a load that waits for all.
+HWY_INLINE hn::Vec<IdTag> numbersFrom(std::size_t first) {
+  const IdTag d;
+  return hn::Add(hn::Load(d, kLaneNumbers.data()), hn::Set(d, static_cast<std::uint32_t>(first)));
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_LANE_TEST_INL_H

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// Boxes, or bounds, that lie together: the fan-out of the hierarchy, the same for every instruction set.
+inline constexpr std::size_t kFanOut = 16;
+
+/// The largest finite float32. Lanes never reach beyond it, so that a lane of +infinity below and -infinity above
+/// overlaps nothing at all, an infinite box included.
+inline constexpr float kLaneMax = std::numeric_limits<float>::max();
+inline constexpr float kNever = std::numeric_limits<float>::infinity();
+
+/// A box in float32, rounded outward: minx miny minz maxx maxy maxz.
+struct LaneBox {
+  std::array<float, 6> bound;
+};
+
+[[nodiscard]] inline bool touch(const LaneBox& a, const LaneBox& b) noexcept {
+  bool result = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result = result && a.bound[axis] <= b.bound[axis + 3] && b.bound[axis] <= a.bound[axis + 3];
+  }
+  return result;
+}
+
+inline constexpr LaneBox kNeverLanes{{kNever, kNever, kNever, -kNever, -kNever, -kNever}};
+inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLaneMax, kLaneMax, kLaneMax}};
+
+/// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN. No branches.
+[[nodiscard]] inline float roundDown(double value) noexcept {
+  constexpr auto kMax = static_cast<double>(kLaneMax);
+  const double above = value > -kMax ? value : -kMax;
+  const double inside = above < kMax ? above : kMax;
+  const auto nearest = static_cast<float>(inside);
+  // One float32 further down is one less for a positive number's bits and one more for a negative one's. Zero never has
+  // to go down: a negative value that is rounded to zero becomes -0.
+  const auto bits = std::bit_cast<std::int32_t>(nearest);
+  const std::int32_t step = -1 - 2 * (bits >> 31);
+  const std::int32_t isAbove = -static_cast<std::int32_t>(static_cast<double>(nearest) > inside);
+  return std::bit_cast<float>(bits + (step & isAbove));
+}
+
+/// The least float32 that is not below the value, kept within the finite ones; the greatest for a NaN.
+[[nodiscard]] inline float roundUp(double value) noexcept { return -roundDown(-value); }
+
+/// Sixteen boxes, a row for each bound: what one vector, or a few, can test at once.
+struct alignas(64) LaneBlock {
+  std::array<std::array<float, kFanOut>, 6> bound;
+
+  void set(std::size_t lane, const LaneBox& box) noexcept {
+    for (std::size_t row = 0; row < 6; ++row) bound[row][lane] = box.bound[row];
+  }
+  [[nodiscard]] LaneBox get(std::size_t lane) const noexcept {
+    LaneBox box;
+    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][lane];
+    return box;
+  }
+};
+
+/// Up to so many boxes with their ids, an array for each bound: what stays in the first-level cache while it is tested.
+///
+/// The distance between the arrays is a constant, so that kernels reach them all from one register.
+/// There is room behind the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
+template <std::size_t kBoxes>
+struct alignas(64) LaneTileOf {
+  static constexpr std::size_t kCapacity = kBoxes;
+  static constexpr std::size_t kPadding = 64;
+
+  std::array<std::array<float, kCapacity + kPadding>, 6> bound;
+  std::array<std::uint32_t, kCapacity + kPadding> id;
+
+  void set(std::size_t i, const LaneBox& box, std::uint32_t boxId) noexcept {
+    for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
+    id[i] = boxId;
+  }
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept {
+    LaneBox box;
+    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][i];
+    return box;
+  }
+};
+
+/// A tile of an exhaustive search, and a smaller one for the candidates of a join, which are seldom many.
+using LaneTile = LaneTileOf<1024>;
+using CandidateTile = LaneTileOf<512>;
+
+/// Any number of boxes, in tiles of which only the last may be partly filled.
+struct LaneList {
+  LaneTile* tiles = nullptr;
+  std::size_t size = 0;
+
+  [[nodiscard]] LaneTile& tileOf(std::size_t i) const noexcept { return tiles[i / LaneTile::kCapacity]; }
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return tileOf(i).get(i % LaneTile::kCapacity); }
+  [[nodiscard]] std::uint32_t id(std::size_t i) const noexcept { return tileOf(i).id[i % LaneTile::kCapacity]; }
+
+  /// How many tiles `size` boxes take.
+  [[nodiscard]] static std::size_t tilesFor(std::size_t size) noexcept {
+    return (size + LaneTile::kCapacity - 1) / LaneTile::kCapacity;
+  }
+};
+
+/// What is added to, or taken from, a result in float32 so that it bounds the same in double: far more than the four
+/// roundings of it can come to, and than what may get lost below the least normal number.
+inline constexpr float kQuerySlack = 0x1p-20F;
+inline constexpr float kQueryTiny = 1e-36F;
+
+/// A box that moves, or a ray, against sixteen boxes.
+struct SweepLanes {
+  enum class Axis : std::uint8_t {
+    Rests,      ///< The boxes must overlap on this axis.
+    Forward,    ///< The query moves to greater values,
+    Backward,   ///< or to smaller ones.
+    Unbounded,  ///< So fast or slow that float32 can't say: whatever is met on the other axes may be met.
+  };
+
+  std::array<float, 3> min;
+  std::array<float, 3> max;
+  std::array<float, 3> inverse{};  ///< Of the speed.
+  std::array<Axis, 3> axis{};
+};
+
+/// A point between two float32 on each axis.
+struct PointLanes {
+  std::array<float, 3> below;
+  std::array<float, 3> above;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// One query against the sixteen boxes of a block: which of them it may meet, and how soon at the earliest.
+
+#if defined(ALLPAIRS_QUERY_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_QUERY_KERNEL_INL_H
+#undef ALLPAIRS_QUERY_KERNEL_INL_H
+#else
+#define ALLPAIRS_QUERY_KERNEL_INL_H
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/LaneTest-inl.h"
+#include "kernels/ReadKernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+/// The bits of all lanes of a block, from maskOf(first lane of a vector).
+template <class MaskOf>
+HWY_INLINE std::uint32_t bitsOfBlock(const MaskOf& maskOf) {
+  const FloatTag d;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) bits |= bitsOf(d, maskOf(i)) << i;
+  return bits;
+}
+
+/// Which lanes touch a box.
+std::uint32_t touchingLanes(const LaneBlock& block, const LaneBox& box) {
+  const Query query = broadcast(box);
+  return bitsOfBlock([&](std::size_t i) HWY_ATTR { return overlapping(query, block.bound, i); });
+}
+
+/// The bounds of boxes on an axis; the largest float32 stands for infinity as well.
+struct AxisBounds {
+  FloatVector min, max;
+};
+
+HWY_INLINE AxisBounds boundsOn(const LaneBlock& block, std::size_t axis, std::size_t i) {
+  const FloatTag d;
+  const auto most = hn::Set(d, kLaneMax);
+  const auto least = hn::Set(d, -kLaneMax);
+  const auto min = hn::Load(d, &block.bound[axis][i]);
+  const auto max = hn::Load(d, &block.bound[axis + 3][i]);
+  return {hn::IfThenElse(hn::Le(min, least), hn::Set(d, -kNever), min),
+          hn::IfThenElse(hn::Ge(max, most), hn::Set(d, kNever), max)};
+}
+
+/// From when on, and until when, a query can be within boxes.
+struct SlabInterval {
+  FloatVector enter, leave;
+  FloatMask possible;
+};
+
+/// The stay on one axis. Whatever overflows is kept to the side on which nothing is lost, and so is a NaN.
+HWY_INLINE void clipToSlab(const SweepLanes& sweep, std::size_t axis, AxisBounds box, SlabInterval& stay) {
+  const FloatTag d;
+  const auto queryMin = hn::Set(d, sweep.min[axis]);
+  const auto queryMax = hn::Set(d, sweep.max[axis]);
+  const bool forward = sweep.axis[axis] == SweepLanes::Axis::Forward;
+  const auto near = forward ? hn::Sub(box.min, queryMax) : hn::Sub(queryMin, box.max);
+  const auto far = forward ? hn::Sub(box.max, queryMin) : hn::Sub(queryMax, box.min);
+  const auto most = hn::Set(d, kLaneMax);
+  const auto least = hn::Set(d, -kLaneMax);
+  const auto inverse = hn::Set(d, sweep.inverse[axis]);
+  const auto slack = hn::Set(d, kQuerySlack);
+  const auto tiny = hn::Set(d, kQueryTiny);
+  const auto in = hn::Min(hn::Mul(hn::Min(near, most), inverse), most);
+  const auto out = hn::Max(hn::Mul(hn::Max(far, least), inverse), least);
+  const auto enter = hn::Sub(hn::Sub(in, hn::Mul(hn::Abs(in), slack)), tiny);
+  const auto leave = hn::Add(hn::Add(out, hn::Mul(hn::Abs(out), slack)), tiny);
+  stay.enter = hn::IfThenElse(hn::Gt(enter, stay.enter), enter, stay.enter);
+  stay.leave = hn::IfThenElse(hn::Lt(leave, stay.leave), leave, stay.leave);
+}
+
+HWY_INLINE SlabInterval slabIntervalIn(const LaneBlock& block, const SweepLanes& sweep, float limit, std::size_t i) {
+  const FloatTag d;
+  // A lane that holds no box has a minimum of infinity, which no box has.
+  SlabInterval stay{hn::Zero(d), hn::Set(d, limit), hn::Lt(hn::Load(d, &block.bound[0][i]), hn::Set(d, kNever))};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (sweep.axis[axis] == SweepLanes::Axis::Unbounded) continue;
+    const AxisBounds box = boundsOn(block, axis, i);
+    if (sweep.axis[axis] == SweepLanes::Axis::Rests) {
+      const auto meets =
+          hn::And(hn::Le(box.min, hn::Set(d, sweep.max[axis])), hn::Le(hn::Set(d, sweep.min[axis]), box.max));
+      stay.possible = hn::And(stay.possible, meets);
+    } else {
+      clipToSlab(sweep, axis, box, stay);
+    }
+  }
+  return stay;
+}
+
+/// Which lanes a moving box may meet up to `limit`, and when, or later.
+std::uint32_t meetingLanes(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times) {
+  return bitsOfBlock([&](std::size_t i) HWY_ATTR {
+    const FloatTag d;
+    const SlabInterval stay = slabIntervalIn(block, sweep, limit, i);
+    hn::StoreU(stay.enter, d, times + i);
+    return hn::AndNot(hn::Gt(stay.enter, stay.leave), stay.possible);
+  });
+}
+
+/// Which lanes may be as near to a point as the square root of `limit`, and the squares of their distances, or less.
+std::uint32_t nearLanes(const LaneBlock& block, const PointLanes& point, float limit, float* squares) {
+  return bitsOfBlock([&](std::size_t i) HWY_ATTR {
+    const FloatTag d;
+    auto sum = hn::Zero(d);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto ahead = hn::Sub(hn::Load(d, &block.bound[axis][i]), hn::Set(d, point.above[axis]));
+      const auto behind = hn::Sub(hn::Set(d, point.below[axis]), hn::Load(d, &block.bound[axis + 3][i]));
+      const auto apart = hn::Max(hn::Max(ahead, behind), hn::Zero(d));
+      sum = hn::Add(sum, hn::Mul(apart, apart));
+    }
+    sum = hn::Min(sum, hn::Set(d, kLaneMax));
+    const auto least = hn::Sub(hn::Sub(sum, hn::Mul(sum, hn::Set(d, kQuerySlack))), hn::Set(d, kQueryTiny));
+    const auto nonnegative = hn::Max(least, hn::Zero(d));
+    hn::StoreU(nonnegative, d, squares + i);
+    const auto isBox = hn::Lt(hn::Load(d, &block.bound[0][i]), hn::Set(d, kNever));
+    return hn::And(isBox, hn::Le(nonnegative, hn::Set(d, limit)));
+  });
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_QUERY_KERNEL_INL_H

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <memory_resource>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace allpairs::engine {
+
+/// Where memory comes from if nobody says otherwise: aligned operator new. Linux is asked for large pages (2 MiB) where whole
+/// ones lie within a block: most of the time of a first touch is spent on page faults.
+[[nodiscard]] std::pmr::memory_resource* defaultMemory() noexcept;
+
+/// The memory that options name, or the default.
+[[nodiscard]] inline std::pmr::memory_resource* memoryOr(std::pmr::memory_resource* memory) noexcept {
+  return memory != nullptr ? memory : defaultMemory();
+}
+
+/// Destroys an object and gives its memory back to where it came from.
+struct Deleter {
+  std::pmr::memory_resource* memory = nullptr;
+
+  template <class T>
+  void operator()(T* object) const noexcept {
+    std::pmr::polymorphic_allocator<>(memory).delete_object(object);
+  }
+};
+
+template <class T>
+using Owned = std::unique_ptr<T, Deleter>;
+
+/// An object in memory of a resource, which takes all of its own memory from there too.
+template <class T>
+[[nodiscard]] Owned<T> makeOwned(std::pmr::memory_resource* memory) {
+  return {std::pmr::polymorphic_allocator<>(memory).template new_object<T>(memory), Deleter{memory}};
+}
+
+/// An array of objects that take their memory from a resource.
+template <class T, std::size_t kSize>
+[[nodiscard]] std::array<T, kSize> makeArray(std::pmr::memory_resource* memory) {
+  return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+    return std::array<T, kSize>{(static_cast<void>(kIndex), T(memory))...};
+  }(std::make_index_sequence<kSize>());
+}
+
+/// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.
+///
+/// Not a std::vector because a vector would write every element before the engine does.
+template <class T>
+class Buffer {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+ public:
+  explicit Buffer(std::pmr::memory_resource* memory) noexcept : m_memory(memory) {}
+  Buffer(Buffer&& other) noexcept
+      : m_memory(other.m_memory),
+        m_data(std::exchange(other.m_data, nullptr)),
+        m_capacity(std::exchange(other.m_capacity, 0)) {}
+  Buffer& operator=(Buffer&& other) noexcept {
+    std::swap(m_memory, other.m_memory);
+    std::swap(m_data, other.m_data);
+    std::swap(m_capacity, other.m_capacity);
+    return *this;
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+  ~Buffer() { release(); }
+
+  /// Makes room for `size` values. What was there before is lost if the buffer has to grow, or fails to.
+  void require(std::size_t size) {
+    if (size <= m_capacity) return;
+    release();
+    m_data = allocate(size);
+    m_capacity = size;
+  }
+
+  /// Makes room for `size` values and keeps what is there; at least doubles, so that appending is linear. If there is no
+  /// memory, the buffer is as it was.
+  void grow(std::size_t size) {
+    if (size <= m_capacity) return;
+    const std::size_t capacity = std::max(size, 2 * m_capacity);
+    T* larger = allocate(capacity);
+    if (m_data != nullptr) std::memcpy(static_cast<void*>(larger), m_data, m_capacity * sizeof(T));
+    release();
+    m_data = larger;
+    m_capacity = capacity;
+  }
+
+  /// Gives the memory back.
+  void release() noexcept {
+    if (m_data != nullptr) m_memory->deallocate(m_data, m_capacity * sizeof(T), kAlignment);
+    m_data = nullptr;
+    m_capacity = 0;
+  }
+
+  [[nodiscard]] T* data() const noexcept { return m_data; }
+  [[nodiscard]] std::size_t capacity() const noexcept { return m_capacity; }
+  [[nodiscard]] T& operator[](std::size_t i) const noexcept { return m_data[i]; }
+
+ private:
+  static constexpr std::size_t kAlignment = 64;
+
+  [[nodiscard]] T* allocate(std::size_t size) const {
+    if (size > static_cast<std::size_t>(-1) / sizeof(T) / 4) throw std::bad_alloc();
+    return static_cast<T*>(m_memory->allocate(size * sizeof(T), kAlignment));
+  }
+
+  std::pmr::memory_resource* m_memory;
+  T* m_data = nullptr;
+  std::size_t m_capacity = 0;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Pair.h"
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// How pairs are cut into buckets of neighbouring keys. The key is the index that they are ordered by first.
+struct BucketRule {
+  unsigned keyBits = 0;  ///< Keys of a bucket differ in these low bits only.
+  std::size_t buckets = 0;
+  unsigned otherBits = 0;
+  bool bySecond = false;
+
+  BucketRule(std::size_t firsts, std::size_t seconds, Order order);
+
+  /// Whether what the keys of a bucket differ in and the other index make a number of 32 bits.
+  [[nodiscard]] bool packs() const noexcept { return otherBits < 32 && keyBits + otherBits <= 32; }
+};
+
+/// Puts the pairs of a bucket in order that lie as numbers of 32 bits in the second half of their place.
+void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<Pair> place) noexcept;
+
+/// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they are
+/// found, so that they need not be written and read once more.
+///
+/// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have.
+class PairBuckets {
+ public:
+  explicit PairBuckets(std::pmr::memory_resource* memory)
+      : m_pairs(memory), m_following(memory), m_next(memory), m_fullChunks(memory) {}
+
+  /// Starts anew, as one of so many workers; memory is kept.
+  void start(const BucketRule& rule, std::size_t workers);
+
+  void add(std::span<const Pair> pairs);
+
+  [[nodiscard]] std::size_t size(std::size_t bucket) const noexcept {
+    return m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
+  }
+
+  /// Writes the pairs of a bucket as numbers of 32 bits, what their keys differ in above the other index; returns the end.
+  std::uint32_t* pack(const BucketRule& rule, std::size_t bucket, std::uint32_t* to) const noexcept;
+
+ private:
+  static constexpr std::size_t kChunk = 128;
+
+  template <bool kBySecond>
+  void distribute(std::span<const Pair> pairs);
+  std::size_t chunkAfter(std::size_t chunk);
+  void makeRoom(std::size_t chunks);
+
+  unsigned m_keyBits = 0;
+  bool m_bySecond = false;
+  std::size_t m_chunks = 0;  ///< Those in use; the first one of each bucket has the bucket's number.
+  Buffer<Pair> m_pairs;
+  Buffer<std::uint32_t> m_following;   ///< By chunk: the next one of its bucket.
+  Buffer<std::size_t> m_next;          ///< By bucket: where its next pair goes.
+  Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
+};
+
+}  // namespace allpairs::engine

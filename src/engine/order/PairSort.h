@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "allpairs/Executor.h"
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Pair.h"
+#include "bvh/RadixSort.h"
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// Orders pairs by (first, second) or (second, first): as numbers of 64 bits, by a radix sort.
+///
+/// Cost:    about five passes over all pairs; as much memory again as the pairs.
+/// Threads: parallel over the executor; the result is the same for any.
+class PairSort {
+ public:
+  explicit PairSort(std::pmr::memory_resource* memory) : m_own(memory), m_radix(memory) {}
+
+  /// What a sort is told besides where the pairs are.
+  struct Task {
+    std::size_t firsts = 0;   ///< All first indices are below.
+    std::size_t seconds = 0;  ///< All second indices are below.
+    Order order = Order::ByFirst;
+
+    /// Memory that may be overwritten: where the pairs fit in there, the sort needs none of its own.
+    std::span<Pair> spare;
+  };
+
+  void sort(std::span<Pair> pairs, const Task& task, Executor& executor);
+
+ private:
+  Buffer<Pair> m_own;
+  RadixSort m_radix;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "allpairs/Overlaps.h"
+#include "kernels/BvhView.h"
+#include "kernels/Kernels.h"
+#include "memory/Memory.h"
+#include "search/PairSink.h"
+
+namespace allpairs::engine {
+
+/// Joins hierarchies, or tests rows of boxes against columns, on all threads of an executor. Each thread has a worker, and
+/// each worker a sink for its pairs.
+class JoinRunner {
+ public:
+  explicit JoinRunner(std::pmr::memory_resource* memory) : m_workers(memory), m_segments(memory) {}
+
+  /// What to run, cut into tasks by units: leaf blocks of `first`, or rows.
+  struct Job {
+    const BvhView* first = nullptr;
+    const BvhView* second = nullptr;  ///< The same as `first` in a join with itself; else of the same depth.
+    std::size_t units = 0;
+    std::size_t firstLarge = 0;  ///< Leaf blocks from here on hold boxes larger than most.
+
+    bool isFlat = false;  ///< Whether to run `flat`, and not a join.
+    FlatSearch flat;
+
+    static Job ofJoin(const BvhView& first, const BvhView& second);
+  };
+
+  /// Where the pairs of a task are.
+  struct Segment {
+    std::size_t worker = 0;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+
+  /// Starts anew, with a worker for each thread of the executor; returns how many there are. The options must outlive the
+  /// runs.
+  std::size_t start(const SinkOptions& options, const Executor& executor);
+
+  /// Runs all tasks of a job. Sinks keep what they have.
+  void run(const Job& job, Executor& executor);
+
+  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.get_allocator().resource(); }
+  [[nodiscard]] std::size_t workers() const noexcept { return m_workers.size(); }
+  [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker]->sink; }
+  [[nodiscard]] std::span<const Segment> segments() const noexcept { return m_segments; }
+
+  /// What all workers have done since start().
+  [[nodiscard]] OverlapStatistics totals() const noexcept;
+
+ private:
+  struct Worker {
+    explicit Worker(std::pmr::memory_resource* memory) : sink(memory), scratch(memory) {}
+
+    PairSink sink;
+    JoinScratch scratch;
+    std::atomic_flag busy;
+  };
+
+  std::size_t claimWorker();
+  void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
+
+  const Kernels* m_kernels = nullptr;
+  std::pmr::vector<Owned<Worker>> m_workers;
+  std::pmr::vector<Segment> m_segments;
+};
+
+}  // namespace allpairs::engine

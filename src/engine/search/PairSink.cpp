@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "search/PairSink.h"
+
+#include <algorithm>
+#include <string>
+
+#include "allpairs/Error.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
+constexpr std::size_t kHitCapacity = 2048;
+
+/// Where they begin within a page, in ids: behind where the bounds of some hundred boxes lie in theirs. A processor that
+/// loads from the same place in another page as it has just stored to waits for the store.
+constexpr std::size_t kHitOffset = 640;
+constexpr std::size_t kHitStride = 3072;
+static_assert(kHitStride >= kHitCapacity + Hits::kSlack);
+
+}  // namespace
+
+void checkLimit(const SinkOptions& options, std::uint64_t count) {
+  if (options.countOnly || count <= options.maxPairs) return;
+  if (!options.limitIsCallers) throw Overfull();
+  throw LimitExceeded(count, "more than " + std::to_string(options.maxPairs) + " pairs, the limit that was set; " +
+                                 std::to_string(count) + " had been found");
+}
+
+void PairSink::start(const SinkOptions& options, std::size_t worker) {
+  m_options = &options;
+  m_worker = worker;
+  m_memory.require(kHitOffset + 2 * kHitStride);
+  m_hits = {};
+  m_hits.row = m_memory.data() + kHitOffset;
+  m_hits.partner = m_hits.row + kHitStride;
+  m_hits.capacity = kHitCapacity;
+  m_hits.countOnly = options.countOnly && !isSelective();
+  m_hits.receiver = this;
+  m_hits.flush = [](void* self, Hits& hits) { static_cast<PairSink*>(self)->receive(hits); };
+  if (!isSelective() && !options.countOnly && !options.emit && options.side != PairSide::SmallerFirst) {
+    m_hits.rowSecond = options.side == PairSide::RowSecond;
+    m_hits.takePairs = [](void* self, std::size_t count) { static_cast<PairSink*>(self)->take(count); };
+    m_hits.roomForPairs = [](void* self, Hits& hits, std::size_t most) {
+      return static_cast<PairSink*>(self)->roomFor(hits, most);
+    };
+  }
+  m_size = 0;
+  m_count = 0;
+  m_exactTests = 0;
+  // Then it never needs more.
+  if (options.emit) m_pairs.grow(kHitCapacity + Hits::kSlack);
+}
+
+bool PairSink::isSelective() const noexcept {
+  return m_options->firstRow != 0 || m_options->ascendingOnly ||
+         (m_options->test != nullptr && m_options->test->needed());
+}
+
+RoomForPairs PairSink::roomFor(Hits& hits, std::size_t most) {
+  receive(hits);
+  m_pairs.grow(std::max(m_options->likelyPairs, m_size + most + Hits::kSlack));
+  return {m_pairs.data() + m_size, m_size};
+}
+
+void PairSink::take(std::size_t count) {
+  m_size += count;
+  m_count += count;
+  checkLimit(*m_options, m_count);
+}
+
+void PairSink::receive(Hits& hits) {
+  if (hits.size == 0) return;
+  const std::size_t begin = m_size;
+  m_pairs.grow(std::max(m_options->likelyPairs, begin + hits.size + Hits::kSlack));
+  m_options->kernels->writePairs(hits, m_options->side, m_pairs.data() + begin);
+  m_size += hits.size;
+  hits.size = 0;
+  if (isSelective()) selectTested(begin);
+  m_count += m_size - begin;
+  if (m_options->countOnly) m_size = begin;
+  checkLimit(*m_options, m_count);
+  if (m_options->emit) emit();
+}
+
+void PairSink::selectTested(std::size_t begin) {
+  std::size_t kept = begin;
+  for (std::size_t i = begin; i < m_size; ++i) {
+    Pair pair = m_pairs[i];
+    (m_options->side == PairSide::RowSecond ? pair.second : pair.first) += m_options->firstRow;
+    if (m_options->ascendingOnly && pair.first >= pair.second) continue;
+    if (m_options->test->keeps(pair)) m_pairs[kept++] = pair;
+  }
+  if (m_options->test->exactTestNeeded()) m_exactTests += m_size - begin;
+  m_size = kept;
+}
+
+void PairSink::emit() {
+  const std::size_t taken = (*m_options->emit)({m_pairs.data(), m_size}, m_worker);
+  std::copy(m_pairs.data() + taken, m_pairs.data() + m_size, m_pairs.data());
+  m_size -= taken;
+}
+
+}  // namespace allpairs::engine

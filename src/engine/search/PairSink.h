@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "allpairs/FunctionRef.h"
+#include "allpairs/Pair.h"
+#include "kernels/Hits.h"
+#include "kernels/Kernels.h"
+#include "memory/Memory.h"
+#include "search/PairTest.h"
+
+namespace allpairs::engine {
+
+/// More pairs than the search has set itself as a limit. Not an error: the search catches it.
+struct Overfull {};
+
+/// How hits become pairs, the same for all workers of a search.
+struct SinkOptions {
+  const Kernels* kernels = nullptr;
+  const PairTest* test = nullptr;  ///< If null, all pairs stay.
+  PairSide side = PairSide::RowFirst;
+  std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
+
+  /// Room for this many pairs is made at first: address space, of which only what is used takes memory.
+  std::size_t likelyPairs = 0;
+
+  /// Whether more pairs than that are the caller's to hear of; otherwise they are an Overfull for the search itself.
+  bool limitIsCallers = true;
+  bool countOnly = false;
+
+  /// Rows are numbered from here; more than 0 only where a part of a set is searched.
+  std::uint32_t firstRow = 0;
+
+  /// Keeps pairs with first < second only: where part of a set meets the whole of it.
+  bool ascendingOnly = false;
+
+  /// Hands over the pairs of a worker, which it may change, whenever some have come; returns how many of them, from the
+  /// first, the sink is to forget. Without it the sink keeps all pairs.
+  std::optional<FunctionRef<std::size_t(std::span<Pair> pairs, std::size_t worker)>> emit = std::nullopt;
+};
+
+/// Throws LimitExceeded or Overfull where there are more pairs than the options allow.
+void checkLimit(const SinkOptions& options, std::uint64_t count);
+
+/// Receives the hits of a worker, turns them into pairs, tests what is left to test, and keeps, counts or emits them.
+class PairSink {
+ public:
+  explicit PairSink(std::pmr::memory_resource* memory) : m_memory(memory), m_pairs(memory) {}
+
+  /// Starts anew: nothing received, memory kept. The options must outlive the search.
+  void start(const SinkOptions& options, std::size_t worker);
+
+  /// Where kernels put their hits.
+  [[nodiscard]] Hits& hits() noexcept { return m_hits; }
+
+  /// Takes what the kernels have left in the buffer of hits. To be called when they are done.
+  void finish() { receive(m_hits); }
+
+  [[nodiscard]] Buffer<Pair>& pairs() noexcept { return m_pairs; }
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+
+  /// All pairs so far, emitted ones included.
+  [[nodiscard]] std::uint64_t count() const noexcept { return m_count + m_hits.count; }
+  [[nodiscard]] std::uint64_t exactTests() const noexcept { return m_exactTests; }
+
+ private:
+  [[nodiscard]] bool isSelective() const noexcept;
+  RoomForPairs roomFor(Hits& hits, std::size_t most);
+  void take(std::size_t count);
+  void receive(Hits& hits);
+  void selectTested(std::size_t begin);
+  void emit();
+
+  const SinkOptions* m_options = nullptr;
+  std::size_t m_worker = 0;
+  Hits m_hits;
+  Buffer<std::uint32_t> m_memory;
+  Buffer<Pair> m_pairs;
+  std::size_t m_size = 0;
+  std::uint64_t m_count = 0;
+  std::uint64_t m_exactTests = 0;
+};
+
+}  // namespace allpairs::engine

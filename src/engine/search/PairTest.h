@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "allpairs/BoxSet.h"
+#include "allpairs/Filter.h"
+#include "allpairs/Pair.h"
+
+namespace allpairs::engine {
+
+/// Whether each side accepts what the other one is.
+[[nodiscard]] inline bool acceptEachOther(std::uint32_t categoryA, std::uint32_t maskA, std::uint32_t categoryB,
+                                          std::uint32_t maskB) noexcept {
+  return ((categoryA & maskB) != 0) & ((categoryB & maskA) != 0);
+}
+
+/// What a test looks at of the boxes of one side: bounds, margins, and filters, `stride` values apart. What is null takes
+/// its default.
+struct TestedBoxes {
+  const BoxSet* boxes = nullptr;
+  const std::uint32_t* categories = nullptr;
+  const std::uint32_t* masks = nullptr;
+  const std::uint32_t* groups = nullptr;
+  const std::uint32_t* owners = nullptr;
+  std::size_t stride = 1;
+
+  static TestedBoxes of(const BoxSet& boxes, const FilterBits& bits) noexcept {
+    const auto dataOf = [](std::span<const std::uint32_t> values) { return values.empty() ? nullptr : values.data(); };
+    return {&boxes, dataOf(bits.categories), dataOf(bits.masks), dataOf(bits.groups)};
+  }
+  [[nodiscard]] bool isFiltered() const noexcept {
+    return categories != nullptr || masks != nullptr || groups != nullptr || owners != nullptr;
+  }
+};
+
+/// What a pair that passed the float32 test must pass still: the exact test in double, where lanes were rounded, and
+/// the filter.
+class PairTest {
+ public:
+  PairTest(const TestedBoxes& first, const TestedBoxes& second, double distance,
+           const std::function<bool(std::uint32_t, std::uint32_t)>& accept)
+      : m_first(first),
+        m_second(second),
+        m_distance(distance),
+        m_accept(&accept),
+        m_filtered(first.isFiltered() || second.isFiltered() || accept) {}
+
+  /// Set once the lanes are known.
+  void requireExactTest(bool required) noexcept { m_exact = required; }
+
+  [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
+  [[nodiscard]] bool exactTestNeeded() const noexcept { return m_exact; }
+
+  [[nodiscard]] bool keeps(Pair pair) const { return (!m_exact || touches(pair)) && (!m_filtered || passes(pair)); }
+
+  /// Moves the pairs that it keeps to the front; returns how many there are.
+  [[nodiscard]] std::size_t select(std::span<Pair> pairs) const {
+    if (!needed()) return pairs.size();
+    std::size_t kept = 0;
+    for (const Pair pair : pairs) {
+      if (keeps(pair)) pairs[kept++] = pair;
+    }
+    return kept;
+  }
+
+ private:
+  [[nodiscard]] bool touches(Pair pair) const {
+    const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
+    return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);
+  }
+
+  [[nodiscard]] bool passes(Pair pair) const {
+    const std::uint32_t all = 0xFFFFFFFFU;
+    const std::size_t a = pair.first * m_first.stride;
+    const std::size_t b = pair.second * m_second.stride;
+    const auto at = [](const std::uint32_t* values, std::size_t i, std::uint32_t otherwise) {
+      return values == nullptr ? otherwise : values[i];
+    };
+    if (!acceptEachOther(at(m_first.categories, a, all), at(m_first.masks, a, all), at(m_second.categories, b, all),
+                         at(m_second.masks, b, all))) {
+      return false;
+    }
+    const std::uint32_t group = at(m_first.groups, a, 0);
+    if (group != 0 && group == at(m_second.groups, b, 0)) return false;
+    const std::uint32_t owner = at(m_first.owners, a, 0);
+    if (owner != 0 && owner == at(m_second.owners, b, 0)) return false;
+    return !*m_accept || (*m_accept)(pair.first, pair.second);
+  }
+
+  TestedBoxes m_first;
+  TestedBoxes m_second;
+  double m_distance;
+  const std::function<bool(std::uint32_t, std::uint32_t)>* m_accept;
+  bool m_exact = false;
+  bool m_filtered;
+};
+
+}  // namespace allpairs::engine

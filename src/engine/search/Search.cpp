@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "search/Search.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "input/Options.h"
+#include "input/Sampling.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0003).
+constexpr double kFlatPairs = 256.0 * 256.0;
+
+/// So few boxes against any number are tested one by one: ordering the others would cost more.
+constexpr std::size_t kFewRows = 32;
+
+/// Pairs of a box in a scene as most are, and the most that room is made for before any has been found.
+constexpr std::size_t kLikelyPairs = 4;
+constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
+
+/// Beyond this many boxes a sample is not trusted to say that all pairs had better be tested.
+constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
+
+/// From this share of all pairs on there is so little to leave out that the exhaustive search is faster; it finds its
+/// pairs in order, and so needs less to be.
+constexpr double kMuchUnordered = 0.4;
+constexpr double kMuchOrdered = 0.1;
+
+/// About what share of all pairs overlaps, by a few of them.
+double shareOfOverlaps(const BoxReader& reader) {
+  constexpr std::size_t kSample = 24;
+  std::array<LaneBox, kSample> boxes;
+  std::size_t size = 0;
+  sampleBoxes(reader, kSample, [&](const LaneBox& box) { boxes[size++] = box; });
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
+  }
+  return static_cast<double>(hits) / (0.5 * static_cast<double>(kSample * (kSample - 1)));
+}
+
+/// Reads all boxes of a set, in their own order, as lanes; those that can overlap nothing as lanes that never do.
+bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
+  buffer.require(LaneList::tilesFor(reader.size()));
+  list = {buffer.data(), reader.size()};
+  bool exact = true;
+  LaneBlock block;
+  for (std::size_t begin = 0; begin < reader.size(); begin += kFanOut) {
+    LaneTile& tile = list.tileOf(begin);
+    const std::size_t place = begin % LaneTile::kCapacity;
+    const BoxList boxes = BoxList{nullptr, 0, reader.size()}.part(begin, kFanOut);
+    const BlockRead read = reader.read(boxes, block);
+    exact &= read.exact;
+    for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), boxes.size, &tile.bound[row][place]);
+    for (std::size_t lane = 0; lane < boxes.size; ++lane) {
+      tile.id[place + lane] = boxes[lane];
+      if ((read.emptyLanes >> lane & 1U) != 0) tile.set(place + lane, kNeverLanes, boxes[lane]);
+    }
+  }
+  return exact;
+}
+
+}  // namespace
+
+PairTest Search::testOf(const Sets& sets, const OverlapOptions& options) {
+  const Filter& filter = options.filter;
+  return {TestedBoxes::of(sets.first, filter.first),
+          TestedBoxes::of(sets.second, sets.one ? filter.first : filter.second), options.distance, filter.accept};
+}
+
+bool Search::choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const {
+  likelyPairs = std::min(kLikelyPairs * sets.first.size(), kMostLikelyPairs);
+  if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
+  const auto firsts = static_cast<double>(sets.first.size());
+  if (firsts * static_cast<double>(sets.second.size()) <= kFlatPairs) return true;
+  if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return true;
+  if (!sets.one || sets.first.size() > kMostOverlapping) return false;
+  const double share = shareOfOverlaps(BoxReader(sets.first, options, *m_kernels));
+  if (share <= (options.order == Order::Unordered ? kMuchUnordered : kMuchOrdered)) return false;
+  likelyPairs = std::max(likelyPairs, static_cast<std::size_t>(share * 0.5 * firsts * firsts));
+  return true;
+}
+
+void Search::shrink() noexcept {
+  std::pmr::memory_resource* const memory = m_runner.memory();
+  if (m_joined.data() != m_pairs.data()) m_joined.release();
+  for (std::size_t i = 0; i < m_runner.workers(); ++i) {
+    Buffer<Pair>& pairs = m_runner.sink(i).pairs();
+    if (!m_pairs.empty() && pairs.data() == m_pairs.data()) m_joined = std::move(pairs);
+  }
+  m_rows.release();
+  m_columns.release();
+  m_first = BvhBuilder(memory);
+  m_second = BvhBuilder(memory);
+  m_runner = JoinRunner(memory);
+  m_buckets = std::pmr::vector<PairBuckets>(memory);
+  m_places = std::pmr::vector<std::size_t>(memory);
+  m_sort = PairSort(memory);
+}
+
+void Search::begin(const Sets& sets, const OverlapOptions& options) {
+  checkOptions(sets, options);
+  m_kernels = &chooseKernels(options);
+  m_executor = options.executor != nullptr ? options.executor : &m_serial;
+  m_statistics = {};
+  m_pairs = {};
+}
+
+void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+  plan.sink.kernels = m_kernels;
+  plan.sink.test = &plan.test;
+  plan.sink.maxPairs = options.maxPairs;
+  std::size_t likelyPairs = 0;
+  const bool flat = choosesFlat(sets, options, likelyPairs);
+  plan.sink.likelyPairs = std::min(likelyPairs / m_executor->concurrency(), options.maxPairs);
+  flat ? planFlat(sets, options, plan) : planJoin(sets, options, plan);
+}
+
+void Search::planFlat(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+  const bool bySecond = options.order == Order::BySecond;
+  const BoxSet& rowSet = bySecond ? sets.second : sets.first;
+  const BoxSet& columnSet = bySecond ? sets.first : sets.second;
+  FlatSearch& flat = plan.job.flat;
+  bool exact = readList(BoxReader(columnSet, options, *m_kernels), m_columns, flat.columns);
+  if (sets.one) {
+    flat.rows = flat.columns;
+    flat.tested = bySecond ? Columns::Preceding : Columns::Following;
+  } else {
+    exact &= readList(BoxReader(rowSet, options, *m_kernels), m_rows, flat.rows);
+  }
+  plan.test.requireExactTest(!exact);
+  plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
+  plan.job.isFlat = true;
+  plan.job.units = rowSet.size();
+}
+
+void Search::planJoin(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+  m_first.build(BoxReader(sets.first, options, *m_kernels), *m_executor);
+  if (!sets.one) m_second.build(BoxReader(sets.second, options, *m_kernels), *m_executor);
+  const BvhBuilder& second = sets.one ? m_first : m_second;
+  plan.test.requireExactTest(!m_first.exact() || !second.exact());
+  plan.sink.side = sets.one ? PairSide::SmallerFirst : PairSide::RowFirst;
+  joinBoth(sets.one, plan);
+}
+
+/// Both hierarchies as one job.
+void Search::joinBoth(bool one, Plan& plan) {
+  const BvhPair& both = m_both.emplace(m_first.levels(), one ? m_first.levels() : m_second.levels());
+  plan.job = JoinRunner::Job::ofJoin(both.first, one ? both.first : both.second);
+  plan.job.firstLarge = m_first.firstLarge() / kFanOut;
+}
+
+void Search::run(const Plan& plan, Executor& executor) {
+  m_runner.start(plan.sink, executor);
+  m_runner.run(plan.job, executor);
+  m_statistics = m_runner.totals();
+  // Each worker has looked at its own pairs; here are all of them.
+  checkLimit(plan.sink, m_statistics.pairs);
+}
+
+/// Puts together what the tasks have found.
+void Search::concatenate() {
+  const std::span<const JoinRunner::Segment> segments = m_runner.segments();
+  if (segments.size() == 1) {
+    m_pairs = {m_runner.sink(segments[0].worker).pairs().data(), m_statistics.pairs};
+    return;
+  }
+  m_joined.require(m_statistics.pairs);
+  m_pairs = {m_joined.data(), m_statistics.pairs};
+  m_places.resize(segments.size());
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    m_places[i] = place;
+    place += segments[i].end - segments[i].begin;
+  }
+  m_executor->run(segments.size(), [&](std::size_t i) {
+    const JoinRunner::Segment& segment = segments[i];
+    const Pair* const from = m_runner.sink(segment.worker).pairs().data();
+    std::copy(from + segment.begin, from + segment.end, m_pairs.data() + m_places[i]);
+  });
+}
+
+std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options) {
+  begin(sets, options);
+  Plan plan{testOf(sets, options)};
+  makePlan(sets, options, plan);
+  if (!plan.job.isFlat && findInBuckets(sets, options, plan)) return m_pairs;
+  run(plan, *m_executor);
+  concatenate();
+  if (!plan.job.isFlat) sortPairs(sets, options.order);
+  return m_pairs;
+}
+
+bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+  if (options.order == Order::Unordered || plan.job.units == 0) return false;
+  const BucketRule rule(sets.first.size(), sets.second.size(), options.order);
+  if (!rule.packs()) return false;
+  const std::size_t workers = m_runner.start(plan.sink, *m_executor);
+  while (m_buckets.size() < workers) m_buckets.emplace_back(m_runner.memory());
+  for (PairBuckets& buckets : m_buckets) buckets.start(rule, m_buckets.size());
+  const auto toBuckets = [&](std::span<Pair> pairs, std::size_t worker) {
+    m_buckets[worker].add(pairs);
+    return pairs.size();
+  };
+  plan.sink.emit.emplace(toBuckets);
+  plan.sink.likelyPairs = 0;
+  run(plan, *m_executor);
+  sortBuckets(rule);
+  return true;
+}
+
+void Search::sortBuckets(const BucketRule& rule) {
+  m_joined.require(m_statistics.pairs);
+  m_pairs = {m_joined.data(), m_statistics.pairs};
+  m_places.resize(rule.buckets + 1);
+  m_places[0] = 0;
+  for (std::size_t b = 0; b < rule.buckets; ++b) {
+    m_places[b + 1] = m_places[b];
+    for (const PairBuckets& buckets : m_buckets) m_places[b + 1] += buckets.size(b);
+  }
+  m_executor->run(rule.buckets, [&](std::size_t b) {
+    const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
+    auto* to = reinterpret_cast<std::uint32_t*>(place.data()) + place.size();
+    for (const PairBuckets& buckets : m_buckets) to = buckets.pack(rule, b, to);
+    sortBucket(rule, b, place);
+  });
+}
+
+void Search::sortPairs(const Sets& sets, Order order) {
+  // The hierarchy has done its work: its memory is where the sort moves pairs to and fro.
+  m_sort.sort(m_pairs, {sets.first.size(), sets.second.size(), order, m_first.levels().memory<Pair>()}, *m_executor);
+}
+
+std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
+  begin(sets, options);
+  Plan plan{testOf(sets, options)};
+  makePlan(sets, options, plan);
+  plan.sink.countOnly = true;
+  plan.sink.likelyPairs = 0;
+  run(plan, *m_executor);
+  return m_statistics.pairs;
+}
+
+}  // namespace allpairs::engine

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "allpairs/BoxSet.h"
+#include "allpairs/FunctionRef.h"
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Overlaps.h"
+#include "bvh/BvhBuilder.h"
+#include "input/Options.h"
+#include "order/PairBuckets.h"
+#include "order/PairSort.h"
+#include "search/JoinRunner.h"
+
+namespace allpairs::engine {
+
+/// Everything that a search needs between its start and its end, and the memory that it keeps for the next one.
+class Search {
+ public:
+  explicit Search(std::pmr::memory_resource* memory)
+      : m_rows(memory),
+        m_columns(memory),
+        m_first(memory),
+        m_second(memory),
+        m_runner(memory),
+        m_buckets(memory),
+        m_joined(memory),
+        m_places(memory),
+        m_sort(memory) {}
+
+  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
+  std::uint64_t count(const Sets& sets, const OverlapOptions& options);
+  void stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
+
+  /// Gives back all memory but that of the last result.
+  void shrink() noexcept;
+
+  [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
+
+ private:
+  /// One search over all rows, or part of them, ready to run.
+  struct Plan {
+    PairTest test;
+    JoinRunner::Job job = {};
+    SinkOptions sink = {};
+  };
+
+  static PairTest testOf(const Sets& sets, const OverlapOptions& options);
+
+  /// Whether to test all pairs, and about how many there will be, which is known only where they are many.
+  bool choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const;
+
+  void begin(const Sets& sets, const OverlapOptions& options);
+  void makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  void planFlat(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  void planJoin(const Sets& sets, const OverlapOptions& options, Plan& plan);
+
+  void joinBoth(bool one, Plan& plan);
+
+  void run(const Plan& plan, Executor& executor);
+  void concatenate();
+  void sortPairs(const Sets& sets, Order order);
+
+  /// Finds pairs and orders them by buckets, where that pays; else false, and nothing is done.
+  bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  void sortBuckets(const BucketRule& rule);
+
+  void streamAll(Plan& plan, std::size_t batchSize, PairVisitor visitor);
+  void streamInRanges(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
+  bool findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end);
+
+  OverlapStatistics m_statistics;
+  const Kernels* m_kernels = nullptr;
+  SerialExecutor m_serial;
+  Executor* m_executor = &m_serial;
+
+  Buffer<LaneTile> m_rows;
+  Buffer<LaneTile> m_columns;
+  BvhBuilder m_first;
+  BvhBuilder m_second;
+  std::optional<BvhPair> m_both;
+  JoinRunner m_runner;
+  std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
+  Buffer<Pair> m_joined;
+  std::pmr::vector<std::size_t> m_places;
+  std::span<Pair> m_pairs;  ///< The result: joined from several tasks, or where the only one left it.
+  PairSort m_sort;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Searches that hand their pairs over as they go, in bounded memory.
+#include <algorithm>
+#include <limits>
+
+#include "search/Search.h"
+
+namespace allpairs::engine {
+namespace {
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+/// Boxes of a range when an ordered stream starts, and at most.
+constexpr std::size_t kFirstRange = std::size_t{1} << 15;
+constexpr std::size_t kLastRange = std::size_t{1} << 20;
+
+/// Pairs of a range that are held at a time, at most, unless a single box has more partners.
+constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
+
+void handOver(std::span<const Pair> pairs, std::size_t batchSize, PairVisitor visitor) {
+  for (std::size_t begin = 0; begin < pairs.size(); begin += batchSize) {
+    visitor(pairs.subspan(begin, std::min(batchSize, pairs.size() - begin)));
+  }
+}
+
+}  // namespace
+
+void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor) {
+  begin(sets, options);
+  OverlapOptions unlimited = options;
+  unlimited.maxPairs = kNoLimit;
+  std::size_t likelyPairs = 0;
+  if (options.order != Order::Unordered && !choosesFlat(sets, options, likelyPairs)) {
+    streamInRanges(sets, unlimited, visitor);
+    return;
+  }
+  Plan plan{testOf(sets, options)};
+  makePlan(sets, unlimited, plan);
+  plan.sink.likelyPairs = 0;  // handed on before there are many
+  streamAll(plan, options.batchSize, visitor);
+}
+
+/// Hands over full batches as they come; the rest waits for the next pairs.
+void Search::streamAll(Plan& plan, std::size_t batchSize, PairVisitor visitor) {
+  const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) {
+    const std::size_t full = pairs.size() / batchSize * batchSize;
+    handOver(pairs.first(full), batchSize, visitor);
+    return full;
+  };
+  plan.sink.emit.emplace(fullBatches);
+  run(plan, m_serial);
+  handOver({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()}, batchSize, visitor);
+}
+
+/// The boxes that the pairs are ordered by, range by range, each against all of the other side.
+void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, PairVisitor visitor) {
+  const bool bySecond = options.order == Order::BySecond;
+  const BoxSet& rows = bySecond ? sets.second : sets.first;
+  m_second.build(BoxReader(bySecond ? sets.first : sets.second, options, *m_kernels), *m_executor);
+  OverlapStatistics total;
+  std::size_t length = kFirstRange;
+  for (std::size_t begin = 0; begin < rows.size();) {
+    const std::size_t end = std::min(rows.size(), begin + length);
+    if (!findRange(sets, options, begin, end)) {
+      length = (end - begin + 1) / 2;
+      continue;
+    }
+    handOver(m_pairs, options.batchSize, visitor);
+    total.pairs += m_statistics.pairs;
+    total.boxTests += m_statistics.boxTests;
+    total.groupTests += m_statistics.groupTests;
+    total.exactTests += m_statistics.exactTests;
+    begin = end;
+    length = std::min(2 * length, kLastRange);
+  }
+  m_statistics = total;
+}
+
+bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end) {
+  const bool bySecond = options.order == Order::BySecond;
+  const BoxSet range = (bySecond ? sets.second : sets.first).slice(begin, end);
+  m_first.build(BoxReader(range, options, *m_kernels), *m_executor);
+  Plan plan{testOf(sets, options)};
+  joinBoth(false, plan);
+  plan.test.requireExactTest(!m_first.exact() || !m_second.exact());
+  plan.sink.kernels = m_kernels;
+  plan.sink.test = &plan.test;
+  plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
+  plan.sink.maxPairs = end - begin == 1 ? kNoLimit : kRangePairs;
+  plan.sink.limitIsCallers = false;
+  plan.sink.firstRow = static_cast<std::uint32_t>(begin);
+  plan.sink.ascendingOnly = sets.one;
+  m_statistics = {};
+  try {
+    run(plan, *m_executor);
+  } catch (const Overfull&) {
+    return false;  // More than may be held at a time: the caller halves the range.
+  }
+  concatenate();
+  sortPairs(sets, options.order);
+  return true;
+}
+
+}  // namespace allpairs::engine

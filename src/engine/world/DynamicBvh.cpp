@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "world/DynamicBvh.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <utility>
+
+namespace allpairs::engine {
+namespace {
+
+/// An order has room for a share of its boxes that come later, and leaves as much empty before it is made anew.
+constexpr std::size_t kShareOfChange = 8;
+constexpr std::size_t kLeastRoom = 64;
+
+/// If one box in so many has moved, all blocks are read anew.
+constexpr std::size_t kShareOfMoved = 8;
+
+constexpr std::size_t kKeptBlocksPerTask = 256;
+
+/// How many blocks ahead the boxes of a block are asked for.
+constexpr std::size_t kPrefetchBlocks = 2;
+
+std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + kLeastRoom; }
+
+}  // namespace
+
+bool DynamicBvh::update(const BoxStore& store, const BoxReader& reader, Executor& executor) {
+  const bool isWhole = std::exchange(m_isWhole, false);
+  if (isWhole) {
+    sortOut(store);
+  } else {
+    m_places.assign(store.idBound(), kNowhere);
+  }
+  const bool due = !isWhole || isRebuildDue();
+  if (due) {
+    rebuild(store, reader, executor);
+  } else {
+    placeFresh(reader, executor);
+    refit(reader, executor);
+  }
+  m_fresh.clear();
+  m_dirtyBoxes = 0;
+  m_isWhole = true;
+  return due;
+}
+
+void DynamicBvh::release() noexcept {
+  *this = DynamicBvh(m_places.get_allocator().resource(), m_ofStatic);
+  m_isWhole = false;
+}
+
+/// Finds out what happened to the boxes that changed: new here, gone, or moved.
+void DynamicBvh::sortOut(const BoxStore& store) {
+  if (store.stale().empty()) return;
+  if (m_places.size() < store.idBound()) m_places.resize(store.idBound(), kNowhere);
+  for (const BoxId id : store.resettled()) {
+    const bool here = m_places[id] != kNowhere;
+    const bool belongsHere = belongs(store, id);
+    if (belongsHere && !here) m_fresh.push_back(id);
+    if (!belongsHere && here) leave(id);
+  }
+  if (m_size == 0) return;
+  // If many have moved, all blocks are read anew, without asking which.
+  if (store.stale().size() * kShareOfMoved > store.size()) {
+    m_dirtyBoxes = m_size;
+    return;
+  }
+  for (const BoxId id : store.stale()) {
+    if (m_places[id] != kNowhere) markBlock(m_places[id] / kFanOut);
+  }
+}
+
+void DynamicBvh::leave(BoxId id) {
+  const std::size_t place = m_places[id];
+  m_places[id] = kNowhere;
+  m_used[place / kFanOut] &= static_cast<std::uint16_t>(~(1U << (place % kFanOut)));
+  markBlock(place / kFanOut);
+  --m_size;
+}
+
+void DynamicBvh::markBlock(std::size_t block) {
+  m_dirty[block / 64] |= std::uint64_t{1} << (block % 64);
+  ++m_dirtyBoxes;
+}
+
+bool DynamicBvh::isRebuildDue() const noexcept {
+  if (m_levels.places() + m_fresh.size() > m_levels.capacity()) return true;
+  if (m_levels.places() - m_size > roomFor(m_levels.places())) return true;
+  return m_rule.isDue(m_size) && m_dirtyBoxes != 0;
+}
+
+void DynamicBvh::rebuild(const BoxStore& store, const BoxReader& reader, Executor& executor) {
+  m_fresh.clear();
+  for (BoxId id = 0; id < store.idBound(); ++id) {
+    if (belongs(store, id)) m_fresh.push_back(id);
+  }
+  const std::size_t capacity = m_fresh.size() + roomFor(m_fresh.size());
+  m_levels.reset(capacity);
+  m_levels.resize(0);
+  const std::size_t blocks = (capacity + kFanOut - 1) / kFanOut;
+  m_used.assign(blocks, 0);
+  m_inexact.assign(blocks, 0);
+  m_dirty.assign((blocks + 63) / 64, 0);
+  m_inexactBlocks = 0;
+  m_size = 0;
+  m_rule.start();
+  m_grid = fitCurveGrid(reader);
+  if (!m_fresh.empty()) {
+    orderByCurve(m_fresh, reader, executor);
+    append({m_keyed.data(), m_fresh.size()});
+  }
+  refitAll(reader, executor);
+}
+
+void DynamicBvh::placeFresh(const BoxReader& reader, Executor& executor) {
+  if (m_fresh.empty()) return;
+  orderByCurve(m_fresh, reader, executor);
+  append({m_keyed.data(), m_fresh.size()});
+}
+
+/// Sorts boxes along the curve into m_keyed.
+void DynamicBvh::orderByCurve(std::span<const BoxId> ids, const BoxReader& reader, Executor& executor) {
+  m_keyed.require(ids.size() + ids.size() / kShareOfChange);
+  m_spare.require(ids.size() + ids.size() / kShareOfChange);
+  constexpr std::size_t kBoxesPerTask = kKeptBlocksPerTask * kFanOut;
+  const BoxList boxes{ids.data(), 0, ids.size()};
+  executor.run((ids.size() + kBoxesPerTask - 1) / kBoxesPerTask, [&](std::size_t task) {
+    KeyRun run{m_spare.data() + task * kBoxesPerTask};
+    writeKeys(reader, m_grid, boxes.part(task * kBoxesPerTask, kBoxesPerTask), true, run);
+  });
+  m_radix.sort(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits, kIndexBits + m_grid.keyBits(), executor);
+  sortDenseCells({m_keyed.data(), ids.size()}, m_spare.data(), reader, executor, m_denseCells);
+}
+
+/// Gives boxes the next places.
+void DynamicBvh::append(std::span<const CurveKey> order) {
+  const std::size_t begin = m_levels.places();
+  m_levels.resize(begin + order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t place = begin + i;
+    const BoxId id = indexOf(order[i]);
+    m_levels.id(place) = id;
+    m_places[id] = static_cast<std::uint32_t>(place);
+    m_used[place / kFanOut] |= static_cast<std::uint16_t>(1U << (place % kFanOut));
+    markBlock(place / kFanOut);
+  }
+  m_size += order.size();
+}
+
+void DynamicBvh::refit(const BoxReader& reader, Executor& executor) {
+  if (m_dirtyBoxes == 0) return;
+  if (m_dirtyBoxes * kShareOfMoved >= m_size) {
+    refitAll(reader, executor);
+    return;
+  }
+  m_blockList.clear();
+  for (std::size_t word = 0; word < m_dirty.size(); ++word) {
+    for (std::uint64_t bits = m_dirty[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t block = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+      gather(block, reader);
+      m_blockList.push_back(static_cast<std::uint32_t>(block));
+    }
+    m_dirty[word] = 0;
+  }
+  m_inexactBlocks = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
+  m_levels.boundSome(m_blockList, reader.kernels(), executor);
+}
+
+void DynamicBvh::refitAll(const BoxReader& reader, Executor& executor) {
+  const std::size_t count = m_levels.blockCount();
+  executor.run((count + kKeptBlocksPerTask - 1) / kKeptBlocksPerTask, [&](std::size_t task) {
+    const std::size_t end = std::min(count, (task + 1) * kKeptBlocksPerTask);
+    for (std::size_t b = task * kKeptBlocksPerTask; b < end; ++b) {
+      const std::size_t ahead = std::min(b + kPrefetchBlocks, count - 1) * kFanOut;
+      for (std::size_t lane = 0; lane < kFanOut; ++lane) reader.prefetch(m_levels.id(ahead + lane));
+      gather(b, reader);
+    }
+  });
+  std::fill(m_dirty.begin(), m_dirty.end(), std::uint64_t{0});
+  m_inexactBlocks = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
+  m_levels.boundAll(reader.kernels(), executor);
+}
+
+void DynamicBvh::gather(std::size_t block, const BoxReader& reader) {
+  LaneBlock& lanes = m_levels.block(block);
+  const std::uint32_t* const ids = &m_levels.id(block * kFanOut);
+  BlockRead read = reader.read({ids, 0, kFanOut}, lanes);
+  const std::uint32_t unused = read.emptyLanes | (~std::uint32_t{m_used[block]} & 0xFFFFU);
+  for (std::uint32_t bits = unused; bits != 0; bits &= bits - 1) {
+    lanes.set(static_cast<std::size_t>(std::countr_zero(bits)), kNeverLanes);
+  }
+  // Empty boxes have infinite bounds, which no lane holds; that is not for the others to suffer from.
+  if (unused != 0 && !read.exact) {
+    read.exact = true;
+    LaneBlock one;
+    for (std::uint32_t bits = ~unused & 0xFFFFU; bits != 0; bits &= bits - 1) {
+      read.exact &= reader.read({ids + std::countr_zero(bits), 0, 1}, one).exact;
+    }
+  }
+  m_inexact[block] = read.exact ? 0 : 1;
+}
+
+}  // namespace allpairs::engine

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "bvh/BvhLevels.h"
+#include "bvh/HilbertSort.h"
+#include "input/BoxReader.h"
+#include "kernels/CurveGrid.h"
+#include "memory/Memory.h"
+#include "world/BoxStore.h"
+#include "world/RebuildRule.h"
+
+namespace allpairs::engine {
+
+/// A hierarchy over the static or the dynamic boxes of a world, kept from step to step.
+///
+/// Each box has a place in the order of a curve, as it was when the order was made. Boxes that move stay in their
+/// places, and the bounds follow; boxes that come later get places at the end, ordered among themselves; places of boxes
+/// that go stay empty. The order is made anew when the rule says so, or when too many boxes have come or gone.
+class DynamicBvh {
+ public:
+  DynamicBvh(std::pmr::memory_resource* memory, bool ofStatic)
+      : m_ofStatic(ofStatic),
+        m_levels(memory),
+        m_places(memory),
+        m_used(memory),
+        m_inexact(memory),
+        m_dirty(memory),
+        m_blockList(memory),
+        m_fresh(memory),
+        m_keyed(memory),
+        m_spare(memory),
+        m_radix(memory),
+        m_denseCells(memory) {}
+
+  /// Takes over what has changed in the store since the last call. Returns whether the order was made anew.
+  ///
+  /// After an update that threw, nothing else may be asked before the next one, which makes the order anew.
+  bool update(const BoxStore& store, const BoxReader& reader, Executor& executor);
+
+  /// Gives all memory back. The next update makes the order anew; before it, nothing else may be asked.
+  void release() noexcept;
+
+  /// Whether the last update has come to its end, and nothing was given back since.
+  [[nodiscard]] bool isWhole() const noexcept { return m_isWhole; }
+
+  [[nodiscard]] const BvhLevels& levels() const noexcept { return m_levels; }
+  [[nodiscard]] RebuildRule& rule() noexcept { return m_rule; }
+
+  /// How many boxes it holds.
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+
+  /// Whether the lanes of all boxes are exactly the boxes.
+  [[nodiscard]] bool exact() const noexcept { return m_inexactBlocks == 0; }
+
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
+
+  /// Where the box is; kNowhere if it isn't here.
+  [[nodiscard]] std::uint32_t placeOf(BoxId id) const noexcept {
+    return id < m_places.size() ? m_places[id] : kNowhere;
+  }
+
+ private:
+  [[nodiscard]] bool belongs(const BoxStore& store, BoxId id) const noexcept {
+    return store.contains(id) && store.isStatic(id) == m_ofStatic;
+  }
+  void sortOut(const BoxStore& store);
+  void leave(BoxId id);
+  void markBlock(std::size_t block);
+  [[nodiscard]] bool isRebuildDue() const noexcept;
+  void rebuild(const BoxStore& store, const BoxReader& reader, Executor& executor);
+  void placeFresh(const BoxReader& reader, Executor& executor);
+  void orderByCurve(std::span<const BoxId> ids, const BoxReader& reader, Executor& executor);
+  void append(std::span<const CurveKey> order);
+  void refit(const BoxReader& reader, Executor& executor);
+  void refitAll(const BoxReader& reader, Executor& executor);
+  void gather(std::size_t block, const BoxReader& reader);
+
+  bool m_ofStatic;
+  bool m_isWhole = true;  ///< The last update has come to its end.
+  BvhLevels m_levels;
+  RebuildRule m_rule;
+  CurveGrid m_grid;
+  std::size_t m_size = 0;
+  std::pmr::vector<std::uint32_t> m_places;  ///< By id.
+  std::pmr::vector<std::uint16_t> m_used;    ///< By block: a bit for each place that holds a box.
+  std::pmr::vector<std::uint8_t> m_inexact;  ///< By block: whether the lanes of some box are not exactly the box.
+  std::size_t m_inexactBlocks = 0;
+  std::pmr::vector<std::uint64_t> m_dirty;  ///< A bit for each block whose boxes changed.
+  std::size_t m_dirtyBoxes = 0;
+  std::pmr::vector<std::uint32_t> m_blockList;
+  std::pmr::vector<BoxId> m_fresh;  ///< Boxes without a place.
+  Buffer<CurveKey> m_keyed;
+  Buffer<CurveKey> m_spare;
+  RadixSort m_radix;
+  std::pmr::vector<std::span<CurveKey>> m_denseCells;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/World.h"
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "allpairs/Error.h"
+#include "input/Options.h"
+#include "search/InUse.h"
+#include "world/BoxStore.h"
+#include "world/QueryTests.h"
+#include "world/WorldQueries.h"
+#include "world/WorldSearch.h"
+
+namespace allpairs {
+namespace {
+
+bool isFinite(const std::array<double, 3>& values) {
+  return std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
+}
+
+void checkSweep(const BoxSweep& sweep, bool isRay, std::size_t index) {
+  const std::string name = (isRay ? "ray " : "sweep ") + std::to_string(index);
+  if (hasNan(sweep.box) || (isRay && !isFinite(sweep.box.min))) {
+    throw InvalidArgument(name + (isRay ? ": its origin is not finite" : ": its box has a NaN"));
+  }
+  if (!isFinite(sweep.motion)) throw InvalidArgument(name + ": its direction is not finite");
+  if (std::isnan(sweep.length) || sweep.length < 0.0) throw InvalidArgument(name + ": its length is NaN or negative");
+}
+
+std::vector<BoxSweep> sweepsOf(std::span<const Ray> rays) {
+  std::vector<BoxSweep> sweeps;
+  sweeps.reserve(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    sweeps.push_back(engine::sweepOf(rays[i]));
+    checkSweep(sweeps.back(), true, i);
+  }
+  return sweeps;
+}
+
+void checkSweeps(std::span<const BoxSweep> sweeps) {
+  for (std::size_t i = 0; i < sweeps.size(); ++i) checkSweep(sweeps[i], false, i);
+}
+
+void checkQueryBox(const Box& box) {
+  if (hasNan(box)) throw InvalidBox(0, "the box of the query has a NaN");
+}
+
+void checkPoint(const std::array<double, 3>& point, std::size_t index) {
+  if (!isFinite(point)) throw InvalidArgument("point " + std::to_string(index) + " is not finite");
+}
+
+}  // namespace
+
+struct World::State {
+  State(WorldOptions given, const engine::Kernels& chosen)
+      : options(std::move(given)),
+        kernels(chosen),
+        store(engine::memoryOr(options.memory)),
+        search(engine::memoryOr(options.memory), options, chosen),
+        swept(engine::memoryOr(options.memory)) {}
+
+  WorldOptions options;
+  const engine::Kernels& kernels;
+  engine::BoxStore store;
+  engine::WorldSearch search;
+  std::pmr::vector<Box> swept;
+  engine::InUse inUse;
+
+  /// What the members that are const look at.
+  static const engine::BoxStore& storeOf(const World& world) {
+    static const engine::BoxStore kNone(engine::defaultMemory());
+    return world.m_state != nullptr ? world.m_state->store : kNone;
+  }
+
+  void shrink() noexcept {
+    search.shrink();
+    store.shrink();
+    swept = std::pmr::vector<Box>(search.memory());
+  }
+
+  /// Brings the hierarchies up to date for queries, once after each change.
+  void settle() {
+    if (isSettled.load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(settling);
+    if (isSettled.load(std::memory_order_relaxed)) return;
+    search.update(store);
+    isSettled.store(true, std::memory_order_release);
+  }
+
+  static engine::WorldQueries queries(const World& world, const QueryFilter& filter) {
+    static SerialExecutor serial;
+    engine::QueryTarget target;
+    target.store = &storeOf(world);
+    target.executor = &serial;
+    if (world.m_state != nullptr) {
+      State& state = *world.m_state;
+      state.settle();
+      const engine::WorldSearch& search = state.search;
+      target.hierarchies = {search.dynamicBoxes().levels().view(), search.staticBoxes().levels().view()};
+      target.exact = {search.dynamicBoxes().exact(), search.staticBoxes().exact()};
+      target.kernels = &state.kernels;
+      target.executor = &state.search.executor();
+    }
+    return {target, filter};
+  }
+
+  std::mutex settling;
+  std::atomic<bool> isSettled = true;  ///< Whether the hierarchies hold all changes.
+};
+
+World::World(WorldOptions options) {
+  OverlapOptions checked;
+  checked.distance = options.distance;
+  checked.instructionSet = options.instructionSet;
+  const BoxSet none;
+  engine::checkOptions({none, none, true}, checked);
+  m_state = std::make_unique<State>(std::move(options), engine::chooseKernels(checked));
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+World::State& World::state() {
+  if (m_state == nullptr) m_state = std::move(World().m_state);
+  m_state->inUse.check("World");
+  m_state->isSettled.store(false, std::memory_order_relaxed);
+  return *m_state;
+}
+
+const WorldOptions& World::options() const noexcept {
+  static const WorldOptions kDefaults;
+  return m_state != nullptr ? m_state->options : kDefaults;
+}
+
+void World::reserve(std::size_t boxes) { state().store.reserve(boxes); }
+
+BoxId World::add(const Box& box, const BoxProperties& properties) {
+  BoxId id = kNoBox;
+  add(BoxSet(std::span<const Box>(&box, 1)), {&properties, 1}, {&id, 1});
+  return id;
+}
+
+void World::add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
+  state().store.add(boxes, properties, ids);
+}
+
+std::vector<BoxId> World::add(const BoxSet& boxes, const BoxProperties& properties) {
+  std::vector<BoxId> ids(boxes.size());
+  add(boxes, {&properties, 1}, ids);
+  return ids;
+}
+
+void World::move(BoxId id, const Box& box) { state().store.move(id, box); }
+void World::move(std::span<const BoxId> ids, const BoxSet& boxes) { state().store.move(ids, boxes); }
+
+void World::moveSwept(std::span<const BoxId> ids, const BoxSet& starts, const BoxSet& ends) {
+  if (starts.size() != ids.size() || ends.size() != ids.size()) {
+    throw InvalidArgument(std::to_string(starts.size()) + " starts and " + std::to_string(ends.size()) + " ends for " +
+                          std::to_string(ids.size()) + " boxes");
+  }
+  std::pmr::vector<Box>& swept = state().swept;
+  swept.clear();
+  for (std::size_t i = 0; i < ids.size(); ++i) swept.push_back(merge(starts[i], ends[i]));
+  state().store.move(ids, swept);
+}
+
+void World::moveSwept(std::span<const BoxId> ids, const BoxSet& starts, std::span<const double> velocities,
+                      double duration) {
+  if (starts.size() != ids.size() || velocities.size() != 3 * ids.size()) {
+    throw InvalidArgument(std::to_string(starts.size()) + " starts and " + std::to_string(velocities.size()) +
+                          " velocity components for " + std::to_string(ids.size()) + " boxes");
+  }
+  if (!std::isfinite(duration)) throw InvalidArgument("the duration is not finite");
+  std::pmr::vector<Box>& swept = state().swept;
+  swept.clear();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::span<const double> velocity = velocities.subspan(3 * i, 3);
+    Box end = starts[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(velocity[axis])) {
+        throw InvalidBox(i, "the velocity of box " + std::to_string(ids[i]) + " is not finite");
+      }
+      end.min[axis] += velocity[axis] * duration;
+      end.max[axis] += velocity[axis] * duration;
+    }
+    if (hasNan(end))
+      throw InvalidBox(i, "box " + std::to_string(ids[i]) + " and its motion are infinite: it ends at a NaN");
+    swept.push_back(merge(starts[i], end));
+  }
+  state().store.move(ids, swept);
+}
+
+void World::remove(BoxId id) { remove(std::span<const BoxId>(&id, 1)); }
+void World::remove(std::span<const BoxId> ids) { state().store.remove(ids); }
+void World::clear() { state().store.clear(); }
+
+void World::setProperties(BoxId id, const BoxProperties& properties) { setProperties({&id, 1}, {&properties, 1}); }
+void World::setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties) {
+  state().store.setProperties(ids, properties);
+}
+void World::touch(std::span<const BoxId> ids) { state().store.touch(ids); }
+
+void World::shrink() {
+  if (m_state != nullptr) state().shrink();
+}
+
+std::size_t World::size() const noexcept { return State::storeOf(*this).size(); }
+BoxId World::idBound() const noexcept { return static_cast<BoxId>(State::storeOf(*this).idBound()); }
+bool World::contains(BoxId id) const noexcept { return State::storeOf(*this).contains(id); }
+
+Box World::box(BoxId id) const {
+  State::storeOf(*this).check({&id, 1});
+  return State::storeOf(*this).box(id);
+}
+
+BoxProperties World::properties(BoxId id) const {
+  State::storeOf(*this).check({&id, 1});
+  return State::storeOf(*this).properties(id);
+}
+
+StepResult World::step() {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.step(state.store);
+}
+
+StepResult World::result() const noexcept { return m_state != nullptr ? m_state->search.result() : StepResult(); }
+
+const WorldStatistics& World::statistics() const noexcept {
+  static constexpr WorldStatistics kNone;
+  return m_state != nullptr ? m_state->search.statistics() : kNone;
+}
+
+std::vector<Pair> World::findBetween(const World& other) const {
+  if (m_state == nullptr || other.m_state == nullptr) return {};
+  m_state->settle();
+  other.m_state->settle();
+  const engine::InUse::Scope myScope(m_state->inUse);
+  const engine::InUse::Scope theirScope(other.m_state->inUse);
+  return m_state->search.findBetween(m_state->store, other.m_state->search, other.m_state->store);
+}
+
+std::vector<BoxId> World::findOverlapping(const Box& box, const QueryFilter& filter) const {
+  checkQueryBox(box);
+  std::vector<BoxId> ids;
+  State::queries(*this, filter).overlapping(box, ids);
+  return ids;
+}
+ResultLists<BoxId> World::findOverlapping(const BoxSet& boxes, const QueryFilter& filter) const {
+  return State::queries(*this, filter).overlapping(boxes);
+}
+
+SweepHit World::findFirst(const Ray& ray, const QueryFilter& filter) const {
+  const BoxSweep sweep = engine::sweepOf(ray);
+  checkSweep(sweep, true, 0);
+  return State::queries(*this, filter).first(sweep);
+}
+SweepHit World::findFirst(const BoxSweep& sweep, const QueryFilter& filter) const {
+  checkSweep(sweep, false, 0);
+  return State::queries(*this, filter).first(sweep);
+}
+void World::findFirst(std::span<const Ray> rays, std::span<SweepHit> hits, const QueryFilter& filter) const {
+  if (hits.size() != rays.size()) throw InvalidArgument("as many hits as rays are needed");
+  State::queries(*this, filter).first(sweepsOf(rays), hits);
+}
+void World::findFirst(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits, const QueryFilter& filter) const {
+  if (hits.size() != sweeps.size()) throw InvalidArgument("as many hits as sweeps are needed");
+  checkSweeps(sweeps);
+  State::queries(*this, filter).first(sweeps, hits);
+}
+
+std::vector<SweepHit> World::findAll(const Ray& ray, const QueryFilter& filter) const {
+  const BoxSweep sweep = engine::sweepOf(ray);
+  checkSweep(sweep, true, 0);
+  std::vector<SweepHit> hits;
+  State::queries(*this, filter).all(sweep, hits);
+  return hits;
+}
+std::vector<SweepHit> World::findAll(const BoxSweep& sweep, const QueryFilter& filter) const {
+  checkSweep(sweep, false, 0);
+  std::vector<SweepHit> hits;
+  State::queries(*this, filter).all(sweep, hits);
+  return hits;
+}
+ResultLists<SweepHit> World::findAll(std::span<const Ray> rays, const QueryFilter& filter) const {
+  return State::queries(*this, filter).all(sweepsOf(rays));
+}
+ResultLists<SweepHit> World::findAll(std::span<const BoxSweep> sweeps, const QueryFilter& filter) const {
+  checkSweeps(sweeps);
+  return State::queries(*this, filter).all(sweeps);
+}
+
+std::vector<Neighbor> World::findNearest(const std::array<double, 3>& point, std::size_t count,
+                                         const QueryFilter& filter) const {
+  checkPoint(point, 0);
+  std::vector<Neighbor> neighbors;
+  State::queries(*this, filter).nearest(point, count, neighbors);
+  return neighbors;
+}
+ResultLists<Neighbor> World::findNearest(std::span<const std::array<double, 3>> points, std::size_t count,
+                                         const QueryFilter& filter) const {
+  for (std::size_t i = 0; i < points.size(); ++i) checkPoint(points[i], i);
+  return State::queries(*this, filter).nearest(points, count);
+}
+
+}  // namespace allpairs

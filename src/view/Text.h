@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace allpairs::view {
+
+/// The text with only characters that XML and HTML have: tabs and line feeds become spaces; control characters and bytes
+/// that are not UTF-8 become U+FFFD.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// The printable text, escaped for HTML: between tags and in quoted attributes.
+[[nodiscard]] std::string escapeHtml(std::string_view text);
+
+}  // namespace allpairs::view

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What statistics say, and what they show that no result does: that a world makes its order anew when it has gone bad.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "allpairs/Overlaps.h"
+#include "allpairs/World.h"
+#include "support/Boxes.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+/// Claims many threads and runs tasks one after the other: work is cut and joined as for threads, and counts repeat.
+class ManyInTurn final : public Executor {
+ public:
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return 5; }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  }
+};
+
+std::vector<Box> allOverlapping(std::size_t n) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < n; ++i) boxes.push_back(test::cube(0x1p-10 * static_cast<double>(i), 0, 0, 16.0));
+  return boxes;
+}
+
+TEST(Statistics, AnExhaustiveSearchTestsEachPairOnceHoweverItIsCut) {
+  ManyInTurn many;
+  for (const std::size_t n : {2U, 17U, 200U, 1500U}) {
+    const std::vector<Box> boxes = allOverlapping(n);
+    for (Executor* executor : std::initializer_list<Executor*>{nullptr, &many}) {
+      OverlapOptions options;
+      options.strategy = Strategy::Exhaustive;
+      options.executor = executor;
+      Overlaps search(options);
+      ASSERT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes)) << n;
+      EXPECT_EQ(search.statistics().pairs, n * (n - 1) / 2) << n;
+      EXPECT_EQ(search.statistics().boxTests, n * (n - 1) / 2) << n;
+      EXPECT_EQ(search.statistics().groupTests, 0U) << n;
+    }
+  }
+}
+
+TEST(Statistics, RowsOfAllHitsEndWhereTheTaskEnds) {
+  ManyInTurn many;
+  const std::vector<Box> first = allOverlapping(900);
+  const std::vector<Box> second = allOverlapping(700);
+  OverlapOptions options;
+  options.strategy = Strategy::Exhaustive;
+  options.executor = &many;
+  Overlaps search(options);
+  EXPECT_EQ(test::toVector(search.findBetween(first, second)), test::oracleBetween(first, second));
+  EXPECT_EQ(search.statistics().boxTests, 900U * 700U);
+  EXPECT_EQ(search.countBetween(first, second), 900U * 700U);
+}
+
+TEST(Statistics, ExactTestsAreCountedWhereBoundsAreNoFloat32AndNowhereElse) {
+  ManyInTurn many;
+  std::vector<Box> boxes = allOverlapping(400);
+  const std::vector<Box> plain = boxes;
+  for (Box& box : boxes) box.min[0] -= 0.001;  // No float32.
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+    for (Executor* executor : std::initializer_list<Executor*>{nullptr, &many}) {
+      OverlapOptions options;
+      options.strategy = strategy;
+      options.executor = executor;
+      Overlaps search(options);
+      EXPECT_EQ(search.count(boxes), 400U * 399U / 2);
+      EXPECT_EQ(search.statistics().exactTests, 400U * 399U / 2);
+      EXPECT_EQ(search.count(plain), 400U * 399U / 2);
+      EXPECT_EQ(search.statistics().exactTests, 0U);
+    }
+  }
+}
+
+TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {
+  std::vector<BoxF> boxes = test::randomBoxes(4000, 71);
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  (void)world.step();
+  const std::uint64_t before = world.statistics().rebuilds;
+  std::mt19937 generator(72);
+  std::ranges::shuffle(boxes, generator);
+  world.move(ids, boxes);
+  (void)world.step();
+  // The order is as bad as can be: what a step has lost by it exceeds the price of a new one.
+  for (BoxF& box : boxes) box.max[0] += 0.01F;
+  world.move(ids, boxes);
+  (void)world.step();
+  EXPECT_GT(world.statistics().rebuilds, before);
+
+  World fresh;
+  (void)fresh.add(BoxSet(boxes));
+  (void)fresh.step();
+  EXPECT_LT(world.statistics().boxTests, 2 * fresh.statistics().boxTests);
+  EXPECT_EQ(test::toVector(world.result().pairs), test::toVector(fresh.result().pairs));
+}
+
+TEST(Statistics, AWorldWhoseBoxesStayNearKeepsItsOrder) {
+  std::vector<BoxF> boxes = test::randomBoxes(4000, 73);
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  (void)world.step();
+  const std::uint64_t before = world.statistics().rebuilds;
+  for (int step = 0; step < 50; ++step) {
+    for (BoxF& box : boxes) {
+      const float shift = step % 2 == 0 ? 0.01F : -0.01F;
+      box.min[0] += shift;
+      box.max[0] += shift;
+    }
+    world.move(ids, boxes);
+    (void)world.step();
+  }
+  EXPECT_EQ(world.statistics().rebuilds, before);
+}
+
+TEST(Statistics, QueriesAfterEveryMoveMakeTheOrderAnewTooOnceItHasGoneBad) {
+  // All boxes leave for another place, many times; only few changed boxes meet all others in each step.
+  std::vector<BoxF> boxes = test::randomBoxes(4000, 74);
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  (void)world.step();
+  const std::uint64_t before = world.statistics().rebuilds;
+  std::mt19937 generator(75);
+  for (int step = 0; step < 120; ++step) {
+    std::vector<BoxId> some;
+    std::vector<BoxF> places;
+    for (int k = 0; k < 100; ++k) {
+      some.push_back(ids[generator() % ids.size()]);
+      places.push_back(boxes[generator() % boxes.size()]);
+    }
+    world.move(some, places);
+    (void)world.step();
+  }
+  EXPECT_GT(world.statistics().rebuilds, before);
+  std::vector<Box> now;
+  for (const BoxId id : ids) now.push_back(world.box(id));
+  EXPECT_EQ(test::toVector(world.result().pairs), test::oracle(now));
+}
+
+}  // namespace
+}  // namespace allpairs
