@@ -25,7 +25,7 @@ using allpairs::app::ExitStatus;
 constexpr const char* kProgramExamples = R"(Examples:
   allpairs detect scene.scn                      pairs of models that may touch
   allpairs detect boxes.npy -o pairs.npy         overlapping boxes, from NumPy to NumPy
-  allpairs detect parts/ --margin 0.5            meshes of a folder, up to 0.5 apart
+  allpairs detect parts/ --distance 0.5          meshes of a folder, up to 0.5 apart
   allpairs info scene.scn                        its models, and what was ignored
   allpairs track frames.npy                      pairs that begin and end as boxes move
   allpairs elements start.ply end.ply            candidates for contact
@@ -44,7 +44,7 @@ void complain(std::string message) {
   std::fprintf(stderr, "%s\n", message.c_str());
 }
 
-/// What CLI11 says of an option that has no value or several, in words: "--margin: D is missing".
+/// What CLI11 says of an option that has no value or several, in words: "--distance: D is missing".
 std::string countProblem(const CLI::ArgumentMismatch& problem) {
   std::string text = problem.what();
   const std::string option = text.substr(0, text.find(':'));

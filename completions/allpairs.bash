@@ -6,7 +6,7 @@ _allpairs() {
   local scenes='uniform clusters power-law city needles all-overlap mesh' motions='brownian free-fall rotating-gravity'
   COMPREPLY=()
   case $previous in
-    --strategy) words='auto exhaustive blocked' ;;
+    --strategy) words='auto exhaustive bvh' ;;
     --format)
       words='table csv json npy'
       [[ $command != elements ]] || words='table json'
@@ -16,7 +16,7 @@ _allpairs() {
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
       return
       ;;
-    --margin | --box | --max-memory | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
+    --distance | --box | --max-memory | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
   esac
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
@@ -29,14 +29,14 @@ _allpairs() {
   if [[ $current == -* ]]; then
     case $command in
       detect)
-        words='--margin --box --strategy --threads --verify --exact --format -o --output --partial --data
+        words='--distance --box --strategy --threads --verify --exact --format -o --output --partial --data
           --allow-outside --max-memory -h --help'
         ;;
       info) words='--partial --data --allow-outside --max-memory -h --help' ;;
-      view) words='--sequence --margin --box --partial --data --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
-      report) words='--margin --box --partial --data --allow-outside --max-memory -o --output --pictures --metres-per-unit -h --help' ;;
-      track) words='--margin --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
-      elements) words='--margin --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
+      view) words='--sequence --distance --box --partial --data --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
+      report) words='--distance --box --partial --data --allow-outside --max-memory -o --output --pictures --metres-per-unit -h --help' ;;
+      track) words='--distance --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
+      elements) words='--distance --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
       generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;
       bench)
         words='--boxes -n --seed --sorted --threads --repetitions --unordered --count --strategy --instruction-set --json

@@ -14,15 +14,15 @@ int main() {
                                          5.0F, 0.1F, 0.0F,    5.1F, 0.2F, 0.1F};   // on shelf 0, beyond the region
   constexpr std::array<float, 12> kShelves{0.0F, 0.0F, -0.02F, 9.0F, 1.0F, 0.0F,   //
                                            0.0F, 0.0F, 0.48F,  9.0F, 1.0F, 0.5F};  //
-  const auto parts = allpairs::BoxSet::fromRows(kParts);
-  const auto shelves = allpairs::BoxSet::fromRows(kShelves);
+  const auto parts = allpairs::BoxView::fromRows(kParts);
+  const auto shelves = allpairs::BoxView::fromRows(kShelves);
 
   allpairs::OverlapOptions options;
   options.distance = 0.00101;
   options.region = allpairs::Box{{0, 0, -1}, {2, 1, 1}};
   options.maxPairs = 1000;
   try {
-    for (const auto& [part, shelf] : allpairs::overlapsBetween(parts, shelves, options)) {
+    for (const auto& [part, shelf] : allpairs::overlaps(parts, shelves, options)) {
       std::cout << "part " << part << " is near shelf " << shelf << '\n';
     }
   } catch (const allpairs::LimitExceeded& error) {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "Choices.h"
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 
 namespace allpairs::fuzz {
 
-/// Boxes as numbers of one type in one of the layouts that a BoxSet can view.
+/// Boxes as numbers of one type in one of the layouts that a BoxView can view.
 template <class T>
 class BoxesInMemory {
  public:
@@ -20,18 +20,18 @@ class BoxesInMemory {
   BoxesInMemory(const std::vector<Box>& boxes, std::size_t layout) : m_boxes(boxes), m_layout(layout) {}
 
   /// A view of the numbers, valid as long as this is.
-  BoxSet view() {
+  BoxView view() {
     const auto n = static_cast<std::ptrdiff_t>(m_boxes.size());
     switch (m_layout) {
       case 0:
         return viewOfBoxes();
       case 1:
         write(0, 6, 1, 3);
-        return BoxSet::fromRows(std::span<const T>(m_numbers));
+        return BoxView::fromRows(std::span<const T>(m_numbers));
       case 2:
         write(0, 3, 1, 3 * n);
-        return BoxSet::fromCorners(std::span<const T>(m_numbers).first(m_boxes.size() * 3),
-                                   std::span<const T>(m_numbers).subspan(m_boxes.size() * 3));
+        return BoxView::fromCorners(std::span<const T>(m_numbers).first(m_boxes.size() * 3),
+                                    std::span<const T>(m_numbers).subspan(m_boxes.size() * 3));
       case 3:  // six columns
         return strided(0, 1, n, 3 * n);
       default:  // from the last row to the first, each with its numbers backwards
@@ -40,7 +40,7 @@ class BoxesInMemory {
   }
 
  private:
-  BoxSet viewOfBoxes() {
+  BoxView viewOfBoxes() {
     for (const Box& box : m_boxes) {
       BasicBox<T>& copy = m_copies.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -64,12 +64,12 @@ class BoxesInMemory {
     }
   }
 
-  BoxSet strided(std::ptrdiff_t start, std::ptrdiff_t boxStride, std::ptrdiff_t axisStride, std::ptrdiff_t toMax) {
+  BoxView strided(std::ptrdiff_t start, std::ptrdiff_t boxStride, std::ptrdiff_t axisStride, std::ptrdiff_t toMax) {
     write(start, boxStride, axisStride, toMax);
-    if (m_boxes.empty()) return BoxSet::fromRows(std::span<const T>());
+    if (m_boxes.empty()) return BoxView::fromRows(std::span<const T>());
     const T* first = m_numbers.data() + start;
-    return BoxSet::fromStrided(m_boxes.size(), CornerView<T>{first, boxStride, axisStride},
-                               CornerView<T>{first + toMax, boxStride, axisStride});
+    return BoxView::fromStrided(m_boxes.size(), CornerView<T>{first, boxStride, axisStride},
+                                CornerView<T>{first + toMax, boxStride, axisStride});
   }
 
   std::vector<Box> m_boxes;

@@ -110,7 +110,7 @@ ALLPAIRS_C_API allpairs_status allpairs_set_margins(allpairs_set* set, const dou
 typedef enum allpairs_strategy {
   ALLPAIRS_AUTOMATIC = 0,
   ALLPAIRS_EXHAUSTIVE = 1,  ///< Every pair is tested.
-  ALLPAIRS_BLOCKED = 2      ///< Groups of boxes are tested by their bounds before their members are.
+  ALLPAIRS_BVH = 2          ///< A bounding volume hierarchy: groups of boxes are tested by their bounds first.
 } allpairs_strategy;
 
 typedef enum allpairs_order {
@@ -151,13 +151,12 @@ typedef struct allpairs_options {
   double distance;         ///< Boxes at most this far apart on every axis are a pair; margins are added.
   const double* region;    ///< Six numbers, or null: boxes outside of it are left out. Read when options are set.
   allpairs_filter first;   ///< Of the set, or of the first of two.
-  allpairs_filter second;  ///< Of the second of two sets.
+  allpairs_filter second;  ///< Of the second of two sets; a search of one set refuses it.
   allpairs_accept accept;  ///< May be null.
   void* accept_context;
-  size_t threads;      ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
-  uint64_t max_pairs;  ///< More are an ALLPAIRS_LIMIT_EXCEEDED; 0: no limit. Counting and streaming have none.
-  size_t batch_size;   ///< How many pairs a visitor gets at a time, at most; 0: 65536.
-  allpairs_memory memory;
+  size_t threads;          ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
+  uint64_t max_pairs;      ///< More are an ALLPAIRS_LIMIT_EXCEEDED, found, counted or streamed; 0: no limit.
+  allpairs_memory memory;  ///< Setting options of a search that was made with other memory is refused.
 } allpairs_options;
 
 /// The default settings.
@@ -198,6 +197,7 @@ ALLPAIRS_C_API allpairs_status allpairs_count_between(allpairs_search* search, c
 typedef struct allpairs_visitor {
   bool (*visit)(void* context, allpairs_pairs batch);  ///< false: no more; the search returns ALLPAIRS_STOPPED.
   void* context;
+  size_t batch_size;  ///< How many pairs it gets at a time, at most; 0: 65536.
 } allpairs_visitor;
 
 /// Hands the pairs of allpairs_find() to a visitor, in memory that does not depend on how many there are.
@@ -212,32 +212,32 @@ ALLPAIRS_C_API allpairs_status allpairs_stream_between(allpairs_search* search, 
 #define ALLPAIRS_NO_BOX UINT32_MAX
 
 /// What a box of a world is besides its place. A pair of boxes stays if each one's mask has a bit of the other's
-/// category, they are not of the same non-zero group or owner, and not both static.
+/// category, they are not of the same non-zero group, and not both static.
 typedef struct allpairs_properties {
   uint32_t category;
   uint32_t mask;
   uint32_t group;
-  uint32_t owner;
   double margin;
   bool is_static;
 } allpairs_properties;
 
-/// Every category, accepting every other; no group, no owner, no margin, moving.
+/// Every category, accepting every other; no group, no margin, moving.
 static inline allpairs_properties allpairs_default_properties(void) {
-  allpairs_properties properties = {UINT32_MAX, UINT32_MAX, 0, 0, 0.0, false};
+  allpairs_properties properties = {UINT32_MAX, UINT32_MAX, 0, 0.0, false};
   return properties;
 }
 
 typedef struct allpairs_world_options {
   size_t struct_size;  ///< sizeof(allpairs_world_options)
   double distance;
-  allpairs_accept accept;  ///< Its answer must stay the same until a box of the pair is changed or touched.
+  allpairs_order order;    ///< Of the lists of a step; ALLPAIRS_UNORDERED is refused.
+  allpairs_accept accept;  ///< Its answer must stay the same until a box of the pair is changed or invalidated.
   void* accept_context;
   size_t threads;  ///< As in allpairs_options.
   allpairs_memory memory;
 } allpairs_world_options;
 
-/// The pairs of a step, each list ordered by (first, second), of ids; valid until the next step.
+/// The pairs of a step, of ids, first < second, each list in the order of the options; valid until the next step.
 typedef struct allpairs_step {
   allpairs_pairs pairs;      ///< All pairs.
   allpairs_pairs began;      ///< Those that were none in the last step.
@@ -281,7 +281,7 @@ ALLPAIRS_C_API allpairs_status allpairs_world_set_properties(allpairs_world* wor
                                                              const allpairs_properties* properties);
 
 /// Has the next step ask `accept` again about the pairs of these boxes.
-ALLPAIRS_C_API allpairs_status allpairs_world_touch(allpairs_world* world, allpairs_ids ids);
+ALLPAIRS_C_API allpairs_status allpairs_world_invalidate(allpairs_world* world, allpairs_ids ids);
 
 ALLPAIRS_C_API size_t allpairs_world_size(const allpairs_world* world);
 ALLPAIRS_C_API bool allpairs_world_contains(const allpairs_world* world, uint32_t id);
@@ -451,7 +451,7 @@ typedef struct allpairs_mesh {
 /// Which candidates are wanted, and how they are found. All zeros, but for struct_size, are the defaults.
 typedef struct allpairs_elements_options {
   size_t struct_size;  ///< sizeof(allpairs_elements_options)
-  double margin;       ///< Elements whose boxes are at most this far apart on every axis are candidates.
+  double distance;     ///< Elements whose boxes are at most this far apart on every axis are candidates.
   bool skip_within;    ///< No two elements of one mesh.
   bool skip_between;   ///< No two elements of different meshes.
   allpairs_order order;

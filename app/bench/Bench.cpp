@@ -39,7 +39,7 @@ constexpr const char* kBenchExamples = R"(INPUT is a file of boxes (.npy or .csv
 )";
 
 constexpr const char* kExplanation =
-    R"(The time is that of one search from boxes in memory to pairs in memory by a new Overlaps
+    R"(The time is that of one search from boxes in memory to pairs in memory by a new OverlapSearch
 object; warm reuses the object of an earlier search. The hash is FNV-1a,
 64 bits, over the pairs in the order (first, second), each two 32-bit little-endian
 numbers: the same for every strategy, order, instruction set and number of threads.
@@ -55,11 +55,11 @@ struct Boxes {
   scene::BoxArray array;
 
   /// A new view, which checks all boxes again: that is part of the time.
-  [[nodiscard]] BoxSet view() const {
-    if (array.size() == 0) return BoxSet::fromRows(std::span<const float>(rows));
-    const BoxSet& boxes = array.boxes();
-    if (boxes.isFloat64()) return BoxSet::fromStrided(boxes.size(), boxes.float64().min, boxes.float64().max);
-    return BoxSet::fromStrided(boxes.size(), boxes.float32().min, boxes.float32().max);
+  [[nodiscard]] BoxView view() const {
+    if (array.size() == 0) return BoxView::fromRows(std::span<const float>(rows));
+    const BoxView& boxes = array.boxes();
+    if (boxes.isFloat64()) return BoxView::fromStrided(boxes.size(), boxes.float64().min, boxes.float64().max);
+    return BoxView::fromStrided(boxes.size(), boxes.float32().min, boxes.float32().max);
   }
 };
 
@@ -84,20 +84,20 @@ class Subject {
   Subject(const Boxes& boxes, OverlapOptions options, bool countOnly)
       : m_boxes(boxes), m_options(std::move(options)), m_countOnly(countOnly) {}
 
-  /// Runs with an Overlaps of their own each; of a single one, taking it down is not part of the time.
+  /// Runs with an OverlapSearch of their own each; of a single one, taking it down is not part of the time.
   [[nodiscard]] measure::Duration oneShots(std::size_t runs) const {
     const measure::Stopwatch watch;
     for (std::size_t run = 1; run < runs; ++run) {
-      Overlaps overlaps(m_options);
+      OverlapSearch overlaps(m_options);
       search(overlaps);
     }
-    Overlaps overlaps(m_options);
+    OverlapSearch overlaps(m_options);
     search(overlaps);
     return watch.elapsed() / static_cast<double>(runs);
   }
 
-  /// Runs that share one Overlaps, which has run before.
-  [[nodiscard]] measure::Duration warmRuns(Overlaps& kept, std::size_t runs) const {
+  /// Runs that share one OverlapSearch, which has run before.
+  [[nodiscard]] measure::Duration warmRuns(OverlapSearch& kept, std::size_t runs) const {
     const measure::Stopwatch watch;
     for (std::size_t run = 0; run < runs; ++run) search(kept);
     return watch.elapsed() / static_cast<double>(runs);
@@ -106,8 +106,8 @@ class Subject {
   [[nodiscard]] const OverlapOptions& options() const { return m_options; }
 
  private:
-  void search(Overlaps& overlaps) const {
-    const BoxSet boxes = m_boxes.view();
+  void search(OverlapSearch& overlaps) const {
+    const BoxView boxes = m_boxes.view();
     if (m_countOnly) {
       (void)overlaps.count(boxes);
     } else {
@@ -134,7 +134,7 @@ measure::Summary measureRuns(measure::TimedRuns timedRuns, const measure::Effort
 }
 
 /// How many pairs there are, what it took to find them, and unless they are only counted, their hash.
-void takeResult(const Boxes& boxes, Overlaps& overlaps, bool countOnly, BenchRecord& record) {
+void takeResult(const Boxes& boxes, OverlapSearch& overlaps, bool countOnly, BenchRecord& record) {
   if (countOnly) {
     record.pairs = overlaps.count(boxes.view());
   } else {
@@ -160,7 +160,7 @@ BenchRecord measureBoxes(const Boxes& boxes, const BenchSettings& settings, Exec
   const std::string_view best = instructionSets().front();
   record.instructionSet = settings.instructionSet.empty() ? std::string(best) : settings.instructionSet;
   const Subject subject(boxes, overlapOptions(settings, executor), settings.countOnly);
-  Overlaps kept(subject.options());
+  OverlapSearch kept(subject.options());
   takeResult(boxes, kept, settings.countOnly, record);
   const measure::Effort effort = effortOf(settings);
   record.oneShot = measureRuns([&](std::size_t runs) { return subject.oneShots(runs); }, effort);

@@ -31,6 +31,13 @@ std::string describeOrder(const Box& box) {
   return {};
 }
 
+/// --distance under its name of before, with or without its number.
+std::string byTodaysName(std::string_view argument) {
+  constexpr std::string_view kBefore = "--margin";
+  const bool isBefore = argument == kBefore || argument.starts_with("--margin=");
+  return isBefore ? "--distance" + std::string(argument.substr(kBefore.size())) : std::string(argument);
+}
+
 /// What stands behind "--" is no option, though it begins like one. CLI11 knows that before the first input only.
 std::string asPath(std::string_view word) { return (word.starts_with('-') ? "./" : "") + std::string(word); }
 
@@ -44,8 +51,8 @@ std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
       for (++i; i < count; ++i) joined.push_back(asPath(arguments[i]));
       break;
     }
-    joined.emplace_back(argument);
-    const bool takesNumbers = argument == "--margin" || argument == "--box";
+    joined.push_back(byTodaysName(argument));
+    const bool takesNumbers = joined.back() == "--distance" || argument == "--box";
     if (takesNumbers && i + 1 < count && !std::string_view(arguments[i + 1]).starts_with("--")) {
       joined.back() += '=';
       joined.back() += arguments[++i];
@@ -54,10 +61,10 @@ std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
   return joined;
 }
 
-double parseMargin(const std::string& text) {
+double parseDistance(const std::string& text) {
   const std::optional<double> value = parseNumber(text);
   if (!value || *value == -std::numeric_limits<double>::infinity()) {
-    throw UsageError("--margin: '" + text + "' is not a distance");
+    throw UsageError("--distance: '" + text + "' is not a distance");
   }
   return *value;
 }

@@ -15,10 +15,10 @@ namespace allpairs::app {
 /// a minus and would otherwise be taken for an option. What follows "--" are paths.
 [[nodiscard]] std::vector<std::string> joinNumbers(int count, const char* const* arguments);
 
-/// The number that follows --margin.
+/// The number that follows --distance.
 ///
 /// Bad input: anything but a number, NaN and -infinity throw UsageError.
-[[nodiscard]] double parseMargin(const std::string& text);
+[[nodiscard]] double parseDistance(const std::string& text);
 
 /// The number that follows --threads.
 ///

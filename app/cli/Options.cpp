@@ -39,8 +39,8 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& 
   return command.add_option(name, value)->type_name("WORD")->check(check);
 }
 
-CLI::Option* addMargin(CLI::App& command, std::string& margin, const std::string& description) {
-  return command.add_option("--margin", margin, description)->type_name("D");
+CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::string& description) {
+  return command.add_option("--distance", distance, description)->type_name("D");
 }
 
 void addThreads(CLI::App& command, std::string& threads) {
@@ -48,8 +48,8 @@ void addThreads(CLI::App& command, std::string& threads) {
 }
 
 void addStrategy(CLI::App& command, std::string& strategy) {
-  addChoice(command, "--strategy", strategy, {"auto", "exhaustive", "blocked"})
-      ->description("Algorithm: auto, exhaustive or blocked; all give the same pairs")
+  addChoice(command, "--strategy", strategy, {"auto", "exhaustive", "bvh"})
+      ->description("Algorithm: auto, exhaustive or bvh; all give the same pairs")
       ->capture_default_str();
 }
 

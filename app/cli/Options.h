@@ -35,8 +35,8 @@ void addInputs(CLI::App& command, InputSettings& settings);
 CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
                        std::vector<std::string> choices);
 
-/// Declares --margin D, whose value parseMargin() takes.
-CLI::Option* addMargin(CLI::App& command, std::string& margin, const std::string& description);
+/// Declares --distance D, whose value parseDistance() takes.
+CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::string& description);
 
 /// Declares --threads N, whose value parseThreads() takes.
 void addThreads(CLI::App& command, std::string& threads);

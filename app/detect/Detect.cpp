@@ -49,7 +49,7 @@ constexpr const char* kDetectExamples = R"(INPUT is one or more of
 Examples:
   allpairs detect scene.scn
   allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
-  allpairs detect parts/ --margin 0.5
+  allpairs detect parts/ --distance 0.5
   allpairs detect parts/ --exact
   allpairs detect boxes.npy -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
@@ -82,7 +82,7 @@ void write(const scene::ResultView& result, const TableNotes& notes, const std::
 
 std::string boxMethod(const DetectionOptions& options) {
   std::string text = "boxes";
-  if (options.margin) text += fmt::format(" at most {} apart on every axis", *options.margin);
+  if (options.distance) text += fmt::format(" at most {} apart on every axis", *options.distance);
   if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
   return text;
 }

@@ -14,7 +14,7 @@ OverlapOptions engineOptions(const DetectionOptions& options, BoxPairOrder order
   OverlapOptions engine;
   engine.strategy = options.strategy;
   engine.order = order == BoxPairOrder::NewestFirst ? Order::BySecond : Order::ByFirst;
-  engine.distance = options.margin.value_or(0.0);
+  engine.distance = options.distance.value_or(0.0);
   engine.region = options.region;
   engine.executor = executor;
   return engine;
@@ -58,7 +58,7 @@ Detection detectBoxes(const scene::BoxArray& boxes, BoxPairOrder order, const De
   const std::unique_ptr<Executor> executor = makeExecutor(options.threads, boxes.size());
   const OverlapOptions engine = engineOptions(options, order, executor.get());
   Detection detection;
-  detection.search = std::make_unique<Overlaps>(engine);
+  detection.search = std::make_unique<OverlapSearch>(engine);
   const Timer timer;
   detection.pairs = detection.search->find(boxes.boxes());
   const OverlapStatistics& counted = detection.search->statistics();

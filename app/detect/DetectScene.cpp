@@ -26,7 +26,7 @@ std::vector<Pair> indexed(const std::vector<collision::CollisionModelPair>& pair
 
 void configure(collision::BruteForceBroadPhase& broadPhase, scene::Scene& scene, const DetectionOptions& options,
                Executor* executor) {
-  if (options.margin) scene.intersection->setAlarmDistance(*options.margin);
+  if (options.distance) scene.intersection->setAlarmDistance(*options.distance);
   if (options.region) scene.region = options.region;
   if (scene.region) broadPhase.setBox(*scene.region);
   broadPhase.setStrategy(options.strategy);

@@ -15,12 +15,12 @@ constexpr std::size_t kWorthThreads = 20'000;
 
 Strategy strategyOf(const std::string& name) {
   if (name == "exhaustive") return Strategy::Exhaustive;
-  return name == "blocked" ? Strategy::Blocked : Strategy::Automatic;
+  return name == "bvh" ? Strategy::Bvh : Strategy::Automatic;
 }
 
 std::string strategyName(Strategy strategy) {
   if (strategy == Strategy::Exhaustive) return "exhaustive";
-  return strategy == Strategy::Blocked ? "blocked" : "auto";
+  return strategy == Strategy::Bvh ? "bvh" : "auto";
 }
 
 std::unique_ptr<Executor> makeExecutor(std::size_t threads, std::size_t models) {

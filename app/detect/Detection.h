@@ -20,7 +20,7 @@ namespace allpairs::app {
 
 /// How pairs are looked for, as the command line says.
 struct DetectionOptions {
-  std::optional<double> margin;
+  std::optional<double> distance;
   std::optional<Box> region;
   Strategy strategy = Strategy::Automatic;
   std::size_t threads = 0;  ///< 0: as many as the machine runs at once.
@@ -32,7 +32,7 @@ struct Detection {
   std::span<const Pair> pairs{};
   bool swapped = false;  ///< The pairs are to be read second first: newest model first.
   scene::DetectionStatistics statistics{};
-  std::unique_ptr<Overlaps> search{};
+  std::unique_ptr<OverlapSearch> search{};
   std::vector<Pair> ownPairs{};
 };
 
@@ -47,13 +47,13 @@ enum class BoxPairOrder : std::uint8_t {
 /// Bad input: with options.verify, strategies that disagree throw collision::VerificationError.
 [[nodiscard]] Detection detectBoxes(const scene::BoxArray& boxes, BoxPairOrder order, const DetectionOptions& options);
 
-/// The pairs of a scene's models that may touch, as the pipeline finds them. The margin replaces the method's alarm
+/// The pairs of a scene's models that may touch, as the pipeline finds them. The distance replaces the method's alarm
 /// distance, and the region that of the scene.
 ///
 /// Bad input: with options.verify, strategies that disagree throw collision::VerificationError.
 [[nodiscard]] Detection detectScene(scene::Scene& scene, const DetectionOptions& options);
 
-/// The strategy of a word of --strategy: auto, exhaustive or blocked.
+/// The strategy of a word of --strategy: auto, exhaustive or bvh.
 [[nodiscard]] Strategy strategyOf(const std::string& name);
 
 /// The word for a strategy on the command line.

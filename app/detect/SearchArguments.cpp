@@ -11,7 +11,7 @@ namespace allpairs::app {
 
 void addSearchOptions(CLI::App& command, SearchArguments& arguments) {
   command
-      .add_option("--margin", arguments.margin,
+      .add_option("--distance", arguments.distance,
                   "Report pairs up to D apart on every axis; replaces a scene's alarmDistance")
       ->type_name("D");
   command.add_option("--box", arguments.box, "Ignore models outside of this region")->type_name("x0,y0,z0,x1,y1,z1");
@@ -19,7 +19,7 @@ void addSearchOptions(CLI::App& command, SearchArguments& arguments) {
 
 DetectionOptions detectionOptions(const SearchArguments& arguments) {
   DetectionOptions options;
-  if (arguments.margin) options.margin = parseMargin(*arguments.margin);
+  if (arguments.distance) options.distance = parseDistance(*arguments.distance);
   if (arguments.box) options.region = parseRegion(*arguments.box);
   return options;
 }

@@ -11,14 +11,14 @@ namespace allpairs::app {
 
 /// Which pairs to look for, as the command line says: what detect, view and report have in common.
 struct SearchArguments {
-  std::optional<std::string> margin;
+  std::optional<std::string> distance;
   std::optional<std::string> box;
 };
 
-/// Declares --margin and --box.
+/// Declares --distance and --box.
 void addSearchOptions(CLI::App& command, SearchArguments& arguments);
 
-/// Bad input: a margin that is no number or a box that is no region throws UsageError.
+/// Bad input: a distance that is no number or a box that is no region throws UsageError.
 [[nodiscard]] DetectionOptions detectionOptions(const SearchArguments& arguments);
 
 }  // namespace allpairs::app

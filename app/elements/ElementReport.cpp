@@ -36,7 +36,7 @@ std::string tableOf(const ElementReport& report) {
     }
     if (report.betweenOnly) text += "wanted       candidates between different meshes\n";
   }
-  text += fmt::format("elements     {}\nmargin       {}\n", countsText(report.counts), report.margin);
+  text += fmt::format("elements     {}\ndistance     {}\n", countsText(report.counts), report.distance);
   for (std::size_t i = 0; i < kKindNames.size(); ++i) {
     text += fmt::format("{:<13}{}\n", kKindNames[i].title, grouped(report.candidates[i]));
   }
@@ -55,7 +55,7 @@ std::string jsonOf(const ElementReport& report) {
   json["meshes"] = meshesJson(report);
   json["files"] = nlohmann::ordered_json::object();
   for (const ElementReport::File& file : report.files) json["files"][file.key] = file.path;
-  json["statistics"] = {{"margin", report.margin},
+  json["statistics"] = {{"distance", report.distance},
                         {"between", report.betweenOnly},
                         {"threads", report.threads},
                         {"readSeconds", report.readSeconds},

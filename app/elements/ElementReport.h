@@ -42,7 +42,7 @@ struct ElementReport {
   elements::ElementCounts counts;
   std::array<std::uint64_t, 3> candidates{};  ///< In the order of kKindNames.
   std::vector<File> files;
-  double margin = 0.0;
+  double distance = 0.0;
   bool betweenOnly = false;
   std::size_t threads = 1;
   double readSeconds = 0.0;

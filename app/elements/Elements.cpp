@@ -30,7 +30,7 @@ namespace {
 
 struct ElementSettings {
   std::vector<std::string> paths;
-  std::string margin = "0";
+  std::string distance = "0";
   std::string threads = "0";
   std::string format;
   std::string output;
@@ -50,7 +50,7 @@ they index, BASE.edges.npy and BASE.faces.npy. BASE is FILE without its extensio
 
 Examples:
   allpairs elements cloth_92.ply cloth_93.ply
-  allpairs elements cloth_92.ply cloth_93.ply --margin 0.001 -o cloth.json
+  allpairs elements cloth_92.ply cloth_93.ply --distance 0.001 -o cloth.json
   allpairs elements cloth_92.ply cloth_93.ply ball.ply ball.ply --between)";
 
 std::vector<MeshStep> readSteps(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
@@ -144,7 +144,7 @@ void checkElementsExtension(const std::string& path) {
 void runElements(const ElementSettings& settings) {
   checkElementsExtension(settings.output);
   ElementReport report;
-  report.margin = parseMargin(settings.margin);
+  report.distance = parseDistance(settings.distance);
   report.betweenOnly = settings.between;
   const std::size_t threads = parseThreads(settings.threads);
   Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
@@ -158,7 +158,8 @@ void runElements(const ElementSettings& settings) {
   const bool wantsLists = !settings.output.empty();
   if (executor && wantsLists) report.threads = executor->concurrency();  // counting runs on one
   elements::ElementCandidates candidates(
-      std::move(topology), {.margin = report.margin, .withinMeshes = !settings.between, .executor = executor.get()});
+      std::move(topology),
+      {.distance = report.distance, .withinMeshes = !settings.between, .executor = executor.get()});
   for (std::size_t i = 0; i < steps.size(); ++i) {
     candidates.setPositions(i, std::span<const double>(steps[i].start.positions), steps[i].endPositions);
   }
@@ -180,7 +181,7 @@ void addElements(CLI::App& program) {
   command->add_option("START END", settings->paths, "Mesh files at the start and the end of a step, alternating")
       ->required()
       ->type_name("");
-  addMargin(*command, settings->margin, "Report candidates up to D apart on every axis");
+  addDistance(*command, settings->distance, "Report candidates up to D apart on every axis");
   command->add_flag("--between", settings->between, "Only candidates between two meshes");
   addThreads(*command, settings->threads);
   addFormat(*command, settings->format, kElementFormats);

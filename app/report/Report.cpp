@@ -43,7 +43,7 @@ and a folder of pictures. Pairs with the largest shared volume come first.
 
 Examples:
   allpairs report parts/ -o report
-  allpairs report assembly.glb --margin 0.01 -o report --pictures 100
+  allpairs report assembly.glb --distance 0.01 -o report --pictures 100
   allpairs report parts/ --metres-per-unit 0.001 -o report)";
 
 /// Now, or the moment that builds which must repeat exactly give in SOURCE_DATE_EPOCH.

@@ -18,7 +18,7 @@ class NpyFrames final : public FrameSource {
   explicit NpyFrames(const std::string& path) : m_frames(path) {}
 
   [[nodiscard]] std::size_t frameCount() const override { return m_frames.frameCount(); }
-  [[nodiscard]] BoxSet next() override { return m_frames.next(); }
+  [[nodiscard]] BoxView next() override { return m_frames.next(); }
 
  private:
   scene::BoxFrames m_frames;
@@ -31,14 +31,14 @@ class MeshFrames final : public FrameSource {
 
   [[nodiscard]] std::size_t frameCount() const override { return m_paths.size(); }
 
-  [[nodiscard]] BoxSet next() override {
+  [[nodiscard]] BoxView next() override {
     std::vector<TriangleMesh> meshes = readTriangleMeshes(m_paths[m_frame], m_options);
     if (m_frame == 0) m_first = meshes;
     checkSameMeshes(m_first, m_paths.front(), meshes, m_paths[m_frame]);
     ++m_frame;
     m_boxes.clear();
     for (const TriangleMesh& mesh : meshes) addBoxes(mesh);
-    return BoxSet::fromBoxes(m_boxes);
+    return BoxView::fromBoxes(m_boxes);
   }
 
   [[nodiscard]] std::function<bool(std::uint32_t, std::uint32_t)> accept() const override {

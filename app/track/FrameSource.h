@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/scene/ReadOptions.h"
 
 namespace allpairs::app {
@@ -28,7 +28,7 @@ class FrameSource {
   /// The boxes of the next frame, as many in each; valid until the next call.
   ///
   /// Bad input: throws FileError.
-  [[nodiscard]] virtual BoxSet next() = 0;
+  [[nodiscard]] virtual BoxView next() = 0;
 
   /// Which overlapping boxes are a pair; empty where all are. To be asked for after the first frame.
   [[nodiscard]] virtual std::function<bool(std::uint32_t, std::uint32_t)> accept() const { return {}; }

@@ -32,7 +32,7 @@ namespace {
 
 struct TrackSettings {
   std::vector<std::string> paths;
-  std::string margin = "0";
+  std::string distance = "0";
   std::string threads = "1";
   std::string format;
   std::string output;
@@ -52,19 +52,19 @@ Examples:
   allpairs generate brownian -n 10000 --frames 200 -o frames.npy
   allpairs track frames.npy
   allpairs track frames.npy --format csv -o frames.csv
-  allpairs track cloth_*.ply --margin 0.001)";
+  allpairs track cloth_*.ply --distance 0.001)";
 
 /// The changes of each frame found anew, by searching all boxes and comparing with the frame before.
 class Verification {
  public:
-  Verification(double margin, std::function<bool(std::uint32_t, std::uint32_t)> accept) {
+  Verification(double distance, std::function<bool(std::uint32_t, std::uint32_t)> accept) {
     OverlapOptions options;
-    options.distance = margin;
+    options.distance = distance;
     options.filter.accept = std::move(accept);
     m_search.setOptions(std::move(options));
   }
 
-  void check(std::size_t frame, const BoxSet& boxes, const StepResult& step) {
+  void check(std::size_t frame, const BoxView& boxes, const StepResult& step) {
     const std::span<const Pair> found = m_search.find(boxes);
     std::vector<Pair> began;
     std::vector<Pair> ended;
@@ -77,7 +77,7 @@ class Verification {
   }
 
  private:
-  Overlaps m_search;
+  OverlapSearch m_search;
   std::vector<Pair> m_before;
 };
 
@@ -85,7 +85,7 @@ class Verification {
 class Tracker {
  public:
   Tracker(const TrackSettings& settings, FrameSource& source) : m_settings(settings), m_source(source) {
-    m_report.margin = parseMargin(settings.margin);
+    m_report.distance = parseDistance(settings.distance);
   }
 
   TrackReport run() {
@@ -93,7 +93,7 @@ class Tracker {
     ProgressLine line;
     for (std::size_t frame = 0; frame < count; ++frame) {
       line.show("frame " + grouped(frame + 1) + " of " + grouped(count));
-      const BoxSet boxes = m_source.next();
+      const BoxView boxes = m_source.next();
       if (frame == 0) begin(boxes);
       const Timer timer;
       frame == 0 ? m_world->add(boxes, {}, m_ids) : m_world->move(m_ids, boxes);
@@ -107,18 +107,18 @@ class Tracker {
   }
 
  private:
-  void begin(const BoxSet& boxes) {
+  void begin(const BoxView& boxes) {
     m_report.boxes = boxes.size();
     m_report.verified = m_settings.verify;
     m_executor = makeExecutor(parseThreads(m_settings.threads), boxes.size());
     if (m_executor) m_report.threads = m_executor->concurrency();
     WorldOptions options;
-    options.distance = m_report.margin;
+    options.distance = m_report.distance;
     options.accept = m_source.accept();
     options.executor = m_executor.get();
     m_world.emplace(options);
     m_ids.resize(boxes.size());
-    if (m_settings.verify) m_verification.emplace(m_report.margin, m_source.accept());
+    if (m_settings.verify) m_verification.emplace(m_report.distance, m_source.accept());
   }
 
   const TrackSettings& m_settings;
@@ -154,7 +154,7 @@ void addTrack(CLI::App& program) {
   command->add_option("FRAMES", settings->paths, "Boxes (t, n, 6) in a .npy file, or a mesh file for each frame")
       ->required()
       ->type_name("");
-  addMargin(*command, settings->margin, "Report pairs up to D apart on every axis");
+  addDistance(*command, settings->distance, "Report pairs up to D apart on every axis");
   addThreads(*command, settings->threads);
   command->add_flag("--verify", settings->verify, "Also search each frame from scratch; fail on any difference");
   addFormat(*command, settings->format, kTrackFormats);

@@ -37,7 +37,7 @@ std::string tableOf(const TrackReport& report) {
   const double first = report.frames.empty() ? 0.0 : report.frames.front().milliseconds;
   std::string text =
       fmt::format("frames   {} of {}\n", grouped(report.frames.size()), counted(report.boxes, "box", "boxes"));
-  text += fmt::format("margin   {}\n", report.margin);
+  text += fmt::format("distance {}\n", report.distance);
   text += fmt::format("pairs    {} to {} a frame\n", grouped(totals.fewest), grouped(totals.most));
   text += fmt::format("began    {}\nended    {}\n", grouped(totals.began), grouped(totals.ended));
   if (report.verified) text += "verify   searching each frame anew gives the same pairs and changes\n";
@@ -74,7 +74,7 @@ std::string jsonOf(const TrackReport& report) {
   json["began"] = column(report.frames, &TrackedFrame::began);
   json["ended"] = column(report.frames, &TrackedFrame::ended);
   json["milliseconds"] = column(report.frames, &TrackedFrame::milliseconds);
-  json["statistics"] = {{"margin", report.margin},
+  json["statistics"] = {{"distance", report.distance},
                         {"began", totals.began},
                         {"ended", totals.ended},
                         {"medianMs", times.medianMs},

@@ -22,7 +22,7 @@ struct TrackedFrame {
 struct TrackReport {
   std::size_t boxes = 0;
   std::vector<TrackedFrame> frames;
-  double margin = 0.0;
+  double distance = 0.0;
   std::size_t threads = 1;
   std::uint64_t rebuilds = 0;
   bool verified = false;

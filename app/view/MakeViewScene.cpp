@@ -115,7 +115,7 @@ void addBoxNames(const scene::BoxArray& boxes, view::ViewScene& to) {
 
 void fill(scene::BoxArray& from, const DetectionOptions& options, view::ViewScene& to) {
   to.method = boxMethod(options);
-  to.distance = options.margin.value_or(0.0);
+  to.distance = options.distance.value_or(0.0);
   to.region = options.region;
   addBoxColumns(from.size(), to);
   addBoxNames(from, to);

@@ -44,7 +44,7 @@ constexpr const char* kViewExamples =
 
 Examples:
   allpairs view scene.scn -o scene.html
-  allpairs view parts/ --margin 0.5 --open
+  allpairs view parts/ --distance 0.5 --open
   allpairs view --sequence cloth_*.ply -o cloth.html
   allpairs view boxes.npy --serve)";
 

@@ -24,7 +24,8 @@ std::string titleOf(const std::vector<std::string>& paths) {
 }
 
 std::string boxMethod(const DetectionOptions& options) {
-  std::string text = options.margin ? fmt::format("boxes at most {} apart on every axis", *options.margin) : "boxes";
+  std::string text =
+      options.distance ? fmt::format("boxes at most {} apart on every axis", *options.distance) : "boxes";
   if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
   return text;
 }
@@ -40,9 +41,9 @@ void addBoxColumns(std::size_t count, view::ViewScene& to) {
   to.contactDistances.assign(count, 0.0);
 }
 
-view::ViewFrame boxFrame(const BoxSet& boxes, const DetectionOptions& options) {
+view::ViewFrame boxFrame(const BoxView& boxes, const DetectionOptions& options) {
   view::ViewFrame frame;
-  const double distance = options.margin.value_or(0.0);
+  const double distance = options.distance.value_or(0.0);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box box = boxes[i];
     const bool isOutside = options.region && !overlap(*options.region, box, distance);

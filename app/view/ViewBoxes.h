@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ViewScene.h"
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "detect/Detection.h"
 
 namespace allpairs::app {
@@ -21,6 +21,6 @@ namespace allpairs::app {
 void addBoxColumns(std::size_t count, view::ViewScene& to);
 
 /// Boxes at one moment, without pairs.
-[[nodiscard]] view::ViewFrame boxFrame(const BoxSet& boxes, const DetectionOptions& options);
+[[nodiscard]] view::ViewFrame boxFrame(const BoxView& boxes, const DetectionOptions& options);
 
 }  // namespace allpairs::app

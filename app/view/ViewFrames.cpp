@@ -43,7 +43,7 @@ class FrameSearch {
   }
 
   /// Adds a frame of boxes, and of a sequence of meshes where the vertices are: its pairs newest first, as a scene's.
-  void add(const BoxSet& boxes, std::vector<double> positions = {}) {
+  void add(const BoxView& boxes, std::vector<double> positions = {}) {
     const Timer timer;
     view::ViewFrame frame = boxFrame(boxes, m_options);
     frame.positions = std::move(positions);
@@ -65,14 +65,14 @@ class FrameSearch {
   std::size_t m_frames;
   std::size_t m_pairs = 0;
   std::unique_ptr<Executor> m_executor;
-  Overlaps m_search;
+  OverlapSearch m_search;
 };
 
 view::ViewScene emptyScene(const InputSettings& input, const DetectionOptions& options, std::size_t frames) {
   view::ViewScene scene;
   scene.title = titleOf(input.paths);
   scene.method = fmt::format("{}, {}", boxMethod(options), counted(frames, "frame"));
-  scene.distance = options.margin.value_or(0.0);
+  scene.distance = options.distance.value_or(0.0);
   scene.region = options.region;
   return scene;
 }
@@ -144,7 +144,7 @@ view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOption
     checkSameMeshes(first, paths.front(), meshes, paths[i]);
     std::vector<double> positions = positionsOf(meshes);
     const std::vector<Box> boxes = triangleBoxes(scene.corners, positions);
-    search.add(BoxSet::fromBoxes(boxes), std::move(positions));
+    search.add(BoxView::fromBoxes(boxes), std::move(positions));
   }
   scene.statistics.readSeconds = timer.seconds() - scene.statistics.detectSeconds;
   return scene;

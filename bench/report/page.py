@@ -22,7 +22,7 @@ METHOD = """## How it is measured
 - **What**: one search from boxes in memory, rows of six float32, to an array of pairs in memory, everything in between
   included: the check for NaNs, every copy, sort and tree. Nothing is kept from the search before but what the
   process's allocator, glibc's, keeps of freed memory. What a search built is taken down after the clock has been read, except where a sample has to hold many runs because one is
-  below a millisecond. *Warm* is the same with the one `Overlaps` object kept.
+  below a millisecond. *Warm* is the same with the one `OverlapSearch` object kept.
 - **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on a quiet
   machine and survives a busy one. Medians; the records hold wall time, spread and repetitions too.
 - **Fairness**: all contenders take turns on the same boxes, so that whatever else the machine does meets them alike.

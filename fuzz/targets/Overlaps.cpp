@@ -21,7 +21,7 @@ struct Side {
   std::vector<Box> boxes;
   std::optional<BoxesInMemory<float>> float32;
   std::optional<BoxesInMemory<double>> float64;
-  BoxSet set;
+  BoxView set;
   double margin = 0.0;
   std::vector<double> margins;
   std::vector<std::uint32_t> categories, masks, groups;
@@ -121,7 +121,7 @@ struct Oracle {
   }
 };
 
-OverlapOptions readOptions(Choices& choices, BackwardExecutor& executor) {
+OverlapOptions readOptions(Choices& choices, BackwardExecutor& executor, std::size_t& batchSize) {
   OverlapOptions options;
   options.strategy = static_cast<Strategy>(choices.below(3));
   options.order = static_cast<Order>(choices.below(3));
@@ -129,7 +129,7 @@ OverlapOptions readOptions(Choices& choices, BackwardExecutor& executor) {
   options.instructionSet = instructionSets()[choices.below(instructionSets().size())];
   const std::uint8_t parts = choices.byte();
   if ((parts & 1U) != 0) options.executor = &executor;
-  if ((parts & 2U) != 0) options.batchSize = 1 + choices.below(300);
+  if ((parts & 2U) != 0) batchSize = 1 + choices.below(300);
   if ((parts & 4U) != 0) options.maxPairs = choices.below(1000);
   if ((parts & 24U) == 24) {
     const Box region = choices.box();
@@ -140,14 +140,22 @@ OverlapOptions readOptions(Choices& choices, BackwardExecutor& executor) {
 
 class Question {
  public:
-  Question(Overlaps& search, const Oracle& oracle) : m_search(search), m_oracle(oracle), m_expected(oracle.pairs()) {}
+  Question(OverlapSearch& search, const Oracle& oracle, std::size_t batchSize)
+      : m_search(search), m_oracle(oracle), m_batchSize(batchSize), m_expected(oracle.pairs()) {}
 
   void ask() {
-    require(count() == m_expected.size(), "count() is the number of pairs of the double loop");
-    compare(streamed(), "stream() gives the pairs of the double loop");
+    limited([&] { require(count() == m_expected.size(), "count() is the number of pairs of the double loop"); });
+    limited([&] { compare(streamed(), "stream() gives the pairs of the double loop"); });
+    limited([&] { compare(found(), "find() gives the pairs of the double loop"); });
+  }
+
+ private:
+  /// Whatever looks for pairs throws if there are more than it may find, and only then.
+  template <class Look>
+  void limited(const Look& look) const {
     bool isTooMany = false;
     try {
-      compare(found(), "find() gives the pairs of the double loop");
+      look();
     } catch (const LimitExceeded& error) {
       isTooMany = true;
       require(error.count() > m_oracle.options.maxPairs, "LimitExceeded counts more pairs than the limit");
@@ -155,17 +163,15 @@ class Question {
     require(isTooMany == (m_expected.size() > m_oracle.options.maxPairs), "more pairs than maxPairs are an error");
   }
 
- private:
   [[nodiscard]] bool isOne() const { return &m_oracle.first == &m_oracle.second; }
 
   std::uint64_t count() {
-    return isOne() ? m_search.count(m_oracle.first.set)
-                   : m_search.countBetween(m_oracle.first.set, m_oracle.second.set);
+    return isOne() ? m_search.count(m_oracle.first.set) : m_search.count(m_oracle.first.set, m_oracle.second.set);
   }
 
   std::vector<Pair> found() {
     const auto pairs =
-        isOne() ? m_search.find(m_oracle.first.set) : m_search.findBetween(m_oracle.first.set, m_oracle.second.set);
+        isOne() ? m_search.find(m_oracle.first.set) : m_search.find(m_oracle.first.set, m_oracle.second.set);
     require(m_search.statistics().pairs == pairs.size(), "statistics().pairs is the number of pairs");
     return {pairs.begin(), pairs.end()};
   }
@@ -173,11 +179,12 @@ class Question {
   std::vector<Pair> streamed() {
     std::vector<Pair> pairs;
     const auto take = [&](std::span<const Pair> batch) {
-      require(!batch.empty() && batch.size() <= m_oracle.options.batchSize, "a batch holds 1 to batchSize pairs");
+      require(!batch.empty() && batch.size() <= m_batchSize, "a batch holds 1 to batchSize pairs");
       pairs.insert(pairs.end(), batch.begin(), batch.end());
+      require(pairs.size() <= m_oracle.options.maxPairs, "no more pairs are streamed than the limit");
     };
-    if (isOne()) m_search.stream(m_oracle.first.set, take);
-    if (!isOne()) m_search.streamBetween(m_oracle.first.set, m_oracle.second.set, take);
+    if (isOne()) m_search.stream(m_oracle.first.set, take, m_batchSize);
+    if (!isOne()) m_search.stream(m_oracle.first.set, m_oracle.second.set, take, m_batchSize);
     return pairs;
   }
 
@@ -186,20 +193,22 @@ class Question {
     require(pairs == m_expected, property);
   }
 
-  Overlaps& m_search;
+  OverlapSearch& m_search;
   const Oracle& m_oracle;
+  std::size_t m_batchSize;
   std::vector<Pair> m_expected;
 };
 
-void searchOnce(Choices& choices, Overlaps& search) {
+void searchOnce(Choices& choices, OverlapSearch& search) {
   Side first, second;
   readSide(choices, first);
   const bool isOne = choices.flag();
   if (!isOne) readSide(choices, second);
   BackwardExecutor executor;
-  OverlapOptions options = readOptions(choices, executor);
+  std::size_t batchSize = kBatchSize;
+  OverlapOptions options = readOptions(choices, executor, batchSize);
   options.filter.first = {first.categories, first.masks, first.groups};
-  options.filter.second = {second.categories, second.masks, second.groups};
+  if (!isOne) options.filter.second = {second.categories, second.masks, second.groups};
   const Oracle oracle{options, first, isOne ? first : second, choices.byte() % 8U};
   if (oracle.salt != 0) {
     options.filter.accept = [&](std::uint32_t i, std::uint32_t j) {
@@ -208,13 +217,13 @@ void searchOnce(Choices& choices, Overlaps& search) {
     };
   }
   search.setOptions(options);
-  Question(search, oracle).ask();
+  Question(search, oracle, batchSize).ask();
   search.setOptions({});
 }
 
 void runOverlaps(Bytes bytes) {
   Choices choices(bytes);
-  Overlaps search;
+  OverlapSearch search;
   for (int round = 0; round < 3 && !choices.done(); ++round) searchOnce(choices, search);
 }
 

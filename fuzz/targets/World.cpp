@@ -53,6 +53,7 @@ class Life {
  public:
   explicit Life(Choices& choices) : m_choices(choices), m_world(readOptions()) {
     m_oracle.distance = m_world.options().distance;
+    m_oracle.order = m_world.options().order;
   }
 
   void lead() {
@@ -68,6 +69,7 @@ class Life {
     options.instructionSet = instructionSets()[m_choices.below(instructionSets().size())];
     const std::uint8_t parts = m_choices.byte();
     if ((parts & 1U) != 0) options.executor = &m_executor;
+    if ((parts & 4U) != 0) options.order = Order::BySecond;
     if ((parts & 2U) != 0) options.accept = [this](BoxId a, BoxId b) { return accepts(a, b); };
     return options;
   }
@@ -96,7 +98,7 @@ class Life {
       case 7:
         return setProperties();
       case 8:
-        return touch();
+        return invalidate();
       case 9:
         return unusual();
       case 10:
@@ -120,7 +122,6 @@ class Life {
     if ((parts & 4U) != 0) p.category = 1U << m_choices.below(3);
     if ((parts & 8U) != 0) p.mask = m_choices.byte() % 8U;
     if ((parts & 16U) != 0) p.group = m_choices.byte() % 3U;
-    if ((parts & 32U) != 0) p.owner = m_choices.byte() % 3U;
     return p;
   }
 
@@ -130,7 +131,7 @@ class Life {
     std::vector<BoxProperties> all(m_choices.flag() ? boxes.size() : 1);
     for (BoxProperties& p : all) p = properties();
     std::vector<BoxId> ids(boxes.size());
-    withView(m_choices, boxes, [&](const BoxSet& view) { m_world.add(view, all, ids); });
+    withView(m_choices, boxes, [&](const BoxView& view) { m_world.add(view, all, ids); });
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       require(!m_oracle.boxes.contains(ids[i]), "the id of a new box is not in use");
       require(!wasInStep(ids[i]), "the id of a new box is not in the last step's lists");
@@ -173,7 +174,7 @@ class Life {
     std::vector<BoxId> ids = someIds();
     std::vector<Box> boxes = newBounds(ids);
     if (!ids.empty() && m_choices.flag()) ids.push_back(ids.front()), boxes.push_back(m_choices.box());
-    withView(m_choices, boxes, [&](const BoxSet& view) { m_world.move(ids, view); });
+    withView(m_choices, boxes, [&](const BoxView& view) { m_world.move(ids, view); });
     for (std::size_t i = 0; i < ids.size(); ++i) m_oracle.boxes[ids[i]].box = boxes[i];
   }
 
@@ -181,8 +182,8 @@ class Life {
     const std::vector<BoxId> ids = someIds();
     std::vector<Box> starts = newBounds(ids);
     std::vector<Box> ends = newBounds(ids);
-    withView(m_choices, starts, [&](const BoxSet& from) {
-      withView(m_choices, ends, [&](const BoxSet& to) { m_world.moveSwept(ids, from, to); });
+    withView(m_choices, starts, [&](const BoxView& from) {
+      withView(m_choices, ends, [&](const BoxView& to) { m_world.moveSwept(ids, from, to); });
     });
     for (std::size_t i = 0; i < ids.size(); ++i) m_oracle.boxes[ids[i]].box = joined(starts[i], ends[i]);
   }
@@ -195,7 +196,7 @@ class Life {
     const double duration = m_choices.finite();
     std::vector<Box> swept;
     bool isRefused = false;
-    withView(m_choices, starts, [&](const BoxSet& from) {
+    withView(m_choices, starts, [&](const BoxView& from) {
       for (std::size_t i = 0; i < ids.size(); ++i) {
         Box end = starts[i];
         for (std::size_t k = 0; k < 3; ++k) {
@@ -230,10 +231,10 @@ class Life {
     for (std::size_t i = 0; i < ids.size(); ++i) m_oracle.boxes[ids[i]].properties = all.size() == 1 ? all[0] : all[i];
   }
 
-  void touch() {
+  void invalidate() {
     const std::vector<BoxId> ids = someIds();
     for (const BoxId id : ids) m_tokens[id] = ++m_lastToken;
-    m_world.touch(ids);
+    m_world.invalidate(ids);
   }
 
   void unusual() {
@@ -270,7 +271,7 @@ class Life {
       if (kind == 2) m_world.moveSwept(ids, boxes, velocities, 1.0);
       if (kind == 3) m_world.remove(ids);
       if (kind == 4) m_world.setProperties(ids, std::span(&other, 1));
-      if (kind == 5) m_world.touch(ids);
+      if (kind == 5) m_world.invalidate(ids);
     } catch (const InvalidBox& error) {
       isRefused = true;
       require(error.index() == ids.size() - 1, "the error names the place of the id that isn't there");
@@ -294,9 +295,10 @@ class Life {
     std::erase_if(m_oracle.pairs, [this](Pair p) { return !accepts(p.first, p.second); });
     const std::vector<Pair>& now = m_oracle.pairs;
     m_oracle.began.clear(), m_oracle.persisted.clear(), m_oracle.ended.clear();
-    std::ranges::set_difference(now, m_lastPairs, std::back_inserter(m_oracle.began));
-    std::ranges::set_intersection(now, m_lastPairs, std::back_inserter(m_oracle.persisted));
-    std::ranges::set_difference(m_lastPairs, now, std::back_inserter(m_oracle.ended));
+    const auto before = [this](Pair a, Pair b) { return m_oracle.isBefore(a, b); };
+    std::ranges::set_difference(now, m_lastPairs, std::back_inserter(m_oracle.began), before);
+    std::ranges::set_intersection(now, m_lastPairs, std::back_inserter(m_oracle.persisted), before);
+    std::ranges::set_difference(m_lastPairs, now, std::back_inserter(m_oracle.ended), before);
     m_lastPairs = now;
   }
 
@@ -327,7 +329,7 @@ class Life {
   void compareOverlapping() {
     std::vector<Box> boxes = m_choices.boxes(20);
     const QueryFilter wanted = filter();
-    withView(m_choices, boxes, [&](const BoxSet& view) {
+    withView(m_choices, boxes, [&](const BoxView& view) {
       const ResultLists<BoxId> lists = m_world.findOverlapping(view, wanted);
       require(lists.size() == boxes.size(), "findOverlapping gives a list for each box");
       for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -397,6 +399,7 @@ class Life {
         if (!m_world.options().accept || accepts(a, ids[i])) expected.push_back({a, ids[i]});
       }
     }
+    std::sort(expected.begin(), expected.end(), [this](Pair a, Pair b) { return m_oracle.isBefore(a, b); });
     const auto pairs = m_world.findBetween(other);
     m_isBetween = false;
     require(std::ranges::equal(pairs, expected), "findBetween gives the pairs of the double loop");

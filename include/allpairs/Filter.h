@@ -10,13 +10,13 @@ namespace allpairs {
 /// What the boxes of one set say about whom they may pair with; a span is empty, or as long as the set.
 struct FilterBits {
   /// What a box is, as bits; without it every bit is set.
-  std::span<const std::uint32_t> categories;
+  std::span<const std::uint32_t> categories{};
 
   /// Which categories a box accepts as partners; without it every bit is set.
-  std::span<const std::uint32_t> masks;
+  std::span<const std::uint32_t> masks{};
 
   /// Boxes of the same non-zero group are no pair.
-  std::span<const std::uint32_t> groups;
+  std::span<const std::uint32_t> groups{};
 };
 
 /// Which overlapping boxes are left out of the result.
@@ -29,13 +29,13 @@ struct FilterBits {
 ///            executor of the search.
 struct Filter {
   /// Of the set, or of the first of two.
-  FilterBits first;
+  FilterBits first{};
 
-  /// Of the second of two sets; not looked at for one.
-  FilterBits second;
+  /// Of the second of two sets; a search of one set refuses it with InvalidArgument.
+  FilterBits second{};
 
   /// Asked with (first, second) of a pair that passed the rest.
-  std::function<bool(std::uint32_t, std::uint32_t)> accept;
+  std::function<bool(std::uint32_t, std::uint32_t)> accept{};
 };
 
 }  // namespace allpairs

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
@@ -18,7 +17,7 @@ namespace allpairs {
 enum class Strategy : std::uint8_t {
   Automatic,   ///< Whatever is fastest for the number of boxes.
   Exhaustive,  ///< Every pair is tested: n(n-1)/2 tests, or n*m between two sets.
-  Blocked,     ///< Groups of boxes are tested by their bounds before their members are.
+  Bvh,         ///< A bounding volume hierarchy: groups of boxes are tested by their bounds before their members are.
 };
 
 /// In which order pairs are given.
@@ -39,10 +38,10 @@ struct OverlapOptions {
   double distance = 0.0;
 
   /// Where given, boxes outside of it are left out; the test is widened by distance + margin(box).
-  std::optional<Box> region;
+  std::optional<Box> region{};
 
   /// Pairs to leave out although their boxes overlap.
-  Filter filter;
+  Filter filter{};
 
   /// Where parallel work runs; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
@@ -52,14 +51,11 @@ struct OverlapOptions {
   /// it. With a parallel executor it is called from several threads. docs/memory.md says more.
   std::pmr::memory_resource* memory = nullptr;
 
-  /// More pairs than this throw LimitExceeded. Counting and streaming have no limit.
+  /// More pairs than this throw LimitExceeded, whether they are found, counted or streamed.
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
-  /// How many pairs a stream hands over at a time, at most.
-  std::size_t batchSize = 65536;
-
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.
-  std::string_view instructionSet;
+  std::string_view instructionSet{};
 };
 
 }  // namespace allpairs

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "allpairs/Box.h"
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/Pair.h"
 #include "allpairs/WorldTypes.h"
 
@@ -21,13 +21,13 @@ namespace allpairs {
 /// and what has changed since the step before. The order of the boxes in memory is kept from step to step, so that a
 /// step costs what has changed: docs/decisions/0007 says how, and when the order is made anew.
 ///
-/// Geometry:  as in Overlaps: boxes are closed; empty boxes overlap nothing; infinite bounds are allowed. Bounds given in
+/// Geometry:  as in OverlapSearch: boxes are closed; empty boxes overlap nothing; infinite bounds are allowed. Bounds given in
 ///            float64 are exact. A margin is part of a pair's distance, and in queries widens the box itself.
 /// Ids:       those of removed boxes are given to others, after the step that tells that their pairs have ended, so that
 ///            within the lists of a step an id means one box. Ids of fresh boxes are consecutive.
 /// Bad input: a box with a NaN, or an id that is not in the world, throws InvalidBox, whose index() is the place in the
-///            batch and whose message names the id; nothing of the batch has then been done. Spans of different lengths
-///            throw InvalidArgument.
+///            batch and whose message names the id; nothing of the batch has then been done. Spans of different lengths,
+///            and a view of boxes that carries margins, throw InvalidArgument: here a margin is a property.
 /// Cost:      up to 200 bytes a box and 70 a pair. In a steady state, on the calling thread, nothing is allocated.
 /// Threads:   const members may be called from several threads at once, queries included, while no other member is; all
 ///            others one at a time. Parallel inside when the options name an executor. Results never depend on threads or
@@ -56,29 +56,30 @@ class World {
   /// Adds a box and returns its id.
   BoxId add(const Box& box, const BoxProperties& properties = {});
 
-  /// Adds boxes and writes their ids; margins that the set carries are not looked at, as in all of this class.
+  /// Adds boxes and writes their ids.
   ///
   /// There are as many properties as boxes, or one for all of them, or none for the defaults.
-  void add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
-  [[nodiscard]] std::vector<BoxId> add(const BoxSet& boxes, const BoxProperties& properties = {});
+  void add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
+  [[nodiscard]] std::vector<BoxId> add(const BoxView& boxes, const BoxProperties& properties = {});
 
   /// Gives a box new bounds. A box that is given the bounds that it has is not changed: nothing is tested again; see
-  /// touch().
+  /// invalidate().
   void move(BoxId id, const Box& box);
 
   /// Gives boxes new bounds: boxes[k] becomes the box ids[k]. Of several for one id the last counts.
-  void move(std::span<const BoxId> ids, const BoxSet& boxes);
+  void move(std::span<const BoxId> ids, const BoxView& boxes);
 
   /// Gives boxes the bounds that hold them on their way through a step: from where they start to where they end.
   ///
   /// A box that is empty at one of the two counts with the other alone.
-  void moveSwept(std::span<const BoxId> ids, const BoxSet& starts, const BoxSet& ends);
+  void moveSwept(std::span<const BoxId> ids, const BoxView& starts, const BoxView& ends);
 
   /// The same with the ends given by velocities, in rows of three: start + velocity * duration, in double.
   ///
   /// Bad input: a velocity that is not finite throws InvalidBox, a duration that is not InvalidArgument; an end that is a
   ///            NaN, of an infinite box whose motion overflows, InvalidBox.
-  void moveSwept(std::span<const BoxId> ids, const BoxSet& starts, std::span<const double> velocities, double duration);
+  void moveSwept(std::span<const BoxId> ids, const BoxView& starts, std::span<const double> velocities,
+                 double duration);
 
   /// Removes boxes; their pairs are among those that ended at the next step.
   void remove(BoxId id);
@@ -92,7 +93,7 @@ class World {
   void setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties);
 
   /// Has the next step ask the filter and `accept` again about the pairs of these boxes, though they didn't move.
-  void touch(std::span<const BoxId> ids);
+  void invalidate(std::span<const BoxId> ids);
 
   /// Gives back the memory that neither the boxes nor the lists of the last step need. Those lists stay valid; the
   /// next step or query makes the order of the boxes anew. Ids from the highest one in
@@ -122,14 +123,14 @@ class World {
   [[nodiscard]] const WorldStatistics& statistics() const noexcept;
 
   /// All pairs of a box of this world and a box of `other` that overlap at the mean of the distances of the two worlds,
-  /// ordered by (first, second); first is an id here, second one there.
+  /// in the order of the options; first is an id here, second one there.
   ///
   /// Filters apply as within a world, but static boxes meet each other; `accept` of this world is asked.
   [[nodiscard]] std::vector<Pair> findBetween(const World& other) const;
 
   /// The boxes that overlap a box, widened by their own margins: by ascending id.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;
-  [[nodiscard]] ResultLists<BoxId> findOverlapping(const BoxSet& boxes, const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<BoxId> findOverlapping(const BoxView& boxes, const QueryFilter& filter = {}) const;
 
   /// The first box that a ray, or a swept box, meets, of several at the same t the one with the least id; without any,
   /// kNoBox.

@@ -13,6 +13,7 @@
 
 #include "allpairs/Box.h"
 #include "allpairs/Executor.h"
+#include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 
 namespace allpairs {
@@ -26,12 +27,11 @@ inline constexpr BoxId kNoBox = 0xFFFFFFFFU;
 /// What a box of a World is besides its place: with whom it may pair, how far it reaches, whether it moves.
 ///
 /// Two boxes that overlap are a pair if each one's mask has a bit of the other's category, they are not of the same
-/// non-zero group nor of the same non-zero owner, and they are not both static.
+/// non-zero group, and they are not both static.
 struct BoxProperties {
   std::uint32_t category = 0xFFFFFFFFU;  ///< What the box is, as bits.
   std::uint32_t mask = 0xFFFFFFFFU;      ///< Which categories it accepts as partners.
   std::uint32_t group = 0;               ///< Boxes of the same non-zero group are no pair.
-  std::uint32_t owner = 0;               ///< Nor are boxes of the same non-zero owner.
   double margin = 0.0;    ///< How far the box reaches beyond its bounds, in units of length; may shrink it.
   bool isStatic = false;  ///< Static boxes are never tested against each other. They may be moved all the same.
 
@@ -40,14 +40,18 @@ struct BoxProperties {
 
 /// Settings of a World; the defaults are right for most uses.
 struct WorldOptions {
+  /// How the lists of a step, and of findBetween(), are ordered. A world orders them in any case: Unordered is refused with
+  /// InvalidArgument.
+  Order order = Order::ByFirst;
+
   /// Boxes that are at most this far apart on every axis are a pair; each box's own margin is added, as in
   /// OverlapOptions: d = distance + margin(first) + margin(second), summed from left to right. Queries don't use it.
   double distance = 0.0;
 
   /// Where given, asked about a pair that passed the rest, with first < second. Its answer must stay the same until one
-  /// of the two boxes gets other bounds or properties or is touched; in between it may or may not be asked again. With a
+  /// of the two boxes gets other bounds or properties or is invalidated; in between it may or may not be asked again. With a
   /// parallel executor it is called from several threads.
-  std::function<bool(BoxId, BoxId)> accept;
+  std::function<bool(BoxId, BoxId)> accept{};
 
   /// Where parallel work runs; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
@@ -59,10 +63,10 @@ struct WorldOptions {
   std::pmr::memory_resource* memory = nullptr;
 
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.
-  std::string_view instructionSet;
+  std::string_view instructionSet{};
 };
 
-/// The pairs of a step, each list ordered by (first, second) with first < second; valid until the next step.
+/// The pairs of a step, each with first < second, each list in the order of the options; valid until the next step.
 struct StepResult {
   std::span<const Pair> pairs;      ///< All pairs of this step.
   std::span<const Pair> began;      ///< Those that were no pair in the last step.

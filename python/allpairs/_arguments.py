@@ -24,7 +24,7 @@ _ORDERS = {"first": _core.Order.first, "second": _core.Order.second, "unordered"
 _STRATEGIES = {
     "auto": _core.Strategy.auto,
     "exhaustive": _core.Strategy.exhaustive,
-    "blocked": _core.Strategy.blocked,
+    "bvh": _core.Strategy.bvh,
 }
 
 

@@ -32,7 +32,7 @@ class MeshCandidates:
         The vertices of each triangle, of one mesh or of several.
     vertex_count : int, or list of int
         How many vertices each mesh has.
-    margin : float
+    distance : float
         Elements whose boxes are at most this far apart on every axis are candidates.
     within, between : bool
         Whether two elements of one mesh, and two of different meshes, are candidates.
@@ -67,14 +67,14 @@ class MeshCandidates:
         triangles: Union[npt.ArrayLike, Sequence[npt.ArrayLike]],
         vertex_count: Union[int, Sequence[int]],
         *,
-        margin: float = 0.0,
+        distance: float = 0.0,
         within: bool = True,
         between: bool = True,
         order: str = "first",
         threads: int = 1,
     ) -> None:
         settings = _core.CandidateSettings()
-        settings.margin, settings.within, settings.between = margin, within, between
+        settings.distance, settings.within, settings.between = distance, within, between
         settings.order = _arguments.order_of(order)
         settings.threads = _arguments.whole("threads", threads)
         single = isinstance(vertex_count, (int, np.integer))

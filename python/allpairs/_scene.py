@@ -87,7 +87,7 @@ class Scene:
     def detect(
         self,
         *,
-        margin: float | None = None,
+        distance: float | None = None,
         region: npt.ArrayLike | None = None,
         strategy: str = "auto",
         threads: int = 1,
@@ -97,7 +97,7 @@ class Scene:
 
         Parameters
         ----------
-        margin : float, optional
+        distance : float, optional
             In place of the scene's alarm distance.
         region : array_like, shape (2, 3) or (6,), optional
             In place of the scene's region.
@@ -112,7 +112,7 @@ class Scene:
             In the orientation and the order of the double loop: newest model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
         """
         options = _core.DetectionOptions()
-        options.margin = margin
+        options.distance = distance
         options.strategy = _arguments.strategy_of(strategy)
         options.threads = _arguments.whole("threads", threads)
         options.verify = verify
@@ -173,7 +173,7 @@ def detect(
     partial: bool = False,
     allow_outside: bool = False,
     max_memory: int = 0,
-    margin: float | None = None,
+    distance: float | None = None,
     region: npt.ArrayLike | None = None,
     strategy: str = "auto",
     threads: int = 1,
@@ -194,5 +194,5 @@ def detect(
     scene = load(
         path, search_roots=search_roots, partial=partial, allow_outside=allow_outside, max_memory=max_memory
     )
-    pairs = scene.detect(margin=margin, region=region, strategy=strategy, threads=threads, verify=verify)
+    pairs = scene.detect(distance=distance, region=region, strategy=strategy, threads=threads, verify=verify)
     return Detection(scene, pairs)

@@ -43,8 +43,6 @@ def _settings(values: dict[str, Any], one_set: bool) -> _core.Options:
         options.set_order(_arguments.order_of(values["order"]))
     if values.get("max_pairs") is not None:
         options.set_max_pairs(_arguments.whole("max_pairs", values["max_pairs"]))
-    if "batch_size" in values:
-        options.set_batch_size(_arguments.whole("batch_size", values["batch_size"], least=1))
     return options
 
 
@@ -110,7 +108,7 @@ def overlaps(
         Pairs to leave out, in either orientation.
     order : {"first", "second", "unordered"}
         Ascending by (first, second); by (second, first); or as found, which is faster and not random either.
-    strategy : {"auto", "exhaustive", "blocked"}
+    strategy : {"auto", "exhaustive", "bvh"}
         How pairs are found. It never changes which.
     threads : int
         How many threads may work; 0 means as many as the machine runs at once. It never changes the result.
@@ -309,8 +307,9 @@ def batches(
     >>> sum(len(batch) for batch in allpairs.batches(boxes))
     499500
     """
+    size = _arguments.whole("batch_size", batch_size, least=1)
     boxes, options = _one(locals())
-    return _iterate(_core.Batches(boxes, None, options))
+    return _iterate(_core.Batches(boxes, None, options, size))
 
 
 def batches_between(
@@ -338,8 +337,9 @@ def batches_between(
     >>> [batch.shape for batch in allpairs.batches_between(np.zeros((3, 6)), np.zeros((2, 6)), batch_size=4)]
     [(4, 2), (2, 2)]
     """
+    size = _arguments.whole("batch_size", batch_size, least=1)
     a, b, options = _two(locals())
-    return _iterate(_core.Batches(a, b, options))
+    return _iterate(_core.Batches(a, b, options, size))
 
 
 def instruction_sets() -> tuple[str, ...]:

@@ -38,7 +38,6 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
         ("category", properties.set_category),
         ("mask", properties.set_mask),
         ("group", properties.set_group),
-        ("owner", properties.set_owner),
         ("static", properties.set_static),
     ):
         if values[name] is not None:
@@ -70,6 +69,8 @@ class World:
     ----------
     distance : float
         Boxes that are at most this far apart on every axis are a pair.
+    order : {"first", "second"}
+        How the lists of a step are ordered: ascending by (first, second), or by (second, first).
     threads : int
         How many threads may work; 0 means as many as the machine runs at once. It never changes a result.
 
@@ -90,8 +91,8 @@ class World:
     array([[1, 2]], dtype=uint32)
     """
 
-    def __init__(self, *, distance: float = 0.0, threads: int = 1) -> None:
-        self._core = _core.World(distance, _arguments.whole("threads", threads))
+    def __init__(self, *, distance: float = 0.0, order: str = "first", threads: int = 1) -> None:
+        self._core = _core.World(distance, _arguments.order_of(order), _arguments.whole("threads", threads))
 
     def add(
         self,
@@ -101,7 +102,6 @@ class World:
         category: npt.ArrayLike | None = None,
         mask: npt.ArrayLike | None = None,
         group: npt.ArrayLike | None = None,
-        owner: npt.ArrayLike | None = None,
         margin: npt.ArrayLike | None = None,
         static: npt.ArrayLike | None = None,
     ) -> Ids:
@@ -113,8 +113,8 @@ class World:
             As in `allpairs.overlaps`. They are copied.
         category, mask : int or array_like, shape (n,)
             Bits: a pair stays if each box's mask has a bit of the other's category. All bits are set by default.
-        group, owner : int or array_like, shape (n,)
-            Boxes of the same group are no pair, nor are those of the same owner, unless it is 0.
+        group : int or array_like, shape (n,)
+            Boxes of the same group are never paired, unless it is 0.
         margin : float or array_like, shape (n,)
             How far each box reaches beyond its bounds.
         static : bool or array_like, shape (n,)
@@ -167,7 +167,6 @@ class World:
         category: npt.ArrayLike | None = None,
         mask: npt.ArrayLike | None = None,
         group: npt.ArrayLike | None = None,
-        owner: npt.ArrayLike | None = None,
         margin: npt.ArrayLike | None = None,
         static: npt.ArrayLike | None = None,
     ) -> None:

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 
 namespace allpairs::python {
 

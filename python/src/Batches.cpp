@@ -6,15 +6,16 @@
 namespace allpairs::python {
 namespace py = pybind11;
 
-Batches::Batches(std::shared_ptr<Boxes> first, std::shared_ptr<Boxes> second, std::shared_ptr<Options> options)
+Batches::Batches(std::shared_ptr<Boxes> first, std::shared_ptr<Boxes> second, std::shared_ptr<Options> options,
+                 std::size_t batchSize)
     : m_first(std::move(first)), m_second(std::move(second)), m_options(std::move(options)) {
-  m_stream = std::make_unique<BatchStream>([this](PairVisitor visitor) {
-    const BoxSet& boxes = m_first->set();
+  m_stream = std::make_unique<BatchStream>([this, batchSize](PairVisitor visitor) {
+    const BoxView& boxes = m_first->set();
     if (m_second) {
-      const BoxSet& others = m_second->set();
-      streamOverlapsBetween(boxes, others, visitor, m_options->withExecutor(boxes.size() + others.size()));
+      const BoxView& others = m_second->set();
+      streamOverlaps(boxes, others, visitor, m_options->withExecutor(boxes.size() + others.size()), batchSize);
     } else {
-      streamOverlaps(boxes, visitor, m_options->withExecutor(boxes.size()));
+      streamOverlaps(boxes, visitor, m_options->withExecutor(boxes.size()), batchSize);
     }
   });
 }

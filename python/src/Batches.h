@@ -16,7 +16,8 @@ namespace allpairs::python {
 class Batches {
  public:
   /// `second` is null for pairs of one set.
-  Batches(std::shared_ptr<Boxes> first, std::shared_ptr<Boxes> second, std::shared_ptr<Options> options);
+  Batches(std::shared_ptr<Boxes> first, std::shared_ptr<Boxes> second, std::shared_ptr<Options> options,
+          std::size_t batchSize);
   Batches(const Batches&) = delete;
   Batches& operator=(const Batches&) = delete;
   Batches(Batches&&) = delete;

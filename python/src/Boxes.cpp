@@ -11,8 +11,8 @@ namespace py = pybind11;
 namespace {
 
 template <class T>
-BoxSet setOf(const py::buffer_info& lower, const py::buffer_info& upper) {
-  return BoxSet::fromStrided(static_cast<std::size_t>(lower.shape[0]), cornersOf<T>(lower), cornersOf<T>(upper));
+BoxView setOf(const py::buffer_info& lower, const py::buffer_info& upper) {
+  return BoxView::fromStrided(static_cast<std::size_t>(lower.shape[0]), cornersOf<T>(lower), cornersOf<T>(upper));
 }
 
 /// Runs what may throw InvalidBox without the GIL, and says of which set the box is.

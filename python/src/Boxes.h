@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 
 namespace allpairs::python {
 
@@ -23,11 +23,11 @@ class Boxes {
   /// A contiguous buffer of n float64.
   void setMargins(const pybind11::buffer& margins);
 
-  [[nodiscard]] const BoxSet& set() const noexcept { return m_set; }
+  [[nodiscard]] const BoxView& set() const noexcept { return m_set; }
 
  private:
   std::vector<pybind11::buffer_info> m_held;
-  BoxSet m_set;
+  BoxView m_set;
   std::string m_label;
 };
 

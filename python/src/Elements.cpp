@@ -23,7 +23,7 @@ using elements::CandidateKind;
 
 /// What a search for candidates is told before it starts.
 struct CandidateSettings {
-  double margin = 0.0;
+  double distance = 0.0;
   bool within = true;
   bool between = true;
   Order order = Order::ByFirst;
@@ -47,7 +47,7 @@ class MeshCandidates {
   MeshCandidates(const std::vector<py::buffer>& triangles, const std::vector<std::size_t>& vertexCounts,
                  const CandidateSettings& settings)
       : m_executor(settings.threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(settings.threads)),
-        m_candidates(topologyOf(triangles, vertexCounts), {.margin = settings.margin,
+        m_candidates(topologyOf(triangles, vertexCounts), {.distance = settings.distance,
                                                            .withinMeshes = settings.within,
                                                            .betweenMeshes = settings.between,
                                                            .order = settings.order,
@@ -116,7 +116,7 @@ void bindElements(py::module_& module) {
       .value("face_face", CandidateKind::FaceFace);
   py::class_<CandidateSettings>(module, "CandidateSettings")
       .def(py::init<>())
-      .def_readwrite("margin", &CandidateSettings::margin)
+      .def_readwrite("distance", &CandidateSettings::distance)
       .def_readwrite("within", &CandidateSettings::within)
       .def_readwrite("between", &CandidateSettings::between)
       .def_readwrite("order", &CandidateSettings::order)

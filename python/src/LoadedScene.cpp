@@ -45,7 +45,7 @@ Content read(const std::filesystem::path& path, const scene::ReadOptions& option
 
 /// The six columns of a file's boxes as they lie in memory: the max corners are behind the min corners in each.
 template <class T>
-py::buffer_info columnsOf(const BoxSet::Corners<T>& corners, std::size_t size) {
+py::buffer_info columnsOf(const BoxView::Corners<T>& corners, std::size_t size) {
   constexpr py::ssize_t kSize = sizeof(T);
   return {const_cast<T*>(corners.min.data),
           kSize,
@@ -60,12 +60,12 @@ std::unique_ptr<Executor> executorOf(std::size_t threads) {
   return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
 }
 
-std::vector<Pair> detectBoxes(const BoxSet& boxes, const DetectionOptions& options) {
+std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options) {
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
   OverlapOptions engine;
   engine.strategy = options.strategy;
   engine.order = Order::BySecond;
-  engine.distance = options.margin.value_or(0.0);
+  engine.distance = options.distance.value_or(0.0);
   engine.region = options.region;
   engine.executor = executor.get();
   std::vector<Pair> pairs = overlaps(boxes, engine);
@@ -168,7 +168,7 @@ std::optional<Box> LoadedScene::region() const {
 
 py::buffer_info LoadedScene::boxes() {
   if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) {
-    const BoxSet& set = boxes->boxes();
+    const BoxView& set = boxes->boxes();
     return set.isFloat64() ? columnsOf(set.float64(), set.size()) : columnsOf(set.float32(), set.size());
   }
   constexpr py::ssize_t kSize = sizeof(double);
@@ -181,7 +181,7 @@ std::vector<Pair> LoadedScene::detect(const DetectionOptions& options) {
   const std::lock_guard lock(m_mutex);
   if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options);
   const auto& scene = std::get<scene::Scene>(m_content);
-  const AlarmDistance distance(*scene.intersection, options.margin);
+  const AlarmDistance distance(*scene.intersection, options.distance);
   return runPipeline(scene, options);
 }
 

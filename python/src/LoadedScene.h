@@ -21,8 +21,8 @@ namespace allpairs::python {
 
 /// How the pairs of a scene are looked for.
 struct DetectionOptions {
-  std::optional<double> margin;  ///< In place of the scene's alarm distance.
-  std::optional<Box> region;     ///< In place of the scene's.
+  std::optional<double> distance;  ///< In place of the scene's alarm distance.
+  std::optional<Box> region;       ///< In place of the scene's.
   Strategy strategy = Strategy::Automatic;
   std::size_t threads = 1;
   bool verify = false;

@@ -17,8 +17,9 @@ std::unique_ptr<Executor> executorOf(std::size_t threads) {
   return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
 }
 
-WorldOptions optionsOf(double distance, Executor* executor) {
+WorldOptions optionsOf(double distance, Order order, Executor* executor) {
   WorldOptions options;
+  options.order = order;
   options.distance = distance;
   options.executor = executor;
   return options;
@@ -85,8 +86,8 @@ void Properties::setStatic(const py::buffer& values) {
   for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].isStatic = numbers[i] != 0;
 }
 
-MovingBoxes::MovingBoxes(double distance, std::size_t threads)
-    : m_executor(executorOf(threads)), m_world(optionsOf(distance, m_executor.get())) {}
+MovingBoxes::MovingBoxes(double distance, Order order, std::size_t threads)
+    : m_executor(executorOf(threads)), m_world(optionsOf(distance, order, m_executor.get())) {}
 
 MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properties) {
   std::vector<BoxId> ids(boxes.set().size());

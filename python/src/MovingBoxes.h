@@ -39,7 +39,7 @@ class MovingBoxes {
   using Ids = std::unique_ptr<NumberArray<std::uint32_t>>;
   using Numbers = std::unique_ptr<NumberArray<double>>;
 
-  MovingBoxes(double distance, std::size_t threads);
+  MovingBoxes(double distance, Order order, std::size_t threads);
 
   [[nodiscard]] Ids add(const Boxes& boxes, const Properties& properties);
   void move(const pybind11::buffer& ids, const Boxes& boxes);

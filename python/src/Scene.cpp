@@ -60,7 +60,7 @@ std::optional<Bounds> regionOf(const LoadedScene& scene) {
 void bindScene(py::module_& module) {
   py::class_<DetectionOptions>(module, "DetectionOptions")
       .def(py::init<>())
-      .def_readwrite("margin", &DetectionOptions::margin)
+      .def_readwrite("distance", &DetectionOptions::distance)
       .def_readwrite("strategy", &DetectionOptions::strategy)
       .def_readwrite("threads", &DetectionOptions::threads)
       .def_readwrite("verify", &DetectionOptions::verify)

@@ -24,7 +24,7 @@ std::unique_ptr<PairArray> findPairs(const Boxes& boxes, Options& options) {
 std::unique_ptr<PairArray> findPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
   const py::gil_scoped_release release;
   const std::size_t size = first.set().size() + second.set().size();
-  return toPython(overlapsBetween(first.set(), second.set(), options.withExecutor(size)));
+  return toPython(overlaps(first.set(), second.set(), options.withExecutor(size)));
 }
 
 std::uint64_t countPairs(const Boxes& boxes, Options& options) {
@@ -35,7 +35,7 @@ std::uint64_t countPairs(const Boxes& boxes, Options& options) {
 std::uint64_t countPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
   const py::gil_scoped_release release;
   const std::size_t size = first.set().size() + second.set().size();
-  return countOverlapsBetween(first.set(), second.set(), options.withExecutor(size));
+  return countOverlaps(first.set(), second.set(), options.withExecutor(size));
 }
 
 Box regionOf(const std::array<double, 6>& bounds) {
@@ -51,7 +51,7 @@ void bindOptions(py::module_& module) {
   py::enum_<Strategy>(module, "Strategy")
       .value("auto", Strategy::Automatic)
       .value("exhaustive", Strategy::Exhaustive)
-      .value("blocked", Strategy::Blocked);
+      .value("bvh", Strategy::Bvh);
   py::class_<Options, std::shared_ptr<Options>>(module, "Options")
       .def(py::init<>())
       .def_readwrite("threads", &Options::threads)
@@ -59,7 +59,6 @@ void bindOptions(py::module_& module) {
       .def("set_order", [](Options& self, Order order) { self.engine.order = order; })
       .def("set_strategy", [](Options& self, Strategy strategy) { self.engine.strategy = strategy; })
       .def("set_max_pairs", [](Options& self, std::uint64_t count) { self.engine.maxPairs = count; })
-      .def("set_batch_size", [](Options& self, std::size_t size) { self.engine.batchSize = size; })
       .def("set_region", [](Options& self, const std::array<double, 6>& box) { self.setRegion(regionOf(box)); })
       .def("set_groups", &Options::setGroups)
       .def("set_categories", &Options::setCategories)
@@ -81,7 +80,7 @@ void bindArguments(py::module_& module) {
 
 void bindSearch(py::module_& module) {
   py::class_<Batches>(module, "Batches")
-      .def(py::init<std::shared_ptr<Boxes>, std::shared_ptr<Boxes>, std::shared_ptr<Options>>())
+      .def(py::init<std::shared_ptr<Boxes>, std::shared_ptr<Boxes>, std::shared_ptr<Options>, std::size_t>())
       .def("next", &Batches::next)
       .def("close", &Batches::close);
   module.def("overlaps", &findPairs);

@@ -24,7 +24,6 @@ void bindProperties(py::module_& module) {
       .def("set_category", &setField<&BoxProperties::category>)
       .def("set_mask", &setField<&BoxProperties::mask>)
       .def("set_group", &setField<&BoxProperties::group>)
-      .def("set_owner", &setField<&BoxProperties::owner>)
       .def("set_margin", &Properties::setMargins)
       .def("set_static", &Properties::setStatic);
   py::class_<QueryFilter>(module, "QueryFilter")
@@ -43,7 +42,7 @@ void bindWorld(py::module_& module) {
   bindProperties(module);
   module.attr("NO_BOX") = kNoBox;
   py::class_<MovingBoxes>(module, "World")
-      .def(py::init<double, std::size_t>())
+      .def(py::init<double, Order, std::size_t>())
       .def("add", &MovingBoxes::add)
       .def("move", &MovingBoxes::move)
       .def("move_swept", &MovingBoxes::moveSwept)

@@ -36,7 +36,7 @@ CandidateKind kindOf(int kind) {
 
 CandidateOptions optionsOf(const allpairs_elements_options& given, Executor* executor, CallerMemory* memory) {
   CandidateOptions options;
-  options.margin = given.margin;
+  options.distance = given.distance;
   options.withinMeshes = !given.skip_within;
   options.betweenMeshes = !given.skip_between;
   options.order = orderOf(numberIn(given.order));
@@ -142,7 +142,7 @@ allpairs_status allpairs_elements_stream(allpairs_elements* elements, allpairs_c
                                          allpairs_visitor visitor) {
   return guarded([&] {
     Visitor asking(visitor);
-    candidatesOf(elements).stream(kindOf(numberIn(kind)), asking);
+    candidatesOf(elements).stream(kindOf(numberIn(kind)), asking, asking.batchSize());
   });
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "allpairs.h"
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
@@ -25,6 +25,11 @@ namespace allpairs::c {
 class CallerMemory final : public std::pmr::memory_resource {
  public:
   explicit CallerMemory(const allpairs_memory& memory) : m_memory(memory) {}
+
+  [[nodiscard]] bool is(const allpairs_memory& memory) const noexcept {
+    return m_memory.allocate == memory.allocate && m_memory.deallocate == memory.deallocate &&
+           m_memory.context == memory.context;
+  }
 
  private:
   void* do_allocate(std::size_t bytes, std::size_t alignment) override {
@@ -50,13 +55,13 @@ class CallerMemory final : public std::pmr::memory_resource {
 // What C's handles point to; memory and executor first, which what follows uses to its end. NOLINTBEGIN(readability-identifier-naming): names are C's.
 
 struct allpairs_set {
-  allpairs::BoxSet boxes;
+  allpairs::BoxView boxes;
 };
 
 struct allpairs_search {
   std::unique_ptr<allpairs::c::CallerMemory> memory;
   std::unique_ptr<allpairs::Executor> executor;
-  allpairs::Overlaps overlaps;
+  allpairs::OverlapSearch overlaps;
   allpairs_filter first{};
   allpairs_filter second{};
 };
@@ -144,6 +149,10 @@ class Visitor {
  public:
   explicit Visitor(const allpairs_visitor& visitor) : m_visitor(visitor) {
     if (visitor.visit == nullptr) throw InvalidArgument("visitor.visit is null");
+  }
+
+  [[nodiscard]] std::size_t batchSize() const noexcept {
+    return m_visitor.batch_size != 0 ? m_visitor.batch_size : kBatchSize;
   }
 
   void operator()(std::span<const Pair> batch) {

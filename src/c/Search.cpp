@@ -10,18 +10,18 @@ Strategy strategyOf(int strategy) {
       return Strategy::Automatic;
     case ALLPAIRS_EXHAUSTIVE:
       return Strategy::Exhaustive;
-    case ALLPAIRS_BLOCKED:
-      return Strategy::Blocked;
+    case ALLPAIRS_BVH:
+      return Strategy::Bvh;
   }
   throw InvalidArgument("no strategy " + std::to_string(strategy));
 }
 
 /// What a filter's array is about: C says nothing of its length, which is the set's.
-std::span<const std::uint32_t> labelsOf(const std::uint32_t* data, const BoxSet& boxes) {
+std::span<const std::uint32_t> labelsOf(const std::uint32_t* data, const BoxView& boxes) {
   return {data, data == nullptr ? 0 : boxes.size()};
 }
 
-FilterBits bitsOf(const allpairs_filter& filter, const BoxSet& boxes) {
+FilterBits bitsOf(const allpairs_filter& filter, const BoxView& boxes) {
   return {labelsOf(filter.categories, boxes), labelsOf(filter.masks, boxes), labelsOf(filter.groups, boxes)};
 }
 
@@ -38,12 +38,14 @@ OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
   }
   options.executor = executor;
   if (given.max_pairs != 0) options.maxPairs = given.max_pairs;
-  if (given.batch_size != 0) options.batchSize = given.batch_size;
   return options;
 }
 
 void setOptions(allpairs_search& search, const allpairs_options* options) {
   const allpairs_options given = known(options);
+  if (given.memory.allocate != nullptr && (search.memory == nullptr || !search.memory->is(given.memory))) {
+    throw InvalidArgument("a search keeps the memory that it was made with; make another one");
+  }
   std::unique_ptr<Executor> executor = executorFor(given.threads);
   search.overlaps.setOptions(optionsOf(given, executor.get()));
   search.executor = std::move(executor);
@@ -52,11 +54,11 @@ void setOptions(allpairs_search& search, const allpairs_options* options) {
 }
 
 /// The search, with its filters as long as the sets that it is about to look at.
-Overlaps& prepared(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) {
+OverlapSearch& prepared(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) {
   allpairs_search& handle = required(search, "search");
   OverlapOptions options = handle.overlaps.options();
   options.filter.first = bitsOf(handle.first, required(first, "set").boxes);
-  options.filter.second = second == nullptr ? FilterBits() : bitsOf(handle.second, second->boxes);
+  options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes);
   handle.overlaps.setOptions(std::move(options));
   return handle.overlaps;
 }
@@ -74,7 +76,7 @@ allpairs_status allpairs_search_create(const allpairs_options* options, allpairs
     std::unique_ptr<CallerMemory> memory = memoryOf(known(options).memory);
     memoryOnly.memory = memory.get();
     auto handle = std::make_unique<allpairs_search>(
-        allpairs_search{std::move(memory), nullptr, allpairs::Overlaps(std::move(memoryOnly)), {}, {}});
+        allpairs_search{std::move(memory), nullptr, allpairs::OverlapSearch(std::move(memoryOnly)), {}, {}});
     setOptions(*handle, options);
     result = handle.release();
   });
@@ -99,8 +101,8 @@ allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, 
 allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
                                       allpairs_pairs* pairs) {
   return guarded([&] {
-    const allpairs::BoxSet& others = required(second, "second").boxes;
-    required(pairs, "pairs") = toC(prepared(search, first, second).findBetween(first->boxes, others));
+    const allpairs::BoxView& others = required(second, "second").boxes;
+    required(pairs, "pairs") = toC(prepared(search, first, second).find(first->boxes, others));
   });
 }
 
@@ -111,15 +113,15 @@ allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set,
 allpairs_status allpairs_count_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
                                        uint64_t* count) {
   return guarded([&] {
-    const allpairs::BoxSet& others = required(second, "second").boxes;
-    required(count, "count") = prepared(search, first, second).countBetween(first->boxes, others);
+    const allpairs::BoxView& others = required(second, "second").boxes;
+    required(count, "count") = prepared(search, first, second).count(first->boxes, others);
   });
 }
 
 allpairs_status allpairs_stream(allpairs_search* search, const allpairs_set* set, allpairs_visitor visitor) {
   return guarded([&] {
     Visitor asking(visitor);
-    prepared(search, set, nullptr).stream(set->boxes, asking);
+    prepared(search, set, nullptr).stream(set->boxes, asking, asking.batchSize());
   });
 }
 
@@ -127,8 +129,8 @@ allpairs_status allpairs_stream_between(allpairs_search* search, const allpairs_
                                         allpairs_visitor visitor) {
   return guarded([&] {
     Visitor asking(visitor);
-    const allpairs::BoxSet& others = required(second, "second").boxes;
-    prepared(search, first, second).streamBetween(first->boxes, others, asking);
+    const allpairs::BoxView& others = required(second, "second").boxes;
+    prepared(search, first, second).stream(first->boxes, others, asking, asking.batchSize());
   });
 }
 

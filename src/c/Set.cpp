@@ -17,22 +17,22 @@ allpairs_status createSet(allpairs_set** set, const Make& make) noexcept {
 }
 
 template <class T>
-BoxSet rowsOf(const T* rows, std::size_t count) {
+BoxView rowsOf(const T* rows, std::size_t count) {
   constexpr std::size_t kMost =
       std::numeric_limits<std::uint32_t>::max();  // also keeps the product below from wrapping
   if (count > kMost)
     throw InvalidArgument("a set of " + std::to_string(count) + " boxes; at most 4294967295 can be numbered");
-  return BoxSet::fromRows(requiredSpan(rows, 6 * count, "rows"));
+  return BoxView::fromRows(requiredSpan(rows, 6 * count, "rows"));
 }
 
 template <class T, class Corner>
-BoxSet stridedOf(std::size_t count, const Corner& min, const Corner& max) {
+BoxView stridedOf(std::size_t count, const Corner& min, const Corner& max) {
   if (count != 0) {
     static_cast<void>(required(min.data, "min.data"));
     static_cast<void>(required(max.data, "max.data"));
   }
-  return BoxSet::fromStrided(count, CornerView<T>{min.data, min.box_stride, min.axis_stride},
-                             CornerView<T>{max.data, max.box_stride, max.axis_stride});
+  return BoxView::fromStrided(count, CornerView<T>{min.data, min.box_stride, min.axis_stride},
+                              CornerView<T>{max.data, max.box_stride, max.axis_stride});
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ allpairs_status allpairs_set_margin(allpairs_set* set, double margin) {
 
 allpairs_status allpairs_set_margins(allpairs_set* set, const double* margins) {
   return guarded([&] {
-    allpairs::BoxSet& boxes = required(set, "set").boxes;
+    allpairs::BoxView& boxes = required(set, "set").boxes;
     boxes.setMargins({margins, margins == nullptr ? 0 : boxes.size()});
   });
 }

@@ -7,12 +7,13 @@ namespace allpairs::c {
 namespace {
 
 BoxProperties propertiesOf(const allpairs_properties& given) {
-  return {given.category, given.mask, given.group, given.owner, given.margin, given.is_static};
+  return {given.category, given.mask, given.group, given.margin, given.is_static};
 }
 
 WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor, CallerMemory* memory) {
   WorldOptions options;
   options.distance = given.distance;
+  options.order = orderOf(numberIn(given.order));
   options.executor = executor;
   options.memory = memory;
   if (given.accept != nullptr) {
@@ -54,7 +55,7 @@ allpairs_status allpairs_world_shrink(allpairs_world* world) {
 allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
                                    const allpairs_properties* properties, uint32_t* ids) {
   return guarded([&] {
-    const allpairs::BoxSet& set = required(boxes, "boxes").boxes;
+    const allpairs::BoxView& set = required(boxes, "boxes").boxes;
     const allpairs::BoxProperties all = propertiesOf(properties ? *properties : allpairs_default_properties());
     worldOf(world).add(set, {&all, 1}, requiredSpan(ids, set.size(), "ids"));
   });
@@ -85,8 +86,8 @@ allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_id
   });
 }
 
-allpairs_status allpairs_world_touch(allpairs_world* world, allpairs_ids ids) {
-  return guarded([&] { worldOf(world).touch(idsOf(ids)); });
+allpairs_status allpairs_world_invalidate(allpairs_world* world, allpairs_ids ids) {
+  return guarded([&] { worldOf(world).invalidate(idsOf(ids)); });
 }
 
 size_t allpairs_world_size(const allpairs_world* world) { return world == nullptr ? 0 : world->world.size(); }

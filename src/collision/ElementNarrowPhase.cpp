@@ -33,7 +33,7 @@ void ElementNarrowPhase::addCollisionPair(const CollisionModelPair& pair) {
     report(first, second, m_search.find(std::span<const Box>(m_firstBoxes)), intersector);
   } else {
     fillBoxes(*second, m_secondBoxes);
-    report(first, second, m_search.findBetween(std::span<const Box>(m_firstBoxes), std::span<const Box>(m_secondBoxes)),
+    report(first, second, m_search.find(std::span<const Box>(m_firstBoxes), std::span<const Box>(m_secondBoxes)),
            intersector);
   }
 }

@@ -69,7 +69,7 @@ void KeptSearch::makeWorld(const ModelTable& models) {
   options.distance = m_settings.distance;
   options.executor = m_settings.executor;
   World world(std::move(options));
-  world.add(BoxSet(std::span<const Box>(m_boxes)), m_properties, m_ids);
+  world.add(BoxView(std::span<const Box>(m_boxes)), m_properties, m_ids);
   m_lastId = m_ids.back();
   m_world = std::move(world);
   m_worldSettings = m_settings;
@@ -114,7 +114,7 @@ void KeptSearch::vacate(std::size_t begin, std::size_t end) {
 }
 
 void KeptSearch::move() {
-  m_world->move(m_ids, BoxSet(std::span<const Box>(m_boxes)));
+  m_world->move(m_ids, BoxView(std::span<const Box>(m_boxes)));
   if (m_settings.addsContactDistances) m_world->setProperties(m_ids, m_properties);
   step();
 }

@@ -96,8 +96,7 @@ void PairSearch::askEach(std::span<const Pair> found, const Candidates& offsets,
 PairSearch::Candidates PairSearch::searchOlder(std::size_t begin, BroadPhaseStatistics& statistics) {
   if (begin == 0) return {};
   m_betweenNewerAndOlder.setOptions(options());
-  const std::span<const Pair> found =
-      m_betweenNewerAndOlder.findBetween(boxSet(0, begin), boxSet(begin, m_models.size()));
+  const std::span<const Pair> found = m_betweenNewerAndOlder.find(boxSet(0, begin), boxSet(begin, m_models.size()));
   addTests(m_betweenNewerAndOlder.statistics(), statistics);
   return {found, 0, begin};
 }
@@ -124,8 +123,8 @@ PairSearch::Candidates PairSearch::searchNewer(std::size_t begin, BroadPhaseStat
   return {found, begin, begin};
 }
 
-BoxSet PairSearch::boxSet(std::size_t begin, std::size_t end) const {
-  BoxSet set(m_models.boxes().subspan(begin, end - begin));
+BoxView PairSearch::boxSet(std::size_t begin, std::size_t end) const {
+  BoxView set(m_models.boxes().subspan(begin, end - begin));
   if (m_rules.addsContactDistances() && m_models.anyContactDistance()) {
     set.setMargins(m_models.contactDistances().subspan(begin, end - begin));
   }

@@ -44,7 +44,7 @@ class PairSearch {
   void askPlain(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs) const;
   void askEach(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs);
   [[nodiscard]] static std::span<const Pair> takeRow(std::size_t newer, Candidates& candidates);
-  [[nodiscard]] BoxSet boxSet(std::size_t begin, std::size_t end) const;
+  [[nodiscard]] BoxView boxSet(std::size_t begin, std::size_t end) const;
   [[nodiscard]] Candidates searchOlder(std::size_t begin, BroadPhaseStatistics& statistics);
   [[nodiscard]] Candidates searchNewer(std::size_t begin, BroadPhaseStatistics& statistics);
   [[nodiscard]] Candidates searchAll(BroadPhaseStatistics& statistics);
@@ -55,8 +55,8 @@ class PairSearch {
   PairRules& m_rules;
   Strategy m_strategy = Strategy::Automatic;
   Executor* m_executor = nullptr;
-  Overlaps m_amongNewer;
-  Overlaps m_betweenNewerAndOlder;
+  OverlapSearch m_amongNewer;
+  OverlapSearch m_betweenNewerAndOlder;
   std::optional<KeptSearch> m_kept{std::in_place};
 };
 

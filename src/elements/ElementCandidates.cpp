@@ -22,8 +22,8 @@ constexpr std::size_t kPairsPerTask = std::size_t{1} << 16;
 
 /// The boxes of the elements of a kind of candidate: one set, or two.
 struct Sets {
-  BoxSet first;
-  BoxSet second;
+  BoxView first;
+  BoxView second;
   bool one = true;
 };
 
@@ -76,10 +76,9 @@ struct ElementCandidates::State {
   OverlapOptions engineOptions(Order order) const {
     OverlapOptions engine;
     engine.order = order;
-    engine.distance = options.margin;
+    engine.distance = options.distance;
     engine.executor = options.executor;
     engine.memory = options.memory;
-    engine.batchSize = kBatch;
     return engine;
   }
 
@@ -95,15 +94,16 @@ struct ElementCandidates::State {
   template <class Elements, class Use>
   void visitAs(Elements elements, ElementKind first, ElementKind second, Use use);
 
-  void stream(const Sets& sets, PairVisitor visitor) {
-    sets.one ? search.stream(sets.first, visitor) : search.streamBetween(sets.first, sets.second, visitor);
+  void stream(const Sets& sets, PairVisitor visitor, std::size_t batchSize = kBatch) {
+    sets.one ? search.stream(sets.first, visitor, batchSize)
+             : search.stream(sets.first, sets.second, visitor, batchSize);
   }
 
   std::span<const Pair> find(const Sets& sets) {
-    return sets.one ? search.find(sets.first) : search.findBetween(sets.first, sets.second);
+    return sets.one ? search.find(sets.first) : search.find(sets.first, sets.second);
   }
 
-  void streamIn(Order order, CandidateKind kind, PairVisitor visitor);
+  void streamIn(Order order, CandidateKind kind, PairVisitor visitor, std::size_t batchSize = kBatch);
 
   [[nodiscard]] BoxTables tables(ElementKind kind) {
     return {boxes.lanes(kind, topology).data(), boxes.exact(kind, topology).data()};
@@ -113,7 +113,7 @@ struct ElementCandidates::State {
   CandidateOptions options;
   std::vector<Corners> corners;
   ElementBoxes boxes;
-  Overlaps search;
+  OverlapSearch search;
   SerialExecutor serial;
   engine::InUse inUse;
   std::array<Found, 3> found;
@@ -127,7 +127,7 @@ void ElementCandidates::State::visitAs(Elements elements, ElementKind first, Ele
   const MeshRule rule{tell ? topology.meshOfVertex().data() : nullptr, options.withinMeshes};
   const auto differ = [=](Pair pair) { return !elements.share(pair) & rule.allows(elements, pair); };
   const bool one = first == second;
-  if (options.margin != 0.0) {  // The engine compares in double.
+  if (options.distance != 0.0) {  // The engine compares in double.
     use(differ, Sets{boxes.exact(first, topology), boxes.exact(second, topology), one});
     return;
   }
@@ -157,14 +157,15 @@ void ElementCandidates::State::visit(CandidateKind kind, Use use) {
   }
 }
 
-void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVisitor visitor) {
+void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVisitor visitor, std::size_t batchSize) {
   search.setOptions(engineOptions(order));
   visit(kind, [&](const auto& check, const Sets& sets) {
-    stream(sets, [&](std::span<const Pair> pairs) {
+    const auto select = [&](std::span<const Pair> pairs) {
       batch.resize(std::max(batch.size(), pairs.size()));
       const std::size_t size = selectPairs(pairs, check, batch.data());
       if (size != 0) visitor(std::span<const Pair>(batch).first(size));
-    });
+    };
+    stream(sets, select, std::min(kBatch, batchSize));
   });
 }
 
@@ -229,10 +230,10 @@ std::uint64_t ElementCandidates::count(CandidateKind kind) {
   return count;
 }
 
-void ElementCandidates::stream(CandidateKind kind, PairVisitor visitor) {
+void ElementCandidates::stream(CandidateKind kind, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  state.streamIn(state.options.order, kind, visitor);
+  state.streamIn(state.options.order, kind, visitor, batchSize);
 }
 
 }  // namespace allpairs::elements

@@ -16,12 +16,12 @@ namespace allpairs::scene {
 namespace {
 
 template <class T>
-BoxSet viewOf(const BoxTable<T>& table) {
+BoxView viewOf(const BoxTable<T>& table) {
   const auto size = static_cast<std::ptrdiff_t>(table.size);
   if (size == 0) return {};
   const T* values = table.values.get();
-  if (!table.columnMajor) return BoxSet::fromRows(std::span<const T>(values, table.size * 6));
-  return BoxSet::fromStrided(table.size, CornerView<T>{values, 1, size}, CornerView<T>{values + 3 * size, 1, size});
+  if (!table.columnMajor) return BoxView::fromRows(std::span<const T>(values, table.size * 6));
+  return BoxView::fromStrided(table.size, CornerView<T>{values, 1, size}, CornerView<T>{values + 3 * size, 1, size});
 }
 
 template <class T>

@@ -49,11 +49,11 @@ struct BoxFrames::State {
   explicit State(const Path& filePath) : path(filePath), file(filePath), header(readNpyHeader(file, filePath)) {}
 
   template <class T>
-  BoxSet read(std::vector<T>& rows) {
+  BoxView read(std::vector<T>& rows) {
     rows.resize(static_cast<std::size_t>(header.shape[1]) * 6);
     file.read(rows.data(), rows.size() * sizeof(T));
     toNativeOrder(header, rows.data(), rows.size());
-    return BoxSet::fromRows(std::span<const T>(rows));
+    return BoxView::fromRows(std::span<const T>(rows));
   }
 
   Path path;
@@ -78,7 +78,7 @@ BoxFrames& BoxFrames::operator=(BoxFrames&&) noexcept = default;
 std::size_t BoxFrames::frameCount() const noexcept { return static_cast<std::size_t>(m_state->header.shape[0]); }
 std::size_t BoxFrames::boxCount() const noexcept { return static_cast<std::size_t>(m_state->header.shape[1]); }
 
-BoxSet BoxFrames::next() {
+BoxView BoxFrames::next() {
   State& state = *m_state;
   if (state.frame == frameCount()) throw InvalidArgument("there are only " + std::to_string(state.frame) + " frames");
   const std::size_t frame = state.frame++;

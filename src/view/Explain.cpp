@@ -68,7 +68,7 @@ Explanation explainFlags(const ViewScene& scene, const ViewFrame& frame, std::ui
 /// Boxes near by a little more than the rules ask; explain() then decides.
 std::vector<Pair> nearBoxes(const ViewScene& scene, const ViewFrame& frame) {
   constexpr double kSlack = 1e-9;  // sums of three distances in another order differ by less
-  BoxSet boxes(frame.boxes);
+  BoxView boxes(frame.boxes);
   double largest = std::abs(scene.distance);
   if (scene.addsContactDistances) {
     boxes.setMargins(scene.contactDistances);

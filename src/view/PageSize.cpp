@@ -29,10 +29,10 @@ std::size_t bytesOf(const ViewFrame& frame, std::size_t pairs) {
 void checkPageSize(const ViewScene& scene, std::size_t bytes) {
   if (bytes <= kMostBytes) return;
   const bool isSequence = scene.frames.size() > 1 || !scene.corners.empty();
-  throw Error(
-      fmt::format("{} models and their pairs are too much for one page, which holds {} MiB: {}", scene.modelCount,
-                  kMostBytes >> 20U,
-                  isSequence ? "give fewer frames, or a smaller margin" : "give a smaller margin, or fewer inputs"));
+  throw Error(fmt::format(
+      "{} models and their pairs are too much for one page, which holds {} MiB: {}", scene.modelCount,
+      kMostBytes >> 20U,
+      isSequence ? "give fewer frames, or a smaller distance" : "give a smaller distance, or fewer inputs"));
 }
 
 }  // namespace allpairs::view

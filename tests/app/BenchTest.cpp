@@ -37,7 +37,7 @@ TEST(Bench, GivesTheDoubleLoopsHashWhateverTheStrategyOrderAndThreads) {
   const std::string expected = hashOfDoubleLoop(generate::makeBoxes({.scene = "clusters", .count = 600}));
   const std::vector<std::string> scene{"clusters", "-n", "600"};
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-           {}, {"--unordered"}, {"--threads", "3"}, {"--strategy", "exhaustive"}, {"--strategy", "blocked"}}) {
+           {}, {"--unordered"}, {"--threads", "3"}, {"--strategy", "exhaustive"}, {"--strategy", "bvh"}}) {
     std::vector<std::string> arguments = scene;
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(benchJson(arguments)["hash"], expected) << testing::PrintToString(options);

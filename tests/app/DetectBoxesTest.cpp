@@ -55,7 +55,7 @@ TEST(DetectBoxes, EveryArrayOfTheDataFolderGivesItsPairsByteForByte) {
     const std::string path = entry.path().string();
     if (path.ends_with(".pairs.npy")) continue;
     const std::string expected = readBytes(path.substr(0, path.size() - 4) + ".pairs.npy");
-    for (const char* strategy : {"auto", "exhaustive", "blocked"}) {
+    for (const char* strategy : {"auto", "exhaustive", "bvh"}) {
       const ProgramRun run = runProgram({"detect", path, "--format", "npy", "--strategy", strategy});
       expectSuccess(run);
       EXPECT_TRUE(run.out == expected) << path << ' ' << strategy;
@@ -71,7 +71,7 @@ TEST(DetectBoxes, EveryStrategyThreadCountAndFormatGivesTheDoubleLoopsPairs) {
   const std::string path = folder.write("boxes.npy", npyBytes(boxes));
   const std::vector<Pair> expected = oracle(boxes);
   ASSERT_GT(expected.size(), 300U);
-  for (const char* strategy : {"auto", "exhaustive", "blocked"}) {
+  for (const char* strategy : {"auto", "exhaustive", "bvh"}) {
     for (const char* threads : {"0", "1", "3"}) {
       const std::vector<std::string> common{"detect", path, "--strategy", strategy, "--threads", threads, "--verify"};
       const auto run = [&common](const char* format) {
@@ -98,17 +98,20 @@ TEST(DetectBoxes, ManyBoxesOnManyThreadsGiveTheSameBytesAsOnOne) {
   EXPECT_GT(one.out.size(), 100'000U);
 }
 
-TEST(DetectBoxes, AMarginWidensAndANegativeOneShrinks) {
+TEST(DetectBoxes, ADistanceAddsPairsAndANegativeOneTakesSomeAway) {
   const TempFolder folder;
   const std::vector<Box> boxes = someBoxes(200);
   const std::string path = folder.write("boxes.npy", npyBytes(boxes));
-  for (const double margin : {0.25, -0.25, 0.0}) {
-    const std::string text = std::to_string(margin);
-    const ProgramRun apart = runProgram({"detect", path, "--format", "npy", "--margin", text});
-    const ProgramRun joined = runProgram({"detect", path, "--format", "npy", "--margin=" + text});
+  for (const double distance : {0.25, -0.25, 0.0}) {
+    const std::string text = std::to_string(distance);
+    const ProgramRun apart = runProgram({"detect", path, "--format", "npy", "--distance", text});
+    const ProgramRun joined = runProgram({"detect", path, "--format", "npy", "--distance=" + text});
     expectSuccess(apart);
-    EXPECT_EQ(pairsOfNpy(apart.out), oracle(boxes, margin));
+    EXPECT_EQ(pairsOfNpy(apart.out), oracle(boxes, distance));
     EXPECT_TRUE(apart.out == joined.out);
+    // The name that the option had before.
+    EXPECT_TRUE(apart.out == runProgram({"detect", path, "--format", "npy", "--margin", text}).out);
+    EXPECT_TRUE(apart.out == runProgram({"detect", path, "--format", "npy", "--margin=" + text}).out);
   }
 }
 

@@ -37,7 +37,7 @@ TEST(Elements, ReportsHowManyCandidatesThereAre) {
   EXPECT_EQ(json["edges"], 6);
   const nlohmann::json still = jsonOf({"elements", start, start, "--format", "json"});
   EXPECT_EQ(still["vertex_face"], 0);
-  EXPECT_EQ(jsonOf({"elements", start, start, "--margin", "2", "--format", "json"})["face_face"], 1);
+  EXPECT_EQ(jsonOf({"elements", start, start, "--distance", "2", "--format", "json"})["face_face"], 1);
 }
 
 TEST(Elements, WritesTheCandidatesBesideTheReport) {
@@ -89,7 +89,7 @@ TEST(Elements, WithoutAnEndOrUnderANameOfAnotherFormatIsWrongUsage) {
   const std::string start = folder.write("start.obj", kStart);
   expectFailure(runProgram({"elements", start}), 2, "has no END");
   expectFailure(runProgram({"elements", start, start, "-o", folder.path() / "x.npy"}), 2, "x.npy");
-  expectFailure(runProgram({"elements", start, start, "--margin", "far"}), 2, "'far'");
+  expectFailure(runProgram({"elements", start, start, "--distance", "far"}), 2, "'far'");
 }
 
 /// A step of the data, and how many candidates it is known to have.

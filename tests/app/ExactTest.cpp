@@ -46,7 +46,7 @@ class Exact : public ::testing::Test {
   [[nodiscard]] std::filesystem::path parts() const { return m_folder.path(); }
 
   [[nodiscard]] ProgramRun detect(std::vector<std::string> options) const {
-    options.insert(options.begin(), {"detect", parts().string(), "--exact", "--margin", "0.25"});
+    options.insert(options.begin(), {"detect", parts().string(), "--exact", "--distance", "0.25"});
     return runProgram(options);
   }
 

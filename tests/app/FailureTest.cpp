@@ -28,13 +28,13 @@ TEST(WrongUsage, IsOneLineAndStatusTwo) {
   expectFailure(runProgram({"detect", path, "--format", "xml"}), kWrongUsage,
                 "'xml' is not one of table, csv, json, npy");
   expectFailure(runProgram({"detect", path, "--strategy", "fast"}), kWrongUsage, "'fast' is not one of");
-  expectFailure(runProgram({"detect", path, "--margin"}), kWrongUsage, "--margin: D is missing");
+  expectFailure(runProgram({"detect", path, "--distance"}), kWrongUsage, "--distance: D is missing");
   expectFailure(runProgram({"detect", path, "--box="}), kWrongUsage, "--box: x0,y0,z0,x1,y1,z1 is missing");
-  expectFailure(runProgram({"detect", path, "--margin", "1", "--margin", "2"}), kWrongUsage,
-                "--margin may be given only once");
-  expectFailure(runProgram({"detect", path, "--margin", "wide"}), kWrongUsage, "--margin: 'wide'");
-  expectFailure(runProgram({"detect", path, "--margin", "nan"}), kWrongUsage, "--margin: 'nan'");
-  expectFailure(runProgram({"detect", path, "--margin", "-inf"}), kWrongUsage, "--margin: '-inf'");
+  expectFailure(runProgram({"detect", path, "--distance", "1", "--distance", "2"}), kWrongUsage,
+                "--distance may be given only once");
+  expectFailure(runProgram({"detect", path, "--distance", "wide"}), kWrongUsage, "--distance: 'wide'");
+  expectFailure(runProgram({"detect", path, "--distance", "nan"}), kWrongUsage, "--distance: 'nan'");
+  expectFailure(runProgram({"detect", path, "--distance", "-inf"}), kWrongUsage, "--distance: '-inf'");
   expectFailure(runProgram({"detect", path, "--threads", "-1"}), kWrongUsage, "--threads");
   expectFailure(runProgram({"detect", path, "--threads", "many"}), kWrongUsage, "--threads: 'many'");
   expectFailure(runProgram({"detect", path, "--threads", "100000"}), kWrongUsage, "from 0 to 9999");

@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
 
 TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
   const std::set<std::string> options = optionsOf(runProgram({"detect", "--help"}).out);
-  for (const char* option : {"--margin", "--box", "--strategy", "--threads", "--verify", "--format", "-o", "--output",
+  for (const char* option : {"--distance", "--box", "--strategy", "--threads", "--verify", "--format", "-o", "--output",
                              "--partial", "--data", "-h", "--help"}) {
     EXPECT_TRUE(options.contains(option)) << option;
   }

@@ -55,16 +55,16 @@ TEST(DetectScene, TheScenesOfTheDataFolderGiveTheModelsAndPairsBesideThem) {
   EXPECT_EQ(count, 12U);
 }
 
-TEST(DetectScene, AMarginReplacesTheAlarmDistanceAndABoxTheRegion) {
+TEST(DetectScene, ADistanceReplacesTheAlarmDistanceAndABoxTheRegion) {
   const TempFolder folder;
   const std::string scene = folder.write("two.scn", R"(<Node name="root"><DefaultPipeline/><BruteForceBroadPhase/>
 <MinProximityIntersection alarmDistance="5"/>
 <Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)");
   EXPECT_EQ(runProgram({"detect", scene, "--format", "csv"}).out, "first,second\n/B/s,/A/s\n");
-  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--margin", "1"}).out, "first,second\n/B/s,/A/s\n");
-  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--margin", "0.5"}).out, "first,second\n");
-  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--margin", "1", "--box", "-9,-9,-9,0,9,9"}).out,
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--distance", "1"}).out, "first,second\n/B/s,/A/s\n");
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--distance", "0.5"}).out, "first,second\n");
+  EXPECT_EQ(runProgram({"detect", scene, "--format", "csv", "--distance", "1", "--box", "-9,-9,-9,0,9,9"}).out,
             "first,second\n");
 }
 

@@ -55,7 +55,7 @@ TEST(Track, OfAGeneratedMotionAgreesWithTheDoubleLoop) {
   const TempFolder folder;
   const std::string file = (folder.path() / "frames.npy").string();
   expectSuccess(runProgram({"generate", "brownian", "-n", "400", "--frames", std::to_string(kFrames), "-o", file}));
-  const ProgramRun run = runProgram({"track", file, "--margin", "0.01", "--format", "csv"});
+  const ProgramRun run = runProgram({"track", file, "--distance", "0.01", "--format", "csv"});
   expectSuccess(run);
   std::istringstream lines(run.out);
   std::string line;

@@ -37,7 +37,7 @@ class Handles {
     expectOk(allpairs_set_create_f64(rows().data(), kBoxes, &set));
     expectOk(allpairs_set_create_f64(otherRows().data(), kBoxes, &other));
     allpairs_options options = allpairs_default_options();
-    options.strategy = ALLPAIRS_BLOCKED;
+    options.strategy = ALLPAIRS_BVH;
     expectOk(allpairs_search_create(&options, &search));
     expectOk(allpairs_world_create(nullptr, &world));
     ids.resize(kBoxes);
@@ -151,7 +151,7 @@ const ::testing::Environment* const kMadeOnce = ::testing::AddGlobalTestEnvironm
 TEST(FailedAllocationInC, OfSearches) {
   allpairs_pairs pairs;
   std::uint64_t count = 0;
-  const allpairs_visitor visitor{takeAll, nullptr};
+  const allpairs_visitor visitor{takeAll, nullptr, 0};
   check([&](Handles& h) { return allpairs_find(h.search, h.set, &pairs); });
   check([&](Handles& h) { return allpairs_find_between(h.search, h.set, h.other, &pairs); });
   check([&](Handles& h) { return allpairs_count(h.search, h.set, &count); });
@@ -224,7 +224,7 @@ TEST(FailedAllocationInC, OfQueries) {
 TEST(FailedAllocationInC, OfElements) {
   allpairs_pairs pairs;
   std::uint64_t count = 0;
-  const allpairs_visitor visitor{takeAll, nullptr};
+  const allpairs_visitor visitor{takeAll, nullptr, 0};
   for (const allpairs_candidates kind : {ALLPAIRS_VERTEX_FACE, ALLPAIRS_EDGE_EDGE, ALLPAIRS_FACE_FACE}) {
     check([&](Handles& h) { return allpairs_elements_find(h.elements, kind, &pairs); });
     check([&](Handles& h) { return allpairs_elements_count(h.elements, kind, &count); });
@@ -293,13 +293,12 @@ TEST(CallbackInC, OfASearchGetsAStatusFromItsOwnHandle) {
 TEST(CallbackInC, OfAStreamMayStopItAtEveryBatch) {
   Handles handles;
   allpairs_options options = allpairs_default_options();
-  options.batch_size = 16;
   ASSERT_EQ(allpairs_search_set_options(handles.search, &options), ALLPAIRS_OK);
   const std::vector<Pair> wanted = handles.results();
   for (std::size_t stopAt = 1;; ++stopAt) {
     Context context{&handles, 0, 0, stopAt};
     const allpairs_visitor visitor{[](void* c, allpairs_pairs) { return callBack(*static_cast<Context*>(c)); },
-                                   &context};
+                                   &context, 16};
     const allpairs_status status = allpairs_stream(handles.search, handles.set, visitor);
     EXPECT_EQ(context.refused, 3 * context.calls);
     ASSERT_EQ(handles.results(), wanted);

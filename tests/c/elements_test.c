@@ -107,7 +107,7 @@ static void checkKind(allpairs_elements* elements, allpairs_candidates kind, dou
     }
   }
   uint64_t counted = 0, streamed = 0;
-  const allpairs_visitor visitor = {countPairs, &streamed}, stopping = {stop, NULL};
+  const allpairs_visitor visitor = {countPairs, &streamed, 0}, stopping = {stop, NULL, 0};
   ALLPAIRS_CHECK(next == found.count);
   ALLPAIRS_CHECK(allpairs_elements_count(elements, kind, &counted) == ALLPAIRS_OK && counted == next);
   ALLPAIRS_CHECK(allpairs_elements_stream(elements, kind, visitor) == ALLPAIRS_OK && streamed == next);
@@ -141,7 +141,7 @@ int main(void) {
   makeStrip();
   const allpairs_mesh mesh = {kVertices, corners, kTriangles};
   const allpairs_mesh meshes[kMeshes] = {mesh, mesh};
-  const allpairs_elements_options options = {.struct_size = sizeof options, .margin = 0.5, .threads = 2};
+  const allpairs_elements_options options = {.struct_size = sizeof options, .distance = 0.5, .threads = 2};
   allpairs_elements* elements = NULL;
   ALLPAIRS_CHECK(allpairs_elements_create(meshes, kMeshes, &options, &elements) == ALLPAIRS_OK);
   checkCounts(elements);
@@ -150,9 +150,9 @@ int main(void) {
     for (size_t i = 0; i < kMeshes; ++i) {
       ALLPAIRS_CHECK(allpairs_elements_move_f64(elements, i, starts[i], ends[i]) == ALLPAIRS_OK);
     }
-    checkKind(elements, ALLPAIRS_VERTEX_FACE, options.margin);
-    checkKind(elements, ALLPAIRS_EDGE_EDGE, options.margin);
-    checkKind(elements, ALLPAIRS_FACE_FACE, options.margin);
+    checkKind(elements, ALLPAIRS_VERTEX_FACE, options.distance);
+    checkKind(elements, ALLPAIRS_EDGE_EDGE, options.distance);
+    checkKind(elements, ALLPAIRS_FACE_FACE, options.distance);
   }
   nonsenseIsRefused(elements);
   allpairs_elements_destroy(elements);

@@ -21,7 +21,7 @@ static void nullIsAnError(void) {
   allpairs_search* search = NULL;
   allpairs_pairs pairs;
   uint64_t count = 0;
-  const allpairs_visitor nobody = {NULL, NULL};
+  const allpairs_visitor nobody = {NULL, NULL, 0};
   const allpairs_ids none = {NULL, 3};
   ALLPAIRS_CHECK(allpairs_set_create_f64(NULL, 3, &set) == ALLPAIRS_INVALID_ARGUMENT && says("rows is null"));
   ALLPAIRS_CHECK(allpairs_set_create_f64(kBoxes, 2, NULL) == ALLPAIRS_INVALID_ARGUMENT);

@@ -46,7 +46,7 @@ static void optionsAreRead(allpairs_set* set) {
   allpairs_options options = allpairs_default_options();
   options.distance = 1;
   options.threads = 2;
-  options.strategy = ALLPAIRS_BLOCKED;
+  options.strategy = ALLPAIRS_BVH;
   options.first.groups = groups;
   ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_find(search, set, &found) == ALLPAIRS_OK);
@@ -106,10 +106,9 @@ static void streamsComeInBatchesAndCanBeStopped(allpairs_set* set) {
   static Collected collected;
   collected.count = 0;
   collected.stopAt = kPairs;
-  const allpairs_visitor visitor = {collect, &collected};
+  const allpairs_visitor visitor = {collect, &collected, 7};
   allpairs_search* search = NULL;
   allpairs_options options = allpairs_default_options();
-  options.batch_size = 7;
   ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_stream(search, set, visitor) == ALLPAIRS_OK);
   const allpairs_pairs all = {collected.pairs, collected.count};
@@ -191,7 +190,7 @@ static void numbersOfPairsHave64Bits(void) {
   uint64_t count = 0;
   allpairs_options options = allpairs_default_options();
   options.strategy = ALLPAIRS_EXHAUSTIVE;
-  options.max_pairs = (uint64_t)1 << 32U;
+  options.max_pairs = (uint64_t)1 << 33U;
   ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_set_create_strided_f32(size, all, all, &many) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_set_create_strided_f32(100, all, all, &few) == ALLPAIRS_OK);

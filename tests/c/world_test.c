@@ -95,7 +95,7 @@ static void propertiesAreRead(void) {
   const allpairs_ids both = {two, 2};
   ALLPAIRS_CHECK(allpairs_world_set_properties(world, both, apart) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK && step.began.count == 1);
-  apart[0].owner = apart[1].owner = 4;
+  apart[0].group = apart[1].group = 4;
   ALLPAIRS_CHECK(allpairs_world_set_properties(world, both, apart) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK && step.ended.count == 1);
   allpairs_world_destroy(world);

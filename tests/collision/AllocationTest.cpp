@@ -59,7 +59,7 @@ class AllocationCount : public BroadPhaseTest {
 class ComponentAllocation : public AllocationCount, public ::testing::WithParamInterface<Strategy> {};
 
 INSTANTIATE_TEST_SUITE_P(EachStrategy, ComponentAllocation,
-                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked));
+                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh));
 
 TEST_P(ComponentAllocation, ASecondStepLikeTheFirstAllocatesNothing) {
   addRandom(1200);

@@ -18,7 +18,7 @@ using test::IndexPair;
 using test::SceneSpec;
 using test::SceneWorld;
 
-constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked};
+constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
 
 std::vector<IndexPair> detectAtOnce(const SceneWorld& world, Strategy strategy) {
   BruteForceBroadPhase phase;

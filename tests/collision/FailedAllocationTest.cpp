@@ -73,7 +73,7 @@ class Scene {
 class FailedComponentAllocation : public ::testing::TestWithParam<Strategy> {};
 
 INSTANTIATE_TEST_SUITE_P(OfEachStrategy, FailedComponentAllocation,
-                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked));
+                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh));
 
 TEST_P(FailedComponentAllocation, OfAFirstStepIsMadeUpForByTheNext) {
   Scene fresh(GetParam());

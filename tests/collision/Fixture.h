@@ -65,7 +65,7 @@ class BroadPhaseTest : public ::testing::Test {
   Numbers detect(collision::Intersection& method) {
     Numbers result = detectWith(Strategy::Automatic, method);
     EXPECT_EQ(detectWith(Strategy::Exhaustive, method), result);
-    EXPECT_EQ(detectWith(Strategy::Blocked, method), result);
+    EXPECT_EQ(detectWith(Strategy::Bvh, method), result);
     return result;
   }
 

@@ -85,12 +85,12 @@ TEST(ElementCandidates, OfASheetThatMeetsItselfAreTheDoubleLoops) {
   }
 }
 
-TEST(ElementCandidates, AreTheSameAtEveryMarginAsTheDoubleLoops) {
+TEST(ElementCandidates, AreTheSameAtEveryDistanceAsTheDoubleLoops) {
   const MovingMesh mesh = rolledSheet(16, 3);
   const ElementOracle oracle({mesh});
-  for (const double margin : {-0.3, 0.1, 1.0}) {
-    ElementCandidates candidates = candidatesOf({mesh}, {.margin = margin});
-    expectEqual(candidates, oracle, {.margin = margin});
+  for (const double distance : {-0.3, 0.1, 1.0}) {
+    ElementCandidates candidates = candidatesOf({mesh}, {.distance = distance});
+    expectEqual(candidates, oracle, {.distance = distance});
   }
 }
 
@@ -175,11 +175,11 @@ TEST(ElementCandidates, RefuseANumberThatIsNotFiniteNamingMeshAndVertex) {
   }
 }
 
-TEST(ElementCandidates, RefuseAMeshThatIsNotThereAndAMarginThatIsNoDistance) {
+TEST(ElementCandidates, RefuseAMeshThatIsNotThereAndADistanceThatIsNone) {
   ElementCandidates candidates = candidatesOf({kTriangle});
   EXPECT_THROW(candidates.setPositions(1, std::span<const double>(), {}), InvalidArgument);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(static_cast<void>(candidatesOf({kTriangle}, {.margin = nan}).find(CandidateKind::EdgeEdge)),
+  EXPECT_THROW(static_cast<void>(candidatesOf({kTriangle}, {.distance = nan}).find(CandidateKind::EdgeEdge)),
                InvalidArgument);
 }
 

@@ -22,7 +22,7 @@ struct MovingMesh {
 
 /// What is to be left out, and how far apart candidates may be.
 struct Wanted {
-  double margin = 0.0;
+  double distance = 0.0;
   bool within = true;
   bool between = true;
 };
@@ -91,7 +91,7 @@ class ElementOracle {
       if (b.vertices.contains(vertex)) return false;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (a.min[axis] > b.max[axis] + wanted.margin || b.min[axis] > a.max[axis] + wanted.margin) return false;
+      if (a.min[axis] > b.max[axis] + wanted.distance || b.min[axis] > a.max[axis] + wanted.distance) return false;
     }
     return true;
   }

@@ -36,16 +36,16 @@ MovingMesh anyMesh() {
   return mesh;
 }
 
-RC_GTEST_PROP(ElementProperty, AnyMeshesAtAnyMarginGiveTheOraclesCandidates, ()) {
+RC_GTEST_PROP(ElementProperty, AnyMeshesAtAnyDistanceGiveTheOraclesCandidates, ()) {
   std::vector<MovingMesh> meshes{anyMesh()};
   if (*rc::gen::arbitrary<bool>()) meshes.push_back(anyMesh());
-  const double margin = *rc::gen::weightedElement<double>({{4, 0.0}, {1, 0.5}, {1, 0.1}, {1, -0.5}, {1, 0x1p-52}});
+  const double distance = *rc::gen::weightedElement<double>({{4, 0.0}, {1, 0.5}, {1, 0.1}, {1, -0.5}, {1, 0x1p-52}});
   const bool within = *rc::gen::weightedElement<bool>({{3, true}, {1, false}});
   const bool between = *rc::gen::weightedElement<bool>({{3, true}, {1, false}});
   const test::ElementOracle oracle(meshes);
   ElementCandidates candidates =
-      test::candidatesOf(meshes, {.margin = margin, .withinMeshes = within, .betweenMeshes = between});
-  const test::Wanted wanted{margin, within, between};
+      test::candidatesOf(meshes, {.distance = distance, .withinMeshes = within, .betweenMeshes = between});
+  const test::Wanted wanted{distance, within, between};
   RC_ASSERT(test::toVector(candidates.find(CandidateKind::VertexFace)) == oracle.vertexFace(wanted));
   RC_ASSERT(test::toVector(candidates.find(CandidateKind::EdgeEdge)) == oracle.edgeEdge(wanted));
   RC_ASSERT(test::toVector(candidates.find(CandidateKind::FaceFace)) == oracle.faceFace(wanted));

@@ -52,16 +52,16 @@ class Allocation : public ::testing::TestWithParam<AllocationCase> {};
 
 INSTANTIATE_TEST_SUITE_P(EachStrategyAndOrder, Allocation,
                          ::testing::Values(AllocationCase{Strategy::Exhaustive, Order::ByFirst},
-                                           AllocationCase{Strategy::Blocked, Order::ByFirst},
-                                           AllocationCase{Strategy::Blocked, Order::BySecond},
-                                           AllocationCase{Strategy::Blocked, Order::Unordered}));
+                                           AllocationCase{Strategy::Bvh, Order::ByFirst},
+                                           AllocationCase{Strategy::Bvh, Order::BySecond},
+                                           AllocationCase{Strategy::Bvh, Order::Unordered}));
 
 TEST_P(Allocation, ASecondSearchOfTheSameSizeAllocatesNothing) {
   OverlapOptions options;
   options.strategy = GetParam().strategy;
   options.order = GetParam().order;
   const std::vector<BoxF> boxes = test::randomBoxes(5000, 41);
-  Overlaps search(options);
+  OverlapSearch search(options);
   static_cast<void>(search.find(boxes));
   const std::size_t before = allocations;
   EXPECT_GT(search.find(boxes).size(), 1000U);
@@ -75,7 +75,7 @@ TEST(Allocation, TakesAtMost48BytesABoxBesideTheOutput) {
     OverlapOptions options;
     options.order = order;
     const std::size_t before = bytes;
-    const std::size_t pairs = Overlaps(options).find(boxes).size();
+    const std::size_t pairs = OverlapSearch(options).find(boxes).size();
     // Growing doubles the output's buffer: its blocks, not what is written to them, add up to four times the pairs.
     EXPECT_LT(bytes - before, 48 * kBoxes + 4 * pairs * sizeof(Pair));
   }

@@ -43,10 +43,10 @@ void expectPublishedPairs(const std::filesystem::path& path, const OverlapOption
   for (std::size_t i = 0; i + 1 < flat.size(); i += 2) expected.push_back({flat[i], flat[i + 1]});
   if (isFloat64(path)) {
     const std::vector<double> rows = npyValues<double>(path);
-    EXPECT_EQ(overlaps(BoxSet::fromRows(rows), options), expected) << path;
+    EXPECT_EQ(overlaps(BoxView::fromRows(rows), options), expected) << path;
   } else {
     const std::vector<float> rows = npyValues<float>(path);
-    EXPECT_EQ(overlaps(BoxSet::fromRows(rows), options), expected) << path;
+    EXPECT_EQ(overlaps(BoxView::fromRows(rows), options), expected) << path;
   }
 }
 
@@ -59,7 +59,7 @@ TEST(BoxData, PublishedBoxesGiveThePublishedPairs) {
     if (name.ends_with(".pairs.npy") || !name.ends_with(".npy")) continue;
     ++files;
     for (const std::string_view instructionSet : instructionSets()) {
-      for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked}) {
+      for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
         OverlapOptions options;
         options.strategy = strategy;
         options.instructionSet = instructionSet;

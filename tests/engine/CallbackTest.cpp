@@ -88,7 +88,7 @@ class CallbackOfSearch : public ::testing::TestWithParam<Strategy> {
   CallbackOfSearch() { options.strategy = GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(OfEachStrategy, CallbackOfSearch, ::testing::Values(Strategy::Exhaustive, Strategy::Blocked));
+INSTANTIATE_TEST_SUITE_P(OfEachStrategy, CallbackOfSearch, ::testing::Values(Strategy::Exhaustive, Strategy::Bvh));
 
 TEST_P(CallbackOfSearch, AFilterThatThrowsLeavesTheSearchUsable) {
   Thrower thrower;
@@ -96,21 +96,23 @@ TEST_P(CallbackOfSearch, AFilterThatThrowsLeavesTheSearchUsable) {
     thrower.call();
     return true;
   };
-  Overlaps search(options);
+  OverlapSearch search(options);
   const auto check = [&] { ASSERT_EQ(test::toVector(search.find(boxes)), wanted); };
   throwAtEachCall(
       thrower, [&] { static_cast<void>(search.find(boxes)); }, check);
   throwAtEachCall(
-      thrower, [&] { static_cast<void>(search.findBetween(boxes, boxes)); }, check);
+      thrower, [&] { static_cast<void>(search.find(boxes, boxes)); }, check);
   throwAtEachCall(
       thrower, [&] { static_cast<void>(search.count(boxes)); }, check);
 }
 
 TEST_P(CallbackOfSearch, AVisitorThatThrowsLeavesTheSearchUsable) {
   Thrower thrower;
-  options.batchSize = 3;
-  Overlaps search(options);
-  const auto attempt = [&] { search.stream(boxes, [&](std::span<const Pair>) { thrower.call(); }); };
+  OverlapSearch search(options);
+  const auto attempt = [&] {
+    search.stream(
+        boxes, [&](std::span<const Pair>) { thrower.call(); }, 3);
+  };
   throwAtEachCall(thrower, attempt, [&] {
     std::vector<Pair> found;
     search.stream(boxes, [&](std::span<const Pair> pairs) { found.insert(found.end(), pairs.begin(), pairs.end()); });
@@ -124,7 +126,7 @@ TEST_P(CallbackOfSearch, AnExecutorThatThrowsLeavesTheSearchUsable) {
   const std::vector<Box> more = test::toDouble(test::randomBoxes(700, 82));
   const std::vector<Pair> wantedOfMore = overlaps(more);
   options.executor = &executor;
-  Overlaps search(options);
+  OverlapSearch search(options);
   throwAtEachCall(
       thrower, [&] { static_cast<void>(search.find(more)); },
       [&] { ASSERT_EQ(test::toVector(search.find(more)), wantedOfMore); });
@@ -138,7 +140,7 @@ TEST_P(CallbackOfSearch, OnManyThreadsAFilterThatThrowsLeavesTheSearchUsable) {
     thrower.call();
     return true;
   };
-  Overlaps search(options);
+  OverlapSearch search(options);
   throwAtEachCall(
       thrower, [&] { static_cast<void>(search.find(boxes)); },
       [&] { ASSERT_EQ(test::toVector(search.find(boxes)), wanted); });
@@ -155,15 +157,15 @@ bool isRefused(const std::function<void()>& call) {
 }
 
 TEST_P(CallbackOfSearch, ASearchThatItsCallbackStartsAgainRefuses) {
-  Overlaps* self = nullptr;
+  OverlapSearch* self = nullptr;
   std::size_t refused = 0;
   const auto callBack = [&] {
     refused += isRefused([&] { static_cast<void>(self->find(boxes)); }) ? 1U : 0U;
-    refused += isRefused([&] { static_cast<void>(self->findBetween(boxes, boxes)); }) ? 1U : 0U;
+    refused += isRefused([&] { static_cast<void>(self->find(boxes, boxes)); }) ? 1U : 0U;
     refused += isRefused([&] { static_cast<void>(self->count(boxes)); }) ? 1U : 0U;
-    refused += isRefused([&] { static_cast<void>(self->countBetween(boxes, boxes)); }) ? 1U : 0U;
+    refused += isRefused([&] { static_cast<void>(self->count(boxes, boxes)); }) ? 1U : 0U;
     refused += isRefused([&] { self->stream(boxes, [](std::span<const Pair>) {}); }) ? 1U : 0U;
-    refused += isRefused([&] { self->streamBetween(boxes, boxes, [](std::span<const Pair>) {}); }) ? 1U : 0U;
+    refused += isRefused([&] { self->stream(boxes, boxes, [](std::span<const Pair>) {}); }) ? 1U : 0U;
     refused += isRefused([&] { self->setOptions({}); }) ? 1U : 0U;
     EXPECT_EQ(self->options().strategy, GetParam());
   };
@@ -171,11 +173,11 @@ TEST_P(CallbackOfSearch, ASearchThatItsCallbackStartsAgainRefuses) {
     callBack();
     return true;
   };
-  Overlaps search(options);
+  OverlapSearch search(options);
   self = &search;
   EXPECT_EQ(test::toVector(search.find(boxes)), wanted);
   EXPECT_EQ(refused, 7 * wanted.size());
-  Overlaps streamed;
+  OverlapSearch streamed;
   self = &streamed;
   refused = 0;
   options.filter.accept = nullptr;
@@ -190,7 +192,7 @@ TEST_P(CallbackOfSearch, ASearchThatItsCallbackStartsAgainRefuses) {
 }
 
 TEST_P(CallbackOfSearch, OtherSearchesMayBeMadeByACallback) {
-  Overlaps other;
+  OverlapSearch other;
   World world;
   options.filter.accept = [&](std::uint32_t a, std::uint32_t b) {
     EXPECT_EQ(overlaps(boxes), wanted);
@@ -220,7 +222,7 @@ class CallbackOfWorld : public ::testing::Test {
 
   void moveSome(std::size_t count) {
     std::swap(boxes, moved);
-    world.move(std::span<const BoxId>(ids).first(count), BoxSet(boxes).slice(0, count));
+    world.move(std::span<const BoxId>(ids).first(count), BoxView(boxes).slice(0, count));
     for (std::size_t i = 0; i < count; ++i) oracle.boxes[ids[i]].box = boxes[i];
   }
 
@@ -294,13 +296,13 @@ TEST_F(CallbackOfWorld, AWorldThatItsAcceptCallsRefuses) {
       [&] { world.add(box); },
       [&] { static_cast<void>(world.add(boxes)); },
       [&] { world.move(0, box); },
-      [&] { world.move(some, BoxSet(std::span<const Box>(&box, 1))); },
+      [&] { world.move(some, BoxView(std::span<const Box>(&box, 1))); },
       [&] { world.moveSwept(some, std::span<const Box>(&box, 1), std::span<const Box>(&box, 1)); },
       [&] { world.moveSwept(some, std::span<const Box>(&box, 1), std::vector<double>(3), 1.0); },
       [&] { world.remove(0); },
       [&] { world.clear(); },
       [&] { world.setProperties(0, {}); },
-      [&] { world.touch(some); },
+      [&] { world.invalidate(some); },
       [&] { static_cast<void>(world.step()); }};
   const std::vector<std::function<void()>> queries{[&] { static_cast<void>(world.findOverlapping(box)); },
                                                    [&] { static_cast<void>(world.findOverlapping(boxes)); },
@@ -352,10 +354,10 @@ TEST_F(CallbackOfWorld, AnotherWorldMayBeUsedByAccept) {
 TEST(MovedFrom, OverlapsIsAsNew) {
   OverlapOptions options;
   options.distance = 100.0;
-  Overlaps first(options);
+  OverlapSearch first(options);
   const std::vector<Box> boxes{test::cube(0, 0, 0), test::cube(0.5, 0, 0), test::cube(9, 0, 0)};
   EXPECT_EQ(first.find(boxes).size(), 3U);
-  Overlaps second(std::move(first));
+  OverlapSearch second(std::move(first));
   EXPECT_EQ(second.find(boxes).size(), 3U);
   // NOLINTBEGIN(bugprone-use-after-move): what is tested
   EXPECT_EQ(first.options().distance, 0.0);
@@ -363,7 +365,7 @@ TEST(MovedFrom, OverlapsIsAsNew) {
   EXPECT_EQ(first.find(boxes).size(), 1U);
   first = std::move(second);
   EXPECT_EQ(second.count(boxes), 1U);
-  Overlaps third(std::move(second));
+  OverlapSearch third(std::move(second));
   second.setOptions(options);
   EXPECT_EQ(second.count(boxes), 3U);
   // NOLINTEND(bugprone-use-after-move)
@@ -412,13 +414,13 @@ TEST(World, ABoxThatIsGivenTheBoundsThatItHasIsAskedAboutAgainOnlyIfItIsTouched)
   accepts = false;
   world.move(a, box);
   EXPECT_EQ(world.step().pairs.size(), 1U);
-  world.touch({&a, 1});
+  world.invalidate({&a, 1});
   EXPECT_EQ(world.step().ended.size(), 1U);
 }
 
 TEST(World, RoomMayBeMadeBetweenAMoveAndAStep) {
   World world;
-  const std::vector<BoxId> ids = world.add(std::vector<Box>{test::cube(0, 0, 0), test::cube(5, 0, 0)});
+  const std::vector<BoxId> ids = world.add(test::lent(std::vector{test::cube(0, 0, 0), test::cube(5, 0, 0)}));
   EXPECT_EQ(world.step().pairs.size(), 0U);
   world.move(ids[1], test::cube(0.5, 0, 0));
   world.reserve(100000);

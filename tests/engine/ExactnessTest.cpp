@@ -15,7 +15,7 @@
 namespace allpairs {
 namespace {
 
-constexpr Strategy kBothStrategies[] = {Strategy::Exhaustive, Strategy::Blocked};
+constexpr Strategy kBothStrategies[] = {Strategy::Exhaustive, Strategy::Bvh};
 
 class EachInstructionSet : public ::testing::TestWithParam<std::string_view> {};
 
@@ -74,9 +74,9 @@ TEST_P(EachInstructionSet, OneInexactBoxOfTheSecondSetIsTestedInDouble) {
       OverlapOptions options;
       options.strategy = strategy;
       options.instructionSet = GetParam();
-      ASSERT_EQ(overlapsBetween(first, second, options), expected) << "box " << i;
+      ASSERT_EQ(overlaps(first, second, options), expected) << "box " << i;
       // A pair lies in (first, second) here, and in (second, first) there.
-      ASSERT_EQ(countOverlapsBetween(second, first, options), expected.size()) << "box " << i;
+      ASSERT_EQ(countOverlaps(second, first, options), expected.size()) << "box " << i;
     }
   }
 }
@@ -116,7 +116,7 @@ RC_GTEST_PROP(ExactnessProperty, ARegionIsWidenedByEachBoxesOwnMargin, ()) {
     if (inside[pair.first] && inside[pair.second]) expected.push_back(pair);
   }
 
-  BoxSet set(boxes);
+  BoxView set(boxes);
   set.setMargins(margins);
   for (const Strategy strategy : kBothStrategies) {
     OverlapOptions options;

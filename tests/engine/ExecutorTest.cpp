@@ -28,7 +28,7 @@ TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
   parallel::TbbExecutor two(2);
   parallel::TbbExecutor eight(8);
   BackwardExecutor backward;
-  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
     const std::span<const BoxF> part(boxes.data(), strategy == Strategy::Exhaustive ? 8000 : boxes.size());
     for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
       OverlapOptions options;
@@ -49,9 +49,9 @@ TEST(Executor, GivesTheSameBytesBetweenTwoSets) {
   const std::vector<BoxF> second = test::randomBoxes(20000, 33);
   parallel::TbbExecutor eight(8);
   OverlapOptions options;
-  const std::vector<Pair> serial = overlapsBetween(first, second, options);
+  const std::vector<Pair> serial = overlaps(first, second, options);
   options.executor = &eight;
-  EXPECT_EQ(overlapsBetween(first, second, options), serial);
+  EXPECT_EQ(overlaps(first, second, options), serial);
 }
 
 TEST(Executor, PassesOnWhatAFilterThrows) {
@@ -63,7 +63,7 @@ TEST(Executor, PassesOnWhatAFilterThrows) {
     if (first == 12345) throw std::runtime_error("stop");
     return true;
   };
-  Overlaps search(options);
+  OverlapSearch search(options);
   EXPECT_THROW(static_cast<void>(search.find(boxes)), std::runtime_error);
   options.filter.accept = nullptr;
   search.setOptions(options);

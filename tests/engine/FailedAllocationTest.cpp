@@ -39,22 +39,21 @@ class FailedAllocation : public ::testing::TestWithParam<SearchCase> {
     for (Box& box : tested) box.min[0] += 1e-9;  // no float32: tested again in double
     options.strategy = GetParam().strategy;
     options.order = GetParam().order;
-    options.batchSize = 64;
     options.filter.accept = [](std::uint32_t a, std::uint32_t b) { return (a + b) % 7 != 0; };
     wantedOfTested = overlaps(tested, options);
   }
 
   /// The search gives the right pairs, or throws and gives them the next time.
-  using Run = std::function<void(Overlaps&, std::vector<Pair>&)>;
+  using Run = std::function<void(OverlapSearch&, std::vector<Pair>&)>;
   void check(const Run& run) {
     std::vector<Pair> wanted;
-    Overlaps fresh(options);
+    OverlapSearch fresh(options);
     run(fresh, wanted);
     ASSERT_FALSE(wanted.empty());
     std::vector<Pair> found;
     found.reserve(wanted.size());
     const auto scene = [&](test::Fault& fault) {
-      Overlaps search(options);
+      OverlapSearch search(options);
       found.clear();
       const bool passed = fault.during([&] { run(search, found); });
       if (passed) {
@@ -78,44 +77,46 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(SearchCase{"exhaustive", 300, 1.0F, Strategy::Exhaustive, Order::ByFirst},
                       SearchCase{"exhaustive by second", 300, 1.0F, Strategy::Exhaustive, Order::BySecond},
                       SearchCase{"many pairs, exhaustive", 500, 50.0F, Strategy::Exhaustive, Order::ByFirst},
-                      SearchCase{"blocked", 900, 1.0F, Strategy::Blocked, Order::ByFirst},
-                      SearchCase{"blocked by second", 900, 1.0F, Strategy::Blocked, Order::BySecond},
-                      SearchCase{"blocked, unordered", 900, 1.0F, Strategy::Blocked, Order::Unordered},
-                      SearchCase{"many pairs", 500, 50.0F, Strategy::Blocked, Order::ByFirst},
-                      SearchCase{"in buckets", 17000, 1.0F, Strategy::Blocked, Order::ByFirst, 7}));
+                      SearchCase{"bvh", 900, 1.0F, Strategy::Bvh, Order::ByFirst},
+                      SearchCase{"bvh by second", 900, 1.0F, Strategy::Bvh, Order::BySecond},
+                      SearchCase{"bvh, unordered", 900, 1.0F, Strategy::Bvh, Order::Unordered},
+                      SearchCase{"many pairs", 500, 50.0F, Strategy::Bvh, Order::ByFirst},
+                      SearchCase{"in buckets", 17000, 1.0F, Strategy::Bvh, Order::ByFirst, 7}));
 
 TEST_P(FailedAllocation, LeavesFindOfOneSetUsable) {
-  check([&](Overlaps& search, std::vector<Pair>& found) { keep(search.find(first), found); });
+  check([&](OverlapSearch& search, std::vector<Pair>& found) { keep(search.find(first), found); });
 }
 
 TEST_P(FailedAllocation, LeavesFindOfTwoSetsUsable) {
-  check([&](Overlaps& search, std::vector<Pair>& found) { keep(search.findBetween(first, second), found); });
+  check([&](OverlapSearch& search, std::vector<Pair>& found) { keep(search.find(first, second), found); });
 }
 
 TEST_P(FailedAllocation, LeavesCountUsable) {
-  check([&](Overlaps& search, std::vector<Pair>& found) {
+  check([&](OverlapSearch& search, std::vector<Pair>& found) {
     found.push_back({static_cast<std::uint32_t>(search.count(first)), 0});
-    found.push_back({static_cast<std::uint32_t>(search.countBetween(first, second)), 0});
+    found.push_back({static_cast<std::uint32_t>(search.count(first, second)), 0});
   });
 }
 
 TEST_P(FailedAllocation, LeavesStreamUsable) {
-  check([&](Overlaps& search, std::vector<Pair>& found) {
-    search.stream(first, [&](std::span<const Pair> pairs) { keep(pairs, found); });
-    search.streamBetween(first, second, [&](std::span<const Pair> pairs) { keep(pairs, found); });
+  check([&](OverlapSearch& search, std::vector<Pair>& found) {
+    search.stream(
+        first, [&](std::span<const Pair> pairs) { keep(pairs, found); }, 64);
+    search.stream(
+        first, second, [&](std::span<const Pair> pairs) { keep(pairs, found); }, 64);
   });
 }
 
 TEST_P(FailedAllocation, OnOtherThreadsLeavesASearchUsable) {
   test::PoolExecutor threads(3);
   options.executor = &threads;
-  check([&](Overlaps& search, std::vector<Pair>& found) { keep(search.find(first), found); });
+  check([&](OverlapSearch& search, std::vector<Pair>& found) { keep(search.find(first), found); });
 }
 
 TEST_P(FailedAllocation, LeavesWhatAnObjectHasGivenInItsSecondSearchUsable) {
   const std::vector<Pair> wanted = overlaps(first, options);
   const auto scene = [&](test::Fault& fault) {
-    Overlaps search(options);
+    OverlapSearch search(options);
     static_cast<void>(search.find(tested));
     static_cast<void>(fault.during([&] { static_cast<void>(search.find(first)); }));
     ASSERT_EQ(test::toVector(search.find(first)), wanted);
@@ -135,18 +136,20 @@ TEST_P(FailedAllocation, OfAFreeFunctionLeaksNothing) {
 }
 
 TEST(FailedAllocation, WhileAnObjectIsMadeLeaksNothing) {
-  const auto scene = [](test::Fault& fault) { static_cast<void>(fault.during([] { static_cast<void>(Overlaps()); })); };
+  const auto scene = [](test::Fault& fault) {
+    static_cast<void>(fault.during([] { static_cast<void>(OverlapSearch()); }));
+  };
   test::failEachAllocation(scene);
 }
 
 TEST(FailedAllocation, HalvesNoRangeOfAnOrderedStreamForGood) {
   const std::vector<BoxF> boxes = test::randomBoxes(3000, 54, 200.0F);  // all overlap: more pairs than a range may have
   OverlapOptions options;
-  options.strategy = Strategy::Blocked;
-  const std::uint64_t wanted = Overlaps(options).count(boxes);
+  options.strategy = Strategy::Bvh;
+  const std::uint64_t wanted = OverlapSearch(options).count(boxes);
   ASSERT_GT(wanted, std::uint64_t{1} << 22U);
   const auto scene = [&](test::Fault& fault) {
-    Overlaps search(options);
+    OverlapSearch search(options);
     std::uint64_t found = 0;
     const auto count = [&](std::span<const Pair> pairs) { found += pairs.size(); };
     if (!fault.during([&] { search.stream(boxes, count); })) {

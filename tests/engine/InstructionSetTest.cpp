@@ -36,7 +36,7 @@ TEST_P(InstructionSet, GivesTheOraclesPairsForEveryCount) {
   for (std::size_t n = 0; n <= kMostBoxes; ++n) {
     const std::span<const BoxF> part(boxes.data(), n);
     const std::vector<Pair> expected = test::oracle(test::toDouble(part));
-    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
       const OverlapOptions options = optionsFor(GetParam(), strategy);
       ASSERT_EQ(overlaps(part, options), expected) << n << " boxes";
       ASSERT_EQ(countOverlaps(part, options), expected.size()) << n << " boxes";
@@ -50,8 +50,8 @@ TEST_P(InstructionSet, GivesTheOraclesPairsBetweenSetsOfEveryCount) {
   for (std::size_t n = 0; n <= kMostBoxes; ++n) {
     const std::span<const BoxF> part(boxes.data(), n);
     const std::vector<Pair> expected = test::oracleBetween(test::toDouble(part), test::toDouble(others));
-    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
-      ASSERT_EQ(overlapsBetween(part, others, optionsFor(GetParam(), strategy)), expected) << n << " boxes";
+    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
+      ASSERT_EQ(overlaps(part, others, optionsFor(GetParam(), strategy)), expected) << n << " boxes";
     }
   }
 }
@@ -66,8 +66,8 @@ TEST_P(InstructionSet, ReadsBoxesAtEveryMisalignment) {
       rows.insert(rows.end(), box.min.begin(), box.min.end());
       rows.insert(rows.end(), box.max.begin(), box.max.end());
     }
-    const BoxSet set = BoxSet::fromRows(std::span<const float>(rows).subspan(shift));
-    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+    const BoxView set = BoxView::fromRows(std::span<const float>(rows).subspan(shift));
+    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
       ASSERT_EQ(overlaps(set, optionsFor(GetParam(), strategy)), expected) << "shifted by " << shift;
     }
   }
@@ -91,14 +91,14 @@ std::vector<Box> awkwardBoxes(std::size_t n) {
 TEST_P(InstructionSet, GivesTheOraclesPairsOfAwkwardDoubles) {
   const std::vector<Box> boxes = awkwardBoxes(600);
   const std::vector<Pair> expected = test::oracle(boxes);
-  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
     EXPECT_EQ(overlaps(boxes, optionsFor(GetParam(), strategy)), expected);
   }
 }
 
 TEST_P(InstructionSet, GivesTheSameBytesInEveryOrderAsTheBestOne) {
   const std::vector<BoxF> boxes = test::randomBoxes(5000, 15);
-  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
     for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
       OverlapOptions options = optionsFor(GetParam(), strategy);
       options.order = order;
@@ -120,8 +120,8 @@ TEST_P(InstructionSet, CountsManyColumnsAgainstAnyNumberOfRows) {
     const auto some = std::span<const BoxF>(boxes).first(rows);
     const auto others = std::span<const BoxF>(boxes).subspan(20 + rows);
     const std::size_t expected = test::oracleBetween(test::toDouble(some), test::toDouble(others)).size();
-    ASSERT_EQ(countOverlapsBetween(some, others, options), expected) << rows << " rows";
-    ASSERT_EQ(countOverlapsBetween(others, some, options), expected) << rows << " columns";
+    ASSERT_EQ(countOverlaps(some, others, options), expected) << rows << " rows";
+    ASSERT_EQ(countOverlaps(others, some, options), expected) << rows << " columns";
   }
 }
 

@@ -64,7 +64,7 @@ OverlapOptions optionsWith(Strategy strategy, double d) {
   return options;
 }
 
-constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked};
+constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
 
 void showBoxes(const std::vector<Box>& boxes) {
   RC_CLASSIFY(boxes.size() > 16, "more than a block");
@@ -97,7 +97,7 @@ RC_GTEST_PROP(OverlapsProperty, AnyMarginsGiveTheOraclesPairs, ()) {
   const auto boxes = *scene();
   const auto margins = *rc::gen::container<std::vector<double>>(boxes.size(), distance());
   const double d = *distance();
-  BoxSet set(boxes);
+  BoxView set(boxes);
   set.setMargins(margins);
   const std::vector<Pair> expected = test::oracle(boxes, d, margins);
   for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(set, optionsWith(strategy, d)) == expected);
@@ -109,8 +109,8 @@ RC_GTEST_PROP(OverlapsProperty, TwoSetsGiveTheOraclesPairs, ()) {
   const double d = *distance();
   const std::vector<Pair> expected = test::oracleBetween(first, second, d);
   for (const Strategy strategy : kStrategies) {
-    RC_ASSERT(overlapsBetween(first, second, optionsWith(strategy, d)) == expected);
-    RC_ASSERT(countOverlapsBetween(first, second, optionsWith(strategy, d)) == expected.size());
+    RC_ASSERT(overlaps(first, second, optionsWith(strategy, d)) == expected);
+    RC_ASSERT(countOverlaps(first, second, optionsWith(strategy, d)) == expected.size());
   }
 }
 

@@ -38,7 +38,7 @@ class Overlaps_ : public ::testing::TestWithParam<Strategy> {
 };
 
 INSTANTIATE_TEST_SUITE_P(EachStrategy, Overlaps_,
-                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked));
+                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh));
 
 TEST_P(Overlaps_, NoBoxesAndOneBoxHaveNoPairs) {
   EXPECT_THAT(pairsOf({}), IsEmpty());
@@ -123,7 +123,7 @@ TEST_P(Overlaps_, MarginsAddUpFromLeftToRight) {
   // 0.1 + 0.2 + 0.3 is 0.6000000000000001 from left to right and 0.6 from right to left.
   const std::vector<Box> boxes{cube(0, 0, 0), {{1.6000000000000001, 0, 0}, {2, 1, 1}}};
   const std::vector<double> margins{0.2, 0.3};
-  BoxSet set(boxes);
+  BoxView set(boxes);
   set.setMargins(margins);
   OverlapOptions with = options();
   with.distance = 0.1;
@@ -132,7 +132,7 @@ TEST_P(Overlaps_, MarginsAddUpFromLeftToRight) {
 
 TEST_P(Overlaps_, AMarginOfTheSetCountsForEachBoxOfAPair) {
   const std::vector<Box> boxes{cube(0, 0, 0), cube(1.5, 0, 0)};
-  BoxSet set(boxes);
+  BoxView set(boxes);
   set.setMargin(0.25);
   EXPECT_THAT(overlaps(set, options()), ElementsAre(Pair{0, 1}));
   set.setMargin(0.2);
@@ -181,49 +181,49 @@ TEST_P(Overlaps_, TheCallersPredicateSeesOverlappingPairsOnly) {
 TEST_P(Overlaps_, BetweenTwoSetsThePairIsOneOfEach) {
   const std::vector<Box> first{cube(0, 0, 0), cube(5, 0, 0)};
   const std::vector<Box> second{cube(5.5, 0, 0), cube(0.5, 0, 0), cube(0.75, 0, 0)};
-  EXPECT_THAT(overlapsBetween(first, second, options()), ElementsAre(Pair{0, 1}, Pair{0, 2}, Pair{1, 0}));
+  EXPECT_THAT(overlaps(first, second, options()), ElementsAre(Pair{0, 1}, Pair{0, 2}, Pair{1, 0}));
   OverlapOptions bySecond = options();
   bySecond.order = Order::BySecond;
-  EXPECT_THAT(overlapsBetween(first, second, bySecond), ElementsAre(Pair{1, 0}, Pair{0, 1}, Pair{0, 2}));
+  EXPECT_THAT(overlaps(first, second, bySecond), ElementsAre(Pair{1, 0}, Pair{0, 1}, Pair{0, 2}));
 }
 
 TEST_P(Overlaps_, BetweenTwoSetsEachHasItsOwnFilterAndMargins) {
   const std::vector<Box> first{cube(0, 0, 0), cube(0, 0, 0)};
   const std::vector<Box> second{cube(1.5, 0, 0), cube(1.25, 0, 0)};
-  BoxSet wide(first);
+  BoxView wide(first);
   const std::vector<double> margins{0.25, 0.5};
   wide.setMargins(margins);
-  EXPECT_THAT(overlapsBetween(wide, second, options()), ElementsAre(Pair{0, 1}, Pair{1, 0}, Pair{1, 1}));
+  EXPECT_THAT(overlaps(wide, second, options()), ElementsAre(Pair{0, 1}, Pair{1, 0}, Pair{1, 1}));
   const std::vector<std::uint32_t> groupsOfFirst{1, 2};
   const std::vector<std::uint32_t> groupsOfSecond{2, 1};
   OverlapOptions with = options();
   with.filter.first.groups = groupsOfFirst;
   with.filter.second.groups = groupsOfSecond;
-  EXPECT_THAT(overlapsBetween(wide, second, with), ElementsAre(Pair{1, 1}));
+  EXPECT_THAT(overlaps(wide, second, with), ElementsAre(Pair{1, 1}));
 }
 
 TEST_P(Overlaps_, OneEmptySetOfTwoHasNoPairs) {
   const std::vector<Box> boxes(20, cube(0, 0, 0));
   const std::vector<Box> none;
   const std::vector<Box> allEmpty(20, kEmptyBox);
-  EXPECT_THAT(overlapsBetween(boxes, none, options()), IsEmpty());
-  EXPECT_THAT(overlapsBetween(none, boxes, options()), IsEmpty());
-  EXPECT_THAT(overlapsBetween(allEmpty, boxes, options()), IsEmpty());
+  EXPECT_THAT(overlaps(boxes, none, options()), IsEmpty());
+  EXPECT_THAT(overlaps(none, boxes, options()), IsEmpty());
+  EXPECT_THAT(overlaps(allEmpty, boxes, options()), IsEmpty());
   EXPECT_THAT(pairsOf(allEmpty), IsEmpty());
 }
 
 TEST_P(Overlaps_, SetsOfVeryDifferentSizeAreJoined) {
   const std::vector<Box> many = test::toDouble(test::randomBoxes(3000, 5));
   const std::vector<Box> few = test::toDouble(test::randomBoxes(3, 6, 3.0F));
-  EXPECT_EQ(overlapsBetween(many, few, options()), test::oracleBetween(many, few));
-  EXPECT_EQ(overlapsBetween(few, many, options()), test::oracleBetween(few, many));
+  EXPECT_EQ(overlaps(many, few, options()), test::oracleBetween(many, few));
+  EXPECT_EQ(overlaps(few, many, options()), test::oracleBetween(few, many));
 }
 
 TEST_P(Overlaps_, CountingAgreesWithFinding) {
   const std::vector<BoxF> boxes = test::randomBoxes(2000, 1);
   const std::vector<BoxF> others = test::randomBoxes(700, 2);
   EXPECT_EQ(countOverlaps(boxes, options()), overlaps(boxes, options()).size());
-  EXPECT_EQ(countOverlapsBetween(boxes, others, options()), overlapsBetween(boxes, others, options()).size());
+  EXPECT_EQ(countOverlaps(boxes, others, options()), overlaps(boxes, others, options()).size());
   OverlapOptions filtered = options();
   filtered.filter.accept = [](std::uint32_t first, std::uint32_t) { return first % 2 == 0; };
   EXPECT_EQ(countOverlaps(boxes, filtered), overlaps(boxes, filtered).size());
@@ -242,12 +242,21 @@ TEST_P(Overlaps_, MorePairsThanAllowedThrowAndNothingIsCut) {
     EXPECT_GT(error.count(), 4949U);
     EXPECT_THAT(error.what(), HasSubstr("4949"));
   }
+  EXPECT_THROW(static_cast<void>(countOverlaps(boxes, limited)), LimitExceeded);
+  std::size_t streamed = 0;
+  const auto take = [&](std::span<const Pair> pairs) { streamed += pairs.size(); };
+  EXPECT_THROW(streamOverlaps(boxes, take, limited, 100), LimitExceeded);
+  EXPECT_EQ(streamed, 4900U);
+  limited.maxPairs = 4950;
   EXPECT_EQ(countOverlaps(boxes, limited), 4950U);
+  streamed = 0;
+  streamOverlaps(boxes, take, limited, 100);
+  EXPECT_EQ(streamed, 4950U);
 }
 
 TEST_P(Overlaps_, AnObjectCanBeUsedAgainAfterItThrew) {
   const std::vector<Box> boxes(100, cube(0, 0, 0));
-  Overlaps search(options());
+  OverlapSearch search(options());
   OverlapOptions limited = options();
   limited.maxPairs = 3;
   search.setOptions(limited);
@@ -269,6 +278,17 @@ TEST_P(Overlaps_, BadOptionsAreRefusedByName) {
   bad.filter.first.groups = three;
   EXPECT_THROW(pairsOf(boxes, bad), InvalidArgument);
   bad = options();
+  const std::vector<std::uint32_t> two(2);
+  bad.filter.second.groups = two;
+  EXPECT_THROW(pairsOf(boxes, bad), InvalidArgument);
+  EXPECT_NO_THROW(static_cast<void>(overlaps(boxes, boxes, bad)));
+  bad = options();
+  EXPECT_THROW(streamOverlaps(
+                   boxes, [](std::span<const Pair>) {}, bad, 0),
+               InvalidArgument);
+  bad.memory = std::pmr::new_delete_resource();
+  EXPECT_THROW(OverlapSearch(options()).setOptions(bad), InvalidArgument);
+  bad = options();
   bad.instructionSet = "MMX";
   try {
     pairsOf(boxes, bad);
@@ -283,11 +303,11 @@ TEST(Overlaps, ExhaustiveMakesEveryTestAndCountsThem) {
   OverlapOptions exhaustive;
   exhaustive.strategy = Strategy::Exhaustive;
   const std::vector<BoxF> boxes = test::randomBoxes(1000, 3);
-  Overlaps search(exhaustive);
+  OverlapSearch search(exhaustive);
   static_cast<void>(search.find(boxes));
   EXPECT_EQ(search.statistics().boxTests, 1000U * 999U / 2U);
   const std::vector<BoxF> others = test::randomBoxes(70, 4);
-  static_cast<void>(search.findBetween(boxes, others));
+  static_cast<void>(search.find(boxes, others));
   EXPECT_EQ(search.statistics().boxTests, 70000U);
 }
 
@@ -299,7 +319,7 @@ std::vector<BoxF> periodicBoxes(std::size_t n, std::size_t period, const BoxF& o
 }
 
 std::uint64_t testsFor(const std::vector<BoxF>& boxes, const OverlapOptions& options) {
-  Overlaps search(options);
+  OverlapSearch search(options);
   static_cast<void>(search.count(boxes));
   return search.statistics().boxTests + search.statistics().groupTests;
 }
@@ -310,9 +330,9 @@ TEST(Overlaps, PeriodicInputDoesNotLookLikeSomethingElse) {
   const BoxF none{{1, 1, 1}, {0, 0, 0}};
   OverlapOptions ordered;
   EXPECT_LT(testsFor(periodicBoxes(kBoxes, kBoxes / 24, large), ordered), kBoxes * 1000);
-  OverlapOptions blocked;
-  blocked.strategy = Strategy::Blocked;
-  EXPECT_LT(testsFor(periodicBoxes(kBoxes, kBoxes / 256, none), blocked), kBoxes * 300);
+  OverlapOptions bvh;
+  bvh.strategy = Strategy::Bvh;
+  EXPECT_LT(testsFor(periodicBoxes(kBoxes, kBoxes / 256, none), bvh), kBoxes * 300);
 }
 
 TEST(Overlaps, NoInputCostsMuchMoreThanAllTests) {
@@ -333,18 +353,18 @@ TEST(Overlaps, NoInputCostsMuchMoreThanAllTests) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   const std::vector<BoxF> everywhere(kBoxes, {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}});
   const std::vector<BoxF> equal(kBoxes, {{0, 0, 0}, {1, 1, 1}});
-  OverlapOptions blocked;
-  blocked.strategy = Strategy::Blocked;
+  OverlapOptions bvh;
+  bvh.strategy = Strategy::Bvh;
   for (const std::vector<BoxF>& boxes : {sheet(0), sheet(2), scales, everywhere, equal}) {
-    EXPECT_LT(testsFor(boxes, blocked), kBoxes * (kBoxes - 1));
+    EXPECT_LT(testsFor(boxes, bvh), kBoxes * (kBoxes - 1));
   }
 }
 
-TEST(Overlaps, BlockedMakesFarFewerTests) {
-  OverlapOptions blocked;
-  blocked.strategy = Strategy::Blocked;
+TEST(Overlaps, BvhMakesFarFewerTests) {
+  OverlapOptions bvh;
+  bvh.strategy = Strategy::Bvh;
   const std::vector<BoxF> boxes = test::randomBoxes(20000, 3);
-  Overlaps search(blocked);
+  OverlapSearch search(bvh);
   static_cast<void>(search.find(boxes));
   EXPECT_LT(search.statistics().boxTests + search.statistics().groupTests, 20000U * 200U);
 }
@@ -364,25 +384,25 @@ std::vector<BoxF> crowds(std::size_t size, float scale) {
 
 TEST(Overlaps, CrowdsInACornerOfTheSceneAreAsCheapAsTheRest) {
   constexpr std::size_t kBoxes = 20000;
-  OverlapOptions blocked;
-  blocked.strategy = Strategy::Blocked;
+  OverlapOptions bvh;
+  bvh.strategy = Strategy::Bvh;
   for (const float scale : {0.03F, 0.001F}) {
-    EXPECT_LT(testsFor(crowds(kBoxes, scale), blocked), kBoxes * 200U) << scale;
+    EXPECT_LT(testsFor(crowds(kBoxes, scale), bvh), kBoxes * 200U) << scale;
   }
 }
 
 TEST(Overlaps, CrowdsInACornerOfTheSceneMissNoPair) {
-  OverlapOptions blocked;
-  blocked.strategy = Strategy::Blocked;
+  OverlapOptions bvh;
+  bvh.strategy = Strategy::Bvh;
   const std::vector<BoxF> boxes = crowds(3000, 0.002F);
-  EXPECT_EQ(overlaps(boxes, blocked), test::oracle(test::toDouble(boxes)));
+  EXPECT_EQ(overlaps(boxes, bvh), test::oracle(test::toDouble(boxes)));
 }
 
 TEST(Overlaps, CountsMorePairsThan32BitsHold) {
   const std::vector<BoxF> boxes(93000, BoxF{{0, 0, 0}, {1, 1, 1}});
   OverlapOptions options;
   options.strategy = Strategy::Exhaustive;
-  Overlaps search(options);
+  OverlapSearch search(options);
   EXPECT_EQ(search.count(boxes), std::uint64_t{93000} * 92999 / 2);
   EXPECT_EQ(search.statistics().pairs, std::uint64_t{93000} * 92999 / 2);
 }

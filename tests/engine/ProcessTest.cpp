@@ -47,8 +47,8 @@ TEST_F(Threads, ThatSearchOnceLeaveNothing) {
 
 TEST_F(Threads, ThatEndWithASearchOfTheirOwnLeaveNothing) {
   const auto work = [&] {
-    thread_local std::unique_ptr<Overlaps> search;
-    search = std::make_unique<Overlaps>();
+    thread_local std::unique_ptr<OverlapSearch> search;
+    search = std::make_unique<OverlapSearch>();
     static_cast<void>(search->find(boxes));
   };
   EXPECT_LT(growthOverThreads(work), kSlack);
@@ -66,11 +66,11 @@ TEST_F(Threads, ThatEndWithAWorldOfTheirOwnLeaveNothing) {
 
 TEST(Process, HoldsNothingOfMillionsOfBoxesThatAreGone) {
   if (test::kIsSanitized) GTEST_SKIP() << "a sanitizer holds freed memory";
-  static_cast<void>(overlaps(test::randomBoxes(100000, 62)));
+  static_cast<void>(overlaps(test::lent(test::randomBoxes(100000, 62))));
   const double before = test::residentMegabytes();
   {
     const std::vector<BoxF> boxes = test::randomBoxes(4000000, 62);
-    Overlaps search;
+    OverlapSearch search;
     EXPECT_GT(search.find(boxes).size(), 1000000U);
     EXPECT_GT(test::residentMegabytes() - before, 150);
   }
@@ -117,7 +117,7 @@ TEST(Process, TheFirstSearchOfAThreadThatIsOutOfMemoryThrows) {
 /// Made before anything that the engine makes once, and so destroyed after that.
 struct LastOfAll {
   ~LastOfAll() {
-    if (overlaps(test::randomBoxes(1000, 65)).size() < 1000) _exit(3);
+    if (overlaps(test::lent(test::randomBoxes(1000, 65))).size() < 1000) _exit(3);
     _exit(0);  // Not seen by the parent unless the line above has returned.
   }
 };
@@ -126,7 +126,7 @@ TEST(Process, ADestructorOfAStaticObjectMaySearch) {
   const pid_t child = fork();
   if (child == 0) {
     static const LastOfAll last;
-    static_cast<void>(overlaps(test::randomBoxes(1000, 65)));
+    static_cast<void>(overlaps(test::lent(test::randomBoxes(1000, 65))));
     std::exit(4);
   }
   int status = -1;

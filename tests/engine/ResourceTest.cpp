@@ -7,6 +7,7 @@
 
 #include "AllocationCount.h"
 #include "CountingMemory.h"
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "support/Boxes.h"
@@ -37,7 +38,7 @@ class Resource : public ::testing::TestWithParam<ResourceCase> {
 
 INSTANTIATE_TEST_SUITE_P(OfSizesStrategiesAndOrders, Resource,
                          ::testing::Values(ResourceCase{3000, Strategy::Exhaustive, Order::ByFirst},
-                                           ResourceCase{3000, Strategy::Blocked, Order::ByFirst},
+                                           ResourceCase{3000, Strategy::Bvh, Order::ByFirst},
                                            ResourceCase{40000, Strategy::Automatic, Order::ByFirst},
                                            ResourceCase{40000, Strategy::Automatic, Order::BySecond},
                                            ResourceCase{40000, Strategy::Automatic, Order::Unordered}));
@@ -46,12 +47,12 @@ TEST_P(Resource, AllThatASearchAllocatesComesFromItAndGoesBack) {
   const std::vector<BoxF> boxes = test::randomBoxes(GetParam().boxes, 43);
   CountingMemory memory;
   {
-    Overlaps search(optionsWith(memory));
+    OverlapSearch search(optionsWith(memory));
     const std::size_t before = test::allocationCount();
     EXPECT_GT(search.find(boxes).size(), 1000U);
     EXPECT_GT(search.count(boxes), 1000U);
     search.stream(boxes, [](std::span<const Pair>) {});
-    EXPECT_GT(search.findBetween(boxes, boxes).size(), 1000U);
+    EXPECT_GT(search.find(boxes, boxes).size(), 1000U);
     EXPECT_EQ(test::allocationCount(), before);
     EXPECT_GT(memory.held(), 8U * 1000U);
   }
@@ -61,7 +62,7 @@ TEST_P(Resource, AllThatASearchAllocatesComesFromItAndGoesBack) {
 TEST_P(Resource, AResultPointsIntoItAndOutlivesAShrink) {
   const std::vector<BoxF> boxes = test::randomBoxes(GetParam().boxes, 43);
   CountingMemory memory;
-  Overlaps search(optionsWith(memory));
+  OverlapSearch search(optionsWith(memory));
   const std::span<const Pair> pairs = search.find(boxes);
   const std::vector<Pair> copy = listOf(pairs);
   const std::size_t before = memory.held();
@@ -81,11 +82,13 @@ TEST(Resource, StaysThatOfTheConstructor) {
   CountingMemory other;
   OverlapOptions options;
   options.memory = &memory;
-  Overlaps search(options);
+  OverlapSearch search(options);
   options.memory = &other;
+  EXPECT_THROW(search.setOptions(options), InvalidArgument);
+  options.memory = nullptr;
   search.setOptions(options);
   EXPECT_EQ(search.options().memory, &memory);
-  EXPECT_GT(search.find(test::randomBoxes(3000, 43)).size(), 1000U);
+  EXPECT_GT(search.find(test::lent(test::randomBoxes(3000, 43))).size(), 1000U);
   EXPECT_EQ(other.allocations(), 0U);
 }
 
@@ -94,7 +97,7 @@ TEST(Resource, OneThatIsUsedUpIsOutOfMemoryAndTheSearchGoesOnAfterwards) {
   CountingMemory memory;
   OverlapOptions options;
   options.memory = &memory;
-  Overlaps search(options);
+  OverlapSearch search(options);
   memory.setUsedUp(true);
   EXPECT_THROW(static_cast<void>(search.find(boxes)), std::bad_alloc);
   memory.setUsedUp(false);
@@ -117,8 +120,9 @@ class WorldResource : public ::testing::Test {
     ids.resize(boxes.size());
     world.add(boxes, {}, ids);
     static_cast<void>(world.step());
-    world.move(std::span(ids).first(100), test::randomBoxes(100, 45));
-    world.moveSwept(std::span(ids).first(10), test::randomBoxes(10, 46), test::randomBoxes(10, 47));
+    world.move(std::span(ids).first(100), test::lent(test::randomBoxes(100, 45)));
+    world.moveSwept(std::span(ids).first(10), test::lent(test::randomBoxes(10, 46)),
+                    test::lent(test::randomBoxes(10, 47)));
     static_cast<void>(world.step());
     static_cast<void>(world.findOverlapping(boxes));
     static_cast<void>(world.findNearest({0.5, 0.5, 0.5}, 20));

@@ -14,6 +14,7 @@
 #include "allpairs/World.h"
 #include "allpairs/generate/BoxMotions.h"
 #include "allpairs/generate/BoxScenes.h"
+#include "support/Boxes.h"
 
 // Hashes of whole results, written down once: every processor, instruction set and compiler gives the same.
 
@@ -61,12 +62,12 @@ std::string hashOfMotion(std::string_view motion, std::string_view instructionSe
   options.instructionSet = instructionSet;
   World world(options);
   generate::MotionFrames frames({.motion = motion, .count = 2000});
-  const std::vector<BoxId> ids = world.add(toBoxes(frames.next()));
+  const std::vector<BoxId> ids = world.add(test::lent(toBoxes(frames.next())));
   std::vector<Pair> all;
   for (int frame = 0; frame < 20; ++frame) {
     const StepResult result = world.step();
     for (const auto& list : {result.pairs, result.began, result.ended}) all.insert(all.end(), list.begin(), list.end());
-    world.move(ids, toBoxes(frames.next()));
+    world.move(ids, test::lent(toBoxes(frames.next())));
   }
   return measure::hexadecimal(measure::hashOfPairs(all));
 }

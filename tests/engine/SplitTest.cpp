@@ -22,7 +22,7 @@ constexpr std::size_t kBoxes = 100000;
 /// Tests that each task of a join of a scene with itself does; of one task if threads is 1.
 std::vector<std::uint64_t> workOfTasks(const std::string& scene, std::size_t threads) {
   const std::vector<float> rows = generate::makeBoxes({.scene = scene, .count = kBoxes});
-  const BoxSet boxes = BoxSet::fromRows(std::span<const float>(rows));
+  const BoxView boxes = BoxView::fromRows(std::span<const float>(rows));
   const OverlapOptions options;
   SerialExecutor serial;
   BvhBuilder builder(defaultMemory());

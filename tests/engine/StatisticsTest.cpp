@@ -39,7 +39,7 @@ TEST(Statistics, AnExhaustiveSearchTestsEachPairOnceHoweverItIsCut) {
       OverlapOptions options;
       options.strategy = Strategy::Exhaustive;
       options.executor = executor;
-      Overlaps search(options);
+      OverlapSearch search(options);
       ASSERT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes)) << n;
       EXPECT_EQ(search.statistics().pairs, n * (n - 1) / 2) << n;
       EXPECT_EQ(search.statistics().boxTests, n * (n - 1) / 2) << n;
@@ -55,10 +55,10 @@ TEST(Statistics, RowsOfAllHitsEndWhereTheTaskEnds) {
   OverlapOptions options;
   options.strategy = Strategy::Exhaustive;
   options.executor = &many;
-  Overlaps search(options);
-  EXPECT_EQ(test::toVector(search.findBetween(first, second)), test::oracleBetween(first, second));
+  OverlapSearch search(options);
+  EXPECT_EQ(test::toVector(search.find(first, second)), test::oracleBetween(first, second));
   EXPECT_EQ(search.statistics().boxTests, 900U * 700U);
-  EXPECT_EQ(search.countBetween(first, second), 900U * 700U);
+  EXPECT_EQ(search.count(first, second), 900U * 700U);
 }
 
 TEST(Statistics, ExactTestsAreCountedWhereBoundsAreNoFloat32AndNowhereElse) {
@@ -66,12 +66,12 @@ TEST(Statistics, ExactTestsAreCountedWhereBoundsAreNoFloat32AndNowhereElse) {
   std::vector<Box> boxes = allOverlapping(400);
   const std::vector<Box> plain = boxes;
   for (Box& box : boxes) box.min[0] -= 0.001;  // No float32.
-  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Blocked}) {
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
     for (Executor* executor : std::initializer_list<Executor*>{nullptr, &many}) {
       OverlapOptions options;
       options.strategy = strategy;
       options.executor = executor;
-      Overlaps search(options);
+      OverlapSearch search(options);
       EXPECT_EQ(search.count(boxes), 400U * 399U / 2);
       EXPECT_EQ(search.statistics().exactTests, 400U * 399U / 2);
       EXPECT_EQ(search.count(plain), 400U * 399U / 2);
@@ -83,7 +83,7 @@ TEST(Statistics, ExactTestsAreCountedWhereBoundsAreNoFloat32AndNowhereElse) {
 TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {
   std::vector<BoxF> boxes = test::randomBoxes(4000, 71);
   World world;
-  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
   (void)world.step();
   const std::uint64_t before = world.statistics().rebuilds;
   std::mt19937 generator(72);
@@ -97,7 +97,7 @@ TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {
   EXPECT_GT(world.statistics().rebuilds, before);
 
   World fresh;
-  (void)fresh.add(BoxSet(boxes));
+  (void)fresh.add(BoxView(boxes));
   (void)fresh.step();
   EXPECT_LT(world.statistics().boxTests, 2 * fresh.statistics().boxTests);
   EXPECT_EQ(test::toVector(world.result().pairs), test::toVector(fresh.result().pairs));
@@ -106,7 +106,7 @@ TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {
 TEST(Statistics, AWorldWhoseBoxesStayNearKeepsItsOrder) {
   std::vector<BoxF> boxes = test::randomBoxes(4000, 73);
   World world;
-  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
   (void)world.step();
   const std::uint64_t before = world.statistics().rebuilds;
   for (int step = 0; step < 50; ++step) {
@@ -125,7 +125,7 @@ TEST(Statistics, QueriesAfterEveryMoveMakeTheOrderAnewTooOnceItHasGoneBad) {
   // All boxes leave for another place, many times; only few changed boxes meet all others in each step.
   std::vector<BoxF> boxes = test::randomBoxes(4000, 74);
   World world;
-  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
   (void)world.step();
   const std::uint64_t before = world.statistics().rebuilds;
   std::mt19937 generator(75);

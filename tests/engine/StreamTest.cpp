@@ -22,7 +22,6 @@ class Stream : public ::testing::TestWithParam<StreamCase> {
     OverlapOptions result;
     result.strategy = GetParam().strategy;
     result.order = GetParam().order;
-    result.batchSize = 1000;
     return result;
   }
 };
@@ -31,9 +30,9 @@ INSTANTIATE_TEST_SUITE_P(EachStrategyAndOrder, Stream,
                          ::testing::Values(StreamCase{Strategy::Exhaustive, Order::ByFirst},
                                            StreamCase{Strategy::Exhaustive, Order::BySecond},
                                            StreamCase{Strategy::Exhaustive, Order::Unordered},
-                                           StreamCase{Strategy::Blocked, Order::ByFirst},
-                                           StreamCase{Strategy::Blocked, Order::BySecond},
-                                           StreamCase{Strategy::Blocked, Order::Unordered}));
+                                           StreamCase{Strategy::Bvh, Order::ByFirst},
+                                           StreamCase{Strategy::Bvh, Order::BySecond},
+                                           StreamCase{Strategy::Bvh, Order::Unordered}));
 
 TEST_P(Stream, GivesWhatFindGivesInFullBatches) {
   const std::vector<BoxF> boxes = test::randomBoxes(40000, 21);
@@ -47,7 +46,7 @@ TEST_P(Stream, GivesWhatFindGivesInFullBatches) {
         streamed.insert(streamed.end(), pairs.begin(), pairs.end());
         batches.push_back(pairs.size());
       },
-      with);
+      with, 1000);
   EXPECT_EQ(streamed, overlaps(part, with));
   for (const std::size_t size : batches) EXPECT_LE(size, 1000U);
 }
@@ -56,17 +55,17 @@ TEST_P(Stream, BetweenTwoSetsGivesWhatFindGives) {
   const std::vector<BoxF> first = test::randomBoxes(5000, 22);
   const std::vector<BoxF> second = test::randomBoxes(3000, 23);
   std::vector<Pair> streamed;
-  streamOverlapsBetween(
+  streamOverlaps(
       first, second, [&](std::span<const Pair> pairs) { streamed.insert(streamed.end(), pairs.begin(), pairs.end()); },
       options());
-  EXPECT_EQ(streamed, overlapsBetween(first, second, options()));
+  EXPECT_EQ(streamed, overlaps(first, second, options()));
 }
 
 TEST_P(Stream, AppliesFilterMarginsAndRegionToTheRightBoxes) {
   const std::vector<BoxF> boxes = test::randomBoxes(3000, 24);
   std::vector<double> margins(boxes.size());
   for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 0.001 * static_cast<double>(i % 100);
-  BoxSet set(boxes);
+  BoxView set(boxes);
   set.setMargins(margins);
   OverlapOptions with = options();
   with.region = Box{{2, 2, 2}, {9, 9, 9}};
@@ -113,12 +112,12 @@ TEST_P(Stream, EndsWithALimitThatTheFilterPasses) {
 
 TEST_P(Stream, EndsWithWhatTheVisitorThrows) {
   const std::vector<BoxF> boxes = test::randomBoxes(5000, 25);
-  Overlaps search(options());
+  OverlapSearch search(options());
   int calls = 0;
   const auto stop = [&](std::span<const Pair>) {
     if (++calls == 2) throw std::runtime_error("enough");
   };
-  EXPECT_THROW(search.stream(boxes, stop), std::runtime_error);
+  EXPECT_THROW(search.stream(boxes, stop, 1000), std::runtime_error);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(search.count(boxes), countOverlaps(boxes, options()));
 }

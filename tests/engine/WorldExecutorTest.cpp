@@ -95,7 +95,7 @@ Answers answersOf(const World& world, const World& other, const Box& box) {
   answers.first = world.findFirst(BoxSweep{box, {1.0, 0.0, 0.0}, 5.0});
   answers.nearest = world.findNearest(box.min, 7);
   const std::vector<Box> boxes{box, world.box(0), world.box(1)};
-  answers.offsets = world.findOverlapping(BoxSet(boxes)).offsets;
+  answers.offsets = world.findOverlapping(BoxView(boxes)).offsets;
   answers.between = world.findBetween(other);
   return answers;
 }
@@ -105,11 +105,11 @@ TEST(WorldQueries, AnswerSeveralThreadsAtOnceEvenTheFirstOnesAfterAMove) {
   std::vector<Box> moved = test::toDouble(test::randomBoxes(1500, 82));
   World world;
   World other;
-  const std::vector<BoxId> ids = world.add(BoxSet(boxes));
-  (void)other.add(BoxSet(std::span<const Box>(boxes).first(200)));
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
+  (void)other.add(BoxView(std::span<const Box>(boxes).first(200)));
   for (int round = 0; round < 5; ++round) {
     World calm;
-    (void)calm.add(BoxSet(moved));
+    (void)calm.add(BoxView(moved));
     std::vector<Answers> expected;
     for (int i = 0; i < 8; ++i) expected.push_back(answersOf(calm, other, boxes[static_cast<std::size_t>(i)]));
 

@@ -26,6 +26,7 @@ struct WorldOracle {
   std::map<BoxId, Entry> boxes;
   std::vector<Pair> pairs, began, persisted, ended;
   double distance = 0.0;
+  Order order = Order::ByFirst;
 
   static bool empty(const Box& b) { return b.min[0] > b.max[0] || b.min[1] > b.max[1] || b.min[2] > b.max[2]; }
 
@@ -38,7 +39,12 @@ struct WorldOracle {
   static bool mayPair(const BoxProperties& a, const BoxProperties& b) {
     if (a.isStatic && b.isStatic) return false;
     if ((a.category & b.mask) == 0 || (b.category & a.mask) == 0) return false;
-    return (a.group == 0 || a.group != b.group) && (a.owner == 0 || a.owner != b.owner);
+    return a.group == 0 || a.group != b.group;
+  }
+
+  [[nodiscard]] bool isBefore(const Pair& a, const Pair& b) const {
+    return order == Order::BySecond ? std::pair(a.second, a.first) < std::pair(b.second, b.first)
+                                    : std::pair(a.first, a.second) < std::pair(b.first, b.second);
   }
 
   void step() {
@@ -50,11 +56,13 @@ struct WorldOracle {
         if (mayPair(a->second.properties, b->second.properties)) now.push_back({a->first, b->first});
       }
     }
+    const auto before = [this](const Pair& a, const Pair& b) { return isBefore(a, b); };
+    std::sort(now.begin(), now.end(), before);
     // Two boxes that had the same id are two boxes: a world must not reuse an id before this step is over.
     began.clear(), persisted.clear(), ended.clear();
-    std::set_difference(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(began));
-    std::set_intersection(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(persisted));
-    std::set_difference(pairs.begin(), pairs.end(), now.begin(), now.end(), std::back_inserter(ended));
+    std::set_difference(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(began), before);
+    std::set_intersection(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(persisted), before);
+    std::set_difference(pairs.begin(), pairs.end(), now.begin(), now.end(), std::back_inserter(ended), before);
     pairs = now;
   }
 

@@ -42,6 +42,7 @@ class Lives {
  public:
   Lives(const Life& life, const WorldOptions& options) : m_life(life), m_world(options), m_random(life.seed) {
     m_oracle.distance = life.distance;
+    m_oracle.order = options.order;
     while (m_side * m_side * m_side < static_cast<double>(life.boxes)) m_side += 0.25;
   }
 
@@ -98,7 +99,6 @@ class Lives {
     p.category = 1U << below(3);
     p.mask = static_cast<std::uint32_t>(below(8));
     p.group = static_cast<std::uint32_t>(below(4));
-    p.owner = static_cast<std::uint32_t>(below(4));
     return p;
   }
 
@@ -284,6 +284,7 @@ RC_GTEST_PROP(WorldProperty, AnyLifeGivesTheOraclesListsAndQueries, ()) {
   RC_LOG() << life << '\n';
   WorldOptions options;
   options.distance = life.distance;
+  options.order = *rc::gen::element(Order::ByFirst, Order::BySecond);
   Lives(life, options).lead();
   RC_ASSERT(!::testing::Test::HasFailure());
 }

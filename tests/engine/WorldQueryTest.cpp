@@ -122,7 +122,7 @@ void WorldQueryExtremes::compareNearest() {
 void WorldQueryExtremes::compareOverlapping() {
   std::vector<Box> boxes;
   for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
-  const ResultLists<BoxId> lists = m_world.findOverlapping(BoxSet(std::span<const Box>(boxes)));
+  const ResultLists<BoxId> lists = m_world.findOverlapping(BoxView(std::span<const Box>(boxes)));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     EXPECT_EQ(listOf(lists[i]), m_oracle.overlapping(boxes[i], {})) << "box " << i;
   }

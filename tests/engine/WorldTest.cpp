@@ -67,7 +67,7 @@ TEST(World, APairBeginsPersistsAndEnds) {
 
 TEST(World, AStepWithoutAnyChangeKeepsAllPairs) {
   World world;
-  static_cast<void>(world.add(test::randomBoxes(500, 3)));
+  static_cast<void>(world.add(test::lent(test::randomBoxes(500, 3))));
   const std::vector<Pair> pairs = test::toVector(world.step().pairs);
   ASSERT_GT(pairs.size(), 100U);
   const StepResult result = world.step();
@@ -112,12 +112,12 @@ TEST(World, ASweptBoxMeetsWhatIsOnItsWay) {
   const BoxId wall = world.add(cube(5, 0, 0, 0.1));
   const BoxId bullet = world.add(cube(0, 0, 0));
   const std::vector<BoxId> ids{bullet};
-  world.moveSwept(ids, std::vector{cube(0, 0, 0)}, std::vector{cube(10, 0, 0)});
+  world.moveSwept(ids, test::lent(std::vector{cube(0, 0, 0)}), test::lent(std::vector{cube(10, 0, 0)}));
   EXPECT_THAT(world.step().pairs, ElementsAre(Pair{wall, bullet}));
   const std::vector<double> velocity{2.0, 0.0, 0.0};
-  world.moveSwept(ids, std::vector{cube(0, 0, 0)}, velocity, 1.0);
+  world.moveSwept(ids, test::lent(std::vector{cube(0, 0, 0)}), velocity, 1.0);
   EXPECT_THAT(world.step().ended, ElementsAre(Pair{wall, bullet}));
-  world.moveSwept(ids, std::vector{cube(0, 0, 0)}, velocity, 2.0);  // Ends where the wall begins.
+  world.moveSwept(ids, test::lent(std::vector{cube(0, 0, 0)}), velocity, 2.0);  // Ends where the wall begins.
   EXPECT_THAT(world.step().began, ElementsAre(Pair{wall, bullet}));
   EXPECT_EQ(world.box(bullet), (Box{{0, 0, 0}, {5, 1, 1}}));
 }
@@ -132,7 +132,7 @@ TEST(World, AcceptIsAskedAgainAboutTouchedBoxes) {
   EXPECT_THAT(world.step().pairs, ElementsAre(Pair{a, b}));
   accepts = false;
   const std::vector<BoxId> touched{b};
-  world.touch(touched);
+  world.invalidate(touched);
   EXPECT_THAT(world.step().ended, ElementsAre(Pair{a, b}));
 }
 
@@ -146,13 +146,13 @@ TEST(World, UnknownIdsAndNansAreNamedAndNothingIsDone) {
   EXPECT_EQ(invalidBox([&] { world.move(unknown, boxes); }, "17"), 2U);
   EXPECT_EQ(invalidBox([&] { world.remove(unknown); }, "17"), 2U);
   EXPECT_EQ(invalidBox([&] { world.remove(twice); }, "id 1"), 2U);
-  EXPECT_EQ(invalidBox([&] { world.touch(unknown); }, "17"), 2U);
+  EXPECT_EQ(invalidBox([&] { world.invalidate(unknown); }, "17"), 2U);
   EXPECT_EQ(invalidBox([&] { world.setProperties(17, {}); }, "17"), 0U);
   EXPECT_EQ(invalidBox([&] { static_cast<void>(world.box(17)); }, "17"), 0U);
   EXPECT_EQ(invalidBox([&] { world.move(b, Box{{0, kNan, 0}, {1, 1, 1}}); }, "id 1"), 0U);
   EXPECT_EQ(invalidBox(
                 [&] {
-                  world.move(twice, std::vector{boxes[0], boxes[0], Box{{0, 0, 0}, {1, 1, kNan}}});
+                  world.move(twice, test::lent(std::vector{boxes[0], boxes[0], Box{{0, 0, 0}, {1, 1, kNan}}}));
                 },
                 "2"),
             2U);
@@ -167,8 +167,8 @@ TEST(World, UnknownIdsAndNansAreNamedAndNothingIsDone) {
 TEST(World, ArgumentsThatMakeNoSenseAreRefused) {
   World world;
   const std::vector<BoxId> ids{world.add(cube(0, 0, 0))};
-  EXPECT_THROW(world.move(ids, std::vector<Box>(2)), InvalidArgument);
-  EXPECT_THROW(world.moveSwept(ids, std::vector<Box>(1), std::vector<Box>(2)), InvalidArgument);
+  EXPECT_THROW(world.move(ids, test::lent(std::vector<Box>(2))), InvalidArgument);
+  EXPECT_THROW(world.moveSwept(ids, test::lent(std::vector<Box>(1)), test::lent(std::vector<Box>(2))), InvalidArgument);
   EXPECT_THROW(static_cast<void>(world.findFirst(Ray{{kNan, 0, 0}, {1, 0, 0}})), InvalidArgument);
   EXPECT_THROW(static_cast<void>(world.findAll(Ray{{0, 0, 0}, {1, 0, 0}, -1.0})), InvalidArgument);
   EXPECT_THROW(static_cast<void>(world.findNearest({kNan, 0, 0}, 1)), InvalidArgument);
@@ -202,7 +202,7 @@ TEST(World, PairsBetweenTwoWorldsAreThoseOfTwoSets) {
   BoxProperties fixed;
   fixed.isStatic = true;
   static_cast<void>(second.add(theirs, fixed));
-  EXPECT_EQ(test::toVector(first.findBetween(second)), overlapsBetween(mine, theirs));
+  EXPECT_EQ(test::toVector(first.findBetween(second)), overlaps(mine, theirs));
   EXPECT_THAT(first.step().ended, IsEmpty());
 }
 
@@ -273,7 +273,7 @@ TEST(World, AMotionThatEndsAtANanIsRefusedAndNothingIsDone) {
   const Box endless{{0, 0, 0}, {kInfinity, 1, 1}};
   const BoxId id = world.add(endless);
   const std::array velocity{-1e300, 0.0, 0.0};
-  const auto move = [&] { world.moveSwept({&id, 1}, std::array{endless}, velocity, 1e300); };
+  const auto move = [&] { world.moveSwept({&id, 1}, test::lent(std::array{endless}), velocity, 1e300); };
   EXPECT_EQ(invalidBox(move, "ends at a NaN"), 0U);
   EXPECT_EQ(world.box(id), endless);
 }
@@ -292,13 +292,36 @@ TEST(World, MakingRoomMovesNoBoxAwayFromUnderAStepOrAQuery) {
 
 TEST(World, IsEmptyAfterClear) {
   World world;
-  static_cast<void>(world.add(test::randomBoxes(200, 8)));
+  static_cast<void>(world.add(test::lent(test::randomBoxes(200, 8))));
   const std::vector<Pair> pairs = test::toVector(world.step().pairs);
   world.clear();
   EXPECT_EQ(world.size(), 0U);
   EXPECT_EQ(test::toVector(world.step().ended), pairs);
   EXPECT_THAT(world.step().pairs, IsEmpty());
   EXPECT_THAT(world.findNearest({0, 0, 0}, 3), IsEmpty());
+}
+
+TEST(World, RefusesAnOrderThatItDoesNotKeepAndMarginsThatItWouldNotLookAt) {
+  EXPECT_THROW(World({.order = Order::Unordered}), InvalidArgument);
+  World world;
+  const std::vector<Box> boxes{cube(0, 0, 0)};
+  BoxView wide(boxes);
+  wide.setMargin(1.0);
+  EXPECT_THROW(static_cast<void>(world.add(wide)), InvalidArgument);
+  const std::vector<BoxId> ids = world.add(boxes);
+  EXPECT_THROW(world.move(ids, wide), InvalidArgument);
+  EXPECT_THROW(world.moveSwept(ids, boxes, wide), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(world.findOverlapping(wide)), InvalidArgument);
+}
+
+TEST(World, GivesItsListsBySecondIfToldTo) {
+  World world({.order = Order::BySecond});
+  static_cast<void>(world.add(test::lent(std::vector{cube(0, 0, 0), cube(0.5, 0, 0), cube(0.75, 0, 0)})));
+  const std::vector<Pair> bySecond{{0, 1}, {0, 2}, {1, 2}};
+  EXPECT_EQ(test::toVector(world.step().pairs), bySecond);
+  static_cast<void>(world.add(test::lent(std::vector{cube(-0.5, 0, 0), cube(0.25, 0, 0)})));
+  const std::vector<Pair> more{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+  EXPECT_EQ(test::toVector(world.step().pairs), more);
 }
 
 }  // namespace

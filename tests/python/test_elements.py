@@ -52,7 +52,7 @@ def test_candidates_are_those_of_the_double_loop(dtype):
 
 def test_two_meshes_meet_each_other_only_where_asked():
     vertices, triangles = sheet(3)
-    meshes = allpairs.MeshCandidates([triangles, triangles], [9, 9], within=False, margin=0.5, threads=2)
+    meshes = allpairs.MeshCandidates([triangles, triangles], [9, 9], within=False, distance=0.5, threads=2)
     meshes.set_positions(vertices)
     meshes.set_positions(vertices + [0, 0, 0.5], mesh=1)
     found = meshes.find("face-face")

@@ -107,7 +107,7 @@ def test_margins_are_added_to_the_distance():
     assert_pairs(allpairs.overlaps(lower, upper, margin=[0, 0, 0.25], distance=0.75), np.array([[1, 2]], dtype=np.uint32))
 
 
-@pytest.mark.parametrize("strategy", ["auto", "exhaustive", "blocked"])
+@pytest.mark.parametrize("strategy", ["auto", "exhaustive", "bvh"])
 @pytest.mark.parametrize("threads", [0, 1, 3])
 def test_strategy_and_threads_do_not_change_a_byte(strategy, threads):
     rng = np.random.default_rng(5)

@@ -37,10 +37,10 @@ def test_a_scene_s_pairs_are_verified_and_come_newest_first():
     np.testing.assert_array_equal(scene.detect(threads=2), pairs)
 
 
-def test_a_margin_and_a_region_hold_for_one_detection():
+def test_a_distance_and_a_region_hold_for_one_detection():
     scene = allpairs.load(SCENE)
     before = scene.detect()
-    assert len(scene.detect(margin=1.0)) > len(before)
+    assert len(scene.detect(distance=1.0)) > len(before)
     assert len(scene.detect(region=[[-1, -1, -1], [0, 0, 0]])) < len(before)
     np.testing.assert_array_equal(scene.detect(), before)
 

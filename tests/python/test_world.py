@@ -72,7 +72,6 @@ def test_what_a_step_gave_stays_when_the_world_goes_on():
         ({"static": [True, True, False]}, [[0, 2], [1, 2]]),
         ({"static": True}, []),
         ({"group": [5, 5, 0]}, [[0, 2], [1, 2]]),
-        ({"owner": [0, 3, 3]}, [[0, 1], [0, 2]]),
         ({"category": [1, 2, 4], "mask": [2, 1, 7]}, [[0, 1]]),
         ({"margin": [-1, 0, 0]}, [[1, 2]]),
         ({"margin": -1}, []),

@@ -14,6 +14,12 @@
 namespace allpairs::test {
 
 /// n boxes whose centres fill a cube; `size` 1 gives about two pairs a box.
+/// Boxes of a temporary, for as long as the call that they are an argument of.
+template <class Boxes>
+std::span<const typename Boxes::value_type> lent(const Boxes& boxes) {
+  return boxes;
+}
+
 inline std::vector<BoxF> randomBoxes(std::size_t n, unsigned seed, float size = 1.0F) {
   std::mt19937 generator(seed);
   const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32F; };

@@ -110,7 +110,7 @@ TEST(Explain, GivesThePairsOfEachFrameOfAMeshAndSaysWhichTrianglesShareAVertex) 
     input.paths.push_back(folder.write(name, foldedStrip(angle)));
   }
   app::DetectionOptions options;
-  options.margin = 0.25;
+  options.distance = 0.25;
   const ViewScene scene = makeViewFrames(input, options);
   ASSERT_EQ(scene.frames.size(), 3U);
   for (const view::ViewFrame& frame : scene.frames) EXPECT_EQ(pairsByVerdict(scene, frame), frame.pairs);
@@ -119,9 +119,9 @@ TEST(Explain, GivesThePairsOfEachFrameOfAMeshAndSaysWhichTrianglesShareAVertex) 
   EXPECT_EQ(explain(scene, scene.frames[2], 15, 0).verdict, Verdict::Pair);
 }
 
-TEST(Explain, FollowsMarginAndRegionOfBoxes) {
+TEST(Explain, FollowsDistanceAndRegionOfBoxes) {
   app::DetectionOptions options;
-  options.margin = 0.75;
+  options.distance = 0.75;
   options.region = Box{{-1.0, -1.0, -1.0}, {2.0, 2.0, 2.0}};
   const ViewScene scene = sceneOf(ALLPAIRS_SOURCE_DIR "/examples/boxes.csv", {}, options);
   EXPECT_EQ(pairsByVerdict(scene, scene.frames.front()), scene.frames.front().pairs);

@@ -102,7 +102,7 @@ std::string twoTriangles(const std::string& height) {
 
 TEST(View, MeshesOverTimeHaveThePairsThatTrackCounts) {
   const TempFolder folder;
-  std::vector<std::string> words{"view", "--sequence", "--margin", "0.1"};
+  std::vector<std::string> words{"view", "--sequence", "--distance", "0.1"};
   for (const char* height : {"1", "0.05", "0", "0.3"}) {
     words.push_back(folder.write(std::to_string(words.size()) + ".obj", twoTriangles(height)));
   }
@@ -148,9 +148,9 @@ TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {
       return std::string(error.what());
     }
   };
-  EXPECT_NE(complaint().find("a smaller margin, or fewer inputs"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("a smaller distance, or fewer inputs"), std::string::npos) << complaint();
   scene.frames.resize(2);
-  EXPECT_NE(complaint().find("fewer frames, or a smaller margin"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("fewer frames, or a smaller distance"), std::string::npos) << complaint();
 }
 
 TEST(PageSize, CountsPositionsAsFloatsWhereTheyAreAndBoxesWhereThereAreNone) {

@@ -337,7 +337,7 @@ function countDraws() {
 test("ten thousand models with fifty thousand pairs are all there", async () => {
   const boxes = write("many.npy", "");
   allpairs("generate", "uniform", "-n", "10000", "-o", boxes);
-  const input = [boxes, "--margin", "0.014"];
+  const input = [boxes, "--distance", "0.014"];
   const result = detect(...input);
   assert.ok(result.pairs.length >= 50_000);
   const page = await view("many", input, { init: countDraws });

@@ -69,8 +69,8 @@ std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> po
   const Targets targets = targetsOf(part, rays);
 
   std::vector<int> crossings(points.size(), 0);
-  Overlaps search;
-  for (const Pair& pair : search.findBetween(std::span<const Box>(rays), std::span<const Box>(targets.boxes))) {
+  OverlapSearch search;
+  for (const Pair& pair : search.find(std::span<const Box>(rays), std::span<const Box>(targets.boxes))) {
     const int found = crossing(part.triangles()[targets.triangles[pair.second]], points[pair.first]);
     crossings[pair.first] += part.volume() == Volume::Parity ? std::abs(found) : found;
   }

@@ -91,10 +91,10 @@ std::span<const Pair> RowSearch<T>::pairs(std::span<const T> rows) {
 template <class T>
 std::span<const Pair> RowSearch<T>::searchAll(std::span<const T> rows) {
   if constexpr (std::is_same_v<T, float>) {
-    return m_search.find(BoxSet::fromRows(rows));
+    return m_search.find(BoxView::fromRows(rows));
   } else {
     roundRows(rows, m_rounded);
-    selectExact(m_search.find(BoxSet::fromRows(std::span<const float>(m_rounded))), rows, m_exact);
+    selectExact(m_search.find(BoxView::fromRows(std::span<const float>(m_rounded))), rows, m_exact);
     return m_exact;
   }
 }
@@ -116,8 +116,8 @@ void RowSearch<T>::bringIn(std::span<const T> rows) {
     const std::span<const T> row = rows.subspan(std::size_t{6} * m_ids.back(), 6);
     m_moved.insert(m_moved.end(), row.begin(), row.end());
   }
-  m_world.move(m_ids, BoxSet::fromRows(std::span<const T>(m_moved)));
-  const BoxSet fresh = BoxSet::fromRows(rows.subspan(6 * known));
+  m_world.move(m_ids, BoxView::fromRows(std::span<const T>(m_moved)));
+  const BoxView fresh = BoxView::fromRows(rows.subspan(6 * known));
   m_ids.resize(fresh.size());
   m_world.add(fresh, {}, m_ids);  // none has ever been removed, so that they are the next ones
   std::fill(m_isPending.begin(), m_isPending.end(), std::uint8_t{0});

@@ -103,7 +103,7 @@ Timing timeEngine(const World& world) {
   for (const auto& model : world.owned) boxes.push_back(model->boxes().front());
   allpairs::OverlapOptions options;
   options.order = allpairs::Order::BySecond;
-  allpairs::Overlaps search(options);
+  allpairs::OverlapSearch search(options);
   return timeOf([&] { static_cast<void>(search.find(std::span<const Box>(boxes))); });
 }
 

@@ -55,7 +55,7 @@ std::vector<Pair> sorted(std::vector<Pair> pairs) {
 /// The next frame of a contender.
 void step(Entry& entry) {
   entry.scene.advance();
-  const std::vector<Pair> expected = overlaps(BoxSet::fromRows(entry.scene.rows()));
+  const std::vector<Pair> expected = overlaps(BoxView::fromRows(entry.scene.rows()));
   const measure::Stopwatch watch;
   entry.search->step(entry.scene);
   const measure::Duration took = watch.elapsed();
@@ -120,7 +120,7 @@ void run(std::vector<Entry>& entries, std::size_t stretch) {
 }
 
 void report(const Motion& motion, const Request& request, const std::vector<Entry>& entries, std::ofstream& csv) {
-  const std::size_t pairs = overlaps(BoxSet::fromRows(entries.front().scene.rows())).size();
+  const std::size_t pairs = overlaps(BoxView::fromRows(entries.front().scene.rows())).size();
   std::printf("%s, %zu boxes, %zu pairs, turns of %zu\n", motion.name.c_str(), request.boxes, pairs, request.stretch);
   const measure::Provenance provenance = measure::provenance();
   for (const Entry& entry : entries) {

@@ -10,10 +10,10 @@ namespace {
 /// Everything that a step gives: the pairs, and which began, persist and ended.
 class WorldSteps final : public MovingSearch {
  public:
-  void start(const MovingScene& scene) override { m_ids = m_world.add(BoxSet::fromRows(scene.rows())); }
+  void start(const MovingScene& scene) override { m_ids = m_world.add(BoxView::fromRows(scene.rows())); }
 
   void step(const MovingScene& scene) override {
-    m_world.move(scene.movingIds(), BoxSet::fromRows(scene.movingRows()));
+    m_world.move(scene.movingIds(), BoxView::fromRows(scene.movingRows()));
     m_result = m_world.step();
   }
 
@@ -37,13 +37,13 @@ class OneShot final : public MovingSearch {
   }
 
   void start(const MovingScene& /*scene*/) override {}
-  void step(const MovingScene& scene) override { m_pairs = m_search.find(BoxSet::fromRows(scene.rows())); }
+  void step(const MovingScene& scene) override { m_pairs = m_search.find(BoxView::fromRows(scene.rows())); }
   void collect(const MovingScene& /*scene*/, std::vector<Pair>& pairs) override {
     pairs.assign(m_pairs.begin(), m_pairs.end());
   }
 
  private:
-  Overlaps m_search;
+  OverlapSearch m_search;
   std::span<const Pair> m_pairs;
 };
 

@@ -24,7 +24,7 @@ Box boxAt(const QueryScene& scene, std::size_t i) {
 class WorldIndex final : public QueryIndex {
  public:
   WorldIndex(const QueryScene& scene, bool inBatches) : m_inBatches(inBatches) {
-    static_cast<void>(m_world.add(BoxSet::fromRows(std::span<const float>(scene.rows))));
+    static_cast<void>(m_world.add(BoxView::fromRows(std::span<const float>(scene.rows))));
     static_cast<void>(m_world.step());
   }
 
@@ -53,7 +53,7 @@ class WorldIndex final : public QueryIndex {
     m_first.resize(scene.rays.size());
     switch (m_kind) {
       case QueryKind::Overlapping:
-        m_ids = m_world.findOverlapping(BoxSet::fromRows(std::span<const float>(scene.boxes)));
+        m_ids = m_world.findOverlapping(BoxView::fromRows(std::span<const float>(scene.boxes)));
         break;
       case QueryKind::FirstHit:
         m_world.findFirst(std::span<const Ray>(scene.rays), m_first);

@@ -10,17 +10,17 @@ namespace {
 class FreshSearch final : public Search {
  public:
   explicit FreshSearch(const OverlapOptions& options) : m_overlaps(options) {}
-  std::span<const Pair> find(std::span<const float> rows) override { return m_overlaps.find(BoxSet::fromRows(rows)); }
+  std::span<const Pair> find(std::span<const float> rows) override { return m_overlaps.find(BoxView::fromRows(rows)); }
 
  private:
-  Overlaps m_overlaps;
+  OverlapSearch m_overlaps;
 };
 
 class VectorSearch final : public Search {
  public:
   explicit VectorSearch(OverlapOptions options) : m_options(std::move(options)) {}
   std::span<const Pair> find(std::span<const float> rows) override {
-    m_pairs = overlaps(BoxSet::fromRows(rows), m_options);
+    m_pairs = overlaps(BoxView::fromRows(rows), m_options);
     return m_pairs;
   }
 
@@ -31,23 +31,23 @@ class VectorSearch final : public Search {
 
 class WarmSearch final : public Search {
  public:
-  explicit WarmSearch(std::shared_ptr<Overlaps> overlaps) : m_overlaps(std::move(overlaps)) {}
-  std::span<const Pair> find(std::span<const float> rows) override { return m_overlaps->find(BoxSet::fromRows(rows)); }
+  explicit WarmSearch(std::shared_ptr<OverlapSearch> overlaps) : m_overlaps(std::move(overlaps)) {}
+  std::span<const Pair> find(std::span<const float> rows) override { return m_overlaps->find(BoxView::fromRows(rows)); }
 
  private:
-  std::shared_ptr<Overlaps> m_overlaps;
+  std::shared_ptr<OverlapSearch> m_overlaps;
 };
 
 class CountingSearch final : public Search {
  public:
   explicit CountingSearch(const OverlapOptions& options) : m_overlaps(options) {}
   std::span<const Pair> find(std::span<const float> rows) override {
-    m_count = m_overlaps.count(BoxSet::fromRows(rows));
+    m_count = m_overlaps.count(BoxView::fromRows(rows));
     return {};
   }
 
  private:
-  Overlaps m_overlaps;
+  OverlapSearch m_overlaps;
   std::uint64_t m_count = 0;
 };
 
@@ -62,7 +62,7 @@ MakeSearch vectorSearches(const OverlapOptions& options) {
 }
 
 MakeSearch warmSearches(const OverlapOptions& options) {
-  return [overlaps = std::make_shared<Overlaps>(options)] { return std::make_unique<WarmSearch>(overlaps); };
+  return [overlaps = std::make_shared<OverlapSearch>(options)] { return std::make_unique<WarmSearch>(overlaps); };
 }
 
 MakeSearch countingSearches(const OverlapOptions& options) {

@@ -41,7 +41,7 @@ class VerificationError : public Error {
 /// Geometry:  closed boxes, per axis, in double, as allpairs::overlap() with the method's distance.
 /// Bad input: a root box with a NaN throws InvalidBox that names the model; a missing method throws InvalidArgument.
 ///            Null and empty models are ignored.
-/// Cost:      that of allpairs::Overlaps on the root boxes, and the rules for each pair that overlaps; where few models
+/// Cost:      that of allpairs::OverlapSearch on the root boxes, and the rules for each pair that overlaps; where few models
 ///            have moved since the last step, that of allpairs::World, which follows what has changed, instead
 ///            (docs/decisions/0013); n(n-1)/2 calls of the rules with Strategy::Exhaustive, or if the method can't
 ///            bound its distance. Steps like those before allocate nothing.

@@ -63,7 +63,7 @@ class NarrowPhaseDetection {
 ///
 /// Bad input: an element's box with a NaN throws InvalidBox that names the model; a missing method throws
 ///            InvalidArgument.
-/// Cost:      that of allpairs::Overlaps on the boxes of the elements, once per pair of models.
+/// Cost:      that of allpairs::OverlapSearch on the boxes of the elements, once per pair of models.
 /// Threads:   one step at a time per object; the search runs on the executor.
 class ElementNarrowPhase : public NarrowPhaseDetection {
  public:
@@ -82,7 +82,7 @@ class ElementNarrowPhase : public NarrowPhaseDetection {
   void report(CollisionModel* first, CollisionModel* second, std::span<const Pair> found,
               const ElementIntersector* intersector);
 
-  Overlaps m_search;
+  OverlapSearch m_search;
   Executor* m_executor = nullptr;
   std::vector<Box> m_firstBoxes;
   std::vector<Box> m_secondBoxes;

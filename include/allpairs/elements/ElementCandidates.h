@@ -25,7 +25,7 @@ enum class CandidateKind : std::uint8_t {
 /// Which candidates are wanted, and how they are found; the defaults are right for one mesh that may fold onto itself.
 struct CandidateOptions {
   /// Elements whose boxes are at most this far apart on every axis are candidates. Negative shrinks.
-  double margin = 0.0;
+  double distance = 0.0;
 
   bool withinMeshes = true;   ///< Two elements of one mesh.
   bool betweenMeshes = true;  ///< Two elements of different meshes.
@@ -46,9 +46,9 @@ struct CandidateOptions {
 /// Geometry:  a vertex moves on a straight line from its start to its end, so the box of both holds it, and the box of an
 ///            element, which is that of its vertices at start and end, holds the element throughout. Boxes are closed and
 ///            compared exactly, in double. Two elements that have a vertex in common are no candidates.
-/// Bad input: positions that are not finite or of the wrong number, a mesh that isn't there, and a margin that is NaN
+/// Bad input: positions that are not finite or of the wrong number, a mesh that isn't there, and a distance that is NaN
 ///            or -infinity throw InvalidArgument that names mesh and vertex.
-/// Cost:      of a search as in Overlaps; 48 bytes an element besides.
+/// Cost:      of a search as in OverlapSearch; 48 bytes an element besides.
 /// Threads:   one call at a time per object; parallel inside when the options name an executor.
 /// Memory:    a call that throws, std::bad_alloc or what a visitor throws included, leaves all positions as they were;
 ///            the next search gives what a new object gives.
@@ -67,7 +67,7 @@ class ElementCandidates {
   [[nodiscard]] const MeshTopology& topology() const noexcept;
 
   /// Says where the vertices of a mesh are at the start and at the end of the step, in rows of 3. Meshes that are not
-  /// mentioned stay where they were; without a word, all of their vertices are at the origin.
+  /// mentioned stay where they were; until set, all vertices are at the origin.
   void setPositions(std::size_t mesh, std::span<const float> start, std::span<const float> end);
   void setPositions(std::size_t mesh, std::span<const double> start, std::span<const double> end);
 
@@ -77,8 +77,11 @@ class ElementCandidates {
   /// How many find() would give, in memory that does not depend on it; on the calling thread.
   [[nodiscard]] std::uint64_t count(CandidateKind kind);
 
-  /// Hands the candidates of find() to the visitor, in batches, in memory that does not depend on their number.
-  void stream(CandidateKind kind, PairVisitor visitor);
+  /// Hands the candidates of find() to the visitor, in batches of at most `batchSize`, in memory that does not depend on
+  /// their number.
+  ///
+  /// Bad input: a batch size of 0 throws InvalidArgument.
+  void stream(CandidateKind kind, PairVisitor visitor, std::size_t batchSize = kBatchSize);
 
  private:
   struct State;

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/scene/ReadOptions.h"
 
 namespace allpairs::scene {
@@ -55,7 +55,7 @@ class BoxArray {
   BoxArray(BoxTable<double> table, std::string label, NameList names = {});
 
   /// A view of the boxes that stays valid when the array is moved, but not longer than it lives.
-  [[nodiscard]] const BoxSet& boxes() const noexcept { return m_boxes; }
+  [[nodiscard]] const BoxView& boxes() const noexcept { return m_boxes; }
   [[nodiscard]] std::size_t size() const noexcept { return m_boxes.size(); }
 
   /// What box i is called: its name in the file; without one its index, after the file's name if there were several
@@ -76,7 +76,7 @@ class BoxArray {
   static BoxArray concatenateAs(std::vector<BoxArray> arrays, std::size_t size);
 
   std::variant<BoxTable<float>, BoxTable<double>> m_table;
-  BoxSet m_boxes;
+  BoxView m_boxes;
   std::vector<Part> m_parts;
 };
 

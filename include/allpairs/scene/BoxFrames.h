@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 
 namespace allpairs::scene {
 
@@ -32,7 +32,7 @@ class BoxFrames {
   /// The boxes of the next frame, of which there are frameCount(); valid until the next call.
   ///
   /// Bad input: more calls than that throw InvalidArgument.
-  [[nodiscard]] BoxSet next();
+  [[nodiscard]] BoxView next();
 
  private:
   struct State;

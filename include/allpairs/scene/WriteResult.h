@@ -36,9 +36,9 @@ struct ModelRecord {
 
 /// How a detection went: the last part of a result.
 struct DetectionStatistics {
-  std::string strategy{};             ///< As the caller chose it: auto, exhaustive, blocked.
+  std::string strategy{};             ///< As the caller chose it: auto, exhaustive, bvh.
   std::size_t threads = 1;            ///< How many it could use.
-  double distance = 0.0;              ///< The margin between boxes, or the alarm distance.
+  double distance = 0.0;              ///< The gap allowed between two boxes, or the alarm distance.
   std::uint64_t testsOfAllPairs = 0;  ///< How many tests a double loop over the models makes.
   std::uint64_t testsMade = 0;        ///< How many tests, of two boxes or of the bounds of two groups, were made.
   std::uint64_t candidates = 0;       ///< For how many pairs of models flags and groups were asked, after their boxes.

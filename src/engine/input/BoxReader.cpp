@@ -14,7 +14,7 @@ constexpr std::size_t kMostOffsets = std::numeric_limits<std::int32_t>::max() / 
 
 /// Reads a box of float32 without margins: the lanes are the box, but that infinity becomes the largest number. Returns, as
 /// the others do, whether the lanes are exactly the box.
-bool readPlain(const BoxSet& boxes, std::size_t i, LaneBox& lanes) noexcept {
+bool readPlain(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
   const auto& [min, max] = boxes.float32();
   bool exact = true;
   const auto row = static_cast<std::ptrdiff_t>(i);
@@ -30,7 +30,7 @@ bool readPlain(const BoxSet& boxes, std::size_t i, LaneBox& lanes) noexcept {
 }
 
 /// A box of float64 without margins, rounded outward.
-bool readRounded(const BoxSet& boxes, std::size_t i, LaneBox& lanes) noexcept {
+bool readRounded(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
   const Box box = boxes[i];
   bool exact = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -44,7 +44,7 @@ bool readRounded(const BoxSet& boxes, std::size_t i, LaneBox& lanes) noexcept {
 
 /// A box with a margin or a distance, in double, with a slack that is larger than what all roundings of the exact
 /// expression, max + ((distance + margin) + margin), can add up to.
-bool readWidened(const BoxSet& boxes, double distance, std::size_t i, LaneBox& lanes) noexcept {
+bool readWidened(const BoxView& boxes, double distance, std::size_t i, LaneBox& lanes) noexcept {
   constexpr double kSlack = 0x1p-48;
   const Box box = boxes[i];
   const double margin = boxes.margin(i);
@@ -62,7 +62,7 @@ bool readWidened(const BoxSet& boxes, double distance, std::size_t i, LaneBox& l
 
 }  // namespace
 
-BoxReader::BoxReader(const BoxSet& boxes, const OverlapOptions& options, const Kernels& kernels)
+BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const Kernels& kernels)
     : m_boxes(&boxes), m_kernels(&kernels), m_distance(options.distance), m_region(options.region) {
   if (m_distance != 0.0 || boxes.hasMargins() || m_region || boxes.size() > kMostOffsets) return;
   if (boxes.isFloat64()) {
@@ -80,7 +80,7 @@ BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
     return m_rows32 != nullptr ? m_kernels->readFloat32(m_rows32, offsets.data(), block)
                                : m_kernels->readFloat64(m_rows64, offsets.data(), block);
   }
-  const BoxSet& set = *m_boxes;
+  const BoxView& set = *m_boxes;
   if (m_distance != 0.0 || set.hasMargins()) {
     return readEach(
         boxes, [&](std::size_t i, LaneBox& lanes) { return readWidened(set, m_distance, i, lanes); }, block);

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "allpairs/Box.h"
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
 #include "kernels/Kernels.h"
 #include "kernels/Lanes.h"
@@ -36,7 +36,7 @@ struct BoxList {
 /// Boxes that can overlap nothing, because they are empty or outside of the region, are told apart.
 class BoxReader {
  public:
-  BoxReader(const BoxSet& boxes, const OverlapOptions& options, const Kernels& kernels);
+  BoxReader(const BoxView& boxes, const OverlapOptions& options, const Kernels& kernels);
 
   [[nodiscard]] std::size_t size() const noexcept { return m_boxes->size(); }
   [[nodiscard]] const Kernels& kernels() const noexcept { return *m_kernels; }
@@ -51,7 +51,7 @@ class BoxReader {
   template <class LanesOf>
   BlockRead readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const;
 
-  const BoxSet* m_boxes;
+  const BoxView* m_boxes;
   const Kernels* m_kernels;
   double m_distance;
   std::optional<Box> m_region;

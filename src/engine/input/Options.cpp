@@ -16,6 +16,8 @@ void checkSpan(std::span<const std::uint32_t> values, std::size_t size, const st
                         std::to_string(size) + " boxes");
 }
 
+bool isEmpty(const FilterBits& bits) { return bits.categories.empty() && bits.masks.empty() && bits.groups.empty(); }
+
 void checkBits(const FilterBits& bits, std::size_t size) {
   checkSpan(bits.categories, size, "categories");
   checkSpan(bits.masks, size, "masks");
@@ -33,10 +35,13 @@ void checkOptions(const Sets& sets, const OverlapOptions& options) {
   if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
     throw InvalidArgument("the distance is NaN or -infinity");
   }
-  if (options.batchSize == 0) throw InvalidArgument("a batch size of 0 pairs");
   if (options.region) checkRegion(*options.region);
   checkBits(options.filter.first, sets.first.size());
-  if (!sets.one) checkBits(options.filter.second, sets.second.size());
+  if (!sets.one) {
+    checkBits(options.filter.second, sets.second.size());
+  } else if (!isEmpty(options.filter.second)) {
+    throw InvalidArgument("filter.second is for a search between two sets; this one has one");
+  }
 }
 
 const Kernels& chooseKernels(const OverlapOptions& options) {

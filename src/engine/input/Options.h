@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
 #include "kernels/Kernels.h"
 
@@ -9,8 +9,8 @@ namespace allpairs::engine {
 
 /// The boxes to search: one set against itself, or two against each other.
 struct Sets {
-  const BoxSet& first;
-  const BoxSet& second;
+  const BoxView& first;
+  const BoxView& second;
   bool one = true;
 };
 

@@ -21,7 +21,7 @@ static_assert(kHitStride >= kHitCapacity + Hits::kSlack);
 }  // namespace
 
 void checkLimit(const SinkOptions& options, std::uint64_t count) {
-  if (options.countOnly || count <= options.maxPairs) return;
+  if (count <= options.maxPairs) return;
   if (!options.limitIsCallers) throw Overfull();
   throw LimitExceeded(count, "more than " + std::to_string(options.maxPairs) + " pairs, the limit that was set; " +
                                  std::to_string(count) + " had been found");

@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/Filter.h"
 #include "allpairs/Pair.h"
 
@@ -21,19 +21,18 @@ namespace allpairs::engine {
 /// What a test looks at of the boxes of one side: bounds, margins, and filters, `stride` values apart. What is null takes
 /// its default.
 struct TestedBoxes {
-  const BoxSet* boxes = nullptr;
+  const BoxView* boxes = nullptr;
   const std::uint32_t* categories = nullptr;
   const std::uint32_t* masks = nullptr;
   const std::uint32_t* groups = nullptr;
-  const std::uint32_t* owners = nullptr;
   std::size_t stride = 1;
 
-  static TestedBoxes of(const BoxSet& boxes, const FilterBits& bits) noexcept {
+  static TestedBoxes of(const BoxView& boxes, const FilterBits& bits) noexcept {
     const auto dataOf = [](std::span<const std::uint32_t> values) { return values.empty() ? nullptr : values.data(); };
     return {&boxes, dataOf(bits.categories), dataOf(bits.masks), dataOf(bits.groups)};
   }
   [[nodiscard]] bool isFiltered() const noexcept {
-    return categories != nullptr || masks != nullptr || groups != nullptr || owners != nullptr;
+    return categories != nullptr || masks != nullptr || groups != nullptr;
   }
 };
 
@@ -86,8 +85,6 @@ class PairTest {
     }
     const std::uint32_t group = at(m_first.groups, a, 0);
     if (group != 0 && group == at(m_second.groups, b, 0)) return false;
-    const std::uint32_t owner = at(m_first.owners, a, 0);
-    if (owner != 0 && owner == at(m_second.owners, b, 0)) return false;
     return !*m_accept || (*m_accept)(pair.first, pair.second);
   }
 

@@ -121,8 +121,8 @@ void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& pla
 
 void Search::planFlat(const Sets& sets, const OverlapOptions& options, Plan& plan) {
   const bool bySecond = options.order == Order::BySecond;
-  const BoxSet& rowSet = bySecond ? sets.second : sets.first;
-  const BoxSet& columnSet = bySecond ? sets.first : sets.second;
+  const BoxView& rowSet = bySecond ? sets.second : sets.first;
+  const BoxView& columnSet = bySecond ? sets.first : sets.second;
   FlatSearch& flat = plan.job.flat;
   bool exact = readList(BoxReader(columnSet, options, *m_kernels), m_columns, flat.columns);
   if (sets.one) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/FunctionRef.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
@@ -18,6 +18,12 @@
 #include "search/JoinRunner.h"
 
 namespace allpairs::engine {
+
+/// Who takes the pairs of a stream, and how many at a time at most.
+struct Batches {
+  PairVisitor visitor;
+  std::size_t size;
+};
 
 /// Everything that a search needs between its start and its end, and the memory that it keeps for the next one.
 class Search {
@@ -35,7 +41,7 @@ class Search {
 
   std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
-  void stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
+  void stream(const Sets& sets, const OverlapOptions& options, const Batches& to);
 
   /// Gives back all memory but that of the last result.
   void shrink() noexcept;
@@ -70,8 +76,8 @@ class Search {
   bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
   void sortBuckets(const BucketRule& rule);
 
-  void streamAll(Plan& plan, std::size_t batchSize, PairVisitor visitor);
-  void streamInRanges(const Sets& sets, const OverlapOptions& options, PairVisitor visitor);
+  void streamAll(Plan& plan, const OverlapOptions& options, const Batches& to);
+  void streamInRanges(const Sets& sets, const OverlapOptions& options, const Batches& to);
   bool findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end);
 
   OverlapStatistics m_statistics;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "allpairs/Error.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
@@ -17,45 +18,64 @@ constexpr std::size_t kLastRange = std::size_t{1} << 20;
 /// Pairs of a range that are held at a time, at most, unless a single box has more partners.
 constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
 
-void handOver(std::span<const Pair> pairs, std::size_t batchSize, PairVisitor visitor) {
-  for (std::size_t begin = 0; begin < pairs.size(); begin += batchSize) {
-    visitor(pairs.subspan(begin, std::min(batchSize, pairs.size() - begin)));
+/// Hands pairs over in batches, and no more than the limit.
+class Delivery {
+ public:
+  Delivery(const Batches& to, std::uint64_t limit) : m_to(to), m_limit(limit) {}
+
+  void give(std::span<const Pair> pairs) {
+    for (std::size_t begin = 0; begin < pairs.size(); begin += m_to.size) {
+      const std::span<const Pair> batch = pairs.subspan(begin, std::min(m_to.size, pairs.size() - begin));
+      m_given += batch.size();
+      checkLimit({.maxPairs = m_limit}, m_given);
+      m_to.visitor(batch);
+    }
   }
-}
+
+  /// Whole batches only; returns how many pairs those were.
+  std::size_t giveFull(std::span<const Pair> pairs) {
+    const std::size_t full = pairs.size() / m_to.size * m_to.size;
+    give(pairs.first(full));
+    return full;
+  }
+
+ private:
+  const Batches& m_to;
+  std::uint64_t m_limit;
+  std::uint64_t m_given = 0;
+};
 
 }  // namespace
 
-void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor) {
+void Search::stream(const Sets& sets, const OverlapOptions& options, const Batches& to) {
+  if (to.size == 0) throw InvalidArgument("a batch size of 0 pairs");
   begin(sets, options);
-  OverlapOptions unlimited = options;
-  unlimited.maxPairs = kNoLimit;
   std::size_t likelyPairs = 0;
   if (options.order != Order::Unordered && !choosesFlat(sets, options, likelyPairs)) {
-    streamInRanges(sets, unlimited, visitor);
+    streamInRanges(sets, options, to);
     return;
   }
   Plan plan{testOf(sets, options)};
-  makePlan(sets, unlimited, plan);
+  makePlan(sets, options, plan);
   plan.sink.likelyPairs = 0;  // handed on before there are many
-  streamAll(plan, options.batchSize, visitor);
+  plan.sink.maxPairs = kNoLimit;
+  streamAll(plan, options, to);
 }
 
 /// Hands over full batches as they come; the rest waits for the next pairs.
-void Search::streamAll(Plan& plan, std::size_t batchSize, PairVisitor visitor) {
-  const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) {
-    const std::size_t full = pairs.size() / batchSize * batchSize;
-    handOver(pairs.first(full), batchSize, visitor);
-    return full;
-  };
+void Search::streamAll(Plan& plan, const OverlapOptions& options, const Batches& to) {
+  Delivery delivery(to, options.maxPairs);
+  const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return delivery.giveFull(pairs); };
   plan.sink.emit.emplace(fullBatches);
   run(plan, m_serial);
-  handOver({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()}, batchSize, visitor);
+  delivery.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 
 /// The boxes that the pairs are ordered by, range by range, each against all of the other side.
-void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, PairVisitor visitor) {
+void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Batches& to) {
+  Delivery delivery(to, options.maxPairs);
   const bool bySecond = options.order == Order::BySecond;
-  const BoxSet& rows = bySecond ? sets.second : sets.first;
+  const BoxView& rows = bySecond ? sets.second : sets.first;
   m_second.build(BoxReader(bySecond ? sets.first : sets.second, options, *m_kernels), *m_executor);
   OverlapStatistics total;
   std::size_t length = kFirstRange;
@@ -65,7 +85,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Pai
       length = (end - begin + 1) / 2;
       continue;
     }
-    handOver(m_pairs, options.batchSize, visitor);
+    delivery.give(m_pairs);
     total.pairs += m_statistics.pairs;
     total.boxTests += m_statistics.boxTests;
     total.groupTests += m_statistics.groupTests;
@@ -78,7 +98,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Pai
 
 bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end) {
   const bool bySecond = options.order == Order::BySecond;
-  const BoxSet range = (bySecond ? sets.second : sets.first).slice(begin, end);
+  const BoxView range = (bySecond ? sets.second : sets.first).slice(begin, end);
   m_first.build(BoxReader(range, options, *m_kernels), *m_executor);
   Plan plan{testOf(sets, options)};
   joinBoth(false, plan);

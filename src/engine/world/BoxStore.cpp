@@ -151,7 +151,7 @@ void BoxStore::reserveResettled(std::size_t boxes, std::size_t bound) {
 }
 
 /// Whether boxes have bounds that the rows, as they are, don't hold exactly.
-bool BoxStore::needsFloat64(const BoxSet& boxes) const {
+bool BoxStore::needsFloat64(const BoxView& boxes) const {
   if (m_isFloat64 || !boxes.isFloat64()) return false;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (!isFloat32(boxes[i])) return true;
@@ -168,7 +168,7 @@ void BoxStore::check(std::span<const BoxId> ids) const {
   }
 }
 
-void BoxStore::add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
+void BoxStore::add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
   checkLength(ids.size(), "ids", boxes.size());
   checkProperties(properties, boxes.size(), true);
   const std::size_t fresh = boxes.size() - std::min(boxes.size(), m_free.size());
@@ -213,7 +213,7 @@ void BoxStore::move(BoxId id, const Box& box) {
   write(id, box);
 }
 
-void BoxStore::move(std::span<const BoxId> ids, const BoxSet& boxes) {
+void BoxStore::move(std::span<const BoxId> ids, const BoxView& boxes) {
   checkLength(boxes.size(), "boxes", ids.size());
   check(ids);
   if (needsFloat64(boxes)) prepare(idBound(), true, false);
@@ -294,13 +294,13 @@ void BoxStore::setProperties(std::span<const BoxId> ids, std::span<const BoxProp
   }
 }
 
-void BoxStore::touch(std::span<const BoxId> ids) {
+void BoxStore::invalidate(std::span<const BoxId> ids) {
   check(ids);
   for (const BoxId id : ids) note(id);
 }
 
 void BoxStore::assign(BoxId id, const BoxProperties& properties) {
-  m_filters[id] = {properties.category, properties.mask, properties.group, properties.owner};
+  m_filters[id] = {properties.category, properties.mask, properties.group};
   m_filtered = m_filtered || m_filters[id] != FilterRow{};
   if (!m_margins.empty()) {
     m_margins[id] = properties.margin;
@@ -320,13 +320,13 @@ Box BoxStore::box(BoxId id) const noexcept {
 
 BoxProperties BoxStore::properties(BoxId id) const noexcept {
   const FilterRow& row = m_filters[id];
-  return {row.category, row.mask, row.group, row.owner, margin(id), isStatic(id)};
+  return {row.category, row.mask, row.group, margin(id), isStatic(id)};
 }
 
-const BoxSet& BoxStore::set() {
+const BoxView& BoxStore::set() {
   if (m_setIsCurrent) return m_set;
-  m_set = m_isFloat64 ? BoxSet::fromRows(std::span<const double>(m_rows64))
-                      : BoxSet::fromRows(std::span<const float>(m_rows32));
+  m_set = m_isFloat64 ? BoxView::fromRows(std::span<const double>(m_rows64))
+                      : BoxView::fromRows(std::span<const float>(m_rows32));
   m_set.setMargins(m_margins);
   m_setIsCurrent = true;
   return m_set;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 #include "allpairs/WorldTypes.h"
 #include "memory/Memory.h"
 #include "search/PairTest.h"
@@ -18,7 +18,6 @@ struct FilterRow {
   std::uint32_t category = 0xFFFFFFFFU;
   std::uint32_t mask = 0xFFFFFFFFU;
   std::uint32_t group = 0;
-  std::uint32_t owner = 0;
 
   friend constexpr bool operator==(const FilterRow&, const FilterRow&) = default;
 };
@@ -58,13 +57,13 @@ class BoxStore {
   /// Gives back room that no box has, and the highest ids that are free.
   void shrink() noexcept;
 
-  void add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
-  void move(std::span<const BoxId> ids, const BoxSet& boxes);
+  void add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
+  void move(std::span<const BoxId> ids, const BoxView& boxes);
   void move(BoxId id, const Box& box);
   void remove(std::span<const BoxId> ids);
   void clear();
   void setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties);
-  void touch(std::span<const BoxId> ids);
+  void invalidate(std::span<const BoxId> ids);
 
   /// Throws InvalidBox for the first id that is not in use.
   void check(std::span<const BoxId> ids) const;
@@ -80,8 +79,8 @@ class BoxStore {
   [[nodiscard]] TestedBoxes tested() const noexcept {
     if (!m_filtered) return {&m_set};
     const FilterRow* rows = m_filters.data();
-    static_assert(sizeof(FilterRow) == 4 * sizeof(std::uint32_t));
-    return {&m_set, &rows->category, &rows->mask, &rows->group, &rows->owner, 4};
+    static_assert(sizeof(FilterRow) == 3 * sizeof(std::uint32_t));
+    return {&m_set, &rows->category, &rows->mask, &rows->group, 3};
   }
   [[nodiscard]] const FilterRow& filter(BoxId id) const noexcept { return m_filters[id]; }
   [[nodiscard]] BoxProperties properties(BoxId id) const noexcept;
@@ -93,7 +92,7 @@ class BoxStore {
   [[nodiscard]] bool filtered() const noexcept { return m_filtered; }
 
   /// All rows as a set with its margins, id by id; valid until boxes are added or properties change.
-  [[nodiscard]] const BoxSet& set();
+  [[nodiscard]] const BoxView& set();
 
   /// Ids that were touched since the last step, removed ones included, each once.
   [[nodiscard]] std::span<const BoxId> touched() const noexcept { return {m_touched.data(), m_touchedCount}; }
@@ -144,7 +143,7 @@ class BoxStore {
   void reserveResettled(std::size_t boxes, std::size_t bound);
   void prepare(std::size_t bound, bool float64, bool margins);
   void prepareRemoval(std::size_t boxes);
-  [[nodiscard]] bool needsFloat64(const BoxSet& boxes) const;
+  [[nodiscard]] bool needsFloat64(const BoxView& boxes) const;
   void widenToDouble();
   void write(BoxId id, const Box& box);
   void writeEmpty(BoxId id);
@@ -168,7 +167,7 @@ class BoxStore {
   std::pmr::vector<BoxId> m_resettled;
   std::size_t m_touchedCount = 0;
   std::size_t m_staleCount = 0;
-  BoxSet m_set;
+  BoxView m_set;
 };
 
 }  // namespace allpairs::engine

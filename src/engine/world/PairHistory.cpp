@@ -13,9 +13,6 @@ constexpr std::size_t kShortRow = 16;
 /// How many pairs ahead the memory of a row is asked for.
 constexpr std::size_t kPrefetchPairs = 16;
 
-/// Compares as the pair does.
-std::uint64_t keyOf(Pair pair) { return (std::uint64_t{pair.first} << 32U) | pair.second; }
-
 }  // namespace
 
 void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFor) {
@@ -32,7 +29,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
 }
 
 void PairHistory::shrink() noexcept {
-  PairHistory rest(m_fresh.get_allocator().resource());
+  PairHistory rest(m_fresh.get_allocator().resource(), m_order);
   rest.m_pairs = std::move(m_pairs);
   rest.m_began = std::move(m_began);
   rest.m_persisted = std::move(m_persisted);
@@ -47,7 +44,7 @@ void PairHistory::findRows() {
   m_rowBegin.resize(std::max(m_rowBegin.size(), m_idBound + 1));
   std::size_t row = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    for (; row <= pairs[i].first; ++row) m_rowBegin[row] = i;
+    for (; row <= rowOf(pairs[i]); ++row) m_rowBegin[row] = i;
   }
   std::fill(m_rowBegin.begin() + static_cast<std::ptrdiff_t>(row), m_rowBegin.end(), pairs.size());
   m_rowsAreCurrent = true;
@@ -55,14 +52,16 @@ void PairHistory::findRows() {
 
 std::size_t PairHistory::find(Pair pair) const noexcept {
   const Pair* const pairs = m_result.pairs.data();
-  std::size_t begin = m_rowBegin[pair.first];
-  const std::size_t end = m_rowBegin[pair.first + 1];
+  const BoxId row = rowOf(pair);
+  std::size_t begin = m_rowBegin[row];
+  const std::size_t end = m_rowBegin[row + 1];
   if (end - begin > kShortRow) {
-    begin = static_cast<std::size_t>(std::lower_bound(pairs + begin, pairs + end, pair) - pairs);
+    const auto isBefore = [this](Pair a, Pair b) { return keyOf(a) < keyOf(b); };
+    begin = static_cast<std::size_t>(std::lower_bound(pairs + begin, pairs + end, pair, isBefore) - pairs);
     return begin < end && pairs[begin] == pair ? begin : kNowhere;
   }
   for (; begin < end; ++begin) {
-    if (pairs[begin].second == pair.second) return begin;
+    if (pairs[begin] == pair) return begin;
   }
   return kNowhere;
 }
@@ -77,7 +76,7 @@ void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
   fresh.pairs.grow(fresh.size + found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
-    __builtin_prefetch(m_result.pairs.data() + m_rowBegin[ahead.first]);
+    __builtin_prefetch(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
     const std::size_t place = find(found[i]);
     if (place == kNowhere) {
       fresh.pairs[fresh.size++] = found[i];
@@ -100,6 +99,7 @@ void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& e
   PairSort::Task task;
   task.firsts = m_idBound;
   task.seconds = m_idBound;
+  task.order = m_order;
   task.spare = spare;
   m_sort.sort({to.data(), end}, task, executor);
 }
@@ -185,10 +185,10 @@ void PairHistory::shiftRows() noexcept {
   std::size_t shift = 0;  // Modulo 2^64: may be below 0 in between.
   while (b < began.size() || e < ended.size()) {
     const std::size_t stop =
-        std::min<std::size_t>(b < began.size() ? began[b].first : rows, e < ended.size() ? ended[e].first : rows);
+        std::min<std::size_t>(b < began.size() ? rowOf(began[b]) : rows, e < ended.size() ? rowOf(ended[e]) : rows);
     for (; row <= stop; ++row) m_rowBegin[row] += shift;
-    for (; b < began.size() && began[b].first == stop; ++b) ++shift;
-    for (; e < ended.size() && ended[e].first == stop; ++e) --shift;
+    for (; b < began.size() && rowOf(began[b]) == stop; ++b) ++shift;
+    for (; e < ended.size() && rowOf(ended[e]) == stop; ++e) --shift;
   }
   for (; row < rows; ++row) m_rowBegin[row] += shift;
 }

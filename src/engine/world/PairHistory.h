@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,8 +24,9 @@ namespace allpairs::engine {
 /// Memory: until a step has come to its end the pairs are those of the last one that has.
 class PairHistory {
  public:
-  explicit PairHistory(std::pmr::memory_resource* memory)
-      : m_fresh(memory),
+  PairHistory(std::pmr::memory_resource* memory, Order order)
+      : m_order(order),
+        m_fresh(memory),
         m_rowBegin(memory),
         m_seen(memory),
         m_pairs(memory),
@@ -104,13 +106,22 @@ class PairHistory {
   void findRows();
   void shiftRows() noexcept;
 
+  /// The box whose row a pair is in.
+  [[nodiscard]] BoxId rowOf(Pair pair) const noexcept { return m_order == Order::ByFirst ? pair.first : pair.second; }
+
+  /// Compares as pairs are ordered.
+  [[nodiscard]] std::uint64_t keyOf(Pair pair) const noexcept {
+    const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
+    return std::rotl(byFirst, m_order == Order::ByFirst ? 0 : 32);
+  }
+
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
+  Order m_order;
   Joined m_looksFor = Joined::All;
   std::size_t m_idBound = 0;
-  std::pmr::vector<Fresh> m_fresh;  ///< By worker.
-  std::pmr::vector<std::size_t>
-      m_rowBegin;  ///< By id: where the pairs of which it is the first begin; one more at the end.
+  std::pmr::vector<Fresh> m_fresh;           ///< By worker.
+  std::pmr::vector<std::size_t> m_rowBegin;  ///< By id: where the pairs of its row begin; one more at the end.
   bool m_rowsAreCurrent = false;
   Buffer<std::uint8_t> m_seen;  ///< By old pair: whether it was found again.
   Buffer<Pair> m_pairs;

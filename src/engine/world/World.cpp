@@ -46,6 +46,11 @@ void checkSweeps(std::span<const BoxSweep> sweeps) {
   for (std::size_t i = 0; i < sweeps.size(); ++i) checkSweep(sweeps[i], false, i);
 }
 
+/// What a box of a world reaches beyond its bounds is one of its properties.
+void refuseMargins(const BoxView& boxes) {
+  if (boxes.hasMargins()) throw InvalidArgument("boxes for a world carry no margins; give BoxProperties::margin");
+}
+
 void checkQueryBox(const Box& box) {
   if (hasNan(box)) throw InvalidBox(0, "the box of the query has a NaN");
 }
@@ -117,7 +122,9 @@ World::World(WorldOptions options) {
   OverlapOptions checked;
   checked.distance = options.distance;
   checked.instructionSet = options.instructionSet;
-  const BoxSet none;
+  const BoxView none;
+  if (options.order == Order::Unordered)
+    throw InvalidArgument("the lists of a world are ordered: by first or by second");
   engine::checkOptions({none, none, true}, checked);
   m_state = std::make_unique<State>(std::move(options), engine::chooseKernels(checked));
 }
@@ -141,24 +148,30 @@ void World::reserve(std::size_t boxes) { state().store.reserve(boxes); }
 
 BoxId World::add(const Box& box, const BoxProperties& properties) {
   BoxId id = kNoBox;
-  add(BoxSet(std::span<const Box>(&box, 1)), {&properties, 1}, {&id, 1});
+  add(BoxView(std::span<const Box>(&box, 1)), {&properties, 1}, {&id, 1});
   return id;
 }
 
-void World::add(const BoxSet& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
+void World::add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
+  refuseMargins(boxes);
   state().store.add(boxes, properties, ids);
 }
 
-std::vector<BoxId> World::add(const BoxSet& boxes, const BoxProperties& properties) {
+std::vector<BoxId> World::add(const BoxView& boxes, const BoxProperties& properties) {
   std::vector<BoxId> ids(boxes.size());
   add(boxes, {&properties, 1}, ids);
   return ids;
 }
 
 void World::move(BoxId id, const Box& box) { state().store.move(id, box); }
-void World::move(std::span<const BoxId> ids, const BoxSet& boxes) { state().store.move(ids, boxes); }
+void World::move(std::span<const BoxId> ids, const BoxView& boxes) {
+  refuseMargins(boxes);
+  state().store.move(ids, boxes);
+}
 
-void World::moveSwept(std::span<const BoxId> ids, const BoxSet& starts, const BoxSet& ends) {
+void World::moveSwept(std::span<const BoxId> ids, const BoxView& starts, const BoxView& ends) {
+  refuseMargins(starts);
+  refuseMargins(ends);
   if (starts.size() != ids.size() || ends.size() != ids.size()) {
     throw InvalidArgument(std::to_string(starts.size()) + " starts and " + std::to_string(ends.size()) + " ends for " +
                           std::to_string(ids.size()) + " boxes");
@@ -169,8 +182,9 @@ void World::moveSwept(std::span<const BoxId> ids, const BoxSet& starts, const Bo
   state().store.move(ids, swept);
 }
 
-void World::moveSwept(std::span<const BoxId> ids, const BoxSet& starts, std::span<const double> velocities,
+void World::moveSwept(std::span<const BoxId> ids, const BoxView& starts, std::span<const double> velocities,
                       double duration) {
+  refuseMargins(starts);
   if (starts.size() != ids.size() || velocities.size() != 3 * ids.size()) {
     throw InvalidArgument(std::to_string(starts.size()) + " starts and " + std::to_string(velocities.size()) +
                           " velocity components for " + std::to_string(ids.size()) + " boxes");
@@ -203,7 +217,7 @@ void World::setProperties(BoxId id, const BoxProperties& properties) { setProper
 void World::setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties) {
   state().store.setProperties(ids, properties);
 }
-void World::touch(std::span<const BoxId> ids) { state().store.touch(ids); }
+void World::invalidate(std::span<const BoxId> ids) { state().store.invalidate(ids); }
 
 void World::shrink() {
   if (m_state != nullptr) state().shrink();
@@ -251,7 +265,8 @@ std::vector<BoxId> World::findOverlapping(const Box& box, const QueryFilter& fil
   State::queries(*this, filter).overlapping(box, ids);
   return ids;
 }
-ResultLists<BoxId> World::findOverlapping(const BoxSet& boxes, const QueryFilter& filter) const {
+ResultLists<BoxId> World::findOverlapping(const BoxView& boxes, const QueryFilter& filter) const {
+  refuseMargins(boxes);
   return State::queries(*this, filter).overlapping(boxes);
 }
 

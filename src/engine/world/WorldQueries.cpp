@@ -206,7 +206,7 @@ void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count
   std::sort(neighbors.begin() + static_cast<std::ptrdiff_t>(begin), neighbors.end(), isCloser);
 }
 
-ResultLists<BoxId> WorldQueries::overlapping(const BoxSet& boxes) const {
+ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
   return findEach<BoxId>(
       boxes.size(), [&](std::size_t i) { return boxes[i].min; },
       [&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });

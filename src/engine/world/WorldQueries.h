@@ -40,7 +40,7 @@ class WorldQueries {
   void all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const;
   void nearest(const std::array<double, 3>& point, std::size_t count, std::vector<Neighbor>& neighbors) const;
 
-  [[nodiscard]] ResultLists<BoxId> overlapping(const BoxSet& boxes) const;
+  [[nodiscard]] ResultLists<BoxId> overlapping(const BoxView& boxes) const;
   void first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const;
   [[nodiscard]] ResultLists<SweepHit> all(std::span<const BoxSweep> sweeps) const;
   [[nodiscard]] ResultLists<Neighbor> nearest(std::span<const std::array<double, 3>> points, std::size_t count) const;

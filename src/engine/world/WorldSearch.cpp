@@ -33,7 +33,7 @@ std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
 }  // namespace
 
 void WorldSearch::update(BoxStore& store) {
-  const BoxSet& boxes = store.set();
+  const BoxView& boxes = store.set();
   if (store.stale().empty() && m_dynamic.isWhole() && m_static.isWhole()) return;
   OverlapOptions lanes;
   // Queries ask for the boxes themselves: lanes are never smaller than those.
@@ -157,6 +157,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   PairSort::Task task;
   task.firsts = std::max<std::size_t>(1, store.idBound());
   task.seconds = std::max<std::size_t>(1, otherStore.idBound());
+  task.order = m_options.order;
   PairSort(defaultMemory()).sort(found, task, executor());
   return found;
 }

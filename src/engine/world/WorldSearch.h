@@ -28,7 +28,7 @@ class WorldSearch {
         m_changedDynamic(memory),
         m_changedStatic(memory),
         m_runner(memory),
-        m_history(memory) {}
+        m_history(memory, options.order) {}
 
   /// Brings the hierarchies up to date with the store.
   void update(BoxStore& store);

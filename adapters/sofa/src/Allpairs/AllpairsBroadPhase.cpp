@@ -27,7 +27,7 @@ using PairList = sofa::type::vector<sofa::core::collision::BroadPhaseDetection::
 constexpr int kMostThreads = 65535;
 
 /// In the order of the options of `strategy`.
-constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Blocked};
+constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
 
 std::string nameOf(const PairList& pairs, std::size_t i) {
   if (i >= pairs.size()) return "no pair";
@@ -51,7 +51,7 @@ struct AllpairsBroadPhase::State {
 
 AllpairsBroadPhase::AllpairsBroadPhase()
     : d_box(initData(&d_box, "box", "if not empty, objects that do not intersect this bounding-box will be ignored")),
-      d_strategy(initData(&d_strategy, sofa::helper::OptionsGroup{"automatic", "exhaustive", "blocked"}, "strategy",
+      d_strategy(initData(&d_strategy, sofa::helper::OptionsGroup{"automatic", "exhaustive", "bvh"}, "strategy",
                           "how pairs are found; every strategy gives the same list")),
       d_threads(initData(&d_threads, 1, "threads", "how many threads search; 0 means all that the machine has")),
       d_verify(initData(&d_verify, false, "verify",

@@ -209,7 +209,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     for (BoxId id = 0; id < m_proxies.size(); ++id) {
       if (!m_proxies[id]) continue;
       m_world.setProperties(id, propertiesOf(m_proxies[id]->knownGroup, m_proxies[id]->knownMask));
-      m_world.touch(std::span<const BoxId>(&id, 1));
+      m_world.invalidate(std::span<const BoxId>(&id, 1));
     }
   }
 

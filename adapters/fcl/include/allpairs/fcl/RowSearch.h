@@ -47,7 +47,7 @@ class RowSearch {
   void bringIn(std::span<const T> rows);
 
   Executor* m_executor;
-  Overlaps m_search;
+  OverlapSearch m_search;
   World m_world;
 
   std::vector<std::uint8_t> m_isPending;  ///< By row: whether the world hasn't heard of it as it is now.

@@ -4,12 +4,13 @@
 #include <memory_resource>
 #include <utility>
 
+#include "allpairs/Error.h"
 #include "search/InUse.h"
 #include "search/Search.h"
 
 namespace allpairs {
 
-struct Overlaps::State {
+struct OverlapSearch::State {
   explicit State(std::pmr::memory_resource* memory) : search(memory) {}
 
   OverlapOptions options;
@@ -17,73 +18,77 @@ struct Overlaps::State {
   engine::InUse inUse;
 };
 
-Overlaps::Overlaps(OverlapOptions options) : m_state(std::make_unique<State>(engine::memoryOr(options.memory))) {
+OverlapSearch::OverlapSearch(OverlapOptions options)
+    : m_state(std::make_unique<State>(engine::memoryOr(options.memory))) {
   m_state->options = std::move(options);
 }
-Overlaps::~Overlaps() = default;
-Overlaps::Overlaps(Overlaps&&) noexcept = default;
-Overlaps& Overlaps::operator=(Overlaps&&) noexcept = default;
+OverlapSearch::~OverlapSearch() = default;
+OverlapSearch::OverlapSearch(OverlapSearch&&) noexcept = default;
+OverlapSearch& OverlapSearch::operator=(OverlapSearch&&) noexcept = default;
 
-Overlaps::State& Overlaps::state() {
+OverlapSearch::State& OverlapSearch::state() {
   if (m_state == nullptr) m_state = std::make_unique<State>(engine::defaultMemory());
   m_state->inUse.check("Overlaps");
   return *m_state;
 }
 
-const OverlapOptions& Overlaps::options() const noexcept {
+const OverlapOptions& OverlapSearch::options() const noexcept {
   static const OverlapOptions kDefaults;
   return m_state != nullptr ? m_state->options : kDefaults;
 }
 
-void Overlaps::setOptions(OverlapOptions options) {
+void OverlapSearch::setOptions(OverlapOptions options) {
   State& state = this->state();
+  if (options.memory != nullptr && options.memory != state.options.memory) {
+    throw InvalidArgument("an object keeps the memory resource that it was made with; make another object");
+  }
   options.memory = state.options.memory;
   state.options = std::move(options);
 }
 
-const OverlapStatistics& Overlaps::statistics() const noexcept {
+const OverlapStatistics& OverlapSearch::statistics() const noexcept {
   static constexpr OverlapStatistics kNone;
   return m_state != nullptr ? m_state->search.statistics() : kNone;
 }
 
-void Overlaps::shrink() {
+void OverlapSearch::shrink() {
   if (m_state != nullptr) state().search.shrink();
 }
 
-std::span<const Pair> Overlaps::find(const BoxSet& boxes) {
+std::span<const Pair> OverlapSearch::find(const BoxView& boxes) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.find({boxes, boxes, true}, state.options);
 }
 
-std::span<const Pair> Overlaps::findBetween(const BoxSet& first, const BoxSet& second) {
+std::span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.find({first, second, false}, state.options);
 }
 
-std::uint64_t Overlaps::count(const BoxSet& boxes) {
+std::uint64_t OverlapSearch::count(const BoxView& boxes) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.count({boxes, boxes, true}, state.options);
 }
 
-std::uint64_t Overlaps::countBetween(const BoxSet& first, const BoxSet& second) {
+std::uint64_t OverlapSearch::count(const BoxView& first, const BoxView& second) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.count({first, second, false}, state.options);
 }
 
-void Overlaps::stream(const BoxSet& boxes, PairVisitor visitor) {
+void OverlapSearch::stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  state.search.stream({boxes, boxes, true}, state.options, visitor);
+  state.search.stream({boxes, boxes, true}, state.options, {visitor, batchSize});
 }
 
-void Overlaps::streamBetween(const BoxSet& first, const BoxSet& second, PairVisitor visitor) {
+void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  state.search.stream({first, second, false}, state.options, visitor);
+  state.search.stream({first, second, false}, state.options, {visitor, batchSize});
 }
 
 namespace {
@@ -114,33 +119,33 @@ std::vector<Pair> toVector(std::span<const Pair> pairs) { return {pairs.begin(),
 
 }  // namespace
 
-std::vector<Pair> overlaps(const BoxSet& boxes, const OverlapOptions& options) {
+std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
   const OneShot search(boxes.size(), options);
-  return toVector(Overlaps(search.options()).find(boxes));
+  return toVector(OverlapSearch(search.options()).find(boxes));
 }
 
-std::vector<Pair> overlapsBetween(const BoxSet& first, const BoxSet& second, const OverlapOptions& options) {
+std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
   const OneShot search(first.size() + second.size(), options);
-  return toVector(Overlaps(search.options()).findBetween(first, second));
+  return toVector(OverlapSearch(search.options()).find(first, second));
 }
 
-std::uint64_t countOverlaps(const BoxSet& boxes, const OverlapOptions& options) {
+std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {
   const OneShot search(boxes.size(), options);
-  return Overlaps(search.options()).count(boxes);
+  return OverlapSearch(search.options()).count(boxes);
 }
 
-std::uint64_t countOverlapsBetween(const BoxSet& first, const BoxSet& second, const OverlapOptions& options) {
+std::uint64_t countOverlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
   const OneShot search(first.size() + second.size(), options);
-  return Overlaps(search.options()).countBetween(first, second);
+  return OverlapSearch(search.options()).count(first, second);
 }
 
-void streamOverlaps(const BoxSet& boxes, PairVisitor visitor, const OverlapOptions& options) {
-  Overlaps(options).stream(boxes, visitor);
+void streamOverlaps(const BoxView& boxes, PairVisitor visitor, const OverlapOptions& options, std::size_t batchSize) {
+  OverlapSearch(options).stream(boxes, visitor, batchSize);
 }
 
-void streamOverlapsBetween(const BoxSet& first, const BoxSet& second, PairVisitor visitor,
-                           const OverlapOptions& options) {
-  Overlaps(options).streamBetween(first, second, visitor);
+void streamOverlaps(const BoxView& first, const BoxView& second, PairVisitor visitor, const OverlapOptions& options,
+                    std::size_t batchSize) {
+  OverlapSearch(options).stream(first, second, visitor, batchSize);
 }
 
 std::span<const std::string_view> instructionSets() { return engine::kernelNames(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,38 +23,38 @@ using test::kNan;
 
 const std::vector<Box> kTwo{{{1, 2, 3}, {4, 5, 6}}, {{-1, -2, -3}, {7, 8, 9}}};
 
-void expectTwo(const BoxSet& set) {
+void expectTwo(const BoxView& set) {
   ASSERT_EQ(set.size(), 2U);
   EXPECT_EQ(set[0], kTwo[0]);
   EXPECT_EQ(set[1], kTwo[1]);
 }
 
-TEST(BoxSet, IsTheSameFromBoxesRowsCornersAndStrides) {
+TEST(BoxView, IsTheSameFromBoxesRowsCornersAndStrides) {
   const std::vector<double> rows{1, 2, 3, 4, 5, 6, -1, -2, -3, 7, 8, 9};
   const std::vector<double> min{1, 2, 3, -1, -2, -3};
   const std::vector<double> max{4, 5, 6, 7, 8, 9};
   const std::vector<double> columns{1, -1, 2, -2, 3, -3, 4, 7, 5, 8, 6, 9};
-  expectTwo(BoxSet(kTwo));
-  expectTwo(BoxSet::fromRows(rows));
-  expectTwo(BoxSet::fromCorners(min, max));
-  expectTwo(BoxSet::fromStrided(2, CornerView<double>{columns.data(), 1, 2}, {columns.data() + 6, 1, 2}));
+  expectTwo(BoxView(kTwo));
+  expectTwo(BoxView::fromRows(rows));
+  expectTwo(BoxView::fromCorners(min, max));
+  expectTwo(BoxView::fromStrided(2, CornerView<double>{columns.data(), 1, 2}, {columns.data() + 6, 1, 2}));
   const std::vector<float> rowsF(rows.begin(), rows.end());
   const std::vector<float> minF(min.begin(), min.end());
   const std::vector<float> maxF(max.begin(), max.end());
-  expectTwo(BoxSet::fromRows(rowsF));
-  expectTwo(BoxSet::fromCorners(minF, maxF));
+  expectTwo(BoxView::fromRows(rowsF));
+  expectTwo(BoxView::fromCorners(minF, maxF));
 }
 
-TEST(BoxSet, ReadsBackwardWithNegativeStrides) {
+TEST(BoxView, ReadsBackwardWithNegativeStrides) {
   const std::vector<double> rows{-1, -2, -3, 7, 8, 9, 1, 2, 3, 4, 5, 6};
-  expectTwo(BoxSet::fromStrided(2, CornerView<double>{rows.data() + 6, -6, 1}, {rows.data() + 9, -6, 1}));
+  expectTwo(BoxView::fromStrided(2, CornerView<double>{rows.data() + 6, -6, 1}, {rows.data() + 9, -6, 1}));
 }
 
-TEST(BoxSet, NamesTheBoxAndTheBoundThatIsNan) {
+TEST(BoxView, NamesTheBoxAndTheBoundThatIsNan) {
   std::vector<Box> boxes(5, cube(0, 0, 0));
   boxes[3].max[1] = kNan;
   try {
-    const BoxSet set(boxes);
+    const BoxView set(boxes);
     FAIL() << "a NaN was taken";
   } catch (const InvalidBox& error) {
     EXPECT_EQ(error.index(), 3U);
@@ -63,39 +63,39 @@ TEST(BoxSet, NamesTheBoxAndTheBoundThatIsNan) {
   }
 }
 
-TEST(BoxSet, FindsANanInEachOfTheSixBoundsInBothPrecisions) {
+TEST(BoxView, FindsANanInEachOfTheSixBoundsInBothPrecisions) {
   for (std::size_t bound = 0; bound < 6; ++bound) {
     std::array<double, 6> row{0, 0, 0, 1, 1, 1};
     row[bound] = kNan;
     std::array<float, 6> rowF{0, 0, 0, 1, 1, 1};
     rowF[bound] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(static_cast<void>(BoxSet::fromRows(row)), InvalidBox) << bound;
-    EXPECT_THROW(static_cast<void>(BoxSet::fromRows(rowF)), InvalidBox) << bound;
+    EXPECT_THROW(static_cast<void>(BoxView::fromRows(row)), InvalidBox) << bound;
+    EXPECT_THROW(static_cast<void>(BoxView::fromRows(rowF)), InvalidBox) << bound;
   }
 }
 
-TEST(BoxSet, TakesInfiniteAndEmptyBoxes) {
+TEST(BoxView, TakesInfiniteAndEmptyBoxes) {
   const std::vector<Box> boxes{{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}}, kEmptyBox};
-  EXPECT_EQ(BoxSet(boxes).size(), 2U);
+  EXPECT_EQ(BoxView(boxes).size(), 2U);
 }
 
-TEST(BoxSet, RefusesSpansThatAreNoWholeNumberOfRows) {
+TEST(BoxView, RefusesSpansThatAreNoWholeNumberOfRows) {
   const std::vector<double> seven(7);
   const std::vector<double> six(6);
   const std::vector<double> three(3);
-  EXPECT_THROW(static_cast<void>(BoxSet::fromRows(seven)), InvalidArgument);
-  EXPECT_THROW(static_cast<void>(BoxSet::fromCorners(six, three)), InvalidArgument);
-  EXPECT_THROW(static_cast<void>(BoxSet::fromCorners(seven, seven)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(BoxView::fromRows(seven)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(BoxView::fromCorners(six, three)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(BoxView::fromCorners(seven, seven)), InvalidArgument);
 }
 
-TEST(BoxSet, RefusesMoreBoxesThanAnIndexCanNumber) {
+TEST(BoxView, RefusesMoreBoxesThanAnIndexCanNumber) {
   const float one = 0.0F;
   const CornerView<float> sameForAll{&one, 0, 0};
-  EXPECT_THROW(static_cast<void>(BoxSet::fromStrided(std::size_t{1} << 32, sameForAll, sameForAll)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(BoxView::fromStrided(std::size_t{1} << 32, sameForAll, sameForAll)), InvalidArgument);
 }
 
-TEST(BoxSet, NamesTheBoxOfABadMargin) {
-  BoxSet set(kTwo);
+TEST(BoxView, NamesTheBoxOfABadMargin) {
+  BoxView set(kTwo);
   const std::vector<double> good{0.5, -0.25};
   set.setMargins(good);
   EXPECT_EQ(set.margin(0), 0.5);
@@ -113,16 +113,16 @@ TEST(BoxSet, NamesTheBoxOfABadMargin) {
   EXPECT_THROW(set.setMargin(-kInfinity), InvalidArgument);
 }
 
-TEST(BoxSet, SlicesKeepBoxesAndMargins) {
+TEST(BoxView, SlicesKeepBoxesAndMargins) {
   std::vector<Box> boxes;
   std::vector<double> margins;
   for (int i = 0; i < 10; ++i) {
     boxes.push_back(cube(i, 0, 0));
     margins.push_back(i);
   }
-  BoxSet set(boxes);
+  BoxView set(boxes);
   set.setMargins(margins);
-  const BoxSet part = set.slice(3, 7);
+  const BoxView part = set.slice(3, 7);
   ASSERT_EQ(part.size(), 4U);
   EXPECT_EQ(part[0], boxes[3]);
   EXPECT_EQ(part.margin(3), 6.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "allpairs/BoxSet.h"
+#include "allpairs/BoxView.h"
 
 #include <cmath>
 #include <limits>
@@ -59,7 +59,7 @@ bool anyNan(const T* values, std::size_t count) {
 }
 
 template <class T>
-void checkNoNan(std::size_t size, const BoxSet::Corners<T>& corners, const BoxSet& set) {
+void checkNoNan(std::size_t size, const BoxView::Corners<T>& corners, const BoxView& set) {
   if (corners.isPacked() && !anyNan(corners.min.data, 6 * size)) return;
   const auto count = static_cast<std::ptrdiff_t>(size);
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -70,34 +70,34 @@ void checkNoNan(std::size_t size, const BoxSet::Corners<T>& corners, const BoxSe
 }
 
 template <class T>
-BoxSet setFromBoxes(std::span<const BasicBox<T>> boxes) {
+BoxView setFromBoxes(std::span<const BasicBox<T>> boxes) {
   static_assert(sizeof(BasicBox<T>) == 6 * sizeof(T));
   if (boxes.empty()) return {};
-  return BoxSet::fromStrided(boxes.size(), CornerView<T>{boxes.data()->min.data(), 6, 1},
-                             CornerView<T>{boxes.data()->max.data(), 6, 1});
+  return BoxView::fromStrided(boxes.size(), CornerView<T>{boxes.data()->min.data(), 6, 1},
+                              CornerView<T>{boxes.data()->max.data(), 6, 1});
 }
 
 template <class T>
-BoxSet setFromRows(std::span<const T> rows) {
+BoxView setFromRows(std::span<const T> rows) {
   const std::size_t size = rowCount(rows, 6);
   if (size == 0) return {};
-  return BoxSet::fromStrided(size, CornerView<T>{rows.data(), 6, 1}, CornerView<T>{rows.data() + 3, 6, 1});
+  return BoxView::fromStrided(size, CornerView<T>{rows.data(), 6, 1}, CornerView<T>{rows.data() + 3, 6, 1});
 }
 
 template <class T>
-BoxSet setFromCorners(std::span<const T> min, std::span<const T> max) {
+BoxView setFromCorners(std::span<const T> min, std::span<const T> max) {
   const std::size_t size = rowCount(min, 3);
   if (rowCount(max, 3) != size) {
     throw InvalidArgument(std::to_string(size) + " min corners, but " + std::to_string(max.size() / 3) +
                           " max corners");
   }
   if (size == 0) return {};
-  return BoxSet::fromStrided(size, CornerView<T>{min.data(), 3, 1}, CornerView<T>{max.data(), 3, 1});
+  return BoxView::fromStrided(size, CornerView<T>{min.data(), 3, 1}, CornerView<T>{max.data(), 3, 1});
 }
 
 /// Moves the view to start at box `begin`.
 template <class T>
-void moveTo(BoxSet::Corners<T>& corners, std::size_t begin) {
+void moveTo(BoxView::Corners<T>& corners, std::size_t begin) {
   if (corners.min.data == nullptr) return;
   corners.min.data += static_cast<std::ptrdiff_t>(begin) * corners.min.boxStride;
   corners.max.data += static_cast<std::ptrdiff_t>(begin) * corners.max.boxStride;
@@ -107,29 +107,31 @@ bool isMargin(double value) { return !std::isnan(value) && value != -std::numeri
 
 }  // namespace
 
-BoxSet BoxSet::fromBoxes(std::span<const Box> boxes) { return setFromBoxes(boxes); }
-BoxSet BoxSet::fromBoxes(std::span<const BoxF> boxes) { return setFromBoxes(boxes); }
+BoxView BoxView::fromBoxes(std::span<const Box> boxes) { return setFromBoxes(boxes); }
+BoxView BoxView::fromBoxes(std::span<const BoxF> boxes) { return setFromBoxes(boxes); }
 
-BoxSet BoxSet::fromRows(std::span<const float> rows) { return setFromRows(rows); }
-BoxSet BoxSet::fromRows(std::span<const double> rows) { return setFromRows(rows); }
+BoxView BoxView::fromRows(std::span<const float> rows) { return setFromRows(rows); }
+BoxView BoxView::fromRows(std::span<const double> rows) { return setFromRows(rows); }
 
-BoxSet BoxSet::fromCorners(std::span<const float> min, std::span<const float> max) { return setFromCorners(min, max); }
-BoxSet BoxSet::fromCorners(std::span<const double> min, std::span<const double> max) {
+BoxView BoxView::fromCorners(std::span<const float> min, std::span<const float> max) {
+  return setFromCorners(min, max);
+}
+BoxView BoxView::fromCorners(std::span<const double> min, std::span<const double> max) {
   return setFromCorners(min, max);
 }
 
-BoxSet BoxSet::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
+BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
   checkCount(size);
-  BoxSet set;
+  BoxView set;
   set.m_size = size;
   set.m_float32 = {min, max};
   checkNoNan(size, set.m_float32, set);
   return set;
 }
 
-BoxSet BoxSet::fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max) {
+BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max) {
   checkCount(size);
-  BoxSet set;
+  BoxView set;
   set.m_size = size;
   set.m_isFloat64 = true;
   set.m_float64 = {min, max};
@@ -137,12 +139,12 @@ BoxSet BoxSet::fromStrided(std::size_t size, CornerView<double> min, CornerView<
   return set;
 }
 
-void BoxSet::setMargin(double margin) {
+void BoxView::setMargin(double margin) {
   if (!isMargin(margin)) throw InvalidArgument("the margin of the set is NaN or -infinity");
   m_margin = margin;
 }
 
-void BoxSet::setMargins(std::span<const double> margins) {
+void BoxView::setMargins(std::span<const double> margins) {
   if (!margins.empty() && margins.size() != m_size) {
     throw InvalidArgument(std::to_string(margins.size()) + " margins for " + std::to_string(m_size) + " boxes");
   }
@@ -154,12 +156,12 @@ void BoxSet::setMargins(std::span<const double> margins) {
   m_margins = margins;
 }
 
-BoxSet BoxSet::slice(std::size_t begin, std::size_t end) const {
+BoxView BoxView::slice(std::size_t begin, std::size_t end) const {
   if (begin > end || end > m_size) {
     throw InvalidArgument("boxes " + std::to_string(begin) + " to " + std::to_string(end) + " of a set of " +
                           std::to_string(m_size));
   }
-  BoxSet part = *this;
+  BoxView part = *this;
   part.m_size = end - begin;
   moveTo(part.m_float32, begin);
   moveTo(part.m_float64, begin);

@@ -21,41 +21,48 @@ struct CornerView {
 
 /// A checked view of n boxes in the caller's memory, float32 or float64, in any strided layout.
 ///
-/// Nothing is copied: the memory must outlive the set and stay unchanged while it is in use.
+/// Nothing is copied: the memory must outlive the view and stay unchanged while it is in use. A temporary container is
+/// refused by the compiler: give it a name.
 /// Geometry:  boxes are closed; min > max on an axis means empty; infinite bounds are allowed.
 /// Bad input: a NaN throws InvalidBox that names the box; more than 2^32 - 1 boxes or a span of the wrong length throw
 ///            InvalidArgument.
 /// Cost:      one pass over the boxes to check them, no allocation.
 /// Threads:   const use from any number of threads.
-class BoxSet {
+class BoxView {
  public:
   /// No boxes.
-  BoxSet() = default;
+  BoxView() = default;
 
   /// From any array of boxes: std::vector, std::array, std::span, of Box or BoxF.
   template <class Boxes>
     requires std::convertible_to<const Boxes&, std::span<const Box>>
-  BoxSet(const Boxes& boxes) : BoxSet(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
+  BoxView(const Boxes& boxes) : BoxView(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
   template <class Boxes>
     requires std::convertible_to<const Boxes&, std::span<const BoxF>>
-  BoxSet(const Boxes& boxes) : BoxSet(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
+  BoxView(const Boxes& boxes) : BoxView(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
 
-  [[nodiscard]] static BoxSet fromBoxes(std::span<const Box> boxes);
-  [[nodiscard]] static BoxSet fromBoxes(std::span<const BoxF> boxes);
+  /// A temporary that owns its boxes would be gone before the view is used.
+  template <class Boxes>
+    requires(!std::ranges::enable_borrowed_range<Boxes> && (std::convertible_to<const Boxes&, std::span<const Box>> ||
+                                                            std::convertible_to<const Boxes&, std::span<const BoxF>>))
+  BoxView(const Boxes&& boxes) = delete;
+
+  [[nodiscard]] static BoxView fromBoxes(std::span<const Box> boxes);
+  [[nodiscard]] static BoxView fromBoxes(std::span<const BoxF> boxes);
 
   /// From rows of 6: minx miny minz maxx maxy maxz, n rows one after the other.
-  [[nodiscard]] static BoxSet fromRows(std::span<const float> rows);
-  [[nodiscard]] static BoxSet fromRows(std::span<const double> rows);
+  [[nodiscard]] static BoxView fromRows(std::span<const float> rows);
+  [[nodiscard]] static BoxView fromRows(std::span<const double> rows);
 
   /// From two arrays of n rows of 3: all min corners, all max corners.
-  [[nodiscard]] static BoxSet fromCorners(std::span<const float> min, std::span<const float> max);
-  [[nodiscard]] static BoxSet fromCorners(std::span<const double> min, std::span<const double> max);
+  [[nodiscard]] static BoxView fromCorners(std::span<const float> min, std::span<const float> max);
+  [[nodiscard]] static BoxView fromCorners(std::span<const double> min, std::span<const double> max);
 
   /// From corners in any strided layout, such as columns of a larger table or six separate arrays one after the other.
-  [[nodiscard]] static BoxSet fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
-  [[nodiscard]] static BoxSet fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
+  [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
+  [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
 
-  /// Gives every box of the set the same margin: how far it reaches beyond its bounds, on all sides.
+  /// Gives every box the same margin: how far it reaches beyond its bounds, on all sides.
   ///
   /// Bad input: NaN or -infinity throws InvalidArgument.
   void setMargin(double margin);
@@ -65,10 +72,10 @@ class BoxSet {
   /// Bad input: a span of the wrong length throws InvalidArgument; a NaN or -infinity throws InvalidBox.
   void setMargins(std::span<const double> margins);
 
-  /// The boxes [begin, end) as a set of their own, with their margins. Costs nothing: they have been checked.
+  /// The boxes [begin, end) as a view of their own, with their margins. Costs nothing: they have been checked.
   ///
-  /// Bad input: a range that is not within the set throws InvalidArgument.
-  [[nodiscard]] BoxSet slice(std::size_t begin, std::size_t end) const;
+  /// Bad input: a range that is not within the view throws InvalidArgument.
+  [[nodiscard]] BoxView slice(std::size_t begin, std::size_t end) const;
 
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] bool empty() const noexcept { return m_size == 0; }
