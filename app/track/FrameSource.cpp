@@ -41,7 +41,7 @@ class MeshFrames final : public FrameSource {
     return BoxView::fromBoxes(m_boxes);
   }
 
-  [[nodiscard]] std::function<bool(std::uint32_t, std::uint32_t)> accept() const override {
+  [[nodiscard]] PairPredicate accept() const override {
     std::vector<std::array<std::size_t, 3>> corners;
     std::size_t first = 0;
     for (const TriangleMesh& mesh : m_first) {

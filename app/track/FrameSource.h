@@ -31,7 +31,7 @@ class FrameSource {
   [[nodiscard]] virtual BoxView next() = 0;
 
   /// Which overlapping boxes are a pair; empty where all are. To be asked for after the first frame.
-  [[nodiscard]] virtual std::function<bool(std::uint32_t, std::uint32_t)> accept() const { return {}; }
+  [[nodiscard]] virtual PairPredicate accept() const { return {}; }
 };
 
 /// The frames of one .npy file, (t, n, 6); or of mesh files, one each: the boxes of their triangles, of which two with a

@@ -57,7 +57,7 @@ Examples:
 /// The changes of each frame found anew, by searching all boxes and comparing with the frame before.
 class Verification {
  public:
-  Verification(double distance, std::function<bool(std::uint32_t, std::uint32_t)> accept) {
+  Verification(double distance, PairPredicate accept) {
     OverlapOptions options;
     options.distance = distance;
     options.filter.accept = std::move(accept);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -64,8 +63,8 @@ template <class T>
   if (isEmpty(b)) return a;
   Box result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.min[axis] = std::min(a.min[axis], b.min[axis]);
-    result.max[axis] = std::max(a.max[axis], b.max[axis]);
+    result.min[axis] = b.min[axis] < a.min[axis] ? b.min[axis] : a.min[axis];
+    result.max[axis] = a.max[axis] < b.max[axis] ? b.max[axis] : a.max[axis];
   }
   return result;
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
+
+#include "allpairs/PairPredicate.h"
 
 namespace allpairs {
 
@@ -35,7 +36,7 @@ struct Filter {
   FilterBits second{};
 
   /// Asked with (first, second) of a pair that passed the rest.
-  std::function<bool(std::uint32_t, std::uint32_t)> accept{};
+  PairPredicate accept{};
 };
 
 }  // namespace allpairs

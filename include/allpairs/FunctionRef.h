@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -20,7 +19,7 @@ class FunctionRef<Result(Arguments...)> {
     requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef> &&
              std::is_invocable_r_v<Result, Callable&, Arguments...>)
   FunctionRef(Callable&& callable) noexcept  // NOLINT(google-explicit-constructor): meant to convert
-      : m_object(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
+      : m_object(const_cast<void*>(static_cast<const void*>(&callable))),
         m_call([](void* object, Arguments... arguments) -> Result {
           return (*static_cast<std::remove_reference_t<Callable>*>(object))(std::forward<Arguments>(arguments)...);
         }) {}

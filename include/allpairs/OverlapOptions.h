@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory_resource>
 #include <optional>
 #include <string_view>
 
 #include "allpairs/Box.h"
 #include "allpairs/Executor.h"
 #include "allpairs/Filter.h"
+#include "allpairs/MemoryResource.h"
 
 namespace allpairs {
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -83,7 +82,7 @@ class OverlapSearch {
  private:
   struct State;
   State& state();
-  std::unique_ptr<State> m_state;
+  State* m_state = nullptr;  ///< Owned; null in an object that has been moved from.
 };
 
 /// All overlapping pairs among the boxes of one set, each once, ordered by (first, second).

@@ -4,17 +4,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <memory_resource>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/Executor.h"
+#include "allpairs/MemoryResource.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
+#include "allpairs/PairPredicate.h"
 
 namespace allpairs {
 
@@ -51,7 +51,7 @@ struct WorldOptions {
   /// Where given, asked about a pair that passed the rest, with first < second. Its answer must stay the same until one
   /// of the two boxes gets other bounds or properties or is invalidated; in between it may or may not be asked again. With a
   /// parallel executor it is called from several threads.
-  std::function<bool(BoxId, BoxId)> accept{};
+  PairPredicate accept{};
 
   /// Where parallel work runs; null means on the calling thread. Not owned.
   Executor* executor = nullptr;

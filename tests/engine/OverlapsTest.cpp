@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 #include <vector>
 
 #include "allpairs/Error.h"

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <memory_resource>
 #include <span>
 
 #include "allpairs/Executor.h"
+#include "allpairs/MemoryResource.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/Overlaps.h"
 
+#include <memory>
 #include <memory_resource>
 #include <utility>
 
@@ -18,17 +19,22 @@ struct OverlapSearch::State {
   engine::InUse inUse;
 };
 
-OverlapSearch::OverlapSearch(OverlapOptions options)
-    : m_state(std::make_unique<State>(engine::memoryOr(options.memory))) {
-  m_state->options = std::move(options);
+OverlapSearch::OverlapSearch(OverlapOptions options) {
+  auto made = std::make_unique<State>(engine::memoryOr(options.memory));
+  made->options = std::move(options);
+  m_state = made.release();
 }
-OverlapSearch::~OverlapSearch() = default;
-OverlapSearch::OverlapSearch(OverlapSearch&&) noexcept = default;
-OverlapSearch& OverlapSearch::operator=(OverlapSearch&&) noexcept = default;
+OverlapSearch::~OverlapSearch() { const std::unique_ptr<State> last(m_state); }
+OverlapSearch::OverlapSearch(OverlapSearch&& other) noexcept : m_state(std::exchange(other.m_state, nullptr)) {}
+OverlapSearch& OverlapSearch::operator=(OverlapSearch&& other) noexcept {
+  OverlapSearch taken(std::move(other));
+  std::swap(m_state, taken.m_state);
+  return *this;
+}
 
 OverlapSearch::State& OverlapSearch::state() {
-  if (m_state == nullptr) m_state = std::make_unique<State>(engine::defaultMemory());
-  m_state->inUse.check("Overlaps");
+  if (m_state == nullptr) m_state = std::make_unique<State>(engine::defaultMemory()).release();
+  m_state->inUse.check("OverlapSearch");
   return *m_state;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 
 #include "allpairs/BoxView.h"
@@ -40,13 +39,12 @@ struct TestedBoxes {
 /// the filter.
 class PairTest {
  public:
-  PairTest(const TestedBoxes& first, const TestedBoxes& second, double distance,
-           const std::function<bool(std::uint32_t, std::uint32_t)>& accept)
+  PairTest(const TestedBoxes& first, const TestedBoxes& second, double distance, const PairPredicate& accept)
       : m_first(first),
         m_second(second),
         m_distance(distance),
         m_accept(&accept),
-        m_filtered(first.isFiltered() || second.isFiltered() || accept) {}
+        m_filtered(first.isFiltered() || second.isFiltered() || static_cast<bool>(accept)) {}
 
   /// Set once the lanes are known.
   void requireExactTest(bool required) noexcept { m_exact = required; }
@@ -91,7 +89,7 @@ class PairTest {
   TestedBoxes m_first;
   TestedBoxes m_second;
   double m_distance;
-  const std::function<bool(std::uint32_t, std::uint32_t)>* m_accept;
+  const PairPredicate* m_accept;
   bool m_exact = false;
   bool m_filtered;
 };
