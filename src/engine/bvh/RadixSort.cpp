@@ -2,84 +2,30 @@
 #include "bvh/RadixSort.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <utility>
 
 namespace allpairs::engine {
 namespace {
 
-/// Runs up to this length are sorted by insertion.
-constexpr std::size_t kShortRun = 24;
-
-/// Digits are no longer than this, so that their counters stay in the first-level cache beside the numbers.
-constexpr unsigned kMaxDigitBits = 11;
-
-/// From this length on the places that a pass writes to, one for each digit, had better lie in the first-level cache.
-constexpr unsigned kFewDigitBits = 8;
-constexpr std::size_t kLongRun = 65536;
-
 /// Up to this size numbers are sorted as one run: there and back they fill a second-level cache. Threads share fewer.
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
 constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
 
-/// A first pass leaves buckets of about 2^kRunBits numbers, in no more than 2^kMaxDigitBits buckets.
+/// A first pass leaves buckets of about 2^kRunBits numbers, in no more than 2^kMostBucketBits buckets.
 constexpr unsigned kRunBits = 12;
+constexpr unsigned kMostBucketBits = 11;
 
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 13;
-
-template <class Number>
-void insertionSort(Number* values, std::size_t size, unsigned begin) noexcept {
-  for (std::size_t i = 1; i < size; ++i) {
-    const Number value = values[i];
-    std::size_t hole = i;
-    for (; hole > 0 && values[hole - 1] >> begin > value >> begin; --hole) values[hole] = values[hole - 1];
-    values[hole] = value;
-  }
-}
-
-/// How long a digit is at most: with more counters than numbers, a pass would spend its time on those.
-unsigned digitBits(std::size_t size) noexcept {
-  const unsigned most = size < kLongRun ? kMaxDigitBits : kFewDigitBits;
-  return std::min(static_cast<unsigned>(std::bit_width(size)) - 1, most);
-}
-
-/// Turns counts into where each digit begins.
-void exclusivePrefixSum(std::uint32_t* counts, std::size_t size) noexcept {
-  std::uint32_t place = 0;
-  for (std::size_t digit = 0; digit < size; ++digit) place += std::exchange(counts[digit], place);
-}
-
-/// Moves numbers by one digit; returns whether there was more than one value to tell them apart by.
-template <class Number>
-bool moveByDigit(const Number* from, Number* to, std::size_t size, unsigned shift, unsigned bits) noexcept {
-  const Number mask = (Number{1} << bits) - 1;
-  std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits> places;
-  std::fill_n(places.begin(), std::size_t{mask} + 1, 0U);
-  for (std::size_t i = 0; i < size; ++i) ++places[from[i] >> shift & mask];
-  if (places[from[0] >> shift & mask] == size) return false;
-  exclusivePrefixSum(places.data(), std::size_t{mask} + 1);
-  for (std::size_t i = 0; i < size; ++i) to[places[from[i] >> shift & mask]++] = from[i];
-  return true;
-}
 
 }  // namespace
 
 template <class Number>
 Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, unsigned end) noexcept {
-  if (size <= kShortRun) {
-    insertionSort(from, size, begin);
-    return from;
-  }
-  if (begin >= end) return from;
-  const unsigned most = digitBits(size);
-  const unsigned passes = (end - begin + most - 1) / most;
-  const unsigned bits = (end - begin + passes - 1) / passes;
-  for (unsigned shift = begin; shift < end; shift += bits) {
-    if (moveByDigit(from, to, size, shift, std::min(bits, end - shift))) std::swap(from, to);
-  }
-  return from;
+  RadixPasses<Number> passes(from, to, size, begin, end);
+  const bool isWritten = passes.run([](Number* last, std::size_t place, Number number) { last[place] = number; });
+  return isWritten ? passes.to() : passes.from();
 }
 
 template std::uint32_t* radixSort(std::uint32_t*, std::uint32_t*, std::size_t, unsigned, unsigned) noexcept;
@@ -119,7 +65,7 @@ void RadixSort::sort(std::uint64_t* from, std::uint64_t* to, std::size_t size, u
     return;
   }
   const unsigned width = static_cast<unsigned>(std::bit_width(size));
-  const unsigned digit = std::clamp(width, kRunBits + 4, kRunBits + kMaxDigitBits) - kRunBits;
+  const unsigned digit = std::clamp(width, kRunBits + 4, kRunBits + kMostBucketBits) - kRunBits;
   const unsigned shift = std::max(begin, end - std::min(end, digit));
   const std::size_t buckets = std::size_t{1} << (end - shift);
   m_bucketBegin.resize(buckets + 1);

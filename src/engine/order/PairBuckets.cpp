@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "order/PairBuckets.h"
 
+#include <array>
 #include <bit>
 
 #include "bvh/RadixSort.h"
@@ -15,19 +16,11 @@ constexpr std::size_t kKeysPerBucket = 512;
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
 constexpr std::size_t kMostBuckets = 2048;
 
+/// Up to so many numbers of a bucket are sorted on the stack, and written as pairs in the last pass.
+constexpr std::size_t kMostOnStack = 8192;
+
 /// Pairs of a key in a scene as most are.
 constexpr std::size_t kPairsPerKey = 4;
-
-/// The pairs of a bucket as numbers of 32 bits; returns their end.
-template <bool kBySecond>
-std::uint32_t* packAll(const Pair* pairs, std::size_t size, std::uint32_t keyMask, unsigned otherBits,
-                       std::uint32_t* to) noexcept {
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint32_t key = kBySecond ? pairs[i].second : pairs[i].first;
-    to[i] = (key & keyMask) << otherBits | (kBySecond ? pairs[i].first : pairs[i].second);
-  }
-  return to + size;
-}
 
 template <bool kBySecond>
 Pair unpacked(std::uint32_t number, std::uint32_t firstKey, unsigned otherBits) noexcept {
@@ -49,6 +42,47 @@ void unpackAll(const std::uint32_t* numbers, std::uint32_t firstKey, unsigned ot
   }
 }
 
+/// Writes the pairs of a bucket as numbers of 32 bits: what their keys differ in above the other index.
+template <bool kBySecond>
+void packAll(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers, std::uint32_t* to) {
+  const std::uint32_t keyMask = (std::uint32_t{1} << rule.keyBits) - 1;
+  const unsigned otherBits = rule.otherBits;
+  for (const PairBuckets& buckets : ofWorkers) {
+    buckets.forEachChunk(bucket, [&](std::span<const Pair> pairs) {
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const std::uint32_t key = kBySecond ? pairs[i].second : pairs[i].first;
+        to[i] = (key & keyMask) << otherBits | (kBySecond ? pairs[i].first : pairs[i].second);
+      }
+      to += pairs.size();
+    });
+  }
+}
+
+template <bool kBySecond>
+void sortBucketBy(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
+                  std::span<Pair> place) noexcept {
+  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
+  const unsigned bits = rule.keyBits + rule.otherBits;
+  const unsigned otherBits = rule.otherBits;
+  const auto firstKey = static_cast<std::uint32_t>(bucket << rule.keyBits);
+  const std::size_t size = place.size();
+  if (size > kMostOnStack) {
+    auto* const first = reinterpret_cast<std::uint32_t*>(place.data());
+    packAll<kBySecond>(rule, bucket, ofWorkers, first + size);
+    unpackAll<kBySecond>(radixSort(first + size, first, size, 0, bits), firstKey, otherBits, place);
+    return;
+  }
+  std::array<std::uint32_t, kMostOnStack>
+      from;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+  std::array<std::uint32_t, kMostOnStack> to;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  packAll<kBySecond>(rule, bucket, ofWorkers, from.data());
+  RadixPasses<std::uint32_t> passes(from.data(), to.data(), size, 0, bits);
+  const bool isWritten = passes.run([=](const std::uint32_t*, std::size_t at, std::uint32_t number) {
+    place[at] = unpacked<kBySecond>(number, firstKey, otherBits);
+  });
+  if (!isWritten) unpackAll<kBySecond>(passes.from(), firstKey, otherBits, place);
+}
+
 }  // namespace
 
 BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : bySecond(order == Order::BySecond) {
@@ -60,27 +94,10 @@ BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : b
   otherBits = static_cast<unsigned>(std::bit_width(others - 1));
 }
 
-std::uint32_t* PairBuckets::pack(const BucketRule& rule, std::size_t bucket, std::uint32_t* to) const noexcept {
-  const std::uint32_t keyMask = (std::uint32_t{1} << rule.keyBits) - 1;
-  std::size_t rest = size(bucket);
-  for (std::size_t chunk = bucket; rest > 0; chunk = m_following[chunk]) {
-    const std::size_t length = std::min(rest, kChunk);
-    const Pair* const pairs = m_pairs.data() + chunk * kChunk;
-    to = rule.bySecond ? packAll<true>(pairs, length, keyMask, rule.otherBits, to)
-                       : packAll<false>(pairs, length, keyMask, rule.otherBits, to);
-    rest -= length;
-  }
-  return to;
-}
-
-void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<Pair> place) noexcept {
-  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
-  const std::size_t size = place.size();
-  auto* const first = reinterpret_cast<std::uint32_t*>(place.data());
-  const std::uint32_t* const sorted = radixSort(first + size, first, size, 0, rule.keyBits + rule.otherBits);
-  const auto firstKey = static_cast<std::uint32_t>(bucket << rule.keyBits);
-  rule.bySecond ? unpackAll<true>(sorted, firstKey, rule.otherBits, place)
-                : unpackAll<false>(sorted, firstKey, rule.otherBits, place);
+void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
+                std::span<Pair> place) noexcept {
+  rule.bySecond ? sortBucketBy<true>(rule, bucket, ofWorkers, place)
+                : sortBucketBy<false>(rule, bucket, ofWorkers, place);
 }
 
 void PairBuckets::start(const BucketRule& rule, std::size_t workers) {

@@ -25,9 +25,6 @@ struct BucketRule {
   [[nodiscard]] bool packs() const noexcept { return otherBits < 32 && keyBits + otherBits <= 32; }
 };
 
-/// Puts the pairs of a bucket in order that lie as numbers of 32 bits in the second half of their place.
-void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<Pair> place) noexcept;
-
 /// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they are
 /// found, so that they need not be written and read once more.
 ///
@@ -46,8 +43,16 @@ class PairBuckets {
     return m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
   }
 
-  /// Writes the pairs of a bucket as numbers of 32 bits, what their keys differ in above the other index; returns the end.
-  std::uint32_t* pack(const BucketRule& rule, std::size_t bucket, std::uint32_t* to) const noexcept;
+  /// Calls use(pairs) for each stretch of pairs of a bucket.
+  template <class Use>
+  void forEachChunk(std::size_t bucket, const Use& use) const {
+    std::size_t rest = size(bucket);
+    for (std::size_t chunk = bucket; rest > 0; chunk = m_following[chunk]) {
+      const std::size_t length = std::min(rest, kChunk);
+      use(std::span(m_pairs.data() + chunk * kChunk, length));
+      rest -= length;
+    }
+  }
 
  private:
   static constexpr std::size_t kChunk = 128;
@@ -65,5 +70,9 @@ class PairBuckets {
   Buffer<std::size_t> m_next;          ///< By bucket: where its next pair goes.
   Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
 };
+
+/// Puts the pairs of a bucket, which each worker has some of, in order into their place in the result.
+void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
+                std::span<Pair> place) noexcept;
 
 }  // namespace allpairs::engine

@@ -121,18 +121,20 @@ class OneShot {
   OverlapOptions m_options;
 };
 
-std::vector<Pair> toVector(std::span<const Pair> pairs) { return {pairs.begin(), pairs.end()}; }
+/// The pairs of a search that is made for this one question.
+std::vector<Pair> takePairs(const engine::Sets& sets, std::size_t boxes, const OverlapOptions& given) {
+  const OneShot search(boxes, given);
+  return engine::Search(engine::memoryOr(search.options().memory)).take(sets, search.options());
+}
 
 }  // namespace
 
 std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
-  const OneShot search(boxes.size(), options);
-  return toVector(OverlapSearch(search.options()).find(boxes));
+  return takePairs({boxes, boxes, true}, boxes.size(), options);
 }
 
 std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  const OneShot search(first.size() + second.size(), options);
-  return toVector(OverlapSearch(search.options()).find(first, second));
+  return takePairs({first, second, false}, first.size() + second.size(), options);
 }
 
 std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {

@@ -161,6 +161,16 @@ void Search::run(const Plan& plan, Executor& executor) {
   checkLimit(plan.sink, m_statistics.pairs);
 }
 
+/// Where the pairs of all tasks are put together.
+std::span<Pair> Search::roomForPairs() {
+  if (m_taken != nullptr) {
+    m_taken->resize(m_statistics.pairs);
+    return *m_taken;
+  }
+  m_joined.require(m_statistics.pairs);
+  return {m_joined.data(), m_statistics.pairs};
+}
+
 /// Puts together what the tasks have found.
 void Search::concatenate() {
   const std::span<const JoinRunner::Segment> segments = m_runner.segments();
@@ -168,8 +178,7 @@ void Search::concatenate() {
     m_pairs = {m_runner.sink(segments[0].worker).pairs().data(), m_statistics.pairs};
     return;
   }
-  m_joined.require(m_statistics.pairs);
-  m_pairs = {m_joined.data(), m_statistics.pairs};
+  m_pairs = roomForPairs();
   m_places.resize(segments.size());
   std::size_t place = 0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -194,6 +203,14 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
   return m_pairs;
 }
 
+std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) {
+  std::vector<Pair> taken;
+  m_taken = &taken;
+  const std::span<const Pair> pairs = find(sets, options);
+  if (pairs.data() != taken.data()) taken.assign(pairs.begin(), pairs.end());
+  return taken;
+}
+
 bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan) {
   if (options.order == Order::Unordered || plan.job.units == 0) return false;
   const BucketRule rule(sets.first.size(), sets.second.size(), options.order);
@@ -213,8 +230,7 @@ bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan
 }
 
 void Search::sortBuckets(const BucketRule& rule) {
-  m_joined.require(m_statistics.pairs);
-  m_pairs = {m_joined.data(), m_statistics.pairs};
+  m_pairs = roomForPairs();
   m_places.resize(rule.buckets + 1);
   m_places[0] = 0;
   for (std::size_t b = 0; b < rule.buckets; ++b) {
@@ -223,9 +239,7 @@ void Search::sortBuckets(const BucketRule& rule) {
   }
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
-    auto* to = reinterpret_cast<std::uint32_t*>(place.data()) + place.size();
-    for (const PairBuckets& buckets : m_buckets) to = buckets.pack(rule, b, to);
-    sortBucket(rule, b, place);
+    sortBucket(rule, b, m_buckets, place);
   });
 }
 

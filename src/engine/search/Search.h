@@ -40,6 +40,10 @@ class Search {
         m_sort(memory) {}
 
   std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
+
+  /// The pairs of find() as a vector, into which they are put in order at once: another copy of many pairs is memory that
+  /// is touched for the first time.
+  [[nodiscard]] std::vector<Pair> take(const Sets& sets, const OverlapOptions& options);
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
   void stream(const Sets& sets, const OverlapOptions& options, const Batches& to);
 
@@ -69,6 +73,7 @@ class Search {
   void joinBoth(bool one, Plan& plan);
 
   void run(const Plan& plan, Executor& executor);
+  std::span<Pair> roomForPairs();
   void concatenate();
   void sortPairs(const Sets& sets, Order order);
 
@@ -93,6 +98,7 @@ class Search {
   JoinRunner m_runner;
   std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
   Buffer<Pair> m_joined;
+  std::vector<Pair>* m_taken = nullptr;  ///< Where given, what is used instead of m_joined.
   std::pmr::vector<std::size_t> m_places;
   std::span<Pair> m_pairs;  ///< The result: joined from several tasks, or where the only one left it.
   PairSort m_sort;
