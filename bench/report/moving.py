@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The part of the report about what is kept from step to step: moving boxes, the component, queries, deforming meshes."""
+"""The part of the report about repeated steps: moving boxes, the component, queries, deforming meshes."""
 
 import csv
 from dataclasses import dataclass
@@ -8,11 +8,12 @@ import records as searches
 from charts import number_text, row_chart, save, time_text
 
 OURS = "Allpairs"
+FULL = "full rebuild"  # The component without its kept search.
 
 
 @dataclass(frozen=True)
 class Task:
-    """What one contender took for one task."""
+    """The time of one contender for one task."""
 
     task: str
     subject: str
@@ -59,7 +60,7 @@ def _frames_record(row):
 
 
 def read_tasks(path):
-    """Records of the other benchmarks, which share a form: bench/measure/RecordFile.h."""
+    """Records of the other benchmarks, which share a format: bench/measure/RecordFile.h."""
     with open(path, newline="", encoding="utf-8") as file:
         return [_task_record(row) for row in csv.DictReader(file)]
 
@@ -82,7 +83,7 @@ def _task_record(row):
 
 
 def groups_of(records, key):
-    """Records by a key, in the order in which the keys come."""
+    """Records grouped by key, in the order in which the keys first occur."""
     groups = {}
     for record in records:
         groups.setdefault(key(record), []).append(record)
@@ -90,7 +91,7 @@ def groups_of(records, key):
 
 
 def best_by_contender(records):
-    """Of each contender the setting that was the fastest."""
+    """The fastest setting of each contender."""
     best = {}
     for record in records:
         if record.contender not in best or record.cpu_ms < best[record.contender].cpu_ms:
@@ -99,10 +100,10 @@ def best_by_contender(records):
 
 
 def cost_chart(title, subtitle, rows):
-    """A row for each task, a mark for each contender; rows: [(label, {name: record})]."""
+    """One row per task, one mark per contender; rows: [(label, {name: record})]."""
     names = {OURS: searches.OURS}
     values = [(label, {names.get(name, name): r.cpu_ms for name, r in row.items()}) for label, row in rows]
-    return row_chart(title, subtitle, values, time_text, ["searched anew", "one-shot"])
+    return row_chart(title, subtitle, values, time_text, [FULL, "one-shot"])
 
 
 def _row(cells):
@@ -110,7 +111,7 @@ def _row(cells):
 
 
 def _grid(heading, texts, rows):
-    """A table whose first columns are texts and whose others are numbers."""
+    """A table whose first columns are text and whose other columns are numbers."""
     aligned = "|" + "---|" * texts + "---:|" * (len(heading) - texts)
     return "\n".join([_row(heading), aligned] + [_row(row) for row in rows]) + "\n"
 
@@ -140,11 +141,13 @@ def frames_section(records):
             rows.append(row + ([time_text(tens.cpu_ms), _times(tens, group[0])] if tens else ["", ""]))
     heading = ["boxes", "who", "frames", "median", "99 %", "worst", "to the world", "in tens", "to the world in tens"]
     return (
-        "### Moving boxes\n\nEach frame gives the pairs of that frame, which are compared with those of the others; *world* "
-        "says besides which began, persist and ended. Cubes at a tenth of the room's volume, as in Broadmark; in each "
-        "frame a box goes a tenth of its side, in *slow* a hundredth; in *one-percent* most rest. Contenders take turns "
-        "frame by frame, so that each finds the caches full of what the others need; *in tens* a turn is ten frames, as in a "
-        "program that has one of them. The ratios are medians, over the frames of both, of the time to the world's.\n\n"
+        "### Moving boxes\n\nEach contender gives the pairs of each frame, which are compared with those of the "
+        "others; *world* also lists which pairs began, persist and ended. The cubes fill a tenth of the room's "
+        "volume, as in Broadmark. In each frame a box moves by a tenth of its side, in *slow* by a hundredth; in "
+        "*one-percent* most boxes rest. Contenders are interleaved frame by frame, so that each finds the caches "
+        "filled with the others' data; *in tens* they alternate every ten frames, which is closer to a program that "
+        "uses one of them. The ratios are medians over the frames of both, of the contender's time divided by the "
+        "world's.\n\n"
         "![Time of a frame](images/benchmarks/moving.svg)\n\n" + _grid(heading, 2, rows)
     )
 
@@ -166,7 +169,7 @@ def frames_chart(records):
         if once:
             row["one-shot"] = min(once, key=lambda r: r.cpu_ms)
         rows.append((f"{motion}, {number_text(size)} boxes", row))
-    return cost_chart("Time of a frame", "processor time from what moved to the pairs, one thread, median", rows)
+    return cost_chart("Time of a frame", "processor time from moved boxes to pairs, one thread, median", rows)
 
 
 def cycle_section(records):
@@ -177,11 +180,11 @@ def cycle_section(records):
         right = "" if kept.right and anew.right else " **(other results)**"
         times = [time_text(kept.cpu_ms), time_text(anew.cpu_ms), f"{anew.cpu_ms / kept.cpu_ms:.1f}x"]
         rows.append([number_text(size), subject + right, number_text(float(f"{kept.results:.3g}"))] + times)
-    heading = ["models", "motion", "pairs", "kept", "searched anew", "ratio"]
+    heading = ["models", "motion", "pairs", "kept", FULL, "ratio"]
     return (
-        "### The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, box models in nodes of "
-        "their own, by a search that is kept and by one that is made anew in each step "
-        "([decision 13](decisions/0013-component-keeps-its-search.md)).\n\n"
+        "### The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, with one box model "
+        "per node. *Kept* reuses the last search, *full rebuild* searches all models in each step ([decision "
+        "13](decisions/0013-component-keeps-its-search.md)).\n\n"
         "![Time of a step of the component](images/benchmarks/cycle.svg)\n\n" + _grid(heading, 2, rows)
     )
 
@@ -189,7 +192,7 @@ def cycle_section(records):
 def cycle_chart(records):
     rows = []
     for (size, subject), group in groups_of(records, lambda r: (r.size, r.subject)).items():
-        names = {"kept": OURS, "anew": "searched anew"}
+        names = {"kept": OURS, "anew": FULL}
         rows.append((f"{number_text(size)} models, {subject}", {names[r.setting]: r for r in group}))
     return cost_chart("Time of a step of the component", "processor time from begin to end, one thread, median", rows)
 
@@ -214,9 +217,10 @@ def queries_section(records):
     each = number_text(records[0].size)
     heading = ["of", "query", "who", "results", f"{each} queries", "ratio"]
     return (
-        "### Queries\n\nCubes of which each overlaps about five others, and queries anywhere among them, in no order; trees are "
-        "made before the clock starts. Results are compared: ids exactly, times and distances to within what peers round in "
-        "float32. Ours are exact in double.\n\n![Time of a batch of queries](images/benchmarks/queries.svg)\n\n"
+        "### Queries\n\nEach cube overlaps about five others; queries are at random positions among them, in random "
+        "order. Trees are built before the clock starts. Results are compared: ids exactly, times and distances up to "
+        "the peers' rounding to float32. Ours are computed in float64.\n\n![Time of a batch of "
+        "queries](images/benchmarks/queries.svg)\n\n"
         + _grid(heading, 3, contest_rows(records, "in a batch"))
     )
 
@@ -224,10 +228,10 @@ def queries_section(records):
 def elements_section(records):
     heading = ["step", "list", "who", "candidates", "time", "ratio"]
     return (
-        "### Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data. Ours from positions in double at start "
-        "and end to the list, with nothing kept but the topology; *second step* with memory kept. Peers get boxes that are "
-        "ready made, in float32 rounded outward, which lets in some more pairs, and leave out pairs with a common vertex "
-        "afterwards.\n\n"
+        "### Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data. Our times run from float64 "
+        "positions at start and end to the list, keeping only the topology; *second step* also reuses memory. Peers "
+        "receive precomputed boxes, in float32 rounded outward, which adds some pairs, and remove pairs with a common "
+        "vertex afterwards.\n\n"
         "![Time of a list of candidates](images/benchmarks/elements.svg)\n\n" + _grid(heading, 3, contest_rows(records, "once"))
     )
 
@@ -243,7 +247,8 @@ def external_section(path):
     ]
     heading = ["step", "list", "who", "candidates", "time", "to ours in that run"]
     return (
-        "### Candidates: programs that are not packaged\n\nMeasured by hand, as [benchmarks-elements-external.csv](benchmarks-elements-external.csv)\nsays.\n\n"
+        "### Candidates: programs that are not packaged\n\nMeasured by hand, as "
+        "[benchmarks-elements-external.csv](benchmarks-elements-external.csv)\nsays.\n\n"
         + _grid(heading, 3, cells)
     )
 
@@ -251,21 +256,21 @@ def external_section(path):
 QUERY_TASKS = ("overlapping a box", "first on a ray", "all on a ray", "nearest", "nearest 8")
 ELEMENT_TASKS = ("vertex-face", "edge-edge", "face-face")
 
-INTRODUCTION = """## What is kept from step to step
+INTRODUCTION = """## Repeated steps
 
-The parts below, their pictures and their records, [frames](benchmarks-moving.csv) and [the rest](benchmarks-tasks.csv),
-are written by
+The sections below, their charts and their records, [frames](benchmarks-moving.csv) and
+[the rest](benchmarks-tasks.csv), are written by
 
 ```
 ./dev bench --moving --report
 ```
 
-which takes about five minutes. Contenders take turns; times are processor time, on one thread.
+which takes about five minutes. Contenders are interleaved; times are processor time, on one thread.
 """
 
 
 def write_moving(docs):
-    """The page's part and its pictures, from what records there are; nothing without any."""
+    """The sections and charts for the records that exist; empty without any."""
     pictures = docs / "images" / "benchmarks"
     moving, tasks = docs / "benchmarks-moving.csv", docs / "benchmarks-tasks.csv"
     frames = read_moving(moving) if moving.exists() else []

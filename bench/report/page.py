@@ -6,65 +6,66 @@ from records import OURS, OWN_VARIANTS
 
 INTRODUCTION = """# Benchmarks
 
-How long it takes to find all overlapping pairs of n boxes, by Allpairs and by other programs, on the same boxes in the
-same run. This page, its pictures and [the records](benchmarks.csv) are written by
+This page compares the time that Allpairs and other programs take to find all overlapping pairs of n boxes, on the same
+boxes in the same run. This page, its charts and [the records](benchmarks.csv) are written by
 
 ```
 ./dev bench --report
 ```
 
-which takes about a quarter of an hour; `./dev bench` alone measures a few small scenes in a minute and writes nothing
-here. One scene or file at a time is measured by `allpairs bench`.
+which takes about a quarter of an hour. `./dev bench` alone measures a few small scenes in a minute and does not change
+this page. `allpairs bench` measures one scene or file.
 """
 
 METHOD = """## How it is measured
 
-- **What**: one search from boxes in memory, rows of six float32, to an array of pairs in memory, everything in between
-  included: the check for NaNs, every copy, sort and tree. Nothing is kept from the search before but what the
-  process's allocator, glibc's, keeps of freed memory. What a search built is taken down after the clock has been read, except where a sample has to hold many runs because one is
-  below a millisecond. *Warm* is the same with the one `OverlapSearch` object kept.
-- **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on a quiet
-  machine and survives a busy one. Medians; the records hold wall time, spread and repetitions too.
-- **Fairness**: all contenders take turns on the same boxes, so that whatever else the machine does meets them alike.
-  Each peer is tried in several settings on each scene, and its best one counts; settings are tried at up to 100,000
-  boxes and kept above.
-- **Same answer**: every contender's pairs are compared with ours one by one, the whole list, before its time counts.
+- **What**: one search from boxes in memory, rows of six float32, to an array of pairs in memory. It includes the check
+  for NaNs and every copy, sort and tree. Nothing is kept from the previous search except freed memory that glibc's
+  allocator keeps. Teardown is not timed, except where a sample holds many runs because one takes less than a
+  millisecond. *Warm* is the same search with a reused `OverlapSearch` object.
+- **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on an idle
+  machine and is hardly affected by other load. Times are medians; the records also hold wall time, spread and
+  repetitions.
+- **Fairness**: contenders are interleaved on the same boxes. Each peer is tried in several settings on each scene, and
+  its best one counts; settings are tried at up to 100,000 boxes, and the best one is used above.
+- **Same answer**: each contender's complete list of pairs is compared with ours before its time counts.
   The hash is FNV-1a, 64 bits, over the pairs in the order (first, second), each as two 32-bit little-endian numbers.
-- **Compilation**: everything with -O3 and without assertions; peers that are templates only (CGAL, Boost.Geometry) and
-  the native loop with -march=native too. Allpairs chooses its instruction set when it runs.
+- **Compilation**: everything with -O3 and without assertions; header-only peers (CGAL, Boost.Geometry) and
+  the native loop also with -march=native. Allpairs selects its instruction set at run time.
 """
 
 PEERS = """## The peers
 
 | name | what | how |
 |---|---|---|
-| Embree | `rtcCollide` | one user geometry; the device is made before the clock starts; leaves' boxes are tested in the callback, for Embree reports all pairs of leaves |
+| Embree | `rtcCollide` | one user geometry; the device is created before the clock starts; the callback tests the boxes of leaves, because Embree reports all pairs of two leaves |
 | CGAL | `box_self_intersection_d` | 28-byte boxes, by value and by pointer; cutoffs from 10 to 3,000 |
-| FCL | `DynamicAABBTreeCollisionManager`, also `_Array` | all boxes registered at once, no geometry behind them; in double |
-| Bullet | `btDbvt` crossed with itself; `btDbvtBroadphase`; `bt32BitAxisSweep3` | one by one, or rebuilt top down; the sweep's rounded boxes are tested again |
-| Boost.Geometry | packed `rtree` | asked once for each box, in the tree's order; nodes of 4 to 32 |
+| FCL | `DynamicAABBTreeCollisionManager`, also `_Array` | all boxes registered at once, without geometry; in float64 |
+| Bullet | `btDbvt` collided with itself; `btDbvtBroadphase`; `bt32BitAxisSweep3` | inserted one by one, or rebuilt top down; the sweep's rounded boxes are tested again |
+| Boost.Geometry | packed `rtree` | one query per box, in the tree's order; nodes of 4 to 32 |
 | native loop | two loops over six arrays | this processor's widest vectors, compressed stores |
-| scalar loop | two loops over an array of boxes | what anybody writes first |
+| scalar loop | two loops over an array of boxes | the obvious implementation |
 
-Loops and Bullet's sweep are left out where they would take minutes. A program that is not packaged can be measured
-aside, on the boxes that `allpairs generate` writes, and noted in [benchmarks-external.csv](benchmarks-external.csv); the
-next report then compares its time and the hash of its pairs with ours.
+Loops and Bullet's sweep are omitted where they would take minutes. A program that is not packaged can be measured
+separately, on the boxes that `allpairs generate` writes, and recorded in
+[benchmarks-external.csv](benchmarks-external.csv); the next report then compares its time and the hash of its pairs
+with ours.
 """
 
 SCENES = """## The scenes
 
-`allpairs generate SCENE -n N --seed 1` makes them, the same bytes on every machine. `-sorted` scenes hold the same boxes
-in Morton order, which is kinder to most peers.
+`allpairs generate SCENE -n N --seed 1` generates them, byte for byte the same on every machine. `-sorted` scenes hold
+the same boxes in Morton order, which favours most peers.
 
 | scene | boxes |
 |---|---|
-| uniform | equal cubes, centres spread evenly over a unit cube; about 2.3 pairs a box |
-| clusters | clouds of about 500 cubes, each of its own size and place; about 3 pairs a box |
-| power-law | cubes of many sizes, P(side > s) ~ 1/s^2 up to a quarter of the whole; about 2 pairs a box |
-| city | blocks on a plane: flat as a whole, and all at the same height; about 3 pairs a box |
-| needles | 10 to 30 times as long as thick, along a random axis; about 4 pairs a box |
-| all-overlap | around one common point: all n(n-1)/2 pairs |
-| mesh | boxes of the triangles of a wavy torus, shuffled; about 6 pairs a box |
+| uniform | equal cubes, centres uniformly distributed in a unit cube; about 2.3 pairs per box |
+| clusters | clouds of about 500 cubes, each cloud with its own size and position; about 3 pairs per box |
+| power-law | cubes of many sizes, P(side > s) ~ 1/s^2 up to a quarter of the scene; about 2 pairs per box |
+| city | blocks on a plane: a flat scene, all boxes at the same height; about 3 pairs per box |
+| needles | 10 to 30 times as long as thick, along a random axis; about 4 pairs per box |
+| all-overlap | boxes around one common point: all n(n-1)/2 pairs |
+| mesh | boxes of the triangles of a wavy torus, shuffled; about 6 pairs per box |
 """
 
 
@@ -96,7 +97,7 @@ def _mistakes(records):
     wrong = [r for r in records if r.mistake]
     contests = sum(1 for r in records if r.hash and not r.external)
     if not wrong:
-        return f"All {contests} results in it are the same pairs, compared one by one.\n"
+        return f"All {contests} results give the same pairs, compared one by one.\n"
     lines = [f"- {r.name} on {r.scene} {r.boxes}: {r.mistake}" for r in wrong]
     return "**Results that differ from ours:**\n\n" + "\n".join(lines) + "\n"
 
@@ -135,9 +136,9 @@ def _summary(table):
     rows = [_summary_row(scene, boxes, cell) for scene, boxes, cell in cells if OURS in cell]
     heading = ["scene", "pairs", "Allpairs", "ordered", "best peer", "which", "ratio", "native loop"]
     return (
-        "## Summary\n\nOne thread, everything from boxes to pairs. *Allpairs* gives pairs in the order of discovery, "
-        "*ordered* by (first, second). The ratio is the best packaged peer's time to ours, unordered as "
-        "the peer's is; the last column is the same for two loops compiled for this processor.\n\n"
+        "## Summary\n\nOne thread, from boxes to pairs. *Allpairs* gives pairs in the order of discovery, "
+        "*ordered* by (first, second). The ratio is the best packaged peer's time divided by ours, both "
+        "unordered; the last column is the same ratio for two loops compiled for this processor.\n\n"
         + _grid(heading, rows)
     )
 
@@ -169,7 +170,7 @@ def _sorted_section(table):
         rows += [[f"{scene} {row[0]}"] + row[1:] for row in _scene_rows(table, scene)]
     if not rows:
         return ""
-    return "## Spatially sorted\n\nThe same boxes, given in Morton order.\n\n" + _grid(_heading(table), rows)
+    return "## Spatially sorted\n\nThe same boxes, in Morton order.\n\n" + _grid(_heading(table), rows)
 
 
 def _pair_cost():
@@ -188,7 +189,7 @@ def _threads(table):
         return ""
     picture = "![Throughput per thread](images/benchmarks/threads.svg)\n"
     heading = ["boxes", "threads", "wall", "processor", "speedup"]
-    return f"## Threads\n\nWall time here.\n\n{picture}\n" + _grid(heading, rows)
+    return f"## Threads\n\nTimes in this section are wall time.\n\n{picture}\n" + _grid(heading, rows)
 
 
 def _kernel(table):
@@ -217,9 +218,9 @@ def _external(table):
     if not rows:
         return ""
     text = (
-        "## Programs that are not packaged\n\nMeasured by hand on boxes that `allpairs generate` made, and noted in "
-        "[benchmarks-external.csv](benchmarks-external.csv), which says how; the "
-        "ratio is to our time in the same run where it is noted there.\n\n"
+        "## Programs that are not packaged\n\nMeasured by hand on boxes from `allpairs generate`, and recorded in "
+        "[benchmarks-external.csv](benchmarks-external.csv), which says how. The "
+        "ratio is to our time in the same run if that is recorded there.\n\n"
     )
     return text + _grid(["boxes", "program", "setting", "time", "pairs", "same pairs", "ratio"], rows)
 

@@ -12,7 +12,7 @@ namespace allpairs {
 /// An axis-aligned box: the closed set of points p with min[a] <= p[a] <= max[a] on each axis a.
 ///
 /// Geometry:  min > max on some axis means empty; infinite bounds are allowed; units and frame are the caller's.
-/// Bad input: a NaN is refused by whatever takes the box, not here.
+/// Bad input: functions that take a box reject a NaN; this class does not.
 template <class T>
 struct BasicBox {
   std::array<T, 3> min{};
@@ -48,7 +48,8 @@ template <class T>
 /// Whether two boxes are at most `distance` apart on every axis; with distance 0, whether they overlap.
 ///
 /// Geometry:  closed, per axis and not Euclidean, in double: apart if min1 > max2 + d or min2 > max1 + d on some axis,
-///            the sum rounded as written. A negative distance shrinks. An empty box overlaps nothing.
+///            the sum rounded as written. A negative distance requires that much overlap. An empty box overlaps
+///            nothing.
 [[nodiscard]] constexpr bool overlap(const Box& a, const Box& b, double distance = 0.0) noexcept {
   if (isEmpty(a) || isEmpty(b)) return false;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -19,13 +19,13 @@ struct CornerView {
   std::ptrdiff_t axisStride = 1;
 };
 
-/// A checked view of n boxes in the caller's memory, float32 or float64, in any strided layout.
+/// A validated view of n boxes in the caller's memory, float32 or float64, in any strided layout.
 ///
-/// Nothing is copied: the memory must outlive the view and stay unchanged while it is in use. A temporary container is
-/// refused by the compiler: give it a name.
+/// Nothing is copied: the memory must outlive the view and stay unchanged while it is in use. Constructing a view from
+/// a temporary container does not compile: give the container a name.
 /// Geometry:  boxes are closed; min > max on an axis means empty; infinite bounds are allowed.
-/// Bad input: a NaN throws InvalidBox that names the box; more than 2^32 - 1 boxes or a span of the wrong length throw
-///            InvalidArgument.
+/// Bad input: a NaN throws InvalidBox, which names the box; more than 2^32 - 1 boxes or a span of the wrong length
+///            throw InvalidArgument.
 /// Cost:      one pass over the boxes to check them, no allocation.
 /// Threads:   const use from any number of threads.
 class BoxView {
@@ -41,7 +41,7 @@ class BoxView {
     requires std::convertible_to<const Boxes&, std::span<const BoxF>>
   BoxView(const Boxes& boxes) : BoxView(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
 
-  /// A temporary that owns its boxes would be gone before the view is used.
+  /// A temporary that owns its boxes would be destroyed before the view is used.
   template <class Boxes>
     requires(!std::ranges::enable_borrowed_range<Boxes> && (std::convertible_to<const Boxes&, std::span<const Box>> ||
                                                             std::convertible_to<const Boxes&, std::span<const BoxF>>))
@@ -62,17 +62,17 @@ class BoxView {
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
 
-  /// Gives every box the same margin: how far it reaches beyond its bounds, on all sides.
+  /// Gives every box the same margin: how far it extends beyond its bounds, on all sides.
   ///
   /// Bad input: NaN or -infinity throws InvalidArgument.
   void setMargin(double margin);
 
-  /// Gives each box a margin of its own; an empty span takes them back. The memory stays the caller's.
+  /// Gives each box its own margin; an empty span removes them. The memory stays the caller's.
   ///
   /// Bad input: a span of the wrong length throws InvalidArgument; a NaN or -infinity throws InvalidBox.
   void setMargins(std::span<const double> margins);
 
-  /// The boxes [begin, end) as a view of their own, with their margins. Costs nothing: they have been checked.
+  /// The boxes [begin, end) as a view, with their margins. Constant time: they have been validated.
   ///
   /// Bad input: a range that is not within the view throws InvalidArgument.
   [[nodiscard]] BoxView slice(std::size_t begin, std::size_t end) const;
@@ -94,7 +94,7 @@ class BoxView {
   /// The margin of box i.
   [[nodiscard]] double margin(std::size_t i) const noexcept { return m_margins.empty() ? m_margin : m_margins[i]; }
 
-  /// The corners as they lie in memory; only the pair that isFloat64() names is set.
+  /// The corners in memory; only the pair of the type that isFloat64() states is set.
   template <class T>
   struct Corners {
     CornerView<T> min;

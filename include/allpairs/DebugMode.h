@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// With -D_GLIBCXX_DEBUG the containers of the standard library are laid out otherwise. A program and a library of which
-// only one is built with it would read each other's memory wrongly; here they don't link, and the name that is missing
-// says why.
+// -D_GLIBCXX_DEBUG changes the layout of the standard library's containers. If only the program or only the library is
+// built with it, each would misread the other's memory. Instead they do not link, and the name of the missing symbol
+// states the reason.
 #ifdef _GLIBCXX_DEBUG
 #define ALLPAIRS_CONTAINERS the_user_is_built_with_GLIBCXX_DEBUG_which_liballpairs_is_not
 #else

@@ -11,13 +11,13 @@
 
 namespace allpairs {
 
-/// A text as messages show it: one line of at most 500 bytes, control characters as \xNN, the middle left out where it
-/// is longer. It may hold names and words of files, which are the user's, or a stranger's.
+/// A text as messages show it: one line of at most 500 bytes, control characters escaped as \xNN, a longer text
+/// shortened in the middle. It may contain names and text from untrusted files.
 [[nodiscard]] inline std::string oneLine(std::string_view text) {
   constexpr std::size_t kMost = 500;
   constexpr std::size_t kHalf = kMost / 2 - 2;  // beside the three dots
   constexpr std::string_view kDigits = "0123456789abcdef";
-  constexpr std::size_t kRelevant = 4 * kMost;  // what lies further inside is left out anyway
+  constexpr std::size_t kRelevant = 4 * kMost;  // text further inside is cut anyway
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text.size() > 2 * kRelevant && i == kRelevant) i = text.size() - kRelevant;
@@ -29,27 +29,27 @@ namespace allpairs {
   const auto isInside = [&line](std::size_t at) { return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80; };
   std::size_t left = kHalf;
   std::size_t right = line.size() - kHalf;
-  while (left > 0 && isInside(left)) --left;  // no character is cut in two
+  while (left > 0 && isInside(left)) --left;  // do not split a character
   while (right < line.size() && isInside(right)) ++right;
   return line.substr(0, left) + "..." + line.substr(right);
 }
 
-/// Base of everything that Allpairs throws on purpose: bad data, bad settings, bad files.
+/// Base of all exceptions of Allpairs: bad data, bad settings, bad files.
 ///
-/// The library never prints, aborts or shortens a result; it throws one of these, whose `what()` is one line that
-/// names the box, model, option, or file and place at fault.
+/// The library never prints, aborts or truncates a result; it throws one of these, whose `what()` is one line that
+/// names the box, model, option, or file and position at fault.
 class Error : public std::runtime_error {
  public:
   explicit Error(std::string_view message) : std::runtime_error(oneLine(message)) {}
 };
 
-/// A setting or an argument that makes no sense: a span of the wrong length, a NaN distance, a reversed region.
+/// An invalid setting or argument: a span of the wrong length, a NaN distance, a reversed region.
 class InvalidArgument : public Error {
  public:
   using Error::Error;
 };
 
-/// A box or a per-box value that cannot be used; `index()` says which one.
+/// An invalid box or per-box value; `index()` is its index.
 class InvalidBox : public Error {
  public:
   InvalidBox(std::size_t index, const std::string& message) : Error(message), m_index(index) {}
@@ -60,7 +60,7 @@ class InvalidBox : public Error {
   std::size_t m_index;
 };
 
-/// There are more pairs than the caller allowed; `count()` is how many had been found when the limit was passed.
+/// More pairs than the caller allowed; `count()` is the number found when the limit was exceeded.
 class LimitExceeded : public Error {
  public:
   LimitExceeded(std::uint64_t count, const std::string& message) : Error(message), m_count(count) {}

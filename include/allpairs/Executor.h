@@ -7,9 +7,9 @@
 
 namespace allpairs {
 
-/// Where Allpairs runs its parallel work: the one interface between the engine and any thread pool or job system.
+/// Runs the parallel work of Allpairs: the interface between the engine and a thread pool or job system.
 ///
-/// Results never depend on the executor: work is cut by data and output is written by block, not by thread.
+/// Results never depend on the executor: work is divided by data, and output is written by block, not by thread.
 class Executor {
  public:
   Executor() = default;
@@ -19,12 +19,12 @@ class Executor {
   Executor& operator=(Executor&&) = delete;
   virtual ~Executor() = default;
 
-  /// How many tasks may run at once; at least 1. It decides into how many pieces work is cut, never the result.
+  /// The number of tasks that may run concurrently; at least 1. It determines how work is divided, never the result.
   [[nodiscard]] virtual std::size_t concurrency() const noexcept = 0;
 
   /// Calls task(0) … task(count - 1), each once, in any order and on any thread, and returns when all are done.
   ///
-  /// Bad input: if tasks throw, one of their exceptions is thrown here, after no task runs any more.
+  /// Bad input: if tasks throw, one of their exceptions is rethrown here, once no task is running.
   virtual void run(std::size_t count, FunctionRef<void(std::size_t)> task) = 0;
 };
 

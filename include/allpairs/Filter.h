@@ -8,34 +8,34 @@
 
 namespace allpairs {
 
-/// What the boxes of one set say about whom they may pair with; a span is empty, or as long as the set.
+/// Filter data of the boxes of one set; each span is empty, or as long as the set.
 struct FilterBits {
-  /// What a box is, as bits; without it every bit is set.
+  /// The categories of each box, as bits; if empty, every bit is set.
   std::span<const std::uint32_t> categories{};
 
-  /// Which categories a box accepts as partners; without it every bit is set.
+  /// The categories that each box accepts as partners; if empty, every bit is set.
   std::span<const std::uint32_t> masks{};
 
-  /// Boxes of the same non-zero group are no pair.
+  /// Boxes of the same non-zero group are never paired.
   std::span<const std::uint32_t> groups{};
 };
 
-/// Which overlapping boxes are left out of the result.
+/// Excludes overlapping boxes from the result.
 ///
-/// A pair stays if each box's mask has a bit of the other's category, their groups are not the same non-zero one, and
-/// `accept`, where given, says yes.
+/// A pair is kept if each box's mask shares a bit with the other's category, the boxes are not in the same non-zero
+/// group, and `accept`, if set, returns true.
 /// Bad input: a span of the wrong length throws InvalidArgument when the filter is used.
-/// Threads:   `accept` is called for boxes that overlap only, in no particular order, and with a parallel executor from
-///            several threads at once. It may be asked about a pair more than once, and must not start work on the
+/// Threads:   `accept` is called only for boxes that overlap, in unspecified order, and with a parallel executor from
+///            several threads concurrently. It may be called more than once for a pair, and must not start work on the
 ///            executor of the search.
 struct Filter {
-  /// Of the set, or of the first of two.
+  /// Of the set, or of the first of two sets.
   FilterBits first{};
 
-  /// Of the second of two sets; a search of one set refuses it with InvalidArgument.
+  /// Of the second of two sets; with one set, it throws InvalidArgument.
   FilterBits second{};
 
-  /// Asked with (first, second) of a pair that passed the rest.
+  /// Called with (first, second) for each pair that passed all other filters.
   PairPredicate accept{};
 };
 

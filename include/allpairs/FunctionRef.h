@@ -9,9 +9,9 @@ namespace allpairs {
 template <class Signature>
 class FunctionRef;
 
-/// A callable that is borrowed for the length of a call: no ownership, no allocation.
+/// A non-owning reference to a callable; does not allocate.
 ///
-/// The callable must outlive the FunctionRef, as any argument that is passed to a function does.
+/// The callable must outlive the FunctionRef, as a function argument outlives the call.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

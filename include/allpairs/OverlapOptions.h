@@ -15,16 +15,16 @@ namespace allpairs {
 
 /// How pairs are found. Every strategy gives the same pairs.
 enum class Strategy : std::uint8_t {
-  Automatic,   ///< Whatever is fastest for the number of boxes.
+  Automatic,   ///< The strategy expected to be fastest for the given boxes.
   Exhaustive,  ///< Every pair is tested: n(n-1)/2 tests, or n*m between two sets.
   Bvh,         ///< A bounding volume hierarchy: groups of boxes are tested by their bounds before their members are.
 };
 
-/// In which order pairs are given.
+/// The order of the pairs in the result.
 enum class Order : std::uint8_t {
   ByFirst,    ///< Ascending by (first, second). The default.
-  BySecond,   ///< Ascending by (second, first): as if boxes had come one by one, each against those before it.
-  Unordered,  ///< In the order of discovery, which depends on the strategy and on nothing else.
+  BySecond,   ///< Ascending by (second, first): as if boxes were added one by one and tested against earlier ones.
+  Unordered,  ///< In the order of discovery, which depends only on the boxes and the strategy.
 };
 
 /// Settings of a search for overlapping boxes; the defaults are right for most uses.
@@ -33,25 +33,25 @@ struct OverlapOptions {
   Order order = Order::ByFirst;
 
   /// Boxes that are at most this far apart on every axis are a pair; each box's own margin is added:
-  /// d = distance + margin(first) + margin(second), summed from left to right. Negative shrinks; infinity pairs
-  /// everything that is not empty.
+  /// d = distance + margin(first) + margin(second), summed from left to right. A negative d requires that much overlap;
+  /// infinity pairs all boxes that are not empty.
   double distance = 0.0;
 
-  /// Where given, boxes outside of it are left out; the test is widened by distance + margin(box).
+  /// If set, boxes outside it are excluded; the test uses the distance distance + margin(box).
   std::optional<Box> region{};
 
-  /// Pairs to leave out although their boxes overlap.
+  /// Excludes pairs although their boxes overlap.
   Filter filter{};
 
-  /// Where parallel work runs; null means on the calling thread. Not owned.
+  /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// Where memory comes from: working memory and results, which point into it. Null means aligned operator new, with
-  /// large pages for large blocks where the system has them. Not owned; fixed when the object is made, and must outlive
-  /// it. With a parallel executor it is called from several threads. docs/memory.md says more.
+  /// Allocates working memory and results. Null means aligned operator new, with large pages for large blocks where the
+  /// system has them. Not owned; fixed at construction, and must outlive the object. With a parallel executor it is
+  /// called from several threads. See docs/memory.md.
   std::pmr::memory_resource* memory = nullptr;
 
-  /// More pairs than this throw LimitExceeded, whether they are found, counted or streamed.
+  /// More pairs than this, found, counted or streamed, throw LimitExceeded.
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.

@@ -14,34 +14,36 @@
 
 namespace allpairs {
 
-/// What the last search did.
+/// Statistics of the last search.
 struct OverlapStatistics {
-  std::uint64_t pairs = 0;       ///< How many pairs it gave.
-  std::uint64_t boxTests = 0;    ///< Pairs of boxes that were tested, each by one lane of a vector.
-  std::uint64_t groupTests = 0;  ///< Pairs of groups, or of a box and a group, that were tested by their bounds.
-  std::uint64_t exactTests = 0;  ///< Survivors of the float32 test that were tested again in double.
+  std::uint64_t pairs = 0;       ///< The number of pairs in the result.
+  std::uint64_t boxTests = 0;    ///< Tests of two boxes, each in one lane of a vector.
+  std::uint64_t groupTests = 0;  ///< Tests of the bounds of two groups, or of a box and a group.
+  std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double.
 };
 
-/// Takes pairs, a batch at a time; the span is valid during the call only.
+/// Receives pairs in batches; the span is valid during the call only.
 using PairVisitor = FunctionRef<void(std::span<const Pair>)>;
 
-/// How many pairs a visitor is handed at a time, at most, unless it is said.
+/// The default maximum number of pairs in a batch.
 inline constexpr std::size_t kBatchSize = 65536;
 
-/// Finds overlapping boxes, and keeps its working memory from one search to the next.
+/// Finds overlapping boxes, and keeps its working memory between searches.
 ///
 /// Geometry:  boxes are closed: sharing a face, an edge or a corner is an overlap. Empty boxes overlap nothing.
-/// Bad input: options that make no sense throw InvalidArgument; an unknown instruction set too.
-/// Cost:      up to 48 bytes a box, and the pairs: 8 bytes each, in a buffer that grows by doubling; twice with a parallel
+/// Bad input: invalid options, such as an unknown instruction set, throw InvalidArgument.
+/// Cost:      up to 48 bytes per box, and 8 bytes per pair in a buffer that grows by doubling; twice with a parallel
 ///            executor. On the calling thread a second search of the same size allocates nothing.
-/// Threads:   one search at a time per object; parallel inside when the options name an executor.
-/// Memory:    after a search that threw, std::bad_alloc or what a filter or visitor throws included, the next one gives
-///            what a new object gives; the result before it is lost.
-/// Callbacks: a filter, visitor or task may search with other objects and by the free functions; of the object that calls
-///            it, all but options() and statistics() throw InvalidArgument, and it must not be moved or destroyed.
-/// Moving:    an object that has been moved from is as a new one with default options.
+/// Threads:   one search at a time per object; parallel inside if the options have an executor.
+/// Memory:    after a search that threw, whether std::bad_alloc or an exception of a filter or visitor, the next search
+///            behaves like that of a new object; the previous result is lost.
+/// Callbacks: a filter, visitor or task may search with other objects and with the free functions. On the object that
+///            calls it, all members except options() and statistics() throw InvalidArgument; it must not move or
+///            destroy it.
+/// Moving:    a moved-from object is like a new one with default options.
 ///
-/// What options refer to, the filter's spans, the executor and the name of the instruction set, must outlive their use.
+/// What the options refer to (the filter's spans, the executor, the name of the instruction set) must outlive their
+/// use.
 class OverlapSearch {
  public:
   explicit OverlapSearch(OverlapOptions options = {});
@@ -51,30 +53,30 @@ class OverlapSearch {
 
   [[nodiscard]] const OverlapOptions& options() const noexcept;
 
-  /// Bad input: memory other than what the object was made with throws InvalidArgument; null keeps that.
+  /// Bad input: a memory resource other than that of construction throws InvalidArgument; null keeps it.
   void setOptions(OverlapOptions options);
 
-  /// All overlapping pairs of one set, each once. The result is valid until the next search or the end of the object.
+  /// All overlapping pairs of one set, each once. Valid until the next search or the object's destruction.
   [[nodiscard]] std::span<const Pair> find(const BoxView& boxes);
 
   /// All pairs of a box of `first` and a box of `second` that overlap.
   ///
-  /// Bad input: options that are about the other kind of search, filter.second with one set, throw InvalidArgument.
+  /// Bad input: options for two sets, filter.second, throw InvalidArgument with one set.
   [[nodiscard]] std::span<const Pair> find(const BoxView& first, const BoxView& second);
 
-  /// How many pairs find() would give, in memory that does not depend on it.
+  /// The number of pairs of find(); uses memory independent of that number.
   [[nodiscard]] std::uint64_t count(const BoxView& boxes);
   [[nodiscard]] std::uint64_t count(const BoxView& first, const BoxView& second);
 
-  /// Hands the pairs of find() to the visitor, in batches of at most `batchSize`, in memory that does not depend on their
-  /// number. The visitor is called from the calling thread; what it throws ends the search.
+  /// Passes the pairs of find() to the visitor, in batches of at most `batchSize`; uses memory independent of their
+  /// number. The visitor is called on the calling thread; an exception from it ends the search.
   ///
-  /// Bad input: a batch size of 0 throws InvalidArgument; with more than options().maxPairs pairs, LimitExceeded is thrown
-  ///            after the visitor has had at most so many.
+  /// Bad input: a batch size of 0 throws InvalidArgument; more than options().maxPairs pairs throw LimitExceeded,
+  ///            after the visitor has received at most maxPairs.
   void stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize = kBatchSize);
   void stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize = kBatchSize);
 
-  /// Gives back the memory that is kept for the next search. The result of the last one stays valid.
+  /// Releases the memory kept for the next search. The last result stays valid.
   void shrink();
 
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept;
@@ -88,27 +90,27 @@ class OverlapSearch {
 /// All overlapping pairs among the boxes of one set, each once, ordered by (first, second).
 ///
 /// Geometry:  boxes are closed: sharing a face, an edge or a corner is an overlap.
-/// Bad input: a box with a NaN never gets here (BoxView rejects it); min > max on an axis means empty.
+/// Bad input: BoxView rejects a box with a NaN; min > max on an axis means empty.
 /// Cost:      O(n log n + pairs) for boxes of bounded density, n(n-1)/2 vectorised tests at worst; see OverlapSearch.
-/// Threads:   const on the set; parallel when the options name an executor.
+/// Threads:   const on the set; parallel if the options have an executor.
 [[nodiscard]] std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options = {});
 
 /// All overlapping pairs of a box of `first` and a box of `second`, ordered by (first, second).
 [[nodiscard]] std::vector<Pair> overlaps(const BoxView& first, const BoxView& second,
                                          const OverlapOptions& options = {});
 
-/// How many pairs overlaps() would give; needs no memory for them.
+/// The number of pairs of overlaps(), without storing them.
 [[nodiscard]] std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options = {});
 [[nodiscard]] std::uint64_t countOverlaps(const BoxView& first, const BoxView& second,
                                           const OverlapOptions& options = {});
 
-/// Hands the pairs of overlaps() to a visitor in batches, in bounded memory; see OverlapSearch::stream().
+/// Passes the pairs of overlaps() to a visitor in batches, in bounded memory; see OverlapSearch::stream().
 void streamOverlaps(const BoxView& boxes, PairVisitor visitor, const OverlapOptions& options = {},
                     std::size_t batchSize = kBatchSize);
 void streamOverlaps(const BoxView& first, const BoxView& second, PairVisitor visitor,
                     const OverlapOptions& options = {}, std::size_t batchSize = kBatchSize);
 
-/// The instruction sets that this processor has and this build carries, best first; "SCALAR" is always the last.
+/// The instruction sets that both this processor and this build support, best first; "SCALAR" is always the last.
 [[nodiscard]] std::span<const std::string_view> instructionSets();
 
 }  // namespace allpairs

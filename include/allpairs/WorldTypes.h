@@ -18,48 +18,48 @@
 
 namespace allpairs {
 
-/// The number by which a World knows a box from when it is added until it is removed.
+/// Identifies a box in a World, from when it is added until it is removed.
 using BoxId = std::uint32_t;
 
-/// The id that no box has.
+/// An id that no box has.
 inline constexpr BoxId kNoBox = 0xFFFFFFFFU;
 
-/// What a box of a World is besides its place: with whom it may pair, how far it reaches, whether it moves.
+/// The properties of a box in a World, besides its bounds.
 ///
-/// Two boxes that overlap are a pair if each one's mask has a bit of the other's category, they are not of the same
-/// non-zero group, and they are not both static.
+/// Two boxes that overlap are a pair if each one's mask shares a bit with the other's category, they are not in the
+/// same non-zero group, and they are not both static.
 struct BoxProperties {
-  std::uint32_t category = 0xFFFFFFFFU;  ///< What the box is, as bits.
-  std::uint32_t mask = 0xFFFFFFFFU;      ///< Which categories it accepts as partners.
-  std::uint32_t group = 0;               ///< Boxes of the same non-zero group are no pair.
-  double margin = 0.0;    ///< How far the box reaches beyond its bounds, in units of length; may shrink it.
-  bool isStatic = false;  ///< Static boxes are never tested against each other. They may be moved all the same.
+  std::uint32_t category = 0xFFFFFFFFU;  ///< The categories of the box, as bits.
+  std::uint32_t mask = 0xFFFFFFFFU;      ///< The categories that it accepts as partners.
+  std::uint32_t group = 0;               ///< Boxes of the same non-zero group are never paired.
+  double margin = 0.0;                   ///< How far the box extends beyond its bounds; may be negative.
+  bool isStatic = false;                 ///< Static boxes are never tested against each other. They may still be moved.
 
   friend constexpr bool operator==(const BoxProperties&, const BoxProperties&) = default;
 };
 
 /// Settings of a World; the defaults are right for most uses.
 struct WorldOptions {
-  /// How the lists of a step, and of findBetween(), are ordered. A world orders them in any case: Unordered is refused with
+  /// The order of the lists of a step and of findBetween(). A world always orders them: Unordered throws
   /// InvalidArgument.
   Order order = Order::ByFirst;
 
   /// Boxes that are at most this far apart on every axis are a pair; each box's own margin is added, as in
-  /// OverlapOptions: d = distance + margin(first) + margin(second), summed from left to right. Queries don't use it.
+  /// OverlapOptions: d = distance + margin(first) + margin(second), summed from left to right. Queries ignore it.
   double distance = 0.0;
 
-  /// Where given, asked about a pair that passed the rest, with first < second. Its answer must stay the same until one
-  /// of the two boxes gets other bounds or properties or is invalidated; in between it may or may not be asked again. With a
-  /// parallel executor it is called from several threads.
+  /// If set, called for each pair that passed all other filters, with first < second. Its answer must not change until
+  /// one of the two boxes gets other bounds or properties or is invalidated; until then it may be called again or not.
+  /// With a parallel executor it is called from several threads.
   PairPredicate accept{};
 
-  /// Where parallel work runs; null means on the calling thread. Not owned.
+  /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// Where memory comes from: working memory and the lists of a step, which point into it. Queries allocate what they
-  /// return, and what they need meanwhile, by operator new. Null means aligned operator new, with
-  /// large pages for large blocks where the system has them. Not owned; fixed when the object is made, and must outlive
-  /// it. With a parallel executor it is called from several threads. docs/memory.md says more.
+  /// Allocates working memory and the lists of a step. Queries allocate their results and temporary memory with
+  /// operator new. Null means aligned operator new, with large pages for large blocks where the system has them. Not
+  /// owned; fixed at construction, and must outlive the object. With a parallel executor it is called from several
+  /// threads. See docs/memory.md.
   std::pmr::memory_resource* memory = nullptr;
 
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.
@@ -69,19 +69,19 @@ struct WorldOptions {
 /// The pairs of a step, each with first < second, each list in the order of the options; valid until the next step.
 struct StepResult {
   std::span<const Pair> pairs;      ///< All pairs of this step.
-  std::span<const Pair> began;      ///< Those that were no pair in the last step.
-  std::span<const Pair> persisted;  ///< Those that were: `pairs` without `began`.
-  std::span<const Pair> ended;      ///< Pairs of the last step that are none now; a box in it may have been removed.
+  std::span<const Pair> began;      ///< Pairs that did not exist in the last step.
+  std::span<const Pair> persisted;  ///< Pairs that did: `pairs` without `began`.
+  std::span<const Pair> ended;      ///< Pairs of the last step that no longer exist; their boxes may have been removed.
 };
 
-/// What the last step of a World did, and all so far.
+/// Statistics of the last step of a World, and of all steps.
 struct WorldStatistics {
-  std::uint64_t boxTests = 0;    ///< Pairs of boxes that were tested, each by one lane of a vector.
-  std::uint64_t groupTests = 0;  ///< Pairs of groups, or of a box and a group, that were tested by their bounds.
-  std::uint64_t exactTests = 0;  ///< Survivors of the float32 test that were tested again in double.
-  std::uint64_t changed = 0;     ///< Boxes that were added, moved, removed or given properties for this step.
-  bool joinedAll = false;        ///< Whether all boxes were met with each other, or only the changed ones with all.
-  std::uint64_t rebuilds = 0;    ///< How often an order was made anew so far, by steps and queries.
+  std::uint64_t boxTests = 0;    ///< Tests of two boxes, each in one lane of a vector.
+  std::uint64_t groupTests = 0;  ///< Tests of the bounds of two groups, or of a box and a group.
+  std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double.
+  std::uint64_t changed = 0;     ///< Boxes that were added, moved, removed or given other properties.
+  bool joinedAll = false;        ///< Whether the step joined all boxes, instead of only the changed ones with all.
+  std::uint64_t rebuilds = 0;    ///< The number of full rebuilds of a hierarchy so far, by steps and queries.
 };
 
 /// The points origin + t * direction with 0 <= t <= length.
@@ -90,20 +90,20 @@ struct WorldStatistics {
 struct Ray {
   std::array<double, 3> origin{};
   std::array<double, 3>
-      direction{};  ///< Not necessarily of unit length; t counts in it. All zero makes the ray a point.
+      direction{};  ///< Need not have unit length; t is in units of it. All zero makes the ray a point.
   double length = std::numeric_limits<double>::infinity();
 };
 
-/// A box on its way: moved by t * motion, with 0 <= t <= length.
+/// A swept box: moved by t * motion, with 0 <= t <= length.
 ///
-/// Bad input: as for a ray; an empty box meets nothing.
+/// Bad input: as for a ray; an empty box hits nothing.
 struct BoxSweep {
   Box box;
   std::array<double, 3> motion{};
   double length = 1.0;
 };
 
-/// A box that a ray or a swept box meets, and the least t at which it does.
+/// A box that a ray or a swept box hits, and the smallest t at which it does.
 struct SweepHit {
   BoxId id = kNoBox;
   double t = std::numeric_limits<double>::infinity();
@@ -111,7 +111,7 @@ struct SweepHit {
   friend constexpr bool operator==(const SweepHit&, const SweepHit&) = default;
 };
 
-/// A box and its Euclidean distance from a point; 0 for a point in it.
+/// A box and its Euclidean distance from a point; 0 if the point is in the box.
 struct Neighbor {
   BoxId id = kNoBox;
   double distance = std::numeric_limits<double>::infinity();
@@ -119,12 +119,12 @@ struct Neighbor {
   friend constexpr bool operator==(const Neighbor&, const Neighbor&) = default;
 };
 
-/// Which boxes a query looks at: those whose category has a bit of `mask` and whose mask has a bit of `category`.
+/// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`.
 struct QueryFilter {
   std::uint32_t category = 0xFFFFFFFFU;
   std::uint32_t mask = 0xFFFFFFFFU;
-  bool staticBoxes = true;   ///< Whether it looks at static boxes.
-  bool dynamicBoxes = true;  ///< Whether it looks at the others.
+  bool staticBoxes = true;   ///< Whether it considers static boxes.
+  bool dynamicBoxes = true;  ///< Whether it considers the others.
 };
 
 /// The results of many queries: those of query i are values[offsets[i]] to values[offsets[i + 1] - 1].
@@ -137,7 +137,7 @@ struct ResultLists {
   [[nodiscard]] std::span<const T> operator[](std::size_t i) const& noexcept {
     return std::span(values).subspan(offsets[i], offsets[i + 1] - offsets[i]);
   }
-  std::span<const T> operator[](std::size_t i) const&& = delete;  // of a temporary: nothing would hold the values
+  std::span<const T> operator[](std::size_t i) const&& = delete;  // of a temporary: the values would be destroyed
 };
 
 }  // namespace allpairs

@@ -23,7 +23,7 @@ class BoundingBoxModel final : public CollisionModel {
     std::uint32_t end = 0;
   };
 
-  /// A level of the given model. Users have no need to make one; computeBoundingTree() does.
+  /// A level of the given model. Users need not create one; computeBoundingTree() does.
   explicit BoundingBoxModel(CollisionModel& model);
 
   [[nodiscard]] std::size_t getSize() const override { return m_nodes.size(); }
@@ -34,7 +34,7 @@ class BoundingBoxModel final : public CollisionModel {
 
   [[nodiscard]] std::span<const Node> nodes() const { return m_nodes; }
 
-  /// The model's elements, arranged so that those of one box are next to each other. Empty means 0, 1, 2, …
+  /// The model's elements, ordered so that those of one box are contiguous. Empty means 0, 1, 2, …
   [[nodiscard]] std::span<const std::uint32_t> elementOrder() const { return m_elementOrder; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace allpairs::collision {
 
-/// A model made of axis-aligned boxes. Its root box is their union; the contact distance doesn't widen them.
+/// A model made of axis-aligned boxes. Its root box is their union; the contact distance does not enlarge them.
 ///
 /// Geometry:  closed boxes; min > max on an axis means empty; infinite bounds are allowed.
 /// Bad input: a NaN throws InvalidBox.

@@ -10,12 +10,12 @@
 
 namespace allpairs::collision {
 
-/// Two models that may touch, as they were added; the same model twice if it may touch itself.
+/// Two models that may touch, each at the level at which it was added; the same model twice if it may touch itself.
 using CollisionModelPair = std::pair<CollisionModel*, CollisionModel*>;
 
-/// A broad phase: it is given collision models and says which pairs of them are worth a closer look.
+/// A broad phase: finds the pairs of collision models that need a closer test.
 ///
-/// A step is beginBroadPhase(), any number of additions, endBroadPhase(). Models and methods stay the caller's, and
+/// A step is beginBroadPhase(), any number of additions, endBroadPhase(). Models and methods are not owned, and
 /// must outlive the use of the result.
 class BroadPhaseDetection {
  public:
@@ -32,7 +32,7 @@ class BroadPhaseDetection {
   /// Reads the settings again.
   virtual void reinit() {}
 
-  /// How models are tested. Not owned. Null, the default, throws InvalidArgument when a model is added.
+  /// The intersection method. Not owned. With null, the default, adding a model throws InvalidArgument.
   virtual void setIntersectionMethod(Intersection* method) { m_intersectionMethod = method; }
   [[nodiscard]] Intersection* getIntersectionMethod() const { return m_intersectionMethod; }
 

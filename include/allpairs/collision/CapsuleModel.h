@@ -16,7 +16,7 @@ struct Capsule {
   double radius = kDefaultRadius;
 };
 
-/// Capsules. The box of each is its two ends, widened by the radius; the contact distance doesn't widen it.
+/// Capsules. The box of each bounds its two ends, enlarged by the radius; the contact distance does not enlarge it.
 ///
 /// Bad input: an end or radius that is not finite, or a negative radius, throws InvalidArgument.
 class CapsuleModel : public SolidModel {

@@ -19,9 +19,9 @@ class BoundingBoxModel;
 
 /// A body, or part of one, that may collide: a chain of levels from a root (one box) down to the elements.
 ///
-/// What a user makes and owns is the last level, the one with the elements; it owns the levels above it, which
-/// computeBoundingTree() makes. Name, flags, groups, distance and owner belong to the chain: they may be read and set
-/// on any level. A model of the user's own derives from this and says how many elements it has and what box each fills.
+/// The user creates and owns the last level, the one with the elements; it owns the levels above it, which
+/// computeBoundingTree() creates. Name, flags, groups, distance and owner belong to the chain: they may be read and set
+/// on any level. A custom model derives from this class and returns the number of its elements and the box of each.
 /// Geometry:  boxes are closed; an element or a model with min > max on an axis is empty and overlaps nothing.
 /// Bad input: setters and the bounding trees throw InvalidArgument or InvalidBox, naming the model and the element.
 /// Threads:   const use from any number of threads; one at a time otherwise.
@@ -41,7 +41,8 @@ class CollisionModel {
   /// The box of one element, contact distance included where the type of model includes it.
   [[nodiscard]] virtual Box elementBox(std::size_t index) const = 0;
 
-  /// The box that holds an element at the start and at the end of a step of length dt; by default it doesn't move.
+  /// The box that bounds an element at the start and at the end of a step of length dt; by default elements do not
+  /// move.
   [[nodiscard]] virtual Box elementSweptBox(std::size_t index, double dt) const;
 
   /// The cone of normals of an element; by default nothing is known.
@@ -50,7 +51,7 @@ class CollisionModel {
   /// The cone of an element's normals at the start and at the end of a step.
   [[nodiscard]] virtual NormalCone elementSweptCone(std::size_t index, double dt) const;
 
-  /// What kind of model this is, under the name that SOFA gives it where it has one.
+  /// The type of the model, by SOFA's name if it has one.
   [[nodiscard]] virtual std::string_view typeName() const;
 
   /// The key under which intersectors for this level's elements are looked up; by default its dynamic type.
@@ -59,28 +60,28 @@ class CollisionModel {
   /// The key under which intersectors for this model's root box are looked up; by default that of BoundingBoxModel.
   [[nodiscard]] virtual std::type_index rootTypeKey() const;
 
-  /// Whether this model, asked about another, lets the two collide. Both are asked, and both must agree.
+  /// Whether this model agrees to collide with another. Both are asked, and both must agree.
   ///
-  /// Of the same owner (no owner is one too): selfCollision of this one. Of different owners: true if either has no
+  /// Same owner (null is an owner too): selfCollision of this model. Different owners: true if either has no
   /// group or they have none in common.
   [[nodiscard]] virtual bool canCollideWith(CollisionModel* other);
 
-  /// Makes or updates the levels above the elements, from the elements as they are now.
+  /// Creates or updates the levels above the elements from the current elements.
   ///
-  /// `maxDepth` 0 makes the root alone; each further level splits every box of the one above in two. The box and the
-  /// cone of the root don't depend on it. A second call allocates nothing.
+  /// `maxDepth` 0 creates the root alone; each further level splits every box of the one above in two. The box and the
+  /// cone of the root do not depend on it. A second call allocates nothing.
   ///
   /// Bad input: a NaN in an element's box throws InvalidBox.
   /// Cost:      O(n), deep: O(n log n) per level.
   virtual void computeBoundingTree(int maxDepth = 0);
 
-  /// The same for a continuous method: each box holds its elements at the start and at the end of a step of length dt.
+  /// The same for a continuous method: each box bounds its elements at the start and at the end of a step of length dt.
   virtual void computeContinuousBoundingTree(double dt, int maxDepth = 0);
 
-  /// Whether the levels above the elements are there and nothing said since that they are out of date.
+  /// Whether the levels above the elements exist and have not been invalidated since.
   [[nodiscard]] bool hasBoundingTree() const { return m_last->m_treeIsCurrent; }
 
-  /// Says that elements have moved or changed: the bounding tree is made again when it is next needed.
+  /// Invalidates the bounding tree after elements have moved or changed; it is recomputed when next needed.
   void boundsChanged() { m_last->m_treeIsCurrent = false; }
 
   /// The levels: the root, the elements, and the neighbours of this one; null past either end. A model without a
@@ -98,15 +99,15 @@ class CollisionModel {
   [[nodiscard]] const std::string& getName() const { return m_last->m_name; }
   void setName(std::string name) { m_last->m_name = std::move(name); }
 
-  /// Inactive models are left out by the pipeline; the broad phase doesn't look.
+  /// The pipeline skips inactive models; the broad phase ignores the flag.
   [[nodiscard]] bool isActive() const { return m_last->m_active; }
   void setActive(bool active) { m_last->m_active = active; }
 
-  /// The bounding trees of models that don't move are not computed again by the pipeline.
+  /// The pipeline does not recompute the bounding trees of models that do not move.
   [[nodiscard]] bool isMoving() const { return m_last->m_moving; }
   void setMoving(bool moving) { m_last->m_moving = moving; }
 
-  /// Two models that are both not simulated are no pair.
+  /// Two models that are both not simulated are never paired.
   [[nodiscard]] bool isSimulated() const { return m_last->m_simulated; }
   void setSimulated(bool simulated) { m_last->m_simulated = simulated; }
 
@@ -114,26 +115,27 @@ class CollisionModel {
   [[nodiscard]] bool getSelfCollision() const { return m_last->m_selfCollision; }
   void setSelfCollision(bool selfCollision) { m_last->m_selfCollision = selfCollision; }
 
-  /// The groups, ascending, each once. Models of different owners that share one don't collide. Any number is a group.
+  /// The groups, ascending, each once. Models of different owners that share one do not collide. Any integer is a
+  /// group.
   [[nodiscard]] const std::vector<int>& getGroups() const;
   void setGroups(std::vector<int> groups);
   void addGroup(int group);
 
-  /// How far around its elements the model wants contacts to be seen.
+  /// The distance around its elements within which the model reports contacts.
   ///
-  /// Bad input: NaN and infinities throw InvalidArgument. A negative distance shrinks.
+  /// Bad input: NaN and infinities throw InvalidArgument. A negative distance shrinks the boxes.
   [[nodiscard]] double getContactDistance() const { return m_last->m_contactDistance; }
   void setContactDistance(double distance);
 
-  /// What the model belongs to: any address that tells bodies apart. Null is an owner like any other.
+  /// The body that the model belongs to, identified by any address. Null is an owner like any other.
   [[nodiscard]] const void* getOwner() const { return m_last->m_owner; }
   void setOwner(const void* owner) { m_last->m_owner = owner; }
 
-  /// "model 'name'", or "model of type T" where it has no name: how errors call it.
+  /// "model 'name'", or "model of type T" without a name, as in error messages.
   [[nodiscard]] std::string describe() const;
 
  protected:
-  /// For a computeBoundingTree() of the user's own: makes the root alone, with this box and cone.
+  /// For custom implementations of computeBoundingTree(): creates the root alone, with this box and cone.
   ///
   /// Bad input: a box with a NaN throws InvalidBox.
   void setRoot(const Box& box, const NormalCone& cone = {});

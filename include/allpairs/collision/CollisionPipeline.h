@@ -9,40 +9,40 @@
 
 namespace allpairs::collision {
 
-/// One step of collision detection after the other: reset, bounding trees, broad phase, narrow phase.
+/// Runs the stages of collision detection: reset, bounding trees, broad phase, narrow phase.
 ///
 /// Nothing is owned: models, method and phases must outlive their use.
 class CollisionPipeline {
  public:
-  /// How many levels deep bounding trees are made, if anybody needs them.
+  /// The depth of bounding trees, if a phase needs them.
   static constexpr int kDefaultDepth = 6;
 
   void setIntersectionMethod(Intersection* method);
   void setBroadPhase(BroadPhaseDetection* broadPhase);
 
-  /// Null, the default, leaves the narrow phase out.
+  /// Null, the default, skips the narrow phase.
   void setNarrowPhase(NarrowPhaseDetection* narrowPhase);
 
   /// Bad input: a negative depth throws InvalidArgument.
   void setDepth(int depth);
 
-  /// Gives both phases the method and has the broad phase read its settings. The first of the calls below does it where
-  /// it has not been done since the last of the calls above.
+  /// Passes the method to both phases and makes the broad phase read its settings. The calls below do it if a call
+  /// above was made since.
   ///
   /// Bad input: a missing method or broad phase throws InvalidArgument.
   void init();
 
-  /// Forgets the last step.
+  /// Clears the results of the last step.
   void reset();
 
-  /// Makes the bounding trees of the active models: of those that move in each step, of the others when they have none.
+  /// Computes the bounding trees of the active models: in each step for those that move, once for the others.
   /// Deep only if the broad or the narrow phase needs it; over a step of length dt if the method is continuous.
   void computeBoundingTrees(std::span<CollisionModel* const> models, double dt = 0.0);
 
   /// Runs broad and narrow phase on the models whose bounding trees were made.
   void detect();
 
-  /// All of it: reset, bounding trees, both phases. The pairs are those of the broad phase.
+  /// Runs all stages: reset, bounding trees, both phases. Returns the pairs of the broad phase.
   const std::vector<CollisionModelPair>& step(std::span<CollisionModel* const> models, double dt = 0.0);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace allpairs::collision {
 
-/// Boxes are near if they are at most the alarm distance apart, by default 0; a nearly flat patch can't touch itself.
+/// Boxes are near if they are at most the alarm distance apart, by default 0; a nearly flat patch cannot touch itself.
 class DiscreteIntersection : public Intersection {
  public:
   DiscreteIntersection();

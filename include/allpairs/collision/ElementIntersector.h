@@ -7,9 +7,9 @@ namespace allpairs::collision {
 
 class Intersection;
 
-/// Tests elements of two types of model against each other. A user's own derives from this.
+/// Tests elements of two types of model against each other. Custom intersectors derive from this class.
 ///
-/// Threads: const; the broad and narrow phases ask from one thread.
+/// Threads: const; the broad and narrow phases call it from one thread.
 class ElementIntersector {
  public:
   ElementIntersector() = default;
@@ -19,8 +19,8 @@ class ElementIntersector {
   ElementIntersector& operator=(ElementIntersector&&) = delete;
   virtual ~ElementIntersector() = default;
 
-  /// Whether two elements may touch, as the method measures it. The broad phase asks this of root boxes, the narrow
-  /// phase of elements whose boxes are near enough.
+  /// Whether two elements may touch according to the method. The broad phase calls it for root boxes, the narrow
+  /// phase for elements whose boxes are near enough.
   [[nodiscard]] virtual bool canIntersect(const CollisionElement& first, const CollisionElement& second,
                                           const Intersection& method) const = 0;
 };

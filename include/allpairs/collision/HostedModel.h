@@ -5,21 +5,21 @@
 
 namespace allpairs::collision {
 
-/// A model that stands for one of another system: its root box is set from outside, and it remembers whom it stands for.
+/// A proxy for a model of another system: its root box is set from outside, and it keeps a pointer to that model.
 ///
-/// With it an adapter lends another system's models to the broad phase: flags, groups, owner and distance by the setters
-/// of CollisionModel, the box by setBox(). A subclass may override canCollideWith() to ask the other system.
+/// An adapter uses it to pass another system's models to the broad phase: flags, groups, owner and distance with the
+/// setters of CollisionModel, the box with setBox(). A subclass may override canCollideWith() to ask the other system.
 /// Geometry:  a closed box; min > max on an axis means empty; infinite bounds are allowed.
 /// Bad input: a NaN in the box throws InvalidBox.
 class HostedModel : public CollisionModel {
  public:
   explicit HostedModel(void* host = nullptr) : m_host(host) {}
 
-  /// Whom the model stands for, as it was set. Never looked into.
+  /// The model that this is a proxy for, as it was set. Never dereferenced.
   [[nodiscard]] void* host() const { return m_host; }
   void setHost(void* host) { m_host = host; }
 
-  /// The root box of a step. To be set after the contact distance, which says that the box is out of date.
+  /// The root box of a step. Set it after the contact distance, which invalidates the box.
   void setBox(const Box& box) {
     setRoot(box);
     m_box = box;

@@ -14,9 +14,10 @@
 
 namespace allpairs::collision {
 
-/// How collision models are tested against each other: distances, and which intersector knows which types.
+/// An intersection method, which tests collision models against each other: distances, and an intersector per pair of
+/// types.
 ///
-/// A method of the user's own derives from this, or from one of the methods that come with the library.
+/// A custom method derives from this class, or from one of the library's methods.
 class Intersection {
  public:
   Intersection() = default;
@@ -26,33 +27,33 @@ class Intersection {
   Intersection& operator=(Intersection&&) = delete;
   virtual ~Intersection() = default;
 
-  /// How far apart, on each axis, things are when they begin to be of interest. Negative lets them sink in first.
+  /// The largest gap on each axis at which two models are reported. A negative one requires that much overlap.
   ///
-  /// Bad input: NaN and -infinity throw InvalidArgument; infinity makes everything of interest.
+  /// Bad input: NaN and -infinity throw InvalidArgument; with infinity all models are reported.
   [[nodiscard]] double getAlarmDistance() const { return m_alarmDistance; }
   void setAlarmDistance(double distance);
 
-  /// How far apart things are when they count as touching. Plays no part in the broad phase.
+  /// The distance at which models count as touching. Not used in the broad phase.
   ///
   /// Bad input: NaN and infinities throw InvalidArgument.
   [[nodiscard]] double getContactDistance() const { return m_contactDistance; }
   void setContactDistance(double distance);
 
-  /// Whether boxes are to hold elements over the whole step instead of at its start.
+  /// Whether boxes bound elements over the whole step instead of at its start.
   [[nodiscard]] virtual bool isContinuous() const { return m_continuous; }
   void setContinuous(bool continuous);
 
   /// The name of the method.
   [[nodiscard]] virtual std::string_view typeName() const { return "Intersection"; }
 
-  /// The intersector for two models, or null if there is none. `swapModels` says whether it takes the second one first.
+  /// The intersector for two models, or null. `swapModels` is set if it takes the second one first.
   ///
-  /// By default it is looked up in the table under the models' type keys. The broad phase asks with roots.
+  /// By default it is looked up in the table by the models' type keys. The broad phase passes roots.
   [[nodiscard]] virtual ElementIntersector* findIntersector(CollisionModel* first, CollisionModel* second,
                                                             bool& swapModels);
 
-  /// Enters an intersector for two types of model, replacing any before; null takes it out. Unless the types are the
-  /// same, or `bothWays` is false, it also serves (second, first), with the models swapped.
+  /// Registers an intersector for two types of model, replacing an earlier one; null removes it. Unless the types are
+  /// equal, or `bothWays` is false, it also serves (second, first), with the models swapped.
   void add(std::type_index first, std::type_index second, std::shared_ptr<ElementIntersector> intersector,
            bool bothWays = true);
 
@@ -64,18 +65,18 @@ class Intersection {
   /// The distance at which the boxes of two models' elements count as near, in the order of the pair tested.
   [[nodiscard]] virtual double distanceBetween(const CollisionModel& first, const CollisionModel& second) const;
 
-  /// How far apart two root boxes may be, per axis, for canIntersect() ever to be true, not counting the models' own
-  /// contact distances; infinity, the default, says that it can't be bounded, and every pair is asked.
+  /// The largest gap per axis between two root boxes at which canIntersect() can be true, without the models' own
+  /// contact distances. Infinity, the default, means that there is no bound, and every pair is tested.
   [[nodiscard]] virtual double maximumDistance() const { return std::numeric_limits<double>::infinity(); }
 
-  /// Whether the contact distances of both models come on top of maximumDistance().
+  /// Whether the contact distances of both models are added to maximumDistance().
   [[nodiscard]] virtual bool addsContactDistances() const { return false; }
 
-  /// Grows with every change of a distance, a switch or the table.
+  /// Incremented by every change of a distance, a switch or the table.
   [[nodiscard]] std::uint64_t revision() const { return m_revision; }
 
  protected:
-  /// For setters of derived classes: what the broad phase noted of this method is out of date.
+  /// For setters of derived classes: invalidates what the broad phase has cached of this method.
   void settingsChanged() { ++m_revision; }
 
  private:

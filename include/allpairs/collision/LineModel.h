@@ -7,7 +7,7 @@
 
 namespace allpairs::collision {
 
-/// Line segments. The box of each is its two points, widened by the contact distance.
+/// Line segments. The box of each bounds its two points, enlarged by the contact distance.
 ///
 /// Bad input: a number that is not finite, or an index past the points, throws InvalidArgument.
 class LineModel : public MeshModel {

@@ -5,9 +5,9 @@
 
 namespace allpairs::collision {
 
-/// Only distances that are local minima between two surfaces.
+/// Considers only distances that are local minima between two surfaces.
 ///
-/// The broad phase sees no difference between the proximity methods.
+/// In the broad phase all proximity methods are the same.
 class LocalMinDistance : public ProximityIntersection {
  public:
   [[nodiscard]] std::string_view typeName() const override { return "LocalMinDistance"; }

@@ -19,13 +19,13 @@ class MeshModel : public CollisionModel {
   /// Bad input: a number that is not finite, or another number of points, throws InvalidArgument.
   void setPositions(std::vector<Vec3> positions);
 
-  /// One velocity per point, for continuous methods; an empty vector says that nothing moves.
+  /// One velocity per point, for continuous methods; an empty vector means that nothing moves.
   ///
-  /// Bad input: another length throws InvalidArgument, a number that is not finite too.
+  /// Bad input: a wrong length or a number that is not finite throws InvalidArgument.
   void setVelocities(std::vector<Vec3> velocities);
   [[nodiscard]] const std::vector<Vec3>& velocities() const { return m_velocities; }
 
-  /// Where point `vertex` is, dt after the start of the step.
+  /// The position of point `vertex`, dt after the start of the step.
   [[nodiscard]] Vec3 positionAt(std::uint32_t vertex, double dt) const;
 
   [[nodiscard]] Box elementBox(std::size_t index) const override;
@@ -37,7 +37,7 @@ class MeshModel : public CollisionModel {
   /// The points that an element joins. The span of a point's own index may lie in `storage`.
   [[nodiscard]] virtual std::span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const = 0;
 
-  /// How far element boxes reach beyond their points.
+  /// How far element boxes extend beyond their points.
   [[nodiscard]] virtual double margin() const { return getContactDistance(); }
 
   /// Throws InvalidArgument, naming model and element, if a vertex is not one of the points.

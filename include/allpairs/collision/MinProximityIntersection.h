@@ -7,7 +7,7 @@ namespace allpairs::collision {
 
 /// The smallest distance between two elements; the usual proximity method.
 ///
-/// The broad phase sees no difference between the proximity methods.
+/// In the broad phase all proximity methods are the same.
 class MinProximityIntersection : public ProximityIntersection {
  public:
   [[nodiscard]] std::string_view typeName() const override { return "MinProximityIntersection"; }

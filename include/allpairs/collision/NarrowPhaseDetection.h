@@ -18,7 +18,7 @@ struct CollisionElementPair {
   friend bool operator==(const CollisionElementPair&, const CollisionElementPair&) = default;
 };
 
-/// A narrow phase: it is given pairs of models and looks closer at each.
+/// A narrow phase: tests pairs of models more closely.
 ///
 /// A step is beginNarrowPhase(), any number of additions, endNarrowPhase().
 class NarrowPhaseDetection {
@@ -30,11 +30,12 @@ class NarrowPhaseDetection {
   NarrowPhaseDetection& operator=(NarrowPhaseDetection&&) = delete;
   virtual ~NarrowPhaseDetection() = default;
 
-  /// How models are tested. Not owned.
+  /// The intersection method. Not owned.
   virtual void setIntersectionMethod(Intersection* method) { m_intersectionMethod = method; }
   [[nodiscard]] Intersection* getIntersectionMethod() const { return m_intersectionMethod; }
 
-  /// With a continuous method, elements are looked at over a step of this length. 0, the default, means where they are.
+  /// With a continuous method, elements are tested over a step of this length. 0, the default, means their current
+  /// positions.
   ///
   /// Bad input: a number that is not finite throws InvalidArgument.
   void setTimeStep(double dt);
@@ -55,13 +56,13 @@ class NarrowPhaseDetection {
   double m_dt = 0.0;
 };
 
-/// Goes down to the elements: gives the pairs of elements whose boxes are within the method's distance.
+/// Finds the pairs of elements whose boxes are within the method's distance.
 ///
-/// For two models in the order of the pair, or swapped if their intersector says so; for a model with itself each pair
-/// of elements once, lower index first. If the method has an intersector for the two models' types, its canIntersect()
-/// is asked about each pair.
+/// For two models in the order of the pair, or swapped if their intersector requires it; for a model with itself each
+/// pair of elements once, lower index first. If the method has an intersector for the two models' types, its
+/// canIntersect() is called for each pair.
 ///
-/// Bad input: an element's box with a NaN throws InvalidBox that names the model; a missing method throws
+/// Bad input: an element's box with a NaN throws InvalidBox, which names the model; a missing method throws
 ///            InvalidArgument.
 /// Cost:      that of allpairs::OverlapSearch on the boxes of the elements, once per pair of models.
 /// Threads:   one step at a time per object; the search runs on the executor.
@@ -74,7 +75,7 @@ class ElementNarrowPhase : public NarrowPhaseDetection {
   /// The pairs of elements of this step, by pair of models as added, then by (first index, second index).
   [[nodiscard]] const std::vector<CollisionElementPair>& getElementPairs() const { return m_pairs; }
 
-  /// Where the search runs in parallel; null means on the calling thread. Not owned.
+  /// Runs the search in parallel; null means on the calling thread. Not owned.
   void setExecutor(Executor* executor) { m_executor = executor; }
 
  private:

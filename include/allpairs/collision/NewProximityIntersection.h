@@ -7,7 +7,7 @@ namespace allpairs::collision {
 
 /// As MinProximityIntersection, with the closest features of each pair of elements.
 ///
-/// The broad phase sees no difference between the proximity methods.
+/// In the broad phase all proximity methods are the same.
 class NewProximityIntersection : public ProximityIntersection {
  public:
   [[nodiscard]] std::string_view typeName() const override { return "NewProximityIntersection"; }

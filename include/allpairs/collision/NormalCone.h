@@ -7,7 +7,7 @@
 
 namespace allpairs::collision {
 
-/// A cone that holds the normals of a patch of surface; half-angle 2 pi says that nothing is known of them.
+/// A cone that contains the normals of a patch of surface; half-angle 2 pi means that they are unknown.
 ///
 /// A patch whose normals all lie within less than a quarter turn of one axis is too flat to touch itself.
 struct NormalCone {
@@ -16,17 +16,17 @@ struct NormalCone {
 
   /// The cone of a single direction.
   ///
-  /// Bad input: the null vector has no direction, and gives the cone that knows nothing.
+  /// Bad input: the null vector has no direction, and gives the cone of unknown normals.
   [[nodiscard]] static NormalCone of(const Vec3& normal);
 
   /// The cone of a direction that turns during a step: around the one at the start, as wide as the angle between the
   /// two.
   [[nodiscard]] static NormalCone ofTurning(const Vec3& start, const Vec3& end);
 
-  /// Widens this cone so that it holds the other as well.
+  /// Widens this cone so that it contains the other as well.
   ///
   /// Geometry: with a the larger half-angle, if a <= pi/2 the axis is the normalised sum of the two and the half-angle
-  ///           acos(axis1 . axis2) / 2 + a; otherwise nothing is known any more. The order of merging matters.
+  ///           acos(axis1 . axis2) / 2 + a; otherwise the normals become unknown. The order of merging matters.
   void merge(const NormalCone& other);
 };
 

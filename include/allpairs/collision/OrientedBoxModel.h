@@ -17,13 +17,13 @@ struct OrientedBox {
   std::array<Vec3, 3> axes{Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}};
   Vec3 halfExtents{kDefaultHalfExtent, kDefaultHalfExtent, kDefaultHalfExtent};
 
-  /// The box whose axes are those of the world turned by a unit quaternion x, y, z, w.
+  /// The box whose axes are those of the world rotated by a unit quaternion x, y, z, w.
   [[nodiscard]] static OrientedBox turned(const Vec3& centre, const std::array<double, 4>& quaternion,
                                           const Vec3& halfExtents = {kDefaultHalfExtent, kDefaultHalfExtent,
                                                                      kDefaultHalfExtent});
 };
 
-/// Oriented boxes. The axis-aligned box of each holds its 8 corners and is widened by the contact distance.
+/// Oriented boxes. The axis-aligned box of each bounds its 8 corners, enlarged by the contact distance.
 ///
 /// Bad input: a number that is not finite, or a negative half extent, throws InvalidArgument.
 class OrientedBoxModel : public SolidModel {

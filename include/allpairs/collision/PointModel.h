@@ -5,7 +5,7 @@
 
 namespace allpairs::collision {
 
-/// Points. The box of each is the point, widened by the contact distance.
+/// Points. The box of each is the point, enlarged by the contact distance.
 ///
 /// Bad input: a number that is not finite throws InvalidArgument.
 class PointModel : public MeshModel {

@@ -5,7 +5,7 @@
 
 namespace allpairs::collision {
 
-/// Base of the methods that look for what is close: boxes are near if they are at most alarm distance + the contact
+/// Base of the proximity methods: boxes are near if they are at most alarm distance + the contact
 /// distances of both models apart, added in that order.
 ///
 /// By default the alarm distance is 1 and the contact distance 0.5.

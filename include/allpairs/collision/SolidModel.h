@@ -10,9 +10,9 @@ namespace allpairs::collision {
 /// Base of the models whose elements are whole bodies, each with one velocity: boxes, spheres, capsules.
 class SolidModel : public CollisionModel {
  public:
-  /// One velocity per element, for continuous methods; an empty vector says that nothing moves.
+  /// One velocity per element, for continuous methods; an empty vector means that nothing moves.
   ///
-  /// Bad input: another length throws InvalidArgument, a number that is not finite too.
+  /// Bad input: a wrong length or a number that is not finite throws InvalidArgument.
   void setVelocities(std::vector<Vec3> velocities);
   [[nodiscard]] const std::vector<Vec3>& velocities() const { return m_velocities; }
 
@@ -22,7 +22,7 @@ class SolidModel : public CollisionModel {
  protected:
   using CollisionModel::CollisionModel;
 
-  /// The box of an element that has moved by `offset`.
+  /// The box of an element moved by `offset`.
   [[nodiscard]] virtual Box boxAt(std::size_t index, const Vec3& offset) const = 0;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace allpairs::collision {
 
-/// Spheres. The box of each reaches radius + contact distance from its centre.
+/// Spheres. The box of each extends radius + contact distance from its centre.
 class SphereModel : public SolidModel {
  public:
   static constexpr double kDefaultRadius = 1.0;

@@ -7,7 +7,7 @@
 
 namespace allpairs::collision {
 
-/// Tetrahedra. The box of each is its points; the contact distance doesn't widen it.
+/// Tetrahedra. The box of each bounds its points; the contact distance does not enlarge it.
 ///
 /// Bad input: a number that is not finite, or an index past the points, throws InvalidArgument.
 class TetrahedronModel : public MeshModel {

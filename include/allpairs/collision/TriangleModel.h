@@ -7,7 +7,7 @@
 
 namespace allpairs::collision {
 
-/// Triangles, and quads as two triangles each. The box of each is its points, widened by the contact distance.
+/// Triangles, and quads as two triangles each. The box of each bounds its points, enlarged by the contact distance.
 ///
 /// The elements are the triangles in their order, then for each quad (a, b, c, d) the triangles (a, b, c) and
 /// (a, c, d).
@@ -21,10 +21,10 @@ class TriangleModel : public MeshModel {
   TriangleModel(std::string name, std::vector<Vec3> positions, std::vector<Triangle> triangles,
                 const std::vector<Quad>& quads = {});
 
-  /// The elements: the triangles that were given, then two for each quad.
+  /// The elements: the given triangles, then two for each quad.
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return m_triangles; }
 
-  /// Whether the boxes carry cones of normals, by which a patch that is nearly flat is known not to touch itself.
+  /// Whether the boxes have cones of normals, which exclude that a nearly flat patch touches itself.
   [[nodiscard]] bool getUseCurvature() const { return m_useCurvature; }
   void setUseCurvature(bool useCurvature);
 

@@ -15,45 +15,46 @@
 
 namespace allpairs::elements {
 
-/// Which two kinds of element make a candidate.
+/// The two kinds of element in a candidate.
 enum class CandidateKind : std::uint8_t {
   VertexFace,  ///< (vertex, triangle).
   EdgeEdge,    ///< (edge, edge), first < second.
   FaceFace,    ///< (triangle, triangle), first < second.
 };
 
-/// Which candidates are wanted, and how they are found; the defaults are right for one mesh that may fold onto itself.
+/// Which candidates to find, and how; the defaults suit a single mesh that may fold onto itself.
 struct CandidateOptions {
-  /// Elements whose boxes are at most this far apart on every axis are candidates. Negative shrinks.
+  /// Elements whose boxes are at most this far apart on every axis are candidates. Negative requires that much overlap.
   double distance = 0.0;
 
-  bool withinMeshes = true;   ///< Two elements of one mesh.
-  bool betweenMeshes = true;  ///< Two elements of different meshes.
+  bool withinMeshes = true;   ///< Pairs of elements of one mesh.
+  bool betweenMeshes = true;  ///< Pairs of elements of different meshes.
 
   Order order = Order::ByFirst;
 
-  /// Where parallel work runs; null means on the calling thread. Not owned.
+  /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// Where candidates and the memory of the search come from, as in OverlapOptions; the meshes and the boxes of their
-  /// elements lie elsewhere. Null means aligned operator new. Not owned; must outlive the object.
+  /// Allocates candidates and the memory of the search, as in OverlapOptions; the meshes and the boxes of their
+  /// elements are allocated elsewhere. Null means aligned operator new. Not owned; must outlive the object.
   std::pmr::memory_resource* memory = nullptr;
 };
 
 /// Finds the pairs of elements of deforming triangle meshes that may touch during a step, for continuous collision
-/// detection, and keeps its memory from one step to the next.
+/// detection, and keeps its memory between steps.
 ///
-/// Geometry:  a vertex moves on a straight line from its start to its end, so the box of both holds it, and the box of an
-///            element, which is that of its vertices at start and end, holds the element throughout. Boxes are closed and
-///            compared exactly, in double. Two elements that have a vertex in common are no candidates.
-/// Bad input: positions that are not finite or of the wrong number, a mesh that isn't there, and a distance that is NaN
-///            or -infinity throw InvalidArgument that names mesh and vertex.
-/// Cost:      of a search as in OverlapSearch; 48 bytes an element besides.
-/// Threads:   one call at a time per object; parallel inside when the options name an executor.
-/// Memory:    a call that throws, std::bad_alloc or what a visitor throws included, leaves all positions as they were;
-///            the next search gives what a new object gives.
-/// Callbacks: a visitor may use other objects; of the one that calls it, all but topology() throws InvalidArgument.
-/// Moving:    an object that has been moved from is as a new one of no meshes.
+/// Geometry:  a vertex moves on a straight line from its start to its end. The box of an element bounds its vertices at
+///            start and end, and hence the element during the whole step. Boxes are closed and compared exactly, in
+///            double. Two elements that share a vertex are never candidates.
+/// Bad input: positions that are not finite or of the wrong number, a mesh out of range, and a distance that is NaN
+///            or -infinity throw InvalidArgument, which names mesh and vertex.
+/// Cost:      that of a search as in OverlapSearch, plus 48 bytes per element.
+/// Threads:   one call at a time per object; parallel inside if the options have an executor.
+/// Memory:    a call that throws, whether std::bad_alloc or an exception of a visitor, leaves all positions unchanged;
+///            the next search behaves like that of a new object.
+/// Callbacks: a visitor may use other objects; on the object that calls it, all members except topology() throw
+///            InvalidArgument.
+/// Moving:    a moved-from object is like a new one without meshes.
 class ElementCandidates {
  public:
   explicit ElementCandidates(MeshTopology topology, CandidateOptions options = {});
@@ -61,23 +62,23 @@ class ElementCandidates {
   ElementCandidates(ElementCandidates&&) noexcept;
   ElementCandidates& operator=(ElementCandidates&&) noexcept;
 
-  /// Gives back the memory that is kept for the next search. Candidates that were found stay valid.
+  /// Releases the memory kept for the next search. The candidates found last stay valid.
   void shrink();
 
   [[nodiscard]] const MeshTopology& topology() const noexcept;
 
-  /// Says where the vertices of a mesh are at the start and at the end of the step, in rows of 3. Meshes that are not
-  /// mentioned stay where they were; until set, all vertices are at the origin.
+  /// Sets the positions of the vertices of a mesh at the start and at the end of the step, in rows of 3. Other meshes
+  /// keep their positions; until set, all vertices are at the origin.
   void setPositions(std::size_t mesh, std::span<const float> start, std::span<const float> end);
   void setPositions(std::size_t mesh, std::span<const double> start, std::span<const double> end);
 
   /// All candidates of a kind, each once. Valid until the next search for the same kind.
   [[nodiscard]] std::span<const Pair> find(CandidateKind kind);
 
-  /// How many find() would give, in memory that does not depend on it; on the calling thread.
+  /// The number of candidates of find(), on the calling thread; uses memory independent of that number.
   [[nodiscard]] std::uint64_t count(CandidateKind kind);
 
-  /// Hands the candidates of find() to the visitor, in batches of at most `batchSize`, in memory that does not depend on
+  /// Passes the candidates of find() to the visitor, in batches of at most `batchSize`; uses memory independent of
   /// their number.
   ///
   /// Bad input: a batch size of 0 throws InvalidArgument.

@@ -17,13 +17,13 @@ using Edge = std::array<std::uint32_t, 2>;
 /// Three vertices.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// How many vertices a mesh has, and which of them its triangles join: rows of 3 indices.
+/// The number of vertices of a mesh, and the vertices of its triangles in rows of 3 indices.
 struct MeshView {
   std::size_t vertexCount = 0;
   std::span<const std::uint32_t> triangles;
 };
 
-/// How many vertices, edges and triangles there are, or come before a mesh.
+/// The number of vertices, edges and triangles, in all or before a mesh.
 struct ElementCounts {
   std::size_t vertices = 0;
   std::size_t edges = 0;
@@ -32,13 +32,13 @@ struct ElementCounts {
   friend constexpr bool operator==(const ElementCounts&, const ElementCounts&) = default;
 };
 
-/// The vertices, edges and triangles of one or more triangle meshes, numbered through: those of the first mesh, then
-/// those of the second, and so on.
+/// The vertices, edges and triangles of one or more triangle meshes, numbered consecutively: those of the first mesh,
+/// then those of the second, and so on.
 ///
-/// Triangles keep their order. Edges are unique, ascending by their two vertices. A triangle that names a vertex twice is
-/// kept, and gives no edge from that vertex to itself. Vertices that no triangle names are elements too.
-/// Bad input: a span that is no rows of 3, or a vertex that the mesh doesn't have, throws InvalidArgument that names mesh
-///            and triangle; so do more than 2^32 - 1 elements of a kind.
+/// Triangles keep their order. Edges are unique, ascending by their two vertices. A triangle with a repeated vertex is
+/// kept, and gives no edge from that vertex to itself. Vertices without triangles are elements too.
+/// Bad input: a span that is not rows of 3, or a vertex out of range, throws InvalidArgument, which names mesh and
+///            triangle; so do more than 2^32 - 1 elements of a kind.
 /// Cost:      O(vertices + triangles); 24 bytes a triangle and 4 a vertex are kept.
 /// Threads:   const use from any number of threads.
 class MeshTopology {
@@ -46,17 +46,17 @@ class MeshTopology {
   explicit MeshTopology(const MeshView& mesh);
   explicit MeshTopology(std::span<const MeshView> meshes);
 
-  /// No meshes, as in a topology that has been moved from.
+  /// No meshes, like a moved-from topology.
   MeshTopology() = default;
 
   [[nodiscard]] std::size_t meshCount() const noexcept { return m_before.empty() ? 0 : m_before.size() - 1; }
 
-  /// How many elements there are in all.
+  /// The number of all elements.
   [[nodiscard]] const ElementCounts& counts() const noexcept { return m_before.empty() ? kNone : m_before.back(); }
 
-  /// How many elements come before those of a mesh: its first vertex, edge and triangle.
+  /// The number of elements before those of a mesh: its first vertex, edge and triangle.
   ///
-  /// Bad input: a mesh that isn't there throws InvalidArgument; meshCount() is allowed, and gives counts().
+  /// Bad input: a mesh out of range throws InvalidArgument; meshCount() is allowed, and gives counts().
   [[nodiscard]] const ElementCounts& before(std::size_t mesh) const;
 
   [[nodiscard]] std::span<const Edge> edges() const noexcept { return m_edges; }

@@ -30,11 +30,11 @@ struct MotionRequest {
 /// Geometry:  lengths are without unit; every box is finite, not empty, and within the unit cube up to rounding.
 /// Bad input: an unknown name, or more than 2^32 - 1 boxes, throws InvalidArgument.
 /// Cost:      O(n) a frame; up to 128 bytes a box, whatever the number of frames.
-/// Threads:   one call at a time per object; the bytes depend on the request alone, not on the machine, compiler or
+/// Threads:   one call at a time per object; the bytes depend only on the request, not on the machine, compiler or
 ///            standard library.
 /// Reference: Serpa, Rodrigues: Broadmark, a testing framework for broad-phase collision detection algorithms, Computer
 ///            Graphics Forum 39 (2020), whose scenes fill as much and move in these three ways. Its bodies push each
-///            other; ours come to rest at places of their own, which makes piles of about the same density.
+///            other; ours come to rest at predetermined places, which gives piles of about the same density.
 class MotionFrames {
  public:
   explicit MotionFrames(const MotionRequest& request);

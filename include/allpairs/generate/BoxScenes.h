@@ -18,7 +18,7 @@ struct BoxScene {
 /// The families that makeBoxes() knows, in the order in which reports list them.
 [[nodiscard]] std::span<const BoxScene> boxScenes() noexcept;
 
-/// Which boxes to make.
+/// Which boxes to generate.
 struct SceneRequest {
   std::string_view scene = "uniform";
   std::size_t count = 1000;
@@ -33,7 +33,7 @@ struct SceneRequest {
 /// Geometry:  lengths are without unit; every box is finite and not empty; most scenes fill about a unit cube.
 /// Bad input: an unknown name, or more than 2^32 - 1 boxes, throws InvalidArgument.
 /// Cost:      O(n), and O(n log n) where sorted.
-/// Threads:   any; the bytes depend on the request alone, not on the machine, compiler or standard library.
+/// Threads:   any; the bytes depend only on the request, not on the machine, compiler or standard library.
 [[nodiscard]] std::vector<float> makeBoxes(const SceneRequest& request);
 
 }  // namespace allpairs::generate

@@ -8,13 +8,13 @@
 
 namespace allpairs::parallel {
 
-/// Runs tasks on oneTBB, in an arena of its own.
+/// Runs tasks on oneTBB, in its own arena.
 ///
 /// Threads: run() may be called from several threads at once, and from inside a task.
 class TbbExecutor final : public Executor {
  public:
-  /// `threads` counts the calling thread; 0 means as many as the machine runs at once. More than the machine has raise
-  /// oneTBB's limit on its workers, which is the process's, for the life of the executor.
+  /// `threads` includes the calling thread; 0 means one per hardware thread. More than that raise oneTBB's process-wide
+  /// limit on its workers for the lifetime of the executor.
   ///
   /// Bad input: more than 65,535 threads throw InvalidArgument.
   explicit TbbExecutor(std::size_t threads = 0);

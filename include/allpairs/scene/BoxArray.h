@@ -20,7 +20,7 @@ template <class T>
 struct BoxTable {
   std::unique_ptr<T[]> values;  ///< 6 n of them.
   std::size_t size = 0;
-  bool columnMajor = false;  ///< Six columns of n, as Fortran lays them out, instead of n rows of six.
+  bool columnMajor = false;  ///< Six columns of n, in Fortran order, instead of n rows of six.
 };
 
 /// Many short texts in one block of memory.
@@ -43,7 +43,7 @@ class NameList {
   std::vector<std::uint64_t> m_ends;
 };
 
-/// Boxes as a file holds them, float32 or float64, millions of them in one block, with names where the file has some.
+/// The boxes of a file, float32 or float64, in one block, with names if the file has them.
 ///
 /// Threads: const use from any number of threads.
 class BoxArray {
@@ -58,8 +58,8 @@ class BoxArray {
   [[nodiscard]] const BoxView& boxes() const noexcept { return m_boxes; }
   [[nodiscard]] std::size_t size() const noexcept { return m_boxes.size(); }
 
-  /// What box i is called: its name in the file; without one its index, after the file's name if there were several
-  /// files, and after a number if several had that name: a.npy[7], a.npy#2[7].
+  /// The name of box i: its name in the file, else its index. With several files, the index follows the file's name,
+  /// and a number if several files have that name: a.npy[7], a.npy#2[7].
   [[nodiscard]] std::string name(std::size_t i) const;
 
   /// One array of all the boxes, in the order given: float32 if all are, else float64, which holds both exactly.
@@ -85,17 +85,17 @@ class BoxArray {
 ///
 /// Bad input: anything else throws FileError: another type or shape, a file that is shorter or longer than its header
 ///            says, a NaN.
-/// Cost:      one read; the memory of the numbers, and no allocation for what a header only claims.
+/// Cost:      one read; the memory of the numbers. Nothing is allocated for data that only the header promises.
 [[nodiscard]] BoxArray readNpy(const std::filesystem::path& path);
 
 /// Reads boxes from lines of text: minx,miny,minz,maxx,maxy,maxz, as float64.
 ///
 /// The first or the last column may be a name. A first line that names the columns may put them in another order. Empty
 /// lines and lines that begin with # are skipped.
-/// Bad input: throws FileError with line and column; a file that is no text, such as UTF-16, too.
+/// Bad input: throws FileError with line and column; also for a file that is not text, such as UTF-16.
 [[nodiscard]] BoxArray readCsv(const std::filesystem::path& path);
 
-/// Whether the path is called like a box array: .npy or .csv.
+/// Whether the path has the extension of a box array: .npy or .csv.
 [[nodiscard]] bool isBoxArrayFile(const std::filesystem::path& path);
 
 /// Reads .npy or .csv.

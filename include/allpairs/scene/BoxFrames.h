@@ -14,7 +14,7 @@ namespace allpairs::scene {
 /// Bad input: a .npy file that is missing, unreadable or malformed throws FileError.
 [[nodiscard]] bool isBoxFramesFile(const std::filesystem::path& path);
 
-/// Boxes that move, as a file holds them, one frame after the other; only one of them is in memory.
+/// Reads moving boxes from a file, frame by frame; one frame is in memory at a time.
 ///
 /// The file is a NumPy array of shape (t, n, 6), float32 or float64, either byte order, C order: t frames of n boxes.
 /// Bad input: anything else throws FileError, and so does a NaN, naming frame and box.
@@ -29,9 +29,9 @@ class BoxFrames {
   [[nodiscard]] std::size_t frameCount() const noexcept;
   [[nodiscard]] std::size_t boxCount() const noexcept;
 
-  /// The boxes of the next frame, of which there are frameCount(); valid until the next call.
+  /// The boxes of the next frame; valid until the next call.
   ///
-  /// Bad input: more calls than that throw InvalidArgument.
+  /// Bad input: more than frameCount() calls throw InvalidArgument.
   [[nodiscard]] BoxView next();
 
  private:

@@ -9,7 +9,7 @@
 
 namespace allpairs {
 
-/// A file that is missing, unreadable, or malformed; `line()` and `column()` count from 1, 0 where there is none.
+/// A file that is missing, unreadable, or malformed; `line()` and `column()` count from 1, or are 0 if unknown.
 class FileError : public Error {
  public:
   FileError(const std::filesystem::path& path, const std::string& problem, std::size_t line = 0, std::size_t column = 0)
@@ -20,7 +20,7 @@ class FileError : public Error {
         m_column(column) {}
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return m_path; }
-  /// What is wrong, without the place.
+  /// The problem, without the position.
   [[nodiscard]] const std::string& problem() const noexcept { return m_problem; }
   [[nodiscard]] std::size_t line() const noexcept { return m_line; }
   [[nodiscard]] std::size_t column() const noexcept { return m_column; }

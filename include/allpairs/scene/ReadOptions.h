@@ -9,30 +9,30 @@
 
 namespace allpairs::scene {
 
-/// How far a reader has come: `done` of `total` steps, and what it reads now. `total` is 0 where it isn't known.
+/// The progress of a reader: `done` of `total` steps, and what it is reading. `total` is 0 if unknown.
 struct Progress {
   std::size_t done = 0;
   std::size_t total = 0;
   std::filesystem::path file;
 };
 
-/// How input is read; the defaults are right for files that stand alone.
+/// How input is read; the defaults suit files that name no others.
 struct ReadOptions {
   /// Folders that are searched, in order, for the files that a scene names, after the scene's own folder.
   std::vector<std::filesystem::path> searchRoots{};
 
-  /// Leave out what can't be placed, with a remark, where it would otherwise be an error.
+  /// Skip models that cannot be placed, with a remark, instead of throwing.
   bool partial = false;
 
-  /// Read files that an input names wherever they are. Otherwise only those in its own folder, in the search roots, and
-  /// below these, symbolic links resolved; any other is an error.
+  /// Read files that an input names in any folder. Otherwise only those in its own folder, in the search roots, and
+  /// below these, after symbolic links are resolved; any other is an error.
   bool allowOutside = false;
 
-  /// The most memory, in bytes, that reading an input may take. By default, 0, half of what the machine has, and never
-  /// more than 256 MiB plus 256 bytes for each byte of the files that are read.
+  /// The maximum memory, in bytes, for reading an input. The default, 0, means half of the machine's memory, and at
+  /// most 256 MiB plus 256 bytes for each byte of the files that are read.
   std::uint64_t maxMemory = 0;
 
-  /// Told now and then how far reading has come; may be empty.
+  /// Called now and then with the progress; may be empty.
   std::function<void(const Progress&)> progress{};
 };
 

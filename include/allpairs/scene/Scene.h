@@ -14,39 +14,38 @@
 
 namespace allpairs::scene {
 
-/// A part of the input that was left out, and why.
+/// A part of the input that was skipped, and why.
 struct Remark {
   std::filesystem::path file{};
-  std::size_t line = 0;  ///< From 1; 0 where the file has no lines.
-  std::string
-      subject{};  ///< What was left out, by the name that the user knows: a path in the scene, an object's name.
+  std::size_t line = 0;   ///< From 1; 0 where the file has no lines.
+  std::string subject{};  ///< What was skipped, by the name that the user knows: a path in the scene, an object's name.
   std::string reason{};
-  bool isPartial = false;  ///< It is missing among the models: what would be an error without ReadOptions::partial.
+  bool isPartial = false;  ///< A model is missing for it: without ReadOptions::partial it would be an error.
 };
 
-/// One thing that models belong to: a node of a scene, an object of a mesh file. Models of one owner are one body.
+/// The owner of models: a node of a scene, an object of a mesh file. Models of one owner are one body.
 struct Owner {
   std::string path;
 };
 
-/// What a reader makes of its input: collision models in the order of traversal, and how they are to be tested.
+/// The result of a reader: collision models in the order of traversal, and the intersection method.
 struct Scene {
   std::vector<std::unique_ptr<collision::CollisionModel>> models;
   std::vector<std::unique_ptr<Owner>> owners;
   std::unique_ptr<collision::Intersection> intersection;  ///< Never null.
-  std::string intersectionName;                           ///< As the file calls it; empty where it names none.
+  std::string intersectionName;                           ///< As in the file; empty if it names none.
   std::optional<Box> region;
-  double timeStep = 0.0;  ///< How far a continuous method looks ahead.
+  double timeStep = 0.0;  ///< The step of a continuous method.
   std::vector<Remark> remarks;
 };
 
-/// A scene of nothing, with the method that stands where a file names none: discrete, alarm distance 0.
+/// An empty scene, with the default method: discrete, alarm distance 0.
 [[nodiscard]] Scene emptyScene();
 
-/// Puts the models of `more` behind those of `scene`.
+/// Appends the models of `more` to those of `scene`.
 ///
-/// A model whose name is taken in `scene` gets a number behind it: "wheel#2". The first method and the first region
-/// that a file names count for all; others get a remark.
+/// A model whose name exists in `scene` gets a number: "wheel#2". The first method and the first region
+/// that a file names apply to all; others give a remark.
 void append(Scene& scene, Scene more);
 
 }  // namespace allpairs::scene

@@ -17,12 +17,12 @@
 
 namespace allpairs::scene {
 
-/// What a result says about one model.
+/// The record of one model in a result.
 struct ModelRecord {
   std::string name;
   std::string type;
   std::size_t elements = 0;
-  Box box = kEmptyBox;  ///< Of the root; empty where there are no elements.
+  Box box = kEmptyBox;  ///< Of the root; empty without elements.
   bool active = true;
   bool simulated = true;
   bool moving = true;
@@ -31,39 +31,40 @@ struct ModelRecord {
   double contactDistance = 0.0;
 };
 
-/// What a result says about a model whose bounding tree was made.
+/// The record of a model whose bounding tree was computed.
 [[nodiscard]] ModelRecord modelRecord(const collision::CollisionModel& model);
 
-/// How a detection went: the last part of a result.
+/// Statistics of a detection: the last part of a result.
 struct DetectionStatistics {
   std::string strategy{};             ///< As the caller chose it: auto, exhaustive, bvh.
-  std::size_t threads = 1;            ///< How many it could use.
+  std::size_t threads = 1;            ///< The number of threads it could use.
   double distance = 0.0;              ///< The gap allowed between two boxes, or the alarm distance.
-  std::uint64_t testsOfAllPairs = 0;  ///< How many tests a double loop over the models makes.
-  std::uint64_t testsMade = 0;        ///< How many tests, of two boxes or of the bounds of two groups, were made.
-  std::uint64_t candidates = 0;       ///< For how many pairs of models flags and groups were asked, after their boxes.
+  std::uint64_t testsOfAllPairs = 0;  ///< The number of tests of a double loop over the models.
+  std::uint64_t testsMade = 0;        ///< The number of tests made, of two boxes or of the bounds of two groups.
+  std::uint64_t candidates =
+      0;  ///< The number of pairs of models whose flags and groups were tested, after their boxes.
   double readSeconds = 0.0;
   double detectSeconds = 0.0;
   bool verified = false;  ///< Whether the exhaustive strategy was run too, and agreed.
 };
 
-/// Models, pairs of them by index, and how they were found. Pairs and remarks are borrowed.
+/// Models, pairs of them by index, and statistics. Pairs and remarks are not owned.
 struct ResultView {
   std::size_t modelCount = 0;
   std::function<ModelRecord(std::size_t)> model{};
   std::span<const Pair> pairs{};
-  std::span<const Remark> ignored{};  ///< What of the input was left out.
+  std::span<const Remark> ignored{};  ///< The parts of the input that were skipped.
   bool swapped = false;               ///< Write each pair's second before its first.
   DetectionStatistics statistics{};
 };
 
-/// Takes a result's bytes, some at a time.
+/// Receives a result's bytes, in chunks.
 using ByteSink = FunctionRef<void(std::string_view)>;
 
 /// Writes {"models": [...], "pairs": [[i, j], ...], "ignored": [...], "statistics": {...}}.
 ///
-/// A number is written with as many digits as it takes to read the same number again. JSON has no infinities: they are
-/// the texts "inf" and "-inf".
+/// A number is written with enough digits to read the same number again. JSON has no infinities: they are
+/// the strings "inf" and "-inf".
 /// Cost: linear, in constant memory.
 void writeJson(const ResultView& result, ByteSink sink);
 
