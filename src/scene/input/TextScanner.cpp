@@ -11,31 +11,46 @@
 
 namespace allpairs::scene {
 
+std::optional<double> scannedNumber(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::result_out_of_range && word.find("e-") != std::string_view::npos) return 0;
+  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 TextScanner::TextScanner(const std::filesystem::path& path) : m_path(path), m_text(readText(path)) {}
 
-bool TextScanner::atEnd() { return m_text.find_first_not_of(kBlanksAndLineEnds, m_position) == std::string::npos; }
-
 std::string_view TextScanner::word() {
-  const auto begin = m_text.find_first_not_of(kBlanksAndLineEnds, m_position);
-  return begin == std::string::npos ? take(m_text.size()) : take(begin);
+  auto text = rest();
+  const auto word = takeWord(text, isBlankOrLineEnd);
+  m_position = m_text.size() - text.size();
+  m_wordStart = m_position - word.size();
+  return word;
 }
 
 std::string_view TextScanner::wordInLine() {
   const auto begin = m_text.find_first_not_of(kBlanks, m_position);
   if (begin == std::string::npos || m_text[begin] == '\n') return {};
-  return take(begin);
+  return word();
 }
 
-std::string_view TextScanner::take(std::size_t begin) {
-  const auto end = std::min(m_text.find_first_of(kBlanksAndLineEnds, begin), m_text.size());
-  m_wordStart = begin;
-  m_position = end;
-  return std::string_view{m_text}.substr(begin, end - begin);
+double TextScanner::number() {
+  const auto word = this->word();
+  if (word.empty()) fail("a number is missing");
+  const auto value = scannedNumber(word);
+  if (!value) fail("what stands here is not a finite number");
+  return *value;
 }
 
-double TextScanner::number() { return toNumber(word()); }
-
-std::int64_t TextScanner::integer() { return toInteger(word()); }
+std::int64_t TextScanner::integer() {
+  const auto word = this->word();
+  if (word.empty()) fail("an integer is missing");
+  std::int64_t value{};
+  if (parseWhole(word, value) != std::errc{}) fail("what stands here is not an integer");
+  return value;
+}
 
 void TextScanner::expect(std::string_view wanted) {
   if (word() != wanted) fail("expected '" + std::string{wanted} + "'");
@@ -51,26 +66,6 @@ std::string_view TextScanner::bytes(std::size_t count) {
   m_wordStart = m_position;
   m_position += count;
   return std::string_view{m_text}.substr(m_position - count, count);
-}
-
-double TextScanner::toNumber(std::string_view word) const {
-  if (word.empty()) fail("a number is missing");
-  auto digits = word;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  double value{};
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos) return 0;
-  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    fail("what stands here is not a finite number");
-  return value;
-}
-
-std::int64_t TextScanner::toInteger(std::string_view word) const {
-  if (word.empty()) fail("an integer is missing");
-  std::int64_t value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) fail("what stands here is not an integer");
-  return value;
 }
 
 void TextScanner::fail(const std::string& problem) const {

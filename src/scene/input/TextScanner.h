@@ -4,10 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace allpairs::scene {
+
+/// The finite number that a word is, one too small for a double 0; nothing for any other word.
+[[nodiscard]] std::optional<double> scannedNumber(std::string_view word);
 
 /// Reads a text word by word and says at which line it went wrong. What stands there it does not repeat: a scene may
 /// name any file for a mesh, and its messages must not show what is in it.
@@ -16,7 +20,6 @@ class TextScanner {
   /// Reads the whole file; throws FileError.
   explicit TextScanner(const std::filesystem::path& path);
 
-  [[nodiscard]] bool atEnd();
   /// The next word, or an empty one at the end of the file.
   std::string_view word();
   /// The next word of this line, or an empty one at its end.
@@ -28,12 +31,10 @@ class TextScanner {
   /// Takes exactly so many bytes; throws when there are fewer.
   std::string_view bytes(std::size_t count);
 
-  [[nodiscard]] double toNumber(std::string_view word) const;
-  [[nodiscard]] std::int64_t toInteger(std::string_view word) const;
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
-  std::string_view take(std::size_t begin);
+  [[nodiscard]] std::string_view rest() const { return std::string_view{m_text}.substr(m_position); }
 
   std::filesystem::path m_path;
   std::string m_text;

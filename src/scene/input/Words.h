@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <optional>
@@ -13,13 +14,16 @@ namespace allpairs::scene {
 /// What separates words within a line; the end of a line from another system counts as one.
 inline constexpr std::string_view kBlanks = " \t\r\f\v";
 
+/// Whether it is one of kBlanks.
+[[nodiscard]] constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n'); }
+
 /// What separates words where lines mean nothing.
-inline constexpr std::string_view kBlanksAndLineEnds = " \t\r\f\v\n";
+[[nodiscard]] constexpr bool isBlankOrLineEnd(char c) { return isBlank(c) || c == '\n'; }
 
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 /// Takes the first line off the text, without its end.
@@ -43,20 +47,36 @@ inline constexpr std::string_view kBlanksAndLineEnds = " \t\r\f\v\n";
   return result;
 }
 
-/// Takes the first word off the text; empty at its end.
-[[nodiscard]] inline std::string_view takeWord(std::string_view& text) {
-  text = trimmed(text);
-  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
-  text.remove_prefix(word.size());
+/// Takes the first word off the text; empty where there is none. `isBlank` says what separates words.
+template <class IsBlank>
+[[nodiscard]] std::string_view takeWord(std::string_view& text, const IsBlank& isBlank) {
+  const auto begin = std::find_if_not(text.begin(), text.end(), isBlank);
+  const auto end = std::find_if(begin, text.end(), isBlank);
+  const std::string_view word(begin, end);
+  text = std::string_view(end, text.end());
   return word;
+}
+
+/// The same within a line, whose blanks at its end it takes too.
+[[nodiscard]] inline std::string_view takeWord(std::string_view& line) {
+  line = trimmed(line);
+  return takeWord(line, isBlank);
+}
+
+/// Parses a text that is one number from its first character to its last, in the form of std::from_chars. Returns no
+/// error, or result_out_of_range, or invalid_argument for all else.
+template <class Number>
+[[nodiscard]] std::errc parseWhole(std::string_view text, Number& value) {
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return end == text.data() + text.size() ? problem : std::errc::invalid_argument;
 }
 
 /// The number that is all of the text, in any form that C knows but hexadecimal; NaN and infinities included.
 [[nodiscard]] inline std::optional<double> parseNumber(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size() || problem == std::errc::invalid_argument) return std::nullopt;
+  const std::errc problem = parseWhole(text, value);
+  if (problem == std::errc::invalid_argument) return std::nullopt;
   // from_chars leaves the value alone where it is too large or too small for a double.
   if (problem == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
   return value;

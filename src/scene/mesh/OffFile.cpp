@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <charconv>
 #include <limits>
 #include <string_view>
+#include <system_error>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
@@ -58,10 +58,7 @@ class OffReader {
   std::uint64_t count(std::string_view& line) {
     const std::string_view word = takeWord(line);
     std::uint64_t value = 0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || problem != std::errc() || end != word.data() + word.size()) {
-      fail(quotedWord(word) + " is not a number of vertices or faces");
-    }
+    if (parseWhole(word, value) != std::errc()) fail(quotedWord(word) + " is not a number of vertices or faces");
     return value;
   }
 
@@ -93,8 +90,7 @@ class OffReader {
 
   std::uint32_t resolve(std::string_view word) const {
     std::uint32_t index = 0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), index);
-    if (problem != std::errc() || end != word.data() + word.size() || index >= m_object.positions.size()) {
+    if (parseWhole(word, index) != std::errc() || index >= m_object.positions.size()) {
       fail("index " + shortWord(word) + " names no vertex: the file has " + std::to_string(m_object.positions.size()));
     }
     return index;

@@ -33,16 +33,15 @@ class PlyBody {
  private:
   double nextWord() {
     std::size_t begin = 0;
-    while (begin < m_text.size() && (m_text[begin] == '\n' || kBlanks.find(m_text[begin]) != std::string_view::npos)) {
+    while (begin < m_text.size() && isBlankOrLineEnd(m_text[begin])) {
       if (m_text[begin] == '\n') ++m_line;
       ++begin;
     }
     m_text.remove_prefix(begin);
     if (m_text.empty()) fail("truncated: its header promises more than the file has");
-    const std::string_view word = m_text.substr(0, m_text.find_first_of(" \t\r\f\v\n"));
+    const std::string_view word = takeWord(m_text, isBlankOrLineEnd);
     const std::optional<double> value = parseNumber(word);
     if (!value) fail("'" + std::string(word) + "' is not a number");
-    m_text.remove_prefix(word.size());
     return *value;
   }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <system_error>
 #include <utility>
 
 #include "allpairs/scene/FileError.h"
@@ -64,10 +64,7 @@ class HeaderReader {
     PlyElement& element = m_header.elements.emplace_back();
     element.name = takeWord(line);
     const std::string_view count = takeWord(line);
-    const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), element.count);
-    if (problem != std::errc() || end != count.data() + count.size()) {
-      fail("'" + std::string(count) + "' is no number of elements");
-    }
+    if (parseWhole(count, element.count) != std::errc()) fail("'" + std::string(count) + "' is no number of elements");
   }
 
   void readProperty(std::string_view line) {

@@ -2,32 +2,23 @@
 #include "sofa/graph/Values.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <system_error>
+
+#include "input/Words.h"
 
 namespace allpairs::scene::sofa {
 namespace {
 
-constexpr std::string_view kListBlanks = " \t\r\n\v\f";
 constexpr double kMaxIndex = 1e12;
 constexpr double kMaxRange = 50'000'000;  // "0-4000000000" is a mistake, not a list.
 
-std::string_view nextWord(std::string_view& text) {
-  const auto begin = text.find_first_not_of(kListBlanks);
-  if (begin == std::string_view::npos) return text = {};
-  text.remove_prefix(begin);
-  const auto word = text.substr(0, text.find_first_of(kListBlanks));
-  text.remove_prefix(word.size());
-  return word;
-}
-
 template <class Number>
-std::optional<Number> parseWhole(std::string_view word) {
+std::optional<Number> parseAny(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   Number value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size()) return std::nullopt;
+  const auto error = parseWhole(word, value);
   // Too small for the type is zero enough; too large is not a number that a scene can use.
   if (error == std::errc::result_out_of_range && std::abs(std::strtod(std::string{word}.c_str(), nullptr)) < 1)
     return 0;
@@ -36,7 +27,7 @@ std::optional<Number> parseWhole(std::string_view word) {
 }
 
 std::optional<double> parseFinite(std::string_view word) {
-  const auto value = parseWhole<double>(word);
+  const auto value = parseAny<double>(word);
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
@@ -68,7 +59,7 @@ Numbers withWidth(const Numbers& numbers, std::size_t width, const std::vector<d
 
 std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad) {
   std::vector<double> values;
-  for (auto word = nextWord(text); !word.empty(); word = nextWord(text)) {
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
     const auto value = parseFinite(word);
     if (!value) {
       bad = word;
@@ -81,7 +72,7 @@ std::optional<std::vector<double>> parseNumbers(std::string_view text, std::stri
 
 std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad, ReadScope& scope) {
   std::vector<double> values;
-  for (auto word = nextWord(text); !word.empty(); word = nextWord(text)) {
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
     const auto value = parseFinite(word);
     if (value) {
       values.push_back(*value);
@@ -102,9 +93,8 @@ std::optional<bool> parseBool(std::string_view text) {
 }
 
 std::optional<double> parseWholeFloat(std::string_view text) {
-  const auto begin = text.find_first_not_of(kListBlanks);
-  if (begin == std::string_view::npos) return std::nullopt;
-  const auto value = parseWhole<float>(text.substr(begin));
+  while (!text.empty() && isBlankOrLineEnd(text.front())) text.remove_prefix(1);
+  const auto value = parseAny<float>(text);
   if (!value || !std::isfinite(*value)) return std::nullopt;
   return static_cast<double>(*value);
 }

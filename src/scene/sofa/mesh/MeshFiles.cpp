@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cctype>
-
 #include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
 #include "input/TextScanner.h"
 #include "sofa/mesh/Mesh.h"
 
@@ -92,9 +90,7 @@ Mesh readTrian(const std::filesystem::path& path) {
 }
 
 Mesh readMesh(const std::filesystem::path& path) {
-  auto extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lowerExtension(path);
   if (extension == ".obj") return readObj(path);
   if (extension == ".msh") return readGmsh(path);
   if (extension == ".sph") return readSpheres(path);

@@ -1,81 +1,69 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <map>
 #include <span>
 
+#include "input/FileBytes.h"
 #include "input/TextScanner.h"
+#include "input/Words.h"
+#include "mesh/ObjParser.h"
 #include "sofa/mesh/Mesh.h"
 
 namespace allpairs::scene::sofa {
 namespace {
 
-/// One corner of a face: position, texture coordinate and normal, -1 where the file gives none.
-struct Corner {
-  std::int64_t position = -1;
-  std::int64_t texture = -1;
-  std::int64_t normal = -1;
-};
-
-class ObjReader {
+/// Reads faces and lines as SOFA's loader does. What stands in the file no message repeats, as in TextScanner.
+class ObjReader final : ObjParser {
  public:
-  ObjReader(const std::filesystem::path& path, const ObjOptions& options) : m_text(path), m_options(options) {}
+  ObjReader(const std::filesystem::path& path, const ObjOptions& options)
+      : ObjParser(path, {.elements = "fl", .joinsLines = false, .readsSeams = true}), m_options(options) {}
 
-  Mesh read() {
-    for (auto word = m_text.word(); !word.empty(); word = m_text.word()) {
-      if (word == "v")
-        readPosition();
-      else if (word == "vn")
-        ++m_normals;
-      else if (word == "vt")
-        ++m_textures;
-      else if (word == "f" || word == "l")
-        readFace();
-      m_text.skipLine();
-    }
-    if (m_mesh.positions.empty()) m_text.fail("this is no Wavefront mesh: it has no line of 'v' with a point");
+  Mesh read(std::string_view text) {
+    parse(text);
+    m_lastLine = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+    if (m_mesh.positions.empty()) failAtEnd("this is no Wavefront mesh: it has no line of 'v' with a point");
     if (m_options.splitSeams) splitSeams();
     for (const auto& face : m_faces) addFace(face);
     return std::move(m_mesh);
   }
 
  private:
-  void readPosition() {
+  void addPosition(std::string_view coordinates) override {
     Vec3 position{};
-    for (auto& coordinate : position) coordinate = m_text.toNumber(m_text.wordInLine());
+    for (auto& coordinate : position) {
+      const auto word = takeWord(coordinates, isBlank);
+      if (word.empty()) fail("a number is missing");
+      const auto value = scannedNumber(word);
+      if (!value) fail("what stands here is not a finite number");
+      coordinate = *value;
+    }
     m_mesh.positions.push_back(position);
   }
 
-  void readFace() {
-    std::vector<Corner> corners;
-    for (auto word = m_text.wordInLine(); !word.empty(); word = m_text.wordInLine()) corners.push_back(corner(word));
-    if (corners.size() >= 2) m_faces.push_back(std::move(corners));
+  void addElement(char /*kind*/, std::span<const ObjCorner> corners) override {
+    if (corners.size() >= 2) m_faces.emplace_back(corners.begin(), corners.end());
   }
 
-  Corner corner(std::string_view word) const {
-    Corner result;
-    const auto part = [&word] {
-      const auto text = word.substr(0, word.find('/'));
-      word.remove_prefix(std::min(text.size() + 1, word.size()));
-      return text;
-    };
-    result.position = resolve(part(), m_mesh.positions.size());
-    result.texture = resolve(part(), m_textures);
-    result.normal = resolve(part(), m_normals);
-    if (result.position < 0) m_text.fail("a face without a point");
-    return result;
+  void beginObject(std::string_view /*keyword*/, std::string_view /*name*/) override {}
+
+  [[noreturn]] void refuse(ObjProblem problem, std::string_view /*index*/) const override {
+    switch (problem) {
+      case ObjProblem::NoPosition:
+        fail("a face without a point");
+      case ObjProblem::IsZero:
+        fail("indices count from 1, this one is 0");
+      case ObjProblem::BeforeFirst:
+        fail("an index reaches back before the first point");
+      default:
+        fail("what stands here is not an integer");
+    }
   }
 
-  std::int64_t resolve(std::string_view text, std::size_t count) const {
-    if (text.empty()) return -1;
-    const auto index = m_text.toInteger(text);
-    if (index == 0) m_text.fail("indices count from 1, this one is 0");
-    const auto resolved = index > 0 ? index - 1 : index + static_cast<std::int64_t>(count);
-    if (resolved < 0) m_text.fail("an index reaches back before the first point");
-    return resolved;
-  }
+  [[noreturn]] void failAtEnd(const std::string& problem) const { failAt(m_lastLine, problem); }
 
   template <class Uses>
-  auto& usesOf(Uses& uses, const Corner& corner) const {
-    if (static_cast<std::size_t>(corner.position) >= uses.size()) m_text.fail("a face names a point that isn't there");
+  auto& usesOf(Uses& uses, const ObjCorner& corner) const {
+    if (static_cast<std::size_t>(corner.position) >= uses.size()) failAtEnd("a face names a point that isn't there");
     return uses[static_cast<std::size_t>(corner.position)];
   }
 
@@ -95,10 +83,10 @@ class ObjReader {
     m_mesh.positions = std::move(positions);
   }
 
-  void addFace(std::span<const Corner> corners) {
+  void addFace(std::span<const ObjCorner> corners) {
     const auto at = [&](std::size_t i) {
       if (static_cast<std::size_t>(corners[i].position) >= m_mesh.positions.size())
-        m_text.fail("a face names a point that isn't there");
+        failAtEnd("a face names a point that isn't there");
       return static_cast<Index>(corners[i].position);
     };
     if (corners.size() == 2) {
@@ -110,16 +98,17 @@ class ObjReader {
     }
   }
 
-  TextScanner m_text;
   ObjOptions m_options;
   Mesh m_mesh;
-  std::size_t m_textures = 0;
-  std::size_t m_normals = 0;
-  std::vector<std::vector<Corner>> m_faces;
+  std::size_t m_lastLine = 0;
+  std::vector<std::vector<ObjCorner>> m_faces;
 };
 
 }  // namespace
 
-Mesh readObj(const std::filesystem::path& path, const ObjOptions& options) { return ObjReader(path, options).read(); }
+Mesh readObj(const std::filesystem::path& path, const ObjOptions& options) {
+  const std::string text = readText(path);
+  return ObjReader(path, options).read(text);
+}
 
 }  // namespace allpairs::scene::sofa
