@@ -138,17 +138,12 @@ class HeaderParser {
 
 NpyHeader parseNpyHeader(std::string_view text) { return HeaderParser(text).parse(); }
 
-std::string npyPairsHeader(std::uint64_t rows) {
-  constexpr std::size_t kPrefix = 10;     // magic, version, 16-bit length
-  constexpr std::size_t kAlignment = 64;  // of the data, so that it can be mapped into memory
-  std::string dictionary = "{'descr': '<u4', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", 2), }";
-  const std::size_t used = kPrefix + dictionary.size() + 1;
-  dictionary.append((kAlignment - used % kAlignment) % kAlignment, ' ');
-  dictionary += '\n';
-  std::string header("\x93NUMPY\x01\x00", 8);
-  header += static_cast<char>(dictionary.size() & 0xff);
-  header += static_cast<char>(dictionary.size() >> 8);
-  return header + dictionary;
+std::string shapeText(std::span<const std::uint64_t> shape) {
+  std::string text = "(";
+  for (const std::uint64_t extent : shape) text += std::to_string(extent) + ", ";
+  if (shape.size() > 1) text.resize(text.size() - 2);
+  if (shape.size() == 1) text.pop_back();
+  return text + ")";
 }
 
 }  // namespace allpairs::scene

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace allpairs::scene {
+
+/// The first bytes of every .npy file.
+inline constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
 /// What the header of a .npy file says about the array behind it.
 struct NpyHeader {
@@ -21,7 +25,7 @@ struct NpyHeader {
 /// Reference: NumPy's description of the format, numpy.lib.format.
 [[nodiscard]] NpyHeader parseNpyHeader(std::string_view text);
 
-/// The 128 bytes, or more for a very long shape, that NumPy itself writes before a C-ordered (rows, 2) array of uint32.
-[[nodiscard]] std::string npyPairsHeader(std::uint64_t rows);
+/// A shape as NumPy writes it: (3, 6).
+[[nodiscard]] std::string shapeText(std::span<const std::uint64_t> shape);
 
 }  // namespace allpairs::scene

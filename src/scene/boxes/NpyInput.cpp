@@ -18,7 +18,8 @@ std::uint32_t readHeaderLength(InputFile& file, const Path& path) {
   std::array<unsigned char, 8> start{};
   if (file.remaining() < start.size()) throw FileError(path, "is too short for a .npy file");
   file.read(start.data(), start.size());
-  if (std::memcmp(start.data(), "\x93NUMPY", 6) != 0) throw FileError(path, "is not a .npy file: its magic is missing");
+  if (std::memcmp(start.data(), kNpyMagic.data(), kNpyMagic.size()) != 0)
+    throw FileError(path, "is not a .npy file: its magic is missing");
   const int version = start[6];
   if (version < 1 || version > 3) {
     throw FileError(path, "is of .npy version " + std::to_string(version) + "; versions 1 to 3 are known");
@@ -42,14 +43,6 @@ NpyHeader readNpyHeader(InputFile& file, const Path& path) {
   } catch (const InvalidArgument& problem) {
     throw FileError(path, problem.what());
   }
-}
-
-std::string shapeText(const std::vector<std::uint64_t>& shape) {
-  std::string text = "(";
-  for (const std::uint64_t extent : shape) text += std::to_string(extent) + ", ";
-  if (shape.size() > 1) text.resize(text.size() - 2);
-  if (shape.size() == 1) text.pop_back();
-  return text + ")";
 }
 
 bool holdsFloat32(const NpyHeader& header, const Path& path) {

@@ -25,9 +25,6 @@ namespace allpairs::scene {
 /// Bad input: another type throws FileError.
 [[nodiscard]] bool holdsFloat32(const NpyHeader& header, const std::filesystem::path& path);
 
-/// A shape as NumPy writes it: (3, 6).
-[[nodiscard]] std::string shapeText(const std::vector<std::uint64_t>& shape);
-
 /// Turns numbers as they stand in the file into those of this machine.
 template <class T>
 void toNativeOrder(const NpyHeader& header, T* numbers, std::size_t count) {
