@@ -4,12 +4,12 @@
 #include <memory>
 #include <utility>
 
-#include "FileBytes.h"
-#include "MeshObject.h"
-#include "ReadScope.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadSofaScene.h"
+#include "input/FileBytes.h"
+#include "input/ReadScope.h"
+#include "mesh/MeshObject.h"
 
 namespace allpairs::scene {
 

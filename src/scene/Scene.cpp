@@ -4,8 +4,8 @@
 #include <iterator>
 #include <utility>
 
-#include "UniqueNames.h"
 #include "allpairs/collision/DiscreteIntersection.h"
+#include "input/UniqueNames.h"
 
 namespace allpairs::scene {
 namespace {

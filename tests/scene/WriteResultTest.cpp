@@ -88,6 +88,13 @@ TEST(WriteNpy, IsAnArrayOfUint32WithAHeaderOf128Bytes) {
   EXPECT_EQ(pairsOfNpy(bytes), example.pairs);
 }
 
+TEST(WriteNpy, HeadersOfOtherArraysAreThoseOfNumPy) {
+  const auto header = [](std::vector<std::uint64_t> shape) { return scene::npyHeader("<f8", shape); };
+  EXPECT_EQ(header({5}), npyHeaderBytes("{'descr': '<f8', 'fortran_order': False, 'shape': (5,), }"));
+  EXPECT_EQ(header({200, 3, 6}), npyHeaderBytes("{'descr': '<f8', 'fortran_order': False, 'shape': (200, 3, 6), }"));
+  EXPECT_EQ(header({UINT64_MAX, UINT64_MAX, UINT64_MAX}).size() % 64, 0);
+}
+
 TEST(Write, ManyPairsComeThroughWholeAndInPieces) {
   Example example;
   example.pairs.clear();

@@ -2,8 +2,8 @@
 #include <map>
 
 #include "allpairs/scene/FileError.h"
-#include "scene/sofa/Mesh.h"
 #include "scene/sofa/SceneText.h"
+#include "sofa/mesh/Mesh.h"
 
 namespace allpairs::scene::sofa {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "allpairs/Error.h"
-#include "scene/sofa/ModelDescription.h"
+#include "sofa/models/ModelDescription.h"
 
 namespace allpairs::scene::sofa {
 

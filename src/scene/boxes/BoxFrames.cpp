@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/scene/BoxFrames.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
+#include "boxes/NpyInput.h"
+#include "input/FileBytes.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+void checkFrames(const NpyHeader& header, const Path& path) {
+  if (header.shape.size() != 3 || header.shape[2] != 6) {
+    throw FileError(path, "has shape " + shapeText(header.shape) + "; frames of boxes are (t, n, 6)");
+  }
+  if (header.fortranOrder) throw FileError(path, "is in Fortran order, in which frames are not one after the other");
+  if (header.shape[1] > std::numeric_limits<std::uint32_t>::max()) {
+    throw FileError(path, "claims " + std::to_string(header.shape[1]) + " boxes; at most 4294967295 can be numbered");
+  }
+}
+
+/// The file holds what its header says, no more and no less. Asked before anything is allocated for it.
+void checkLength(const NpyHeader& header, std::uint64_t itemSize, const InputFile& file, const Path& path) {
+  const std::uint64_t frameBytes = header.shape[1] * 6 * itemSize;  // fits: there are less than 2^32 boxes
+  const std::uint64_t frames = header.shape[0];
+  const bool fits = frameBytes == 0 || frames <= file.remaining() / frameBytes;
+  if (fits && frames * frameBytes == file.remaining()) return;
+  throw FileError(path, "holds " + std::to_string(file.remaining()) +
+                            " bytes of numbers, which is not what its shape " + shapeText(header.shape) + " needs");
+}
+
+}  // namespace
+
+bool isBoxFramesFile(const Path& path) {
+  if (path.extension() != ".npy") return false;
+  InputFile file(path);
+  return readNpyHeader(file, path).shape.size() == 3;
+}
+
+struct BoxFrames::State {
+  explicit State(const Path& filePath) : path(filePath), file(filePath), header(readNpyHeader(file, filePath)) {}
+
+  template <class T>
+  BoxView read(std::vector<T>& rows) {
+    rows.resize(static_cast<std::size_t>(header.shape[1]) * 6);
+    file.read(rows.data(), rows.size() * sizeof(T));
+    toNativeOrder(header, rows.data(), rows.size());
+    return BoxView::fromRows(std::span<const T>(rows));
+  }
+
+  Path path;
+  InputFile file;
+  NpyHeader header;
+  bool isFloat32 = false;
+  std::size_t frame = 0;
+  std::vector<float> float32;
+  std::vector<double> float64;
+};
+
+BoxFrames::BoxFrames(const Path& path) : m_state(std::make_unique<State>(path)) {
+  m_state->isFloat32 = holdsFloat32(m_state->header, path);
+  checkFrames(m_state->header, path);
+  checkLength(m_state->header, m_state->isFloat32 ? sizeof(float) : sizeof(double), m_state->file, path);
+}
+
+BoxFrames::~BoxFrames() = default;
+BoxFrames::BoxFrames(BoxFrames&&) noexcept = default;
+BoxFrames& BoxFrames::operator=(BoxFrames&&) noexcept = default;
+
+std::size_t BoxFrames::frameCount() const noexcept { return static_cast<std::size_t>(m_state->header.shape[0]); }
+std::size_t BoxFrames::boxCount() const noexcept { return static_cast<std::size_t>(m_state->header.shape[1]); }
+
+BoxView BoxFrames::next() {
+  State& state = *m_state;
+  if (state.frame == frameCount()) throw InvalidArgument("there are only " + std::to_string(state.frame) + " frames");
+  const std::size_t frame = state.frame++;
+  try {
+    return state.isFloat32 ? state.read(state.float32) : state.read(state.float64);
+  } catch (const InvalidBox& problem) {
+    throw FileError(state.path, "frame " + std::to_string(frame) + ": " + problem.what());
+  }
+}
+
+}  // namespace allpairs::scene

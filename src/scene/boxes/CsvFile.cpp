@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/FileError.h"
+#include "boxes/CsvLine.h"
+#include "input/FileBytes.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::size_t kCoordinates = 6;
+constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
+
+/// In which column each of minx miny minz maxx maxy maxz stands, and the name.
+struct CsvLayout {
+  std::size_t columns = 0;
+  std::array<std::size_t, kCoordinates> coordinates{};
+  std::size_t name = kNoColumn;
+};
+
+/// Which coordinate a header's word means: minx, min_x, "Min X", xmin, x0 and the like; nothing for other words.
+std::optional<std::size_t> coordinateOf(std::string_view word) {
+  std::string plain;
+  for (const char c : word) {
+    if (c >= 'A' && c <= 'Z') plain += static_cast<char>(c - 'A' + 'a');
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain += c;
+  }
+  for (std::size_t i = 0; i < kCoordinates; ++i) {
+    const std::string axis(1, "xyz"[i % 3]);
+    const std::string side = i < 3 ? "min" : "max";
+    if (plain == side + axis || plain == axis + side || plain == axis + (i < 3 ? "0" : "1")) return i;
+  }
+  return std::nullopt;
+}
+
+/// The layout of a file without a header: six numbers, or seven columns of which the first or the last is a name.
+CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& place) {
+  if (fields.size() != kCoordinates && fields.size() != kCoordinates + 1) {
+    throw FileError(place.file, "has " + std::to_string(fields.size()) + " columns where a box has 6, or 7 with a name",
+                    place.line);
+  }
+  CsvLayout layout{.columns = fields.size()};
+  std::size_t first = 0;
+  if (fields.size() == kCoordinates + 1) {
+    // A name may itself be a number; then the last column counts as the name only if it is text.
+    const bool nameIsLast = !isCsvNumber(fields.back()) && isCsvNumber(fields.front());
+    layout.name = nameIsLast ? kCoordinates : 0;
+    first = nameIsLast ? 0 : 1;
+  }
+  for (std::size_t i = 0; i < kCoordinates; ++i) layout.coordinates[i] = first + i;
+  return layout;
+}
+
+bool looksLikeHeader(const std::vector<CsvField>& fields) {
+  return std::none_of(fields.begin(), fields.end(), isCsvNumber) &&
+         std::any_of(fields.begin(), fields.end(), [](const CsvField& field) { return coordinateOf(field.text); });
+}
+
+CsvLayout layoutOfHeader(const std::vector<CsvField>& fields, const TextPlace& place) {
+  CsvLayout layout{.columns = fields.size()};
+  layout.coordinates.fill(kNoColumn);
+  for (std::size_t column = 0; column < fields.size(); ++column) {
+    const CsvField& field = fields[column];
+    const std::optional<std::size_t> coordinate = coordinateOf(field.text);
+    std::size_t& slot = coordinate ? layout.coordinates[*coordinate] : layout.name;
+    if (slot != kNoColumn) {
+      const std::string problem =
+          coordinate ? "is there twice" : "is not known: a box has minx,miny,minz,maxx,maxy,maxz";
+      throw FileError(place.file, "column '" + field.text + "' " + problem, place.line, field.column);
+    }
+    slot = column;
+  }
+  const auto missing = std::find(layout.coordinates.begin(), layout.coordinates.end(), kNoColumn);
+  if (missing != layout.coordinates.end()) {
+    static constexpr std::array<const char*, kCoordinates> kNames{"minx", "miny", "minz", "maxx", "maxy", "maxz"};
+    const auto which = static_cast<std::size_t>(missing - layout.coordinates.begin());
+    throw FileError(place.file, std::string("the header has no column '") + kNames[which] + "'", place.line);
+  }
+  return layout;
+}
+
+class CsvReader {
+ public:
+  CsvReader(const Path& path, ReadScope& scope) : m_place{path}, m_scope(scope) {}
+
+  void readLine(std::string_view line) {
+    ++m_place.line;
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos || line[first] == '#') return;
+    splitCsvLine(line, m_place, m_fields);
+    if (m_layout.columns == 0) {
+      const bool isHeader = looksLikeHeader(m_fields);
+      m_layout = isHeader ? layoutOfHeader(m_fields, m_place) : layoutOfData(m_fields, m_place);
+      if (isHeader) return;
+    }
+    readBox();
+  }
+
+  BoxArray finish() {
+    const std::size_t size = m_values.size() / kCoordinates;
+    BoxTable<double> table{std::make_unique_for_overwrite<double[]>(m_values.size()), size};
+    std::copy(m_values.begin(), m_values.end(), table.values.get());
+    return {std::move(table), m_place.file.filename().string(), std::move(m_names)};
+  }
+
+ private:
+  void readBox() {
+    if (m_fields.size() != m_layout.columns) {
+      throw FileError(m_place.file,
+                      "has " + std::to_string(m_fields.size()) + " columns where the lines before have " +
+                          std::to_string(m_layout.columns),
+                      m_place.line);
+    }
+    m_scope.takeElements(2, kCoordinates * sizeof(double));  // once more when it is finished
+    for (const std::size_t column : m_layout.coordinates) m_values.push_back(csvNumber(m_fields[column], m_place));
+    if (m_layout.name != kNoColumn) m_names.add(m_fields[m_layout.name].text);
+  }
+
+  TextPlace m_place;
+  ReadScope& m_scope;
+  CsvLayout m_layout;
+  std::vector<CsvField> m_fields;
+  std::vector<double> m_values;
+  NameList m_names;
+};
+
+}  // namespace
+
+BoxArray readCsv(const Path& path, ReadScope& scope) {
+  scope.admit(path);
+  const std::string text = readText(path);
+  std::string_view rest = text;
+  if (const std::size_t zero = rest.find('\0'); zero != std::string_view::npos) {
+    const auto line =
+        static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n'));
+    throw FileError(path, "is no text: it holds a byte of zero, as UTF-16 does; UTF-8 can be read", line + 1);
+  }
+  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
+  CsvReader reader(path, scope);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    reader.readLine(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return reader.finish();
+}
+
+BoxArray readCsv(const Path& path) {
+  ReadScope scope(path, {});
+  return readCsv(path, scope);
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <limits>
+#include <utility>
+
+#include "allpairs/Error.h"
+#include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/FileError.h"
+#include "boxes/NpyHeader.h"
+#include "boxes/NpyInput.h"
+#include "input/FileBytes.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+void checkShape(const NpyHeader& header, const Path& path) {
+  if (header.shape.size() != 2 || header.shape[1] != 6) {
+    throw FileError(path, "has shape " + shapeText(header.shape) + "; boxes are (n, 6)");
+  }
+  if (header.shape[0] > std::numeric_limits<std::uint32_t>::max()) {
+    throw FileError(path, "claims " + std::to_string(header.shape[0]) + " boxes; at most 4294967295 can be numbered");
+  }
+}
+
+/// The file holds what its header says, no more and no less. Asked before anything is allocated for it.
+void checkLength(std::uint64_t size, std::uint64_t itemSize, const InputFile& file, const Path& path) {
+  const std::uint64_t expected = size * 6 * itemSize;
+  if (file.remaining() == expected) return;
+  throw FileError(path, "holds " + std::to_string(file.remaining()) + " bytes of numbers where its shape (" +
+                            std::to_string(size) + ", 6) needs " + std::to_string(expected));
+}
+
+template <class T>
+BoxArray readTable(const NpyHeader& header, InputFile& file, const Path& path) {
+  const auto size = static_cast<std::size_t>(header.shape[0]);
+  checkLength(size, sizeof(T), file, path);
+  BoxTable<T> table{std::make_unique_for_overwrite<T[]>(size * 6), size, header.fortranOrder};
+  file.read(table.values.get(), size * 6 * sizeof(T));
+  toNativeOrder(header, table.values.get(), size * 6);
+  try {
+    return {std::move(table), path.filename().string()};
+  } catch (const InvalidBox& problem) {
+    throw FileError(path, problem.what());
+  }
+}
+
+}  // namespace
+
+BoxArray readNpy(const Path& path) {
+  InputFile file(path);
+  const NpyHeader header = readNpyHeader(file, path);
+  const bool isFloat32 = holdsFloat32(header, path);
+  checkShape(header, path);
+  return isFloat32 ? readTable<float>(header, file, path) : readTable<double>(header, file, path);
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "boxes/NpyInput.h"
+
+#include <cstring>
+
+#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::uint32_t kMaxHeader = 1 << 20;  // a thousand times what a header of three keys needs
+
+/// Where the length of the header stands, by format version: 16 bits in the first, 32 since.
+std::uint32_t readHeaderLength(InputFile& file, const Path& path) {
+  std::array<unsigned char, 8> start{};
+  if (file.remaining() < start.size()) throw FileError(path, "is too short for a .npy file");
+  file.read(start.data(), start.size());
+  if (std::memcmp(start.data(), kNpyMagic.data(), kNpyMagic.size()) != 0)
+    throw FileError(path, "is not a .npy file: its magic is missing");
+  const int version = start[6];
+  if (version < 1 || version > 3) {
+    throw FileError(path, "is of .npy version " + std::to_string(version) + "; versions 1 to 3 are known");
+  }
+  std::array<unsigned char, 4> length{};
+  file.read(length.data(), version == 1 ? 2 : 4);
+  return static_cast<std::uint32_t>(length[0]) | static_cast<std::uint32_t>(length[1]) << 8 |
+         static_cast<std::uint32_t>(length[2]) << 16 | static_cast<std::uint32_t>(length[3]) << 24;
+}
+
+}  // namespace
+
+NpyHeader readNpyHeader(InputFile& file, const Path& path) {
+  const std::uint32_t length = readHeaderLength(file, path);
+  if (length > file.remaining()) throw FileError(path, "ends within its header");
+  if (length > kMaxHeader) throw FileError(path, "has a header of " + std::to_string(length) + " bytes");
+  std::string text(length, '\0');
+  file.read(text.data(), text.size());
+  try {
+    return parseNpyHeader(text);
+  } catch (const InvalidArgument& problem) {
+    throw FileError(path, problem.what());
+  }
+}
+
+bool holdsFloat32(const NpyHeader& header, const Path& path) {
+  if (header.descr == "<f4" || header.descr == ">f4") return true;
+  if (header.descr == "<f8" || header.descr == ">f8") return false;
+  throw FileError(path, "holds numbers of type '" + header.descr + "'; boxes are float32 ('<f4') or float64 ('<f8')");
+}
+
+}  // namespace allpairs::scene

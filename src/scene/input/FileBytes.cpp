@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "input/FileBytes.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include "allpairs/scene/FileError.h"
+#include "input/Words.h"
+
+namespace allpairs::scene {
+namespace {
+
+std::string lastProblem() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+void requireFile(const std::filesystem::path& path) {
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  if (status.type() == std::filesystem::file_type::not_found) throw FileError(path, "no such file or folder");
+  if (problem) throw FileError(path, problem.message());
+  if (std::filesystem::is_directory(status)) throw FileError(path, "is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw FileError(path, "is not a regular file");  // a pipe would wait
+  errno = 0;
+  if (!std::ifstream(path, std::ios::binary)) throw FileError(path, "cannot be opened: " + lastProblem());
+}
+
+InputFile::InputFile(const std::filesystem::path& path) : m_path(path) {
+  requireFile(path);
+  m_stream.open(path, std::ios::binary);
+  m_stream.seekg(0, std::ios::end);
+  const auto size = static_cast<std::streamoff>(m_stream.tellg());
+  m_stream.seekg(0);
+  if (!m_stream || size < 0) throw FileError(path, "is not a regular file");
+  m_remaining = static_cast<std::uint64_t>(size);
+}
+
+void InputFile::read(void* target, std::size_t count) {
+  if (count > m_remaining) throw FileError(m_path, "ends too early");
+  errno = 0;
+  m_stream.read(static_cast<char*>(target), static_cast<std::streamsize>(count));
+  if (!m_stream) throw FileError(m_path, "cannot be read: " + lastProblem());
+  m_remaining -= count;
+}
+
+std::string readText(const std::filesystem::path& path) {
+  InputFile file(path);
+  std::string text(static_cast<std::size_t>(file.remaining()), '\0');
+  file.read(text.data(), text.size());
+  return text;
+}
+
+std::string lowerExtension(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }
+
+}  // namespace allpairs::scene

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace allpairs::scene {
+
+/// The finite number that a word is, one too small for a double 0; nothing for any other word.
+[[nodiscard]] std::optional<double> scannedNumber(std::string_view word);
+
+/// Reads a text word by word and says at which line it went wrong. What stands there it does not repeat: a scene may
+/// name any file for a mesh, and its messages must not show what is in it.
+class TextScanner {
+ public:
+  /// Reads the whole file; throws FileError.
+  explicit TextScanner(const std::filesystem::path& path);
+
+  /// The next word, or an empty one at the end of the file.
+  std::string_view word();
+  /// The next word of this line, or an empty one at its end.
+  std::string_view wordInLine();
+  double number();
+  std::int64_t integer();
+  void expect(std::string_view word);
+  void skipLine();
+  /// Takes exactly so many bytes; throws when there are fewer.
+  std::string_view bytes(std::size_t count);
+
+  [[noreturn]] void fail(const std::string& problem) const;
+
+ private:
+  [[nodiscard]] std::string_view rest() const { return std::string_view{m_text}.substr(m_position); }
+
+  std::filesystem::path m_path;
+  std::string m_text;
+  std::size_t m_position = 0;
+  std::size_t m_wordStart = 0;
+};
+
+}  // namespace allpairs::scene

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace allpairs::scene {
+
+/// What separates words within a line; the end of a line from another system counts as one.
+inline constexpr std::string_view kBlanks = " \t\r\f\v";
+
+/// Whether it is one of kBlanks.
+[[nodiscard]] constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n'); }
+
+/// What separates words where lines mean nothing.
+[[nodiscard]] constexpr bool isBlankOrLineEnd(char c) { return isBlank(c) || c == '\n'; }
+
+[[nodiscard]] inline std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Takes the first line off the text, without its end.
+[[nodiscard]] inline std::string_view takeLine(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(line.size() == text.size() ? line.size() : line.size() + 1);
+  return line;
+}
+
+/// As much of a word at fault as a message repeats.
+[[nodiscard]] inline std::string shortWord(std::string_view word) {
+  constexpr std::size_t kRepeated = 40;
+  return std::string(word.substr(0, kRepeated));
+}
+
+[[nodiscard]] inline std::string quotedWord(std::string_view word) { return "'" + shortWord(word) + "'"; }
+
+[[nodiscard]] inline std::string lowerCase(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
+/// Takes the first word off the text; empty where there is none. `isBlank` says what separates words.
+template <class IsBlank>
+[[nodiscard]] std::string_view takeWord(std::string_view& text, const IsBlank& isBlank) {
+  const auto begin = std::find_if_not(text.begin(), text.end(), isBlank);
+  const auto end = std::find_if(begin, text.end(), isBlank);
+  const std::string_view word(begin, end);
+  text = std::string_view(end, text.end());
+  return word;
+}
+
+/// The same within a line, whose blanks at its end it takes too.
+[[nodiscard]] inline std::string_view takeWord(std::string_view& line) {
+  line = trimmed(line);
+  return takeWord(line, isBlank);
+}
+
+/// Parses a text that is one number from its first character to its last, in the form of std::from_chars. Returns no
+/// error, or result_out_of_range, or invalid_argument for all else.
+template <class Number>
+[[nodiscard]] std::errc parseWhole(std::string_view text, Number& value) {
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return end == text.data() + text.size() ? problem : std::errc::invalid_argument;
+}
+
+/// The number that is all of the text, in any form that C knows but hexadecimal; NaN and infinities included.
+[[nodiscard]] inline std::optional<double> parseNumber(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const std::errc problem = parseWhole(text, value);
+  if (problem == std::errc::invalid_argument) return std::nullopt;
+  // from_chars leaves the value alone where it is too large or too small for a double.
+  if (problem == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
+  return value;
+}
+
+}  // namespace allpairs::scene

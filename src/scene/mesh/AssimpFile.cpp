@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <algorithm>
+#include <array>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <span>
+#include <string_view>
+
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
+#include "input/ReadScope.h"
+#include "input/Words.h"
+#include "mesh/ChildProcess.h"
+#include "mesh/MeshObject.h"
+#include "mesh/Transform.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// The most levels of nodes: those of Assimp are taken apart by recursion.
+constexpr std::size_t kMaxNodeDepth = 1000;
+
+// What the answer of the process that runs Assimp begins with.
+constexpr char kResult = 'R';
+constexpr char kProblem = 'P';
+
+Transform transformOf(const aiMatrix4x4& matrix) {
+  Transform result{};
+  for (unsigned row = 0; row < 3; ++row) {
+    for (unsigned column = 0; column < 4; ++column) result[row][column] = static_cast<double>(matrix[row][column]);
+  }
+  return result;
+}
+
+Point pointOf(const aiVector3D& position) {
+  return {static_cast<double>(position.x), static_cast<double>(position.y), static_cast<double>(position.z)};
+}
+
+template <class T>
+std::span<T* const> spanOf(T* const* items, unsigned count) {
+  return {items, count};
+}
+
+/// Names that Assimp's readers make up where the file has none.
+bool isMadeUp(std::string_view name) {
+  static constexpr std::array<std::string_view, 2> kMadeUp{"ROOT", "<DummyRootNode>"};
+  return name.empty() || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
+}
+
+class NodeReader {
+ public:
+  NodeReader(const aiScene& scene, const Path& path, ReadScope& scope) : m_scene(scene), m_path(path), m_scope(scope) {}
+
+  std::vector<MeshObject> read() {
+    addNode(*m_scene.mRootNode, kIdentity, 0);
+    return std::move(m_objects);
+  }
+
+ private:
+  void addNode(const aiNode& node, const Transform& parent, std::size_t depth) {
+    if (depth > kMaxNodeDepth) throw FileError(m_path, "has nodes that are nested too deep");
+    const Transform world = multiply(parent, transformOf(node.mTransformation));
+    if (node.mNumMeshes != 0) {
+      MeshObject& object = m_objects.emplace_back();
+      object.name = nameOf(node);
+      for (const unsigned index : std::span(node.mMeshes, node.mNumMeshes)) {
+        addMesh(object, *m_scene.mMeshes[index], world);
+      }
+    }
+    for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) addNode(*child, world, depth + 1);
+  }
+
+  /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
+  std::string nameOf(const aiNode& node) const {
+    std::string name = node.mName.C_Str();
+    if (!isMadeUp(name)) return name;
+    std::string meshName = m_scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
+    if (node.mNumMeshes > 1 && meshName.ends_with("-0")) meshName.resize(meshName.size() - 2);
+    return isMadeUp(meshName) ? std::string() : meshName;
+  }
+
+  void addMesh(MeshObject& object, const aiMesh& mesh, const Transform& world) {
+    const std::size_t base = object.positions.size();
+    if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) fail(object, "has too many vertices");
+    m_scope.take(mesh.mNumVertices * sizeof(Point));
+    object.positions.reserve(base + mesh.mNumVertices);
+    for (const aiVector3D& position : std::span(mesh.mVertices, mesh.mNumVertices)) {
+      object.positions.push_back(placed(world, pointOf(position)));
+    }
+    for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) addFace(object, face, base);
+    if (mesh.mNumFaces == 0) addAllPoints(object, base);
+  }
+
+  /// A face of more than three corners becomes a fan. Assimp's own triangulation ends the program on bad faces.
+  void addFace(MeshObject& object, const aiFace& face, std::size_t base) {
+    m_scope.takeElements(face.mNumIndices, sizeof(MeshObject::triangles[0]));
+    if (face.mNumIndices == 0) fail(object, "has a face without vertices");
+    const auto corner = [&](unsigned i) {
+      if (face.mIndices[i] >= object.positions.size() - base) fail(object, "names a vertex that isn't there");
+      return static_cast<std::uint32_t>(base + face.mIndices[i]);
+    };
+    if (face.mNumIndices == 1) object.points.push_back(corner(0));
+    if (face.mNumIndices == 2) object.lines.push_back({corner(0), corner(1)});
+    for (unsigned i = 2; i < face.mNumIndices; ++i) object.triangles.push_back({corner(0), corner(i - 1), corner(i)});
+  }
+
+  static void addAllPoints(MeshObject& object, std::size_t base) {
+    for (std::size_t i = base; i < object.positions.size(); ++i) object.points.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  [[noreturn]] void fail(const MeshObject& object, const char* problem) const {
+    throw FileError(m_path, (object.name.empty() ? "an object" : "object '" + object.name + '\'') + ' ' + problem);
+  }
+
+  const aiScene& m_scene;
+  const Path& m_path;
+  ReadScope& m_scope;
+  std::vector<MeshObject> m_objects;
+};
+
+/// Opens what Assimp asks for: the input, and what it may name.
+class ScopedFiles final : public Assimp::IOSystem {
+ public:
+  ScopedFiles(const Path& input, ReadScope& scope) : m_input(input), m_scope(scope) {}
+
+  bool Exists(const char* name) const override {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(name, ignored) && isAllowed(name);
+  }
+
+  char getOsSeparator() const override { return '/'; }
+
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    const bool writes = std::string_view(mode).find_first_of("wa+") != std::string_view::npos;
+    if (writes || !Exists(name)) return nullptr;
+    m_opensOthers |= name != m_input;
+    m_scope.admit(name);
+    const std::string text = readText(name);
+    auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+    std::copy(text.begin(), text.end(), bytes.get());
+    return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
+  }
+
+  void Close(Assimp::IOStream* stream) override { const std::unique_ptr<Assimp::IOStream> closed(stream); }
+
+  /// The mesh outside that the input names; empty if there is none. What else it may name, such as materials, is left
+  /// alone without a word: it has no geometry.
+  [[nodiscard]] const std::string& refused() const { return m_refused; }
+
+  /// Whether what goes wrong may be due to another file, of which no message must show anything.
+  [[nodiscard]] bool opensOthers() const { return m_opensOthers; }
+
+ private:
+  bool isAllowed(const char* name) const {
+    if (name == m_input || m_scope.allows(name)) return true;
+    if (isAssimpFile(name)) m_refused = name;
+    return false;
+  }
+
+  const Path& m_input;
+  ReadScope& m_scope;
+  mutable std::string m_refused;
+  bool m_opensOthers = false;
+};
+
+/// Carries objects from one process to another of the same program.
+class ObjectTransfer {
+ public:
+  static std::string pack(const std::vector<MeshObject>& objects) {
+    std::string bytes(1, kResult);
+    for (const MeshObject& object : objects) {
+      put(bytes, object.name);
+      put(bytes, object.positions);
+      put(bytes, object.triangles);
+      put(bytes, object.lines);
+      put(bytes, object.points);
+    }
+    return bytes;
+  }
+
+  static std::vector<MeshObject> unpack(std::string_view bytes) {
+    std::vector<MeshObject> objects;
+    while (!bytes.empty()) {
+      MeshObject& object = objects.emplace_back();
+      take(bytes, object.name);
+      take(bytes, object.positions);
+      take(bytes, object.triangles);
+      take(bytes, object.lines);
+      take(bytes, object.points);
+      check(object);
+    }
+    return objects;
+  }
+
+ private:
+  template <class List>
+  static void put(std::string& bytes, const List& list) {
+    const std::uint64_t count = list.size();
+    bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+    bytes.append(reinterpret_cast<const char*>(list.data()), count * sizeof(list[0]));
+  }
+
+  template <class List>
+  static void take(std::string_view& bytes, List& list) {
+    std::uint64_t count = 0;
+    copy(bytes, &count, sizeof(count));
+    if (count > bytes.size() / sizeof(list[0])) throw Error("a mesh arrived in pieces");
+    list.resize(static_cast<std::size_t>(count));
+    copy(bytes, list.data(), list.size() * sizeof(list[0]));
+  }
+
+  static void copy(std::string_view& bytes, void* to, std::size_t count) {
+    if (count > bytes.size()) throw Error("a mesh arrived in pieces");
+    if (count != 0) std::memcpy(to, bytes.data(), count);
+    bytes.remove_prefix(count);
+  }
+
+  /// A child that a hostile file has taken over may send anything.
+  static void check(const MeshObject& object) {
+    const auto isVertex = [&object](std::uint32_t index) { return index < object.positions.size(); };
+    const auto areVertices = [&](const auto& corners) { return std::all_of(corners.begin(), corners.end(), isVertex); };
+    const bool isWhole = areVertices(object.points) &&
+                         std::all_of(object.lines.begin(), object.lines.end(), areVertices) &&
+                         std::all_of(object.triangles.begin(), object.triangles.end(), areVertices);
+    if (!isWhole) throw Error("a mesh arrived in pieces");
+  }
+};
+
+std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope) {
+  Assimp::Importer importer;
+  auto owned = std::make_unique<ScopedFiles>(path, scope);
+  const ScopedFiles* files = owned.get();
+  importer.SetIOHandler(owned.release());  // which owns it
+  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (!files->refused().empty()) {
+    throw FileError(path, "names the file '" + files->refused() + "', which " + ReadScope::kOutside);
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    const std::string reason = files->opensOthers() ? "" : importer.GetErrorString();
+    if (reason == std::bad_alloc().what()) throw std::bad_alloc();  // which Assimp has caught
+    throw FileError(path, "cannot be read as a mesh" + (reason.empty() ? "" : ": " + reason));
+  }
+  return NodeReader(*scene, path, scope).read();
+}
+
+/// The objects, or what is wrong.
+std::string importInChild(const Path& path, ReadScope& scope) {
+  try {
+    return ObjectTransfer::pack(importObjects(path, scope));
+  } catch (const FileError& problem) {
+    return kProblem + problem.problem();
+  } catch (const std::bad_alloc&) {
+    return kProblem + std::string("takes more memory to read than --max-memory allows");
+  } catch (const std::exception& problem) {
+    return kProblem + std::string("cannot be read as a mesh: ") + problem.what();
+  }
+}
+
+}  // namespace
+
+bool isAssimpFile(const Path& path) {
+  const std::string extension = lowerExtension(path);
+  return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension.c_str());
+}
+
+std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope) {
+  requireFile(path);
+  constexpr std::uint64_t kSeconds = 10;
+  constexpr std::uint64_t kBytesPerSecond = 1 << 20;  // the slowest of Assimp's readers on honest files
+  std::error_code ignored;
+  const std::uint64_t size = std::filesystem::file_size(path, ignored);
+  const std::string answer = runInChild([&] { return importInChild(path, scope); },
+                                        {.memory = scope.left(), .cpuSeconds = kSeconds + size / kBytesPerSecond},
+                                        [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
+  if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
+  if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
+  return ObjectTransfer::unpack(std::string_view(answer).substr(1));
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "input/ReadScope.h"
+
+namespace allpairs::scene {
+
+using Point = std::array<double, 3>;
+
+/// One object of a mesh file, or one node that shows a mesh, where it lies in the world.
+struct MeshObject {
+  std::string name;  ///< As in the file; empty where it has none.
+  std::vector<Point> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> lines;
+  std::vector<std::uint32_t> points;
+};
+
+/// Reads a Wavefront file in double, with the names exactly as they stand there: an object for each "o", or for each
+/// "g" where there is no "o". A file of nothing but positions is one object of points.
+///
+/// Bad input: throws FileError with its line.
+[[nodiscard]] std::vector<MeshObject> readObjObjects(const std::filesystem::path& path, ReadScope& scope);
+
+/// Reads a Stanford file, ASCII or binary of either byte order, in double: its faces, or its vertices as points where
+/// it has no faces.
+///
+/// Bad input: throws FileError. Nothing is allocated for elements that a header only claims.
+[[nodiscard]] std::vector<MeshObject> readPlyObjects(const std::filesystem::path& path, ReadScope& scope);
+
+/// Reads an OFF file in double, with what precedes its first word: COFF, NOFF and the like. Without faces its vertices are
+/// points.
+///
+/// Bad input: throws FileError with its line. Nothing is allocated for what a header only claims.
+[[nodiscard]] std::vector<MeshObject> readOffObjects(const std::filesystem::path& path, ReadScope& scope);
+
+/// Reads an STL file: binary, or as text in double with an object for each solid, under its whole name.
+///
+/// Bad input: throws FileError, with its line where it is text; a file that ends early too.
+[[nodiscard]] std::vector<MeshObject> readStlObjects(const std::filesystem::path& path, ReadScope& scope);
+
+/// Reads a glTF 2.0 file, as JSON or GLB: an object for each node of its scene that shows a mesh, with the node's
+/// transform applied in double. Skins, morph targets and animations are passed over.
+///
+/// Bad input: throws FileError; so do a node with two parents and a mesh that is compressed.
+[[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope);
+
+/// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double to
+/// positions that Assimp gives as float32.
+///
+/// Bad input: throws FileError. Assimp runs in a process of its own: a file that makes it fail, or loop, or take all
+///            memory, fails, loops and takes it there.
+[[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope);
+
+/// Whether Assimp knows files of this extension.
+[[nodiscard]] bool isAssimpFile(const std::filesystem::path& path);
+
+}  // namespace allpairs::scene

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
+#include "input/Words.h"
+#include "mesh/MeshObject.h"
+#include "mesh/Position.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+class OffReader {
+ public:
+  OffReader(const std::string& text, const Path& path, ReadScope& scope) : m_rest(text), m_path(path), m_scope(scope) {}
+
+  std::vector<MeshObject> read() {
+    readHeader();
+    for (std::uint64_t i = 0; i < m_vertices; ++i) addPosition(nextLine());
+    for (std::uint64_t i = 0; i < m_faces; ++i) readFace(nextLine());
+    const bool isCloud = m_object.triangles.empty() && m_object.lines.empty() && m_object.points.empty();
+    for (std::uint32_t i = 0; isCloud && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
+    return {std::move(m_object)};
+  }
+
+ private:
+  /// The next line that holds more than blanks and a comment.
+  std::string_view nextLine() {
+    while (!m_rest.empty()) {
+      const std::string_view line = takeLine(m_rest);
+      ++m_line;
+      const std::string_view content = trimmed(line.substr(0, line.find('#')));
+      if (!content.empty()) return content;
+    }
+    fail("truncated: its header promises more than the file has");
+  }
+
+  /// OFF, or with prefixes that say what stands behind each position: COFF, NOFF, STOFF. The counts may follow in the
+  /// same line, in some files without a blank between.
+  void readHeader() {
+    std::string_view line = nextLine();
+    const std::size_t keyword = line.find("OFF");
+    if (keyword == std::string_view::npos || line.find_first_not_of("STCN") < keyword) {
+      fail("is no OFF file of points in space: its first word is " + quotedWord(takeWord(line)));
+    }
+    line = trimmed(line.substr(keyword + 3));
+    if (line == "BINARY") fail("is a binary OFF file, which is not read");
+    if (line.empty()) line = nextLine();
+    m_vertices = count(line);
+    m_faces = count(line);
+    if (m_vertices > std::numeric_limits<std::uint32_t>::max()) fail("claims more vertices than can be numbered");
+  }
+
+  std::uint64_t count(std::string_view& line) {
+    const std::string_view word = takeWord(line);
+    std::uint64_t value = 0;
+    if (parseWhole(word, value) != std::errc()) fail(quotedWord(word) + " is not a number of vertices or faces");
+    return value;
+  }
+
+  void addPosition(std::string_view line) {
+    m_scope.takeElements(1, sizeof(Point));
+    m_object.positions.push_back(
+        readPosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
+  }
+
+  /// How many corners, their indices, and perhaps a colour.
+  void readFace(std::string_view line) {
+    m_corners.clear();
+    const std::uint64_t size = count(line);
+    if (size == 0) fail("a face has no vertices");
+    while (m_corners.size() < size) {
+      const std::string_view word = takeWord(line);
+      if (word.empty()) {
+        fail("a face names " + std::to_string(m_corners.size()) + " vertices instead of " + std::to_string(size));
+      }
+      m_scope.takeElements(1, sizeof(m_object.triangles[0]));
+      m_corners.push_back(resolve(word));
+    }
+    if (size == 1) m_object.points.push_back(m_corners[0]);
+    if (size == 2) m_object.lines.push_back({m_corners[0], m_corners[1]});
+    for (std::size_t i = 2; i < m_corners.size(); ++i) {
+      m_object.triangles.push_back({m_corners[0], m_corners[i - 1], m_corners[i]});
+    }
+  }
+
+  std::uint32_t resolve(std::string_view word) const {
+    std::uint32_t index = 0;
+    if (parseWhole(word, index) != std::errc() || index >= m_object.positions.size()) {
+      fail("index " + shortWord(word) + " names no vertex: the file has " + std::to_string(m_object.positions.size()));
+    }
+    return index;
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
+
+  std::string_view m_rest;
+  const Path& m_path;
+  ReadScope& m_scope;
+  std::size_t m_line = 0;
+  std::uint64_t m_vertices = 0;
+  std::uint64_t m_faces = 0;
+  MeshObject m_object;
+  std::vector<std::uint32_t> m_corners;
+};
+
+}  // namespace
+
+std::vector<MeshObject> readOffObjects(const Path& path, ReadScope& scope) {
+  const std::string text = readText(path);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw FileError(path, "is empty");
+  return OffReader(text, path, scope).read();
+}
+
+}  // namespace allpairs::scene

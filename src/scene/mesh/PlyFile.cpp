@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
+#include "input/Words.h"
+#include "mesh/MeshObject.h"
+#include "mesh/PlyHeader.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// Gives the numbers of a body one after the other, whatever its encoding.
+class PlyBody {
+ public:
+  PlyBody(std::string_view text, const PlyHeader& header, const Path& path)
+      : m_text(text.substr(header.size)), m_encoding(header.encoding), m_line(header.lines + 1), m_path(path) {}
+
+  double next(PlyType type) { return m_encoding == PlyEncoding::Ascii ? nextWord() : nextBinary(type); }
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw FileError(m_path, problem, m_encoding == PlyEncoding::Ascii ? m_line : 0);
+  }
+
+ private:
+  double nextWord() {
+    std::size_t begin = 0;
+    while (begin < m_text.size() && isBlankOrLineEnd(m_text[begin])) {
+      if (m_text[begin] == '\n') ++m_line;
+      ++begin;
+    }
+    m_text.remove_prefix(begin);
+    if (m_text.empty()) fail("truncated: its header promises more than the file has");
+    const std::string_view word = takeWord(m_text, isBlankOrLineEnd);
+    const std::optional<double> value = parseNumber(word);
+    if (!value) fail("'" + std::string(word) + "' is not a number");
+    return *value;
+  }
+
+  double nextBinary(PlyType type) {
+    switch (type) {
+      case PlyType::Int8:
+        return take<std::int8_t>();
+      case PlyType::UInt8:
+        return take<std::uint8_t>();
+      case PlyType::Int16:
+        return take<std::int16_t>();
+      case PlyType::UInt16:
+        return take<std::uint16_t>();
+      case PlyType::Int32:
+        return take<std::int32_t>();
+      case PlyType::UInt32:
+        return take<std::uint32_t>();
+      case PlyType::Float32:
+        return static_cast<double>(take<float>());
+      case PlyType::Float64:
+        return take<double>();
+    }
+    return 0.0;
+  }
+
+  template <class T>
+  T take() {
+    if (m_text.size() < sizeof(T)) fail("truncated: its header promises more than the file has");
+    std::array<char, sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), m_text.data(), sizeof(T));
+    m_text.remove_prefix(sizeof(T));
+    const bool isLittle = m_encoding == PlyEncoding::LittleEndian;
+    if (isLittle != (std::endian::native == std::endian::little)) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+  }
+
+  std::string_view m_text;
+  PlyEncoding m_encoding;
+  std::size_t m_line;
+  const Path& m_path;
+};
+
+class PlyReader {
+ public:
+  PlyReader(const std::string& text, const Path& path, ReadScope& scope)
+      : m_scope(scope), m_header(parsePlyHeader(text, path)), m_body(text, m_header, path) {}
+
+  std::vector<MeshObject> read() {
+    for (const PlyElement& element : m_header.elements) {
+      if (element.properties.empty()) continue;  // takes no room in the file, however many there are
+      for (std::uint64_t row = 0; row < element.count; ++row) {
+        m_place = {&element, row};
+        readRow(element);
+      }
+    }
+    const std::size_t vertices = m_object.positions.size();
+    if (m_highest.index >= static_cast<double>(vertices)) {
+      m_body.fail(m_highest.place.text() + " names vertex " +
+                  std::to_string(static_cast<std::uint64_t>(m_highest.index)) + " of " + std::to_string(vertices));
+    }
+    const bool hasElements = !m_object.triangles.empty() || !m_object.lines.empty();
+    for (std::uint32_t i = 0; !hasElements && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
+    return {std::move(m_object)};
+  }
+
+ private:
+  void readRow(const PlyElement& element) {
+    const bool isVertex = element.name == "vertex";
+    const bool isEdge = element.name == "edge";
+    Point position{kMissing, kMissing, kMissing};
+    std::array<std::uint32_t, 2> ends{};
+    for (const PlyProperty& property : element.properties) {
+      if (property.countType) {
+        readList(element, property);
+        continue;
+      }
+      const double value = m_body.next(property.type);
+      if (isVertex && property.name.size() == 1 && property.name >= "x" && property.name <= "z") {
+        position[static_cast<std::size_t>(property.name[0] - 'x')] = value;
+      }
+      if (isEdge && property.name == "vertex1") ends[0] = index(value);
+      if (isEdge && property.name == "vertex2") ends[1] = index(value);
+    }
+    if (isVertex) addPosition(position);
+    if (isEdge) m_object.lines.push_back(ends);
+  }
+
+  void addPosition(const Point& position) {
+    for (const double coordinate : position) {
+      if (!std::isfinite(coordinate))
+        m_body.fail(m_place.text() + " has a coordinate that is missing or no finite number");
+    }
+    m_scope.takeElements(1, sizeof(Point));
+    m_object.positions.push_back(position);
+  }
+
+  void readList(const PlyElement& element, const PlyProperty& property) {
+    const double count = m_body.next(*property.countType);
+    if (!(count >= 0.0) || count != std::floor(count))
+      m_body.fail(m_place.text() + " has a list without a proper length");
+    const bool isFace = property.name == "vertex_indices" || property.name == "vertex_index";
+    m_corners.clear();
+    for (double i = 0; i < count; ++i) {
+      const double value = m_body.next(property.type);
+      m_scope.takeElements(1, sizeof(m_object.triangles[0]));
+      if (isFace && element.name == "face") m_corners.push_back(index(value));
+      if (isFace && element.name == "tristrips") addToStrip(value);
+    }
+    if (element.name == "face") addFan();
+  }
+
+  void addFan() {
+    if (m_corners.size() == 1) m_object.points.push_back(m_corners[0]);
+    if (m_corners.size() == 2) m_object.lines.push_back({m_corners[0], m_corners[1]});
+    for (std::size_t i = 2; i < m_corners.size(); ++i) {
+      m_object.triangles.push_back({m_corners[0], m_corners[i - 1], m_corners[i]});
+    }
+  }
+
+  /// Each vertex of a strip makes a triangle with the two before it; -1 begins another strip.
+  void addToStrip(double value) {
+    if (value == -1.0) {
+      m_corners.clear();
+      return;
+    }
+    m_corners.push_back(index(value));
+    const std::size_t count = m_corners.size();
+    if (count >= 3) m_object.triangles.push_back({m_corners[count - 3], m_corners[count - 2], m_corners[count - 1]});
+  }
+
+  /// The vertices may come after the faces; whether there are as many as named is asked at the end.
+  std::uint32_t index(double value) {
+    if (!(value >= 0.0) || value > std::numeric_limits<std::uint32_t>::max() || value != std::floor(value)) {
+      m_body.fail(m_place.text() + " has an index that names no vertex");
+    }
+    if (value > m_highest.index) m_highest = {value, m_place};
+    return static_cast<std::uint32_t>(value);
+  }
+
+  /// A row of an element of the header, counted from 0.
+  struct Place {
+    const PlyElement* element = nullptr;
+    std::uint64_t row = 0;
+
+    /// As errors call it: "face 7". A file may give elements any name; only known ones are repeated.
+    [[nodiscard]] std::string text() const {
+      const bool isKnown = element->name == "vertex" || element->name == "face" || element->name == "edge";
+      return (isKnown ? element->name : "element") + ' ' + std::to_string(row);
+    }
+  };
+
+  struct Highest {
+    double index = -1.0;
+    Place place;
+  };
+
+  static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+  ReadScope& m_scope;
+  PlyHeader m_header;
+  PlyBody m_body;
+  MeshObject m_object;
+  std::vector<std::uint32_t> m_corners;
+  Place m_place;
+  Highest m_highest;
+};
+
+}  // namespace
+
+std::vector<MeshObject> readPlyObjects(const Path& path, ReadScope& scope) {
+  const std::string text = readText(path);
+  return PlyReader(text, path, scope).read();
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <memory>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/collision/LineModel.h"
+#include "allpairs/collision/PointModel.h"
+#include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/ReadInput.h"
+#include "input/FileBytes.h"
+#include "input/UniqueNames.h"
+#include "mesh/MeshObject.h"
+
+namespace allpairs::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope) {
+  scope.admit(path);
+  const std::string extension = lowerExtension(path);
+  if (extension == ".obj") return readObjObjects(path, scope);
+  if (extension == ".ply") return readPlyObjects(path, scope);
+  if (extension == ".stl") return readStlObjects(path, scope);
+  if (extension == ".off") return readOffObjects(path, scope);
+  if (extension == ".gltf" || extension == ".glb") return readGltfObjects(path, scope);
+  return readAssimpObjects(path, scope);
+}
+
+/// Makes the models of one object, all of one owner.
+class ObjectModels {
+ public:
+  ObjectModels(Scene& scene, UniqueNames& names, ReadScope& scope) : m_scene(scene), m_names(names), m_scope(scope) {}
+
+  void add(MeshObject object) {
+    m_scope.take(ReadScope::kBytesPerModel +
+                 4 * object.name.size());  // its owner, its model and the names in use have it too
+    m_scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
+    m_name = std::move(object.name);
+    std::vector<Point> isolated;
+    for (const std::uint32_t index : object.points) isolated.push_back(object.positions[index]);
+    if (!isolated.empty()) m_points = std::make_unique<collision::PointModel>(m_name, std::move(isolated));
+    if (!object.lines.empty()) {
+      m_lines = std::make_unique<collision::LineModel>(m_name, object.positions, std::move(object.lines));
+    }
+    if (!object.triangles.empty()) {
+      add(std::make_unique<collision::TriangleModel>(m_name, std::move(object.positions), std::move(object.triangles)));
+    }
+    add(std::move(m_lines));
+    add(std::move(m_points));
+  }
+
+ private:
+  void add(std::unique_ptr<collision::CollisionModel> model) {
+    if (!model) return;
+    model->setName(m_names.unique(m_name));
+    model->setOwner(m_scene.owners.back().get());
+    m_scene.models.push_back(std::move(model));
+  }
+
+  Scene& m_scene;
+  UniqueNames& m_names;
+  ReadScope& m_scope;
+  std::string m_name;
+  std::unique_ptr<collision::CollisionModel> m_lines;
+  std::unique_ptr<collision::CollisionModel> m_points;
+};
+
+bool isMeshFile(const fs::path& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".scn" || extension == ".xml" || isBoxArrayFile(path)) return false;
+  return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
+}
+
+std::vector<fs::path> sortedEntries(const fs::path& folder) {
+  std::error_code problem;
+  std::vector<fs::path> entries;
+  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
+    entries.push_back(entry->path());
+  }
+  if (problem) throw FileError(folder, "cannot be listed: " + problem.message());
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+/// The mesh files among the entries; the others become remarks.
+std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Remark>& remarks) {
+  std::vector<fs::path> meshes;
+  for (fs::path& entry : entries) {
+    std::error_code ignored;
+    const bool isFolder = fs::is_directory(entry, ignored);
+    const bool isSpecial = fs::exists(entry, ignored) && !isFolder && !fs::is_regular_file(entry, ignored);
+    if (!isFolder && !isSpecial && isMeshFile(entry)) {
+      meshes.push_back(std::move(entry));
+    } else {
+      const char* reason = isFolder    ? "is a folder; folders within a folder are not searched"
+                           : isSpecial ? "is not a regular file"
+                                       : "is no mesh file by its extension";
+      remarks.push_back({.file = entry, .subject = entry.filename().string(), .reason = reason});
+    }
+  }
+  return meshes;
+}
+
+/// A link in a folder may lead out of it.
+void requireAllowed(const fs::path& path, const ReadScope& scope) {
+  if (scope.allows(path)) return;
+  throw FileError(
+      path, "is a link to a file outside of the folder and of those given with --data; --allow-outside allows it");
+}
+
+/// Reads the objects of one file behind what the scene has.
+void readInto(Scene& scene, UniqueNames& names, const fs::path& path, ReadScope& scope) {
+  ObjectModels models(scene, names, scope);
+  const std::size_t before = scene.models.size();
+  try {
+    for (MeshObject& object : readObjects(path, scope)) {
+      if (object.name.empty()) object.name = path.filename().string();
+      models.add(std::move(object));
+    }
+  } catch (const InvalidArgument& problem) {
+    throw FileError(path, problem.what());
+  }
+  if (scene.models.size() == before) throw FileError(path, "holds no triangles, lines or points");
+}
+
+}  // namespace
+
+Scene readMesh(const fs::path& path, const ReadOptions& options) {
+  if (options.progress) options.progress({.done = 0, .total = 1, .file = path});
+  Scene scene = emptyScene();
+  UniqueNames names;
+  ReadScope scope(path, options);
+  readInto(scene, names, path, scope);
+  return scene;
+}
+
+Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
+  Scene scene = emptyScene();
+  UniqueNames names;
+  ReadScope scope(path, options);
+  const std::vector<fs::path> meshes = chooseMeshes(sortedEntries(path), scene.remarks);
+  if (meshes.empty()) throw FileError(path, "is a folder without mesh files");
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (options.progress) options.progress({.done = i, .total = meshes.size(), .file = meshes[i]});
+    try {
+      requireAllowed(meshes[i], scope);
+      readInto(scene, names, meshes[i], scope);
+    } catch (const FileError& problem) {
+      if (!options.partial) throw;
+      scene.remarks.push_back({.file = meshes[i],
+                               .line = problem.line(),
+                               .subject = meshes[i].filename().string(),
+                               .reason = problem.problem(),
+                               .isPartial = true});
+    }
+  }
+  return scene;
+}
+
+}  // namespace allpairs::scene

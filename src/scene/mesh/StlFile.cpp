@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
+#include "input/LittleEndian.h"
+#include "input/Words.h"
+#include "mesh/MeshObject.h"
+#include "mesh/Position.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::size_t kHeaderSize = 84;  // eighty bytes of anything, and the number of facets
+constexpr std::size_t kFacetSize = 50;   // a normal, three corners, and two bytes that mean nothing
+constexpr std::size_t kNormalSize = 12;
+
+/// Adds a triangle of the last three positions.
+void addTriangle(MeshObject& object) {
+  const auto last = static_cast<std::uint32_t>(object.positions.size());
+  object.triangles.push_back({last - 3, last - 2, last - 1});
+}
+
+std::uint64_t binarySize(std::string_view text) {
+  return kHeaderSize + std::uint64_t{kFacetSize} * littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
+}
+
+/// Binary files may begin with "solid" too; then their size gives them away.
+bool isBinary(std::string_view text) {
+  if (text.size() >= kHeaderSize && text.size() == binarySize(text)) return true;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
+}
+
+std::vector<MeshObject> readBinary(std::string_view text, const Path& path, ReadScope& scope) {
+  if (text.empty()) throw FileError(path, "is empty");
+  if (text.size() < kHeaderSize) throw FileError(path, "is too short for an STL file");
+  if (text.size() < binarySize(text))
+    throw FileError(path, "truncated: the header promises " + std::to_string(binarySize(text)) +
+                              " bytes, the file has " + std::to_string(text.size()));
+  const std::uint32_t count = littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
+  if (count > std::numeric_limits<std::uint32_t>::max() / 3) throw FileError(path, "has too many facets");
+  scope.takeElements(count, 3 * sizeof(Point) + sizeof(MeshObject::triangles[0]));
+  MeshObject object;
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    std::string_view bytes = text.substr(kHeaderSize + facet * kFacetSize + kNormalSize);
+    for (int corner = 0; corner < 3; ++corner) {
+      Point& position = object.positions.emplace_back();
+      for (double& coordinate : position) {
+        coordinate = static_cast<double>(littleEndian<float>(bytes));
+        if (!std::isfinite(coordinate)) {
+          throw FileError(path, "facet " + std::to_string(facet) + " has a coordinate that is no finite number");
+        }
+        bytes.remove_prefix(sizeof(float));
+      }
+    }
+    addTriangle(object);
+  }
+  return {std::move(object)};
+}
+
+class TextReader {
+ public:
+  TextReader(std::string_view text, const Path& path, ReadScope& scope) : m_rest(text), m_path(path), m_scope(scope) {}
+
+  std::vector<MeshObject> read() {
+    while (!m_rest.empty()) {
+      ++m_line;
+      readLine(trimmed(takeLine(m_rest)));
+    }
+    if (m_isInSolid) fail("ends within a solid: there is no 'endsolid'");
+    return std::move(m_objects);
+  }
+
+ private:
+  void readLine(std::string_view line) {
+    const std::string word = lowerCase(takeWord(line));
+    if (word == "solid") {
+      if (m_isInSolid) fail("a solid begins within another");
+      m_isInSolid = true;
+      m_scope.takeElements(1, sizeof(MeshObject) + line.size());
+      m_objects.emplace_back().name = std::string(trimmed(line));
+    } else if (word == "endsolid") {
+      requireCorners(0);
+      m_isInSolid = false;
+    } else if (word == "vertex") {
+      addPosition(line);
+    } else if (word == "facet") {
+      requireCorners(0);
+    } else if (word == "endfacet") {
+      requireCorners(3);
+      addTriangle(m_objects.back());
+      m_corners = 0;
+    } else if (!word.empty() && word != "outer" && word != "endloop" && word != "color") {
+      fail(quotedWord(word) + " is no word of STL");
+    }
+  }
+
+  void requireCorners(std::size_t count) const {
+    if (!m_isInSolid) fail("a facet or its end stands outside of any solid");
+    if (m_corners != count) fail("a facet has three vertices, not " + std::to_string(m_corners));
+  }
+
+  void addPosition(std::string_view line) {
+    if (!m_isInSolid) fail("a vertex stands outside of any solid");
+    ++m_corners;
+    m_scope.takeElements(1, sizeof(Point) + sizeof(MeshObject::triangles[0]));
+    m_objects.back().positions.push_back(
+        readPosition(line, "a vertex", [this](const std::string& problem) { fail(problem); }));
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
+
+  std::string_view m_rest;
+  const Path& m_path;
+  ReadScope& m_scope;
+  std::size_t m_line = 0;
+  bool m_isInSolid = false;
+  std::size_t m_corners = 0;
+  std::vector<MeshObject> m_objects;
+};
+
+}  // namespace
+
+std::vector<MeshObject> readStlObjects(const Path& path, ReadScope& scope) {
+  const std::string text = readText(path);
+  return isBinary(text) ? readBinary(text, path, scope) : TextReader(text, path, scope).read();
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using enum ComponentKind;
+
+/// A point in the coordinates of one cell.
+struct Coordinates {
+  std::size_t cell = 0;
+  Vec3 at{};
+};
+
+/// The cells that points may be bound to: all of one dimension, triangles before quads and tetrahedra before hexahedra.
+///
+/// Coordinates of a cell are along the edges from its first corner; a point goes to the cell in whose coordinates it is
+/// deepest inside, or if it is in none to the one with the nearest centre.
+class Cells {
+ public:
+  explicit Cells(Topology& topology) : m_tetrahedra(topology.tetrahedra()), m_hexahedra(topology.hexahedra()) {
+    if (!m_tetrahedra.empty() || !m_hexahedra.empty()) return;
+    m_triangles = topology.triangles();
+    m_quads = topology.quads();
+    if (m_triangles.empty() && m_quads.empty()) m_edges = topology.edges();
+  }
+
+  [[nodiscard]] bool empty() const {
+    return m_tetrahedra.empty() && m_hexahedra.empty() && m_triangles.empty() && m_quads.empty() && m_edges.empty();
+  }
+  /// Tetrahedra and triangles give back the point they were given; the others may not.
+  [[nodiscard]] bool onlyTetrahedra() const { return !m_tetrahedra.empty() && m_hexahedra.empty(); }
+
+  [[nodiscard]] std::vector<Coordinates> locate(const std::vector<Vec3>& points, const std::vector<Vec3>& in) const {
+    if (!m_edges.empty()) return locateOnEdges(points, in);
+    std::vector<Frame> frames;
+    for (const auto& c : m_tetrahedra) frames.push_back(frame(in, c, {c[1], c[2], c[3]}, Shape::Tetrahedron));
+    for (const auto& c : m_hexahedra) frames.push_back(frame(in, c, {c[1], c[3], c[4]}, Shape::Hexahedron));
+    for (const auto& c : m_triangles) frames.push_back(frame(in, c, {c[1], c[2], c[0]}, Shape::Triangle));
+    for (const auto& c : m_quads) frames.push_back(frame(in, c, {c[1], c[3], c[0]}, Shape::Quad));
+    std::vector<Coordinates> result;
+    for (const auto& point : points) result.push_back(best(frames, point));
+    return result;
+  }
+
+  [[nodiscard]] Vec3 interpolate(const Coordinates& c, const std::vector<Vec3>& in) const {
+    const auto& [x, y, z] = c.at;
+    if (!m_edges.empty()) return in[m_edges[c.cell][0]] * (1 - x) + in[m_edges[c.cell][1]] * x;
+    if (c.cell < m_tetrahedra.size()) {
+      const auto& t = m_tetrahedra[c.cell];
+      return in[t[0]] * (1 - x - y - z) + in[t[1]] * x + in[t[2]] * y + in[t[3]] * z;
+    }
+    if (const auto cell = c.cell - m_tetrahedra.size(); cell < m_hexahedra.size()) {
+      const auto& h = m_hexahedra[cell];
+      return bilinear(in, {h[0], h[1], h[2], h[3]}, x, y) * (1 - z) + bilinear(in, {h[4], h[5], h[6], h[7]}, x, y) * z;
+    }
+    if (c.cell < m_triangles.size()) {
+      const auto& t = m_triangles[c.cell];
+      return in[t[0]] * (1 - x - y) + in[t[1]] * x + in[t[2]] * y;
+    }
+    return bilinear(in, m_quads[c.cell - m_triangles.size()], x, y);
+  }
+
+ private:
+  enum class Shape { Tetrahedron, Hexahedron, Triangle, Quad };
+
+  struct Frame {
+    Shape shape;
+    Vec3 origin;
+    Vec3 centre;
+    Mat3 toLocal;
+  };
+
+  static Vec3 bilinear(const std::vector<Vec3>& in, const std::array<Index, 4>& q, double x, double y) {
+    return in[q[0]] * ((1 - x) * (1 - y)) + in[q[1]] * (x * (1 - y)) + in[q[3]] * ((1 - x) * y) + in[q[2]] * (x * y);
+  }
+
+  template <std::size_t N>
+  static Frame frame(const std::vector<Vec3>& in, const std::array<Index, N>& corners,
+                     const std::array<Index, 3>& along, Shape shape) {
+    Frame result{shape, in[corners[0]], {}, {}};
+    for (const auto corner : corners) result.centre = result.centre + in[corner];
+    result.centre = result.centre * (1.0 / static_cast<double>(N));
+    Mat3 basis{in[along[0]] - result.origin, in[along[1]] - result.origin, in[along[2]] - result.origin};
+    if (shape == Shape::Triangle || shape == Shape::Quad) basis.z = cross(basis.x, basis.y);
+    result.toLocal = inverse(basis);
+    return result;
+  }
+
+  /// How far outside of a cell its own coordinates are, at most zero inside.
+  static double outside(Shape shape, const Vec3& v) {
+    constexpr double kThickness = 0.01;  // How far off a face, in the length of its normal, still counts as on it.
+    switch (shape) {
+      case Shape::Tetrahedron:
+        return std::max({-v[0], -v[1], -v[2], v[0] + v[1] + v[2] - 1});
+      case Shape::Hexahedron:
+        return std::max({-v[0], -v[1], -v[2], v[0] - 1, v[1] - 1, v[2] - 1});
+      case Shape::Triangle:
+        return std::max({-v[0], -v[1], std::abs(v[2]) - kThickness, v[0] + v[1] - 1});
+      case Shape::Quad:
+        break;
+    }
+    return std::max({-v[0], -v[1], v[0] - 1, v[1] - 1, std::abs(v[2]) - kThickness});
+  }
+
+  static Coordinates best(const std::vector<Frame>& frames, const Vec3& point) {
+    Coordinates result;
+    double nearest = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const auto local = frames[i].toLocal * (point - frames[i].origin);
+      double distance = outside(frames[i].shape, local);
+      if (distance > 0) distance = dot(point - frames[i].centre, point - frames[i].centre);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      result = {i, local};
+    }
+    return result;
+  }
+
+  /// The first edge beside which a point lies, or else the last edge.
+  [[nodiscard]] std::vector<Coordinates> locateOnEdges(const std::vector<Vec3>& points,
+                                                       const std::vector<Vec3>& in) const {
+    std::vector<Coordinates> result;
+    for (const auto& point : points) {
+      Coordinates found;
+      for (std::size_t e = 0; e < m_edges.size(); ++e) {
+        const auto along = in[m_edges[e][1]] - in[m_edges[e][0]];
+        found = {e, {dot(along, point - in[m_edges[e][0]]) / dot(along, along), 0, 0}};
+        if (found.at[0] >= 0 && found.at[0] <= 1) break;
+      }
+      result.push_back(found);
+    }
+    return result;
+  }
+
+  Elements<4> m_tetrahedra;
+  Elements<8> m_hexahedra;
+  Elements<3> m_triangles;
+  Elements<4> m_quads;
+  Elements<2> m_edges;
+};
+
+/// Through the cells of a regular grid, found by arithmetic; points outside go with the nearest cell.
+std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in, const std::vector<Vec3>& points) {
+  std::vector<Vec3> result;
+  const auto [nx, ny, nz] = grid.points;
+  for (const auto& point : points) {
+    std::array<std::size_t, 3> cell{};
+    Vec3 at{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double local = grid.spacing[axis] != 0 ? (point[axis] - grid.origin[axis]) / grid.spacing[axis] : 0;
+      cell[axis] =
+          static_cast<std::size_t>(std::clamp(std::floor(local), 0.0, static_cast<double>(grid.points[axis]) - 2));
+      at[axis] = local - static_cast<double>(cell[axis]);
+    }
+    Vec3 sum{};
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const std::size_t dx = corner & 1, dy = (corner >> 1) & 1, dz = corner >> 2;
+      const double weight = (dx ? at[0] : 1 - at[0]) * (dy ? at[1] : 1 - at[1]) * (dz ? at[2] : 1 - at[2]);
+      sum = sum + in[nx * (ny * (cell[2] + dz) + cell[1] + dy) + cell[0] + dx] * weight;
+    }
+    result.push_back(sum);
+  }
+  return result;
+}
+
+void checkPointCount(const Component& mapping, Topology& topology, std::size_t points) {
+  if (indicesUsed(topology.given) > points)
+    throw Unplaceable(mapping, "the topology of its input has more points than its input's state");
+}
+
+std::vector<Vec3> throughCells(const Cells& cells, const State& in, const State& child, bool boundAtRest) {
+  if (cells.onlyTetrahedra() && !boundAtRest) return child.positions;
+  if (cells.empty()) return {};
+  std::vector<Vec3> result;
+  for (const auto& at : cells.locate(boundAtRest ? child.rest : child.positions, boundAtRest ? in.rest : in.positions))
+    result.push_back(cells.interpolate(at, in.positions));
+  return result;
+}
+
+}  // namespace
+
+std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,
+                                     const State& child) {
+  const auto* which = inContext(*parent.node, [](const Component& c) { return isTopology(c.kind()); });
+  if (which == nullptr) throw Unplaceable(mapping, "its input has no topology");
+  auto& topology = evaluation.topology(*which);
+  const auto& in = evaluation.state(parent);
+  if (topology.sparse) {
+    if (!in.pointsUnknown || !in.fromTopology) throw Unplaceable(mapping, "its sparse grid moves in an unknown way");
+    std::vector<Vec3> moved;
+    for (const auto& p : child.positions) moved.push_back((*in.fromTopology)(p));
+    return moved;
+  }
+  (void)evaluation.knownState(parent);
+  checkPointCount(mapping, topology, in.positions.size());
+  if (topology.grid && topology.grid->isVolume()) return throughGrid(*topology.grid, in.positions, child.positions);
+  const bool boundAtRest = evaluation.flag(mapping, "useRestPosition", false);
+  switch (which->kind()) {
+    case PointContainer:
+      return child.positions;  // SOFA finds no way to map, says so, and leaves the child alone.
+    case EdgeContainer:
+      return {};  // SOFA binds no point to these.
+    case HexahedronContainer:
+      // Bound at rest, in coordinates that are exact even in bent cells: what has not moved since stays where it is.
+      return in.rest == in.positions ? child.positions : throughCells(Cells(topology), in, child, boundAtRest);
+    default:
+      return throughCells(Cells(topology), in, child, boundAtRest);
+  }
+}
+
+}  // namespace allpairs::scene::sofa

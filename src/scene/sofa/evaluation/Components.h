@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "sofa/evaluation/State.h"
+#include "sofa/graph/SceneGraph.h"
+#include "sofa/graph/Values.h"
+#include "sofa/mesh/Mesh.h"
+#include "sofa/mesh/Topology.h"
+
+namespace allpairs::scene::sofa {
+
+class Evaluation;
+
+// One of these for each kind of component; Evaluation asks them and remembers, and they ask it for what they need.
+
+[[nodiscard]] Mesh loadMesh(Evaluation& evaluation, const Component& loader);
+[[nodiscard]] Topology buildTopology(Evaluation& evaluation, const Component& component);
+[[nodiscard]] Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target);
+[[nodiscard]] State initialState(Evaluation& evaluation, const Component& component);
+[[nodiscard]] State mapState(Evaluation& evaluation, const Component& mapping, State child);
+/// The points of several states, one after the other.
+[[nodiscard]] State mapAllOf(Evaluation& evaluation, const Component& mapping, State child);
+/// Chosen points of several states.
+[[nodiscard]] State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child);
+/// The points of one state, carried by a rigid frame of another.
+[[nodiscard]] State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child);
+/// A skin on bones that are at rest: it stays where it is.
+[[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
+[[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
+                                                   const Component& parent, const State& child);
+/// How a state or a mesh loader moves its points: the data scale3d, rotation, translation, rotation2 and translation2.
+[[nodiscard]] std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component,
+                                                std::string_view name);
+/// The data of an engine, nothing if it has none of this name.
+[[nodiscard]] std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine,
+                                                  std::string_view name);
+
+/// The state that a mapping reads or null, the state that it writes or null.
+[[nodiscard]] const Component* mappingInput(const Component& mapping);
+[[nodiscard]] const Component* mappingOutput(const Component& mapping);
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+struct Steps {
+  Vec3 scale{1, 1, 1};
+  Quat rotation;
+  Quat quaternion;
+  Vec3 translation{};
+};
+
+Vec3 forwards(const Steps& steps, const Vec3& p) {
+  return rotate(steps.quaternion, rotate(steps.rotation, scaled(p, steps.scale))) + steps.translation;
+}
+
+Vec3 backwards(const Steps& steps, const Vec3& p) {
+  const Vec3 inverse{1 / steps.scale[0], 1 / steps.scale[1], 1 / steps.scale[2]};
+  return scaled(rotate(conjugate(steps.rotation), rotate(conjugate(steps.quaternion), p - steps.translation)), inverse);
+}
+
+std::optional<Numbers> transformed(Evaluation& evaluation, const Component& engine, std::string_view name) {
+  if (name != "output_position") return std::nullopt;
+  const auto given = evaluation.numbers(engine, {"quaternion"}, Evaluation::kFlat);
+  const bool whole = given && given->values.size() == 4;
+  const Steps steps{
+      .scale = evaluation.vector(engine, {"scale"}, {1, 1, 1}),
+      .rotation = fromEulerDegrees(evaluation.vector(engine, {"rotation"}, {})),
+      .quaternion = whole ? Quat{given->values[0], given->values[1], given->values[2], given->values[3]} : Quat{},
+      .translation = evaluation.vector(engine, {"translation"}, {})};
+  const bool inverse = evaluation.flag(engine, "inverse", false);
+  auto points = evaluation.points(engine, {"input_position"});
+  for (auto& point : points) point = inverse ? backwards(steps, point) : forwards(steps, point);
+  return toNumbers(points);
+}
+
+std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, std::string_view name) {
+  if (name != "points") return std::nullopt;
+  auto points = evaluation.points(engine, {"position1"});
+  const auto others = evaluation.points(engine, {"position2"});
+  evaluation.takePoints(engine, points.size() + others.size());  // a chain of these doubles with each
+  points.insert(points.end(), others.begin(), others.end());
+  return toNumbers(points);
+}
+
+}  // namespace
+
+std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine, std::string_view name) {
+  switch (engine.kind()) {
+    case ComponentKind::TransformEngine:
+      return transformed(evaluation, engine, name);
+    case ComponentKind::MergePoints:
+      return merged(evaluation, engine, name);
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/evaluation/Evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/FileBytes.h"
+#include "sofa/evaluation/Components.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+constexpr std::size_t kMaxBusy = 150;  // Components that wait for one another; scenes have chains of about ten.
+
+bool isIndexList(std::string_view name) {
+  return name == "indices" || name.ends_with("ndexPerPoint") || name == "group" || name == "points_indices";
+}
+
+bool isMeshData(std::string_view name) {
+  for (const auto known : {"position", "points", "edges", "lines", "triangles", "quads", "tetrahedra", "tetras",
+                           "hexahedra", "hexas", "listRadius", "output_position"})
+    if (name == known) return true;
+  return false;
+}
+
+template <std::size_t N>
+Numbers cornerNumbers(const Elements<N>& elements) {
+  Numbers result{.values = {}, .width = N};
+  result.values.reserve(elements.size() * N);
+  for (const auto& element : elements)
+    for (const auto corner : element) result.values.push_back(corner);
+  return result;
+}
+
+/// One of the lists that loaders and topologies have in common.
+template <class Source>
+std::optional<Numbers> listOf(std::string_view name, const std::vector<Vec3>& positions, Source&& source) {
+  if (name == "position" || name == "points") return toNumbers(positions);
+  if (name == "edges" || name == "lines") return cornerNumbers(source.edges());
+  if (name == "triangles") return cornerNumbers(source.triangles());
+  if (name == "quads") return cornerNumbers(source.quads());
+  if (name == "tetrahedra" || name == "tetras") return cornerNumbers(source.tetrahedra());
+  if (name == "hexahedra" || name == "hexas") return cornerNumbers(source.hexahedra());
+  return std::nullopt;
+}
+
+struct MeshLists {
+  const Mesh& mesh;
+  [[nodiscard]] const auto& edges() const { return mesh.edges; }
+  [[nodiscard]] const auto& triangles() const { return mesh.triangles; }
+  [[nodiscard]] const auto& quads() const { return mesh.quads; }
+  [[nodiscard]] const auto& tetrahedra() const { return mesh.tetrahedra; }
+  [[nodiscard]] const auto& hexahedra() const { return mesh.hexahedra; }
+};
+
+std::optional<Numbers> loaderOutput(const Component& loader, const Mesh& mesh, std::string_view name) {
+  if (loader.kind() == ComponentKind::SphereLoader) {
+    if (name == "listRadius") return Numbers{mesh.radii, 1};
+    if (name == "position" || name == "sphere_centers") return toNumbers(mesh.positions);
+    return std::nullopt;
+  }
+  return name == "points" ? std::nullopt : listOf(name, mesh.positions, MeshLists{mesh});
+}
+
+std::optional<Numbers> stateOutput(const State& state, std::string_view name) {
+  if (name == "rest_position") return toNumbers(state.rest);
+  if (name != "position" && name != "free_position" && name != "reset_position") return std::nullopt;
+  if (state.kind != State::Kind::Rigid) return toNumbers(state.positions);
+  Numbers result{.values = {}, .width = 7};
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const auto& p = state.positions[i];
+    const auto& q = state.orientations[i];
+    result.values.insert(result.values.end(), {p[0], p[1], p[2], q.x, q.y, q.z, q.w});
+  }
+  return result;
+}
+
+Index toIndex(const Component& component, std::string_view name, double value) {
+  if (!(value >= 0) || value > 4'000'000'000.0 || value != std::floor(value))
+    throw Unplaceable(component,
+                      std::string{name} + " has the index " + std::to_string(value) + ", which is no point's number");
+  return static_cast<Index>(value);
+}
+
+std::uint64_t sizeOf(const Mesh& mesh) {
+  const auto bytes = [](const auto& list) { return list.size() * sizeof(list[0]); };
+  return bytes(mesh.positions) + bytes(mesh.edges) + bytes(mesh.triangles) + bytes(mesh.quads) +
+         bytes(mesh.tetrahedra) + bytes(mesh.hexahedra);
+}
+
+bool isEngine(ComponentKind kind) {
+  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints || kind == ComponentKind::BoxRoi;
+}
+
+}  // namespace
+
+/// Notes that a component's value is being computed, and throws where it turns out to need itself.
+class Evaluation::Busy {
+ public:
+  Busy(Evaluation& evaluation, const Component& component, std::string_view what) : m_busy(evaluation.m_busy) {
+    const std::pair<const Component*, std::string> entry{&component, what};
+    if (std::ranges::find(m_busy, entry) != m_busy.end())
+      throw Unplaceable(component, "its " + entry.second + " depends on itself");
+    if (m_busy.size() >= kMaxBusy) throw Unplaceable(component, "the chain of links that it hangs on is too long");
+    m_busy.push_back(entry);
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+  Busy(Busy&&) = delete;
+  Busy& operator=(Busy&&) = delete;
+  ~Busy() { m_busy.pop_back(); }
+
+ private:
+  std::vector<std::pair<const Component*, std::string>>& m_busy;
+};
+
+Evaluation::Evaluation(const Node& root, ReadScope& scope) : m_scope(scope) { indexMappings(root); }
+
+void Evaluation::indexMappings(const Node& node) {
+  if (!node.active) return;
+  for (const auto& component : node.components) {
+    if (isMapping(component->kind()))
+      if (const auto* state = mappingOutput(*component); state != nullptr && state != mappingInput(*component))
+        m_mappings[state] = component.get();
+    if (isTopologicalMapping(component->kind())) {
+      const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
+      const auto* text = component->attributes.find("output");
+      if (text == nullptr) text = component->attributes.find("object2");
+      if (const auto* topology = followTo(*component, text != nullptr ? *text : "@./", topologies))
+        m_topologicalMappings[topology] = component.get();
+    }
+  }
+  for (const auto& child : node.children) indexMappings(*child);
+}
+
+const Component* Evaluation::mappingOf(const Component& state) const {
+  const auto found = m_mappings.find(&state);
+  return found == m_mappings.end() ? nullptr : found->second;
+}
+
+const Component* Evaluation::topologicalMappingOf(const Component& topology) const {
+  const auto found = m_topologicalMappings.find(&topology);
+  return found == m_topologicalMappings.end() ? nullptr : found->second;
+}
+
+void Evaluation::takePoints(const Component& component, std::uint64_t count) {
+  try {
+    m_scope.takeElements(count, sizeof(Vec3));
+  } catch (const FileError& problem) {
+    throw Unplaceable(component, "with " + std::to_string(count) + " points it " + problem.problem());
+  }
+}
+
+const Mesh& Evaluation::mesh(const Component& loader) {
+  if (const auto found = m_meshes.find(&loader); found != m_meshes.end()) return found->second;
+  const Busy busy(*this, loader, "mesh");
+  auto mesh = loadMesh(*this, loader);
+  m_scope.take(sizeOf(mesh));
+  return m_meshes.emplace(&loader, std::move(mesh)).first->second;
+}
+
+Topology& Evaluation::topology(const Component& component) {
+  if (const auto found = m_topologies.find(&component); found != m_topologies.end()) return found->second;
+  const Busy busy(*this, component, "topology");
+  const auto* mapping = topologicalMappingOf(component);
+  auto topology = mapping != nullptr ? mapTopology(*this, *mapping, component) : buildTopology(*this, component);
+  m_scope.take(sizeOf(topology.given));
+  return m_topologies.emplace(&component, std::move(topology)).first->second;
+}
+
+const State& Evaluation::state(const Component& component) {
+  if (const auto found = m_states.find(&component); found != m_states.end()) return found->second;
+  const Busy busy(*this, component, "position");
+  auto state = initialState(*this, component);
+  takePoints(component, state.positions.size());
+  if (const auto* mapping = mappingOf(component)) state = mapState(*this, *mapping, std::move(state));
+  for (const auto& position : state.positions)
+    if (!isFinite(position)) throw Unplaceable(component, "one of its positions is not finite");
+  return m_states.emplace(&component, std::move(state)).first->second;
+}
+
+const State& Evaluation::knownState(const Component& component) {
+  const auto& result = state(component);
+  if (result.pointsUnknown)
+    throw Unplaceable(component, "its points are those of a sparse grid, which this reader does not compute");
+  return result;
+}
+
+std::optional<Numbers> Evaluation::written(const Component& component, std::string_view name, const std::string& text) {
+  if (text.starts_with('@')) return linked(component, name, text);
+  std::string bad;
+  auto values = isIndexList(name) ? parseIntegers(text, bad, m_scope) : parseNumbers(text, bad);
+  if (!values) throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) + "' is not a finite number");
+  return Numbers{std::move(*values), 1};
+}
+
+std::optional<Numbers> Evaluation::linked(const Component& component, std::string_view name, const std::string& text) {
+  const auto link = parseLink(text);
+  const auto target = followPath(*component.node, &component, link->path);
+  const auto what = std::string{name} + "=\"" + text.substr(0, 80) + '"';
+  if (target.component == nullptr) throw Unplaceable(component, what + " links to nothing");
+  const auto data = link->data.empty() ? std::string{name} : link->data;
+  auto result = output(*target.component, data);
+  if (!result)
+    throw Unplaceable(component, what + " needs the " + data + " of " + target.component->describe() +
+                                     ", which this reader cannot compute");
+  return result;
+}
+
+std::optional<Numbers> Evaluation::throughSrc(const Component& component, std::string_view name) {
+  const auto* text = component.attributes.find("src");
+  if (text == nullptr || component.attributes.has(name)) return std::nullopt;
+  const auto* from = source(component);
+  if (from == nullptr) throw Unplaceable(component, "src=\"" + text->substr(0, 80) + "\" links to nothing");
+  if (from->kind() == ComponentKind::MeshLoader &&
+      (name == "translation" || name == "rotation" || name == "scale3d" || name == "scale"))
+    return std::nullopt;
+  auto result = output(*from, name);
+  const bool unknown = from->kind() == ComponentKind::Other || from->kind() == ComponentKind::UnknownLoader ||
+                       from->kind() == ComponentKind::UnknownTopology;
+  if (!result && unknown && isMeshData(name))
+    throw Unplaceable(component, "it takes its data from " + from->describe() + ", which this reader cannot compute");
+  return result;
+}
+
+const Component* Evaluation::source(const Component& component) const {
+  const auto link = parseLink(*component.attributes.find("src"));
+  return link ? followPath(*component.node, &component, link->path).component : nullptr;
+}
+
+std::optional<Numbers> Evaluation::output(const Component& component, std::string_view name) {
+  const auto kind = component.kind();
+  const Busy busy(*this, component, std::string{name} + " data");
+  if (kind == ComponentKind::MechanicalState || kind == ComponentKind::MeshLoader)
+    if (const auto value = placementData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
+  if (kind == ComponentKind::MeshLoader || kind == ComponentKind::SphereLoader)
+    if (auto value = loaderOutput(component, mesh(component), name)) return value;
+  if (isTopology(kind) && isMeshData(name)) {
+    auto& from = topology(component);
+    if (auto value = listOf(name, from.given.positions, from)) return value;
+  }
+  if (kind == ComponentKind::MechanicalState)
+    if (auto value = stateOutput(knownState(component), name)) return value;
+  if (isEngine(kind))
+    if (auto value = engineOutput(*this, component, name)) return value;
+  if (const auto* text = component.attributes.find(name)) return written(component, name, *text);
+  return component.attributes.has("src") ? throughSrc(component, name) : std::nullopt;
+}
+
+std::optional<Numbers> Evaluation::numbers(const Component& component, Names names, std::size_t width,
+                                           const std::vector<double>& filler) {
+  std::optional<Numbers> found;
+  for (const auto name : names)
+    if (const auto* text = component.attributes.find(name); text != nullptr && !found)
+      found = written(component, name, *text);
+  if (!found && component.attributes.has("src"))
+    for (const auto name : names)
+      if (!found) found = throughSrc(component, name);
+  if (!found) return found;
+  if (width == kFlat) return Numbers{std::move(found->values), 1};
+  if (found->width == 1) {
+    found->width = width;  // Plain numbers are cut into entries; what is left over is dropped.
+    found->values.resize(found->size() * width);
+    return found;
+  }
+  return withWidth(*found, width, filler);
+}
+
+bool Evaluation::isGiven(const Component& component, Names names) const {
+  return std::ranges::any_of(names, [&](auto name) { return component.attributes.has(name); });
+}
+
+bool Evaluation::isLinked(const Component& component, Names names) const {
+  for (const auto name : names)
+    if (const auto* text = component.attributes.find(name)) return text->starts_with('@');
+  return component.attributes.has("src");
+}
+
+double Evaluation::number(const Component& component, Names names, double standard) {
+  const auto found = numbers(component, names, 1);
+  return found && !found->values.empty() ? found->values[0] : standard;
+}
+
+Vec3 Evaluation::vector(const Component& component, Names names, const Vec3& standard) {
+  const auto found = numbers(component, names, kFlat);
+  Vec3 result = standard;
+  if (found) std::copy_n(found->values.begin(), std::min<std::size_t>(3, found->values.size()), result.begin());
+  return result;
+}
+
+bool Evaluation::flag(const Component& component, std::string_view name, bool standard) {
+  const auto* text = component.attributes.find(name);
+  if (text == nullptr) return standard;
+  if (text->starts_with('@')) return number(component, {name}, standard ? 1 : 0) != 0;
+  return parseBool(*text).value_or(standard);
+}
+
+std::vector<Vec3> Evaluation::points(const Component& component, Names names) {
+  std::vector<Vec3> result;
+  const auto found = numbers(component, names, 3);
+  if (!found) return result;
+  result.reserve(found->size());
+  for (std::size_t i = 0; i < found->size(); ++i)
+    result.push_back({found->values[3 * i], found->values[3 * i + 1], found->values[3 * i + 2]});
+  return result;
+}
+
+template <std::size_t N>
+Elements<N> Evaluation::elements(const Component& component, Names names) {
+  Elements<N> result;
+  const auto found = numbers(component, names, N);
+  if (!found) return result;
+  result.resize(found->size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    for (std::size_t j = 0; j < N; ++j) result[i][j] = toIndex(component, *names.begin(), found->values[i * N + j]);
+  return result;
+}
+
+Mesh Evaluation::elementLists(const Component& component) {
+  Mesh mesh;
+  mesh.edges = elements<2>(component, {"edges", "lines"});
+  mesh.triangles = elements<3>(component, {"triangles"});
+  mesh.quads = elements<4>(component, {"quads"});
+  mesh.tetrahedra = elements<4>(component, {"tetrahedra", "tetras"});
+  mesh.hexahedra = elements<8>(component, {"hexahedra", "hexas"});
+  return mesh;
+}
+
+std::vector<std::size_t> Evaluation::indices(const Component& component, Names names) {
+  std::vector<std::size_t> result;
+  if (const auto found = numbers(component, names, 1))
+    for (const double value : found->values) result.push_back(toIndex(component, *names.begin(), value));
+  return result;
+}
+
+std::optional<std::filesystem::path> Evaluation::file(const Component& component, Names names) {
+  for (const auto name : names) {
+    const auto* text = component.attributes.find(name);
+    if (text == nullptr || text->empty()) continue;
+    auto found = m_scope.find(*text, *component.place.file);
+    if (!found.problem.empty()) throw Unplaceable(component, "the file '" + *text + "' " + found.problem);
+    m_scope.admit(found.path);
+    return std::move(found.path);
+  }
+  return std::nullopt;
+}
+
+std::string Evaluation::objFileOf(const Component& topology) const {
+  const auto* text = topology.attributes.find(topology.attributes.has("src") ? "src" : "triangles");
+  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  const auto* from = link ? followPath(*topology.node, &topology, link->path).component : &topology;
+  const auto* name = from != nullptr ? from->attributes.find("filename") : nullptr;
+  return name != nullptr && lowerExtension(*name) == ".obj" ? *name : std::string{};
+}
+
+Numbers toNumbers(const std::vector<Vec3>& points) {
+  Numbers result{.values = {}, .width = 3};
+  result.values.reserve(points.size() * 3);
+  for (const auto& point : points) result.values.insert(result.values.end(), point.begin(), point.end());
+  return result;
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "input/ReadScope.h"
+#include "sofa/evaluation/State.h"
+#include "sofa/graph/SceneGraph.h"
+#include "sofa/graph/Values.h"
+#include "sofa/mesh/Mesh.h"
+#include "sofa/mesh/Topology.h"
+
+namespace allpairs::scene::sofa {
+
+/// Computes what the components of a scene hold, each when it is first asked for and once.
+///
+/// Bad input: what cannot be computed throws Unplaceable, or FileError for a mesh file, and nothing is remembered.
+class Evaluation {
+ public:
+  Evaluation(const Node& root, ReadScope& scope);
+
+  /// What a loader has loaded and transformed.
+  const Mesh& mesh(const Component& loader);
+  Topology& topology(const Component& component);
+  /// Where the points of a state are in the end, after its mapping.
+  const State& state(const Component& component);
+  /// The same, but throws if the points themselves are not known.
+  const State& knownState(const Component& component);
+
+  /// Counts points that a component is about to make, of which a scene may ask for more than it writes out.
+  void takePoints(const Component& component, std::uint64_t count);
+  [[nodiscard]] ReadScope& scope() { return m_scope; }
+
+  using Names = std::initializer_list<std::string_view>;
+  /// As a width: all numbers in a row, whatever entries they make where they come from.
+  static constexpr std::size_t kFlat = 0;
+  /// The numbers of one data of a component, under any of its names: written out, linked, or found through `src`.
+  std::optional<Numbers> numbers(const Component& component, Names names, std::size_t width,
+                                 const std::vector<double>& filler = {});
+  /// The first number of a data, or the default.
+  double number(const Component& component, Names names, double standard);
+  Vec3 vector(const Component& component, Names names, const Vec3& standard);
+  bool flag(const Component& component, std::string_view name, bool standard);
+  std::vector<Vec3> points(const Component& component, Names names);
+  template <std::size_t N>
+  Elements<N> elements(const Component& component, Names names);
+  /// The component's data lists of edges, triangles, and so on.
+  Mesh elementLists(const Component& component);
+  std::vector<std::size_t> indices(const Component& component, Names names);
+  /// The file that an attribute names; nothing if the component has no such attribute.
+  std::optional<std::filesystem::path> file(const Component& component, Names names);
+  /// The Wavefront file that a topology takes its triangles from; empty where it takes them from elsewhere.
+  [[nodiscard]] std::string objFileOf(const Component& topology) const;
+  /// Whether a data's value comes from elsewhere.
+  [[nodiscard]] bool isLinked(const Component& component, Names names) const;
+  [[nodiscard]] bool isGiven(const Component& component, Names names) const;
+
+  /// The mapping that moves a state; null if none does.
+  [[nodiscard]] const Component* mappingOf(const Component& state) const;
+  /// The topological mapping that fills a topology; null if none does.
+  [[nodiscard]] const Component* topologicalMappingOf(const Component& topology) const;
+
+ private:
+  class Busy;
+
+  std::optional<Numbers> written(const Component& component, std::string_view name, const std::string& text);
+  std::optional<Numbers> linked(const Component& component, std::string_view name, const std::string& text);
+  std::optional<Numbers> throughSrc(const Component& component, std::string_view name);
+  std::optional<Numbers> output(const Component& component, std::string_view name);
+  const Component* source(const Component& component) const;
+  void indexMappings(const Node& node);
+
+  ReadScope& m_scope;
+  std::unordered_map<const Component*, Mesh> m_meshes;
+  std::unordered_map<const Component*, Topology> m_topologies;
+  std::unordered_map<const Component*, State> m_states;
+  std::unordered_map<const Component*, const Component*> m_mappings;
+  std::unordered_map<const Component*, const Component*> m_topologicalMappings;
+  std::vector<std::pair<const Component*, std::string>> m_busy;
+};
+
+[[nodiscard]] Numbers toNumbers(const std::vector<Vec3>& points);
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <numeric>
+
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using enum ComponentKind;
+
+constexpr double kSubsetRadius = 1e-5;  // SOFA's default for how near a subset's points are to their originals.
+
+const Component* endOf(const Component& mapping, std::string_view name, std::string_view oldName,
+                       std::string_view standard) {
+  const auto* text = mapping.attributes.find(name);
+  if (text == nullptr) text = mapping.attributes.find(oldName);
+  return followTo(mapping, text != nullptr ? std::string_view{*text} : standard,
+                  [](const Component& c) { return isState(c.kind()); });
+}
+
+/// For each point of the child the rigid frame that carries it.
+class Carriers {
+ public:
+  Carriers(Evaluation& evaluation, const Component& mapping, std::size_t points, std::size_t frames)
+      : m_mapping(mapping), m_frames(frames) {
+    m_perPoint = evaluation.indices(mapping, {"rigidIndexPerPoint"});
+    if (mapping.attributes.has("repartition")) spread(evaluation.indices(mapping, {"repartition"}), points);
+    if (m_perPoint.size() != points) m_perPoint.clear();
+    const auto index = evaluation.number(mapping, {"index"}, 0);
+    m_index = static_cast<std::size_t>(std::clamp(index, 0.0, 4e9));
+    if (evaluation.flag(mapping, "indexFromEnd", false)) m_index = m_frames - 1 - m_index;
+  }
+
+  [[nodiscard]] std::size_t of(std::size_t point) const {
+    const auto frame = m_perPoint.empty() ? m_index : m_perPoint[point];
+    if (frame >= m_frames)
+      throw Unplaceable(m_mapping, "there is no rigid frame number " + std::to_string(frame) + " among the " +
+                                       std::to_string(m_frames) + " of its input");
+    return frame;
+  }
+
+ private:
+  /// One number: so many points to each frame; several: one number for each frame.
+  void spread(const std::vector<std::size_t>& counts, std::size_t points) {
+    m_perPoint.clear();
+    for (std::size_t frame = 0; !counts.empty() && m_perPoint.size() < points; ++frame) {
+      if (counts.size() > 1 && frame >= counts.size()) break;
+      const auto count = counts.size() == 1 ? counts[0] : counts[frame];
+      if (count == 0 && counts.size() == 1) break;
+      m_perPoint.insert(m_perPoint.end(), std::min(count, points - m_perPoint.size()), frame);
+    }
+  }
+
+  const Component& m_mapping;
+  std::size_t m_frames;
+  std::size_t m_index = 0;
+  std::vector<std::size_t> m_perPoint;
+};
+
+/// The points of the child in the frames that carry it.
+State localPoints(Evaluation& evaluation, const Component& mapping, const State& child) {
+  State local = child;
+  if (const auto file = evaluation.file(mapping, {"filename", "fileRigidMapping"})) {
+    if (file->extension() == ".xs3") throw Unplaceable(mapping, "files of the kind .xs3 cannot be read");
+    local.positions = readMesh(*file).positions;
+  } else if (evaluation.isGiven(mapping, {"initialPoints"})) {
+    const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.kind == State::Kind::Rigid ? 7 : 3);
+    if (given->size() == 0) return local;
+    local.resize(given->size());
+    for (std::size_t i = 0; i < given->size(); ++i) {
+      const auto* v = given->values.data() + i * given->width;
+      local.positions[i] = {v[0], v[1], v[2]};
+      if (given->width == 7) local.orientations[i] = {v[3], v[4], v[5], v[6]};
+    }
+  }
+  return local;
+}
+
+State mapRigidly(Evaluation& evaluation, const Component& mapping, const State& parent, const State& child) {
+  if (parent.kind != State::Kind::Rigid) throw Unplaceable(mapping, "the state that it reads is not rigid");
+  auto result = localPoints(evaluation, mapping, child);
+  result.fromTopology.reset();
+  const Carriers carriers(evaluation, mapping, result.positions.size(), parent.positions.size());
+  const bool isGlobal = evaluation.flag(mapping, "globalToLocalCoords", false);
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    const auto frame = carriers.of(i);
+    if (isGlobal) continue;  // There and back again.
+    const auto& q = parent.orientations[frame];
+    result.positions[i] = rotate(q, result.positions[i]) + parent.positions[frame];
+    if (result.kind == State::Kind::Rigid) result.orientations[i] = q * result.orientations[i];
+  }
+  return result;
+}
+
+State mapIdentically(const State& parent, State child) {
+  child.resize(parent.positions.size());
+  child.positions = parent.positions;
+  if (child.kind == State::Kind::Rigid && parent.kind == State::Kind::Rigid) child.orientations = parent.orientations;
+  child.fromTopology.reset();
+  return child;
+}
+
+/// For each wanted point the nearest of the others within a distance; the number of the others where there is none.
+std::vector<std::size_t> nearestWithin(const std::vector<Vec3>& wanted, const std::vector<Vec3>& others,
+                                       double radius) {
+  std::vector<std::size_t> order(others.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](auto a, auto b) { return std::pair{others[a][0], a} < std::pair{others[b][0], b}; });
+  std::vector<std::size_t> result;
+  for (const auto& p : wanted) {
+    auto best = std::pair{radius, others.size()};
+    auto at = std::ranges::lower_bound(order, p[0] - radius, {}, [&](auto i) { return others[i][0]; });
+    for (; at != order.end() && others[*at][0] <= p[0] + radius; ++at) {
+      const auto difference = p - others[*at];
+      const auto candidate = std::pair{std::sqrt(dot(difference, difference)), *at};
+      if (candidate.first < radius && candidate < best) best = candidate;
+    }
+    result.push_back(best.second);
+  }
+  return result;
+}
+
+std::vector<std::size_t> subsetIndices(Evaluation& evaluation, const Component& mapping, const State& parent,
+                                       const State& child) {
+  const auto count = parent.positions.size();
+  auto indices = evaluation.indices(mapping, {"indices"});
+  if (!indices.empty()) {
+    if (!evaluation.flag(mapping, "ignoreNotFound", false))
+      std::erase_if(indices, [count](std::size_t i) { return i >= count; });
+    return indices;
+  }
+  const auto first = evaluation.number(mapping, {"first"}, -1), last = evaluation.number(mapping, {"last"}, -1);
+  if (first == -1)
+    return nearestWithin(child.positions, parent.positions, evaluation.number(mapping, {"radius"}, kSubsetRadius));
+  const auto end = static_cast<double>(count);
+  const auto from = static_cast<std::size_t>(first >= 0 && first < end ? first : 0);
+  const auto to = static_cast<std::size_t>(last >= 0 && last < end ? last + 1 : end);
+  indices.resize(to > from ? to - from : 0);
+  std::iota(indices.begin(), indices.end(), from);
+  return indices;
+}
+
+State mapSubset(Evaluation& evaluation, const Component& mapping, const State& parent, const State& child) {
+  const auto indices = subsetIndices(evaluation, mapping, parent, child);
+  State result = child;
+  result.fromTopology.reset();
+  result.resize(indices.size());
+  const bool rigid = result.kind == State::Kind::Rigid && parent.kind == State::Kind::Rigid;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] < parent.positions.size()) {
+      result.positions[i] = parent.positions[indices[i]];
+      if (rigid) result.orientations[i] = parent.orientations[indices[i]];
+    } else if (i < child.rest.size()) {
+      result.positions[i] = child.rest[i];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+const Component* mappingInput(const Component& mapping) { return endOf(mapping, "input", "object1", "@../"); }
+
+const Component* mappingOutput(const Component& mapping) { return endOf(mapping, "output", "object2", "@./"); }
+
+State mapState(Evaluation& evaluation, const Component& mapping, State child) {
+  const auto* input = mappingInput(mapping);
+  if (mapping.kind() == UnknownMapping) throw Unplaceable(mapping, "this kind of mapping is not known to this reader");
+  switch (mapping.kind()) {
+    case IdentityMultiMapping:
+      return mapAllOf(evaluation, mapping, std::move(child));
+    case SubsetMultiMapping:
+      return mapSomeOf(evaluation, mapping, std::move(child));
+    case DeformableOnRigidFrameMapping:
+      return mapOnFrame(evaluation, mapping, std::move(child));
+    default:
+      break;
+  }
+  if (input == nullptr) throw Unplaceable(mapping, "the state that it reads is nowhere to be found");
+  switch (mapping.kind()) {
+    case SkinningMapping:
+      return mapSkin(evaluation, mapping, *input, std::move(child));
+    case RigidMapping:
+      return mapRigidly(evaluation, mapping, evaluation.knownState(*input), child);
+    case IdentityMapping:
+      return mapIdentically(evaluation.knownState(*input), std::move(child));
+    case SubsetMapping:
+      return mapSubset(evaluation, mapping, evaluation.knownState(*input), child);
+    default:
+      break;
+  }
+  child.positions = mapBarycentrically(evaluation, mapping, *input, child);
+  if (child.kind == State::Kind::Rigid) child.orientations.resize(child.positions.size());
+  child.fromTopology.reset();
+  return child;
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <sstream>
+
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+const State& stateAt(Evaluation& evaluation, const Component& mapping, const std::string& link) {
+  const auto* which = followTo(mapping, link, [](const Component& c) { return isState(c.kind()); });
+  if (which == nullptr) throw Unplaceable(mapping, "the state '" + link.substr(0, 80) + "' is nowhere to be found");
+  return evaluation.knownState(*which);
+}
+
+std::vector<const State*> inputsOf(Evaluation& evaluation, const Component& mapping) {
+  std::vector<const State*> inputs;
+  const auto* text = mapping.attributes.find("input");
+  std::istringstream links(text != nullptr ? *text : std::string{});
+  for (std::string link; links >> link;) inputs.push_back(&stateAt(evaluation, mapping, link));
+  if (inputs.empty()) throw Unplaceable(mapping, "it names no state that it reads");
+  return inputs;
+}
+
+void append(State& to, const State& from, std::size_t index) {
+  to.positions.push_back(from.positions[index]);
+  if (to.kind == State::Kind::Rigid)
+    to.orientations.push_back(from.kind == State::Kind::Rigid ? from.orientations[index] : Quat{});
+}
+
+}  // namespace
+
+State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
+  child.resize(0);
+  child.fromTopology.reset();
+  for (const auto* input : inputsOf(evaluation, mapping)) {
+    evaluation.takePoints(mapping, input->positions.size());
+    for (std::size_t i = 0; i < input->positions.size(); ++i) append(child, *input, i);
+  }
+  return child;
+}
+
+State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child) {
+  const auto inputs = inputsOf(evaluation, mapping);
+  const auto pairs = evaluation.indices(mapping, {"indexPairs"});
+  child.resize(0);
+  child.fromTopology.reset();
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+    if (pairs[i] >= inputs.size() || pairs[i + 1] >= inputs[pairs[i]]->positions.size())
+      throw Unplaceable(mapping, "indexPairs names a point that isn't there");
+    append(child, *inputs[pairs[i]], pairs[i + 1]);
+  }
+  return child;
+}
+
+State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child) {
+  const auto link = [&](const char* name) {
+    const auto* text = mapping.attributes.find(name);
+    return text != nullptr ? *text : std::string{};
+  };
+  const auto& deformed = stateAt(evaluation, mapping, link("input1"));
+  child.positions = deformed.positions;
+  child.fromTopology.reset();
+  if (link("input2").empty()) return child;
+  const auto& frames = stateAt(evaluation, mapping, link("input2"));
+  const auto index = evaluation.number(mapping, {"index"}, 0);
+  if (frames.kind != State::Kind::Rigid || !(index >= 0) || index >= static_cast<double>(frames.positions.size()) ||
+      evaluation.isGiven(mapping, {"repartition", "indexFromEnd"}))
+    throw Unplaceable(mapping, "how its rigid frames carry its points is not known to this reader");
+  const auto frame = static_cast<std::size_t>(index);
+  for (auto& p : child.positions) p = rotate(frames.orientations[frame], p) + frames.positions[frame];
+  return child;
+}
+
+State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child) {
+  (void)evaluation.knownState(bones);  // What is wrong with the bones is wrong with the skin.
+  if (evaluation.mappingOf(bones) != nullptr ||
+      evaluation.isGiven(bones,
+                         {"rest_position", "rotation2", "translation2", "rx2", "ry2", "rz2", "dx2", "dy2", "dz2"}) ||
+      evaluation.isGiven(mapping, {"initPos"}))
+    throw Unplaceable(mapping, "its bones are not where they rest, and this reader bends no skin");
+  child.fromTopology.reset();
+  return child;
+}
+
+}  // namespace allpairs::scene::sofa

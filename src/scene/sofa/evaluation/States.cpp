@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using enum ComponentKind;
+
+struct Placement {
+  Vec3 scale{1, 1, 1};
+  Vec3 rotation{};
+  Vec3 translation{};
+  Vec3 rotation2{};
+  Vec3 translation2{};
+};
+
+double single(const Component& component, std::string_view name, double standard) {
+  const auto* text = component.attributes.find(name);
+  return text != nullptr ? parseWholeFloat(*text).value_or(standard) : standard;
+}
+
+/// Three attributes such as rx, ry and rz, any of which overrides the vector.
+Vec3 singles(const Component& component, const std::array<std::string_view, 3>& names, const Vec3& vector,
+             double standard) {
+  if (std::ranges::none_of(names, [&](auto name) { return component.attributes.has(name); })) return vector;
+  return {single(component, names[0], standard), single(component, names[1], standard),
+          single(component, names[2], standard)};
+}
+
+Placement placementOf(Evaluation& evaluation, const Component& c) {
+  Placement placement;
+  const auto vector = [&](std::string_view name, const Vec3& standard) {
+    return evaluation.vector(c, {name}, standard);
+  };
+  placement.scale = vector("scale3d", {1, 1, 1});
+  if (c.attributes.has("scale")) placement.scale = Vec3{1, 1, 1} * single(c, "scale", 1);
+  placement.scale = singles(c, {"sx", "sy", "sz"}, placement.scale, 1);
+  placement.rotation = singles(c, {"rx", "ry", "rz"}, vector("rotation", {}), 0);
+  placement.translation = singles(c, {"dx", "dy", "dz"}, vector("translation", {}), 0);
+  placement.rotation2 = singles(c, {"rx2", "ry2", "rz2"}, vector("rotation2", {}), 0);
+  placement.translation2 = singles(c, {"dx2", "dy2", "dz2"}, vector("translation2", {}), 0);
+  return placement;
+}
+
+AffineMap affine(const Quat& rotation, const Vec3& scale, const Vec3& translation) {
+  const auto column = [&](std::size_t axis) {
+    Vec3 unit{};
+    unit[axis] = scale[axis];
+    return rotate(rotation, unit);
+  };
+  return {{column(0), column(1), column(2)}, translation};
+}
+
+AffineMap compose(const AffineMap& after, const AffineMap& before) {
+  return {{after.linear * before.linear.x, after.linear * before.linear.y, after.linear * before.linear.z},
+          after(before.offset)};
+}
+
+void move(State& state, const Vec3& scale, const Vec3& rotation, const Vec3& translation) {
+  const bool turned = rotation != Vec3{};
+  const auto q = fromEulerDegrees(rotation);
+  for (auto& p : state.positions) {
+    p = scaled(p, scale);
+    if (turned) p = rotate(q, p);
+    p = p + translation;
+  }
+  if (turned)
+    for (auto& orientation : state.orientations) orientation = q * orientation;
+  if (state.fromTopology)
+    state.fromTopology = compose(affine(turned ? q : Quat{}, scale, translation), *state.fromTopology);
+}
+
+State::Kind kindOf(const Component& component) {
+  const auto* text = component.attributes.find("template");
+  if (text == nullptr || text->empty()) return State::Kind::Points;
+  for (const auto name : {"Rigid", "Rigid3", "Rigid3d", "Rigid3f"})
+    if (*text == name) return State::Kind::Rigid;
+  for (const auto name : {"Vec1", "Vec1d", "Vec1f", "Vec2", "Vec2d", "Vec2f", "Vec6", "Vec6d", "Vec6f", "Rigid2",
+                          "Rigid2d", "Rigid2f", "Affine", "Quadratic", "F331", "F332", "F311", "E331", "U331"})
+    if (*text == name) return State::Kind::Other;
+  return State::Kind::Points;  // Vec3 in its spellings, and what SOFA doesn't know and takes for Vec3.
+}
+
+void setPositions(State& state, const Numbers& numbers) {
+  state.resize(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto* v = numbers.values.data() + i * numbers.width;
+    state.positions[i] = {v[0], v[1], v[2]};
+    if (state.kind == State::Kind::Rigid) state.orientations[i] = {v[3], v[4], v[5], v[6]};
+  }
+}
+
+/// Whether a topology knows its points only after this state has asked for them, because it comes later in the node.
+bool isTooLate(Evaluation& evaluation, const Component& state, const Component& topology) {
+  const auto* mapping = evaluation.topologicalMappingOf(topology);
+  if (mapping != nullptr) return mapping->node == state.node && mapping->index > state.index;
+  if (topology.kind() == RegularGrid) return false;
+  if (std::ranges::find(state.node->order, std::pair{topology.name, state.name}) != state.node->order.end())
+    return false;
+  return topology.node == state.node && topology.index > state.index;
+}
+
+const Component* topologyFor(Evaluation& evaluation, const Component& state) {
+  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
+  if (!evaluation.flag(state, "useTopology", true)) return nullptr;
+  if (const auto* text = state.attributes.find("topology"); text != nullptr && !text->empty())
+    return followTo(state, *text, topologies);
+  const auto& components = state.node->components;
+  const auto first = std::ranges::find_if(components, [&](const auto& c) { return topologies(*c); });
+  return first == components.end() ? nullptr : first->get();
+}
+
+/// The points of the topology, if there is one that has points.
+void takePoints(Evaluation& evaluation, const Component& component, State& state) {
+  const auto* which = topologyFor(evaluation, component);
+  if (which == nullptr) {
+    if (state.positions.empty()) state.resize(0);
+    return;
+  }
+  auto& topology = evaluation.topology(*which);
+  const bool tooLate = isTooLate(evaluation, component, *which);
+  if (tooLate && (which->attributes.has("filename") || evaluation.topologicalMappingOf(*which) != nullptr)) return;
+  if (!topology.hasPositions) return;
+  state.resize(0);
+  evaluation.takePoints(component, tooLate ? 0 : topology.pointCount);
+  state.resize(tooLate ? 0 : topology.pointCount);
+  for (std::size_t i = 0; i < state.positions.size(); ++i) state.positions[i] = topology.position(i);
+  state.fromTopology = AffineMap{};
+  state.pointsUnknown = topology.sparse && !tooLate;
+}
+
+/// How many entries the other vectors of a state have that were written out.
+std::size_t countOf(Evaluation& evaluation, const Component& component, std::string_view name, std::size_t width) {
+  const auto numbers = evaluation.numbers(component, {name}, width);
+  return numbers ? numbers->size() : 0;
+}
+
+std::size_t declaredSize(const Component& component, std::size_t standard) {
+  const auto* text = component.attributes.find("size");
+  const double size = text != nullptr ? parseWholeFloat(*text).value_or(-1) : -1;
+  if (size < 0) return standard;
+  if (size > kMaxPoints) throw Unplaceable(component, "size=\"" + *text + "\" is out of all reason");
+  return static_cast<std::size_t>(size);
+}
+
+}  // namespace
+
+std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component, std::string_view name) {
+  const auto placement = placementOf(evaluation, component);
+  if (name == "scale3d" && component.kind() == MeshLoader)  // Loaders multiply where states replace.
+    return evaluation.vector(component, {"scale3d"}, {1, 1, 1}) * single(component, "scale", 1);
+  if (name == "scale3d") return placement.scale;
+  if (name == "rotation") return placement.rotation;
+  if (name == "translation") return placement.translation;
+  if (name == "rotation2") return placement.rotation2;
+  if (name == "translation2") return placement.translation2;
+  return std::nullopt;
+}
+
+State initialState(Evaluation& evaluation, const Component& component) {
+  State state;
+  state.kind = kindOf(component);
+  if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
+    throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
+  const std::size_t width = state.kind == State::Kind::Rigid ? 7 : 3;
+  state.resize(1);
+  if (const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1}))
+    setPositions(state, *given);
+  if (const auto size = declaredSize(component, state.positions.size());
+      !evaluation.isLinked(component, {"position"})) {
+    evaluation.takePoints(component, size);
+    state.resize(size);
+  }
+  std::size_t largest = 1;
+  for (const auto name : {"rest_position", "reset_position"})
+    largest = std::max(largest, countOf(evaluation, component, name, width));
+  largest = std::max(largest, countOf(evaluation, component, "velocity", width == 7 ? 6 : 3));
+  if (largest > std::max<std::size_t>(state.positions.size(), 1)) state.resize(largest);
+  if (state.positions.size() <= 1) takePoints(evaluation, component, state);
+
+  const auto placement = placementOf(evaluation, component);
+  move(state, placement.scale, placement.rotation, placement.translation);
+  state.rest = evaluation.points(component, {"rest_position"});
+  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
+  move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
+  return state;
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using enum ComponentKind;
+
+Topology meshTopology(Evaluation& evaluation, const Component& component) {
+  Topology topology;
+  if (const auto file = evaluation.file(component, {"filename", "fileTopology"})) {
+    topology.given = readMesh(*file);
+    checkMesh(topology.given, *file);
+    topology.pointCount = topology.given.positions.size();
+  } else {
+    topology.given = evaluation.elementLists(component);
+    topology.given.positions = evaluation.points(component, {"position", "points"});
+    topology.pointCount = indicesUsed(topology.given);
+  }
+  topology.hasPositions = !topology.given.positions.empty();
+  return topology;
+}
+
+bool canHold(ComponentKind container, ComponentKind element) {
+  if (container == element || element == EdgeContainer) return container != PointContainer || element == PointContainer;
+  return (container == TetrahedronContainer && element == TriangleContainer) ||
+         (container == HexahedronContainer && element == QuadContainer);
+}
+
+Mesh containerLists(Evaluation& evaluation, const Component& component) {
+  const auto holds = [&](ComponentKind element) { return canHold(component.kind(), element); };
+  Mesh mesh;
+  mesh.positions = evaluation.points(component, {"position", "points"});
+  if (holds(EdgeContainer)) mesh.edges = evaluation.elements<2>(component, {"edges"});
+  if (holds(TriangleContainer)) mesh.triangles = evaluation.elements<3>(component, {"triangles"});
+  if (holds(QuadContainer)) mesh.quads = evaluation.elements<4>(component, {"quads"});
+  if (holds(TetrahedronContainer)) mesh.tetrahedra = evaluation.elements<4>(component, {"tetrahedra", "tetras"});
+  if (holds(HexahedronContainer)) mesh.hexahedra = evaluation.elements<8>(component, {"hexahedra", "hexas"});
+  return mesh;
+}
+
+Topology containerTopology(Evaluation& evaluation, const Component& component) {
+  Topology topology;
+  topology.family = Topology::Family::Container;
+  topology.given = containerLists(evaluation, component);
+  const double count = evaluation.number(component, {"nbPoints"}, 0);
+  topology.pointCount = static_cast<std::size_t>(std::clamp(count, 0.0, kMaxPoints));
+  Mesh counted;  // Only edges and tetrahedra make room for the points that they use.
+  if (topology.given.positions.empty()) counted.edges = topology.given.edges;
+  counted.tetrahedra = topology.given.tetrahedra;
+  topology.pointCount = std::max({topology.pointCount, indicesUsed(counted), topology.given.positions.size()});
+  topology.hasPositions = !topology.given.positions.empty();
+  return topology;
+}
+
+std::array<std::size_t, 3> toCounts(const Component& grid, const Vec3& numbers) {
+  double product = 1;
+  for (const double n : numbers) product *= std::max(1.0, n);
+  if (!(product <= kMaxPoints))
+    throw Unplaceable(grid, fmt::format("a grid of {} points is more than this reader makes", product));
+  return {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1]),
+          static_cast<std::size_t>(numbers[2])};
+}
+
+/// The number of points along each axis, as written.
+Vec3 gridCounts(Evaluation& evaluation, const Component& grid) {
+  Vec3 counts = evaluation.vector(grid, {"n"}, {2, 2, 2});
+  if (grid.attributes.has("nx") && grid.attributes.has("ny") && grid.attributes.has("nz"))
+    counts = {evaluation.number(grid, {"nx"}, counts[0]), evaluation.number(grid, {"ny"}, counts[1]),
+              evaluation.number(grid, {"nz"}, counts[2])};
+  for (auto& n : counts) n = std::trunc(n);
+  return counts;
+}
+
+struct Corners {
+  Vec3 min{};
+  Vec3 max{1, 1, 1};
+};
+
+Corners gridCorners(Evaluation& evaluation, const Component& grid) {
+  constexpr std::array<std::string_view, 6> kNames{"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
+  const auto single = [&](std::string_view name, double standard) {
+    const auto* text = grid.attributes.find(name);
+    return text != nullptr ? parseWholeFloat(*text).value_or(standard) : standard;
+  };
+  if (!std::ranges::all_of(kNames, [&](auto name) { return grid.attributes.has(name); }))
+    return {evaluation.vector(grid, {"min"}, {}), evaluation.vector(grid, {"max"}, {1, 1, 1})};
+  Corners corners;
+  const double scale = single("scale", 1);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    corners.min[axis] = single(kNames[axis], 0) * scale;
+    corners.max[axis] = single(kNames[axis + 3], 1) * scale;
+  }
+  return corners;
+}
+
+/// Origin and spacing of a grid of so many points between two corners; an axis with one point is special.
+GridShape gridBetween(const Corners& corners, const Vec3& counts) {
+  GridShape shape;
+  shape.origin = corners.min;
+  const auto extent = corners.max - corners.min;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    shape.spacing[axis] = counts[axis] > 1 ? extent[axis] / (counts[axis] - 1) : extent[axis];
+    if (counts[axis] <= 1 && axis < 2) shape.origin[axis] = (corners.max[axis] + corners.min[axis]) / 2;
+  }
+  return shape;
+}
+
+Topology regularGrid(Evaluation& evaluation, const Component& component) {
+  auto counts = gridCounts(evaluation, component);
+  const auto corners = gridCorners(evaluation, component);
+  auto shape = gridBetween(corners, counts);
+  if (const double width = evaluation.number(component, {"cellWidth"}, 0); width != 0)
+    for (std::size_t axis = 0; axis < 3; ++axis)  // SOFA keeps the spacing of the resolution that was written.
+      counts[axis] = std::ceil((corners.max[axis] - corners.min[axis]) / width) + 1;
+  if (*std::ranges::min_element(counts) < 1) {
+    counts = {2, 2, 2};
+    shape = gridBetween(corners, counts);
+  }
+  if (component.attributes.has("p0")) shape.origin = evaluation.vector(component, {"p0"}, {});
+  shape.points = toCounts(component, counts);
+  constexpr std::uint64_t kElements = 8;  // points of a grid have so many times their own size in elements
+  evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
+
+  Topology topology;
+  const auto [nx, ny, nz] = shape.points;
+  for (std::size_t z = 0; z < nz; ++z)
+    for (std::size_t y = 0; y < ny; ++y)
+      for (std::size_t x = 0; x < nx; ++x) topology.given.positions.push_back(shape.point(x, y, z));
+  fillGrid(topology, shape.points);
+  topology.pointCount = topology.given.positions.size();
+  topology.hasPositions = true;
+  topology.cells = {nx - 1, ny - 1, nz - 1};
+  topology.grid = shape;
+  return topology;
+}
+
+Topology sparseGrid() {
+  Topology topology;
+  topology.sparse = true;
+  topology.hasPositions = true;
+  return topology;
+}
+
+}  // namespace
+
+Topology buildTopology(Evaluation& evaluation, const Component& component) {
+  switch (component.kind()) {
+    case MeshTopology:
+      return meshTopology(evaluation, component);
+    case PointContainer:
+    case EdgeContainer:
+    case TriangleContainer:
+    case QuadContainer:
+    case TetrahedronContainer:
+    case HexahedronContainer:
+      return containerTopology(evaluation, component);
+    case RegularGrid:
+      return regularGrid(evaluation, component);
+    case SparseGrid:
+      return sparseGrid();
+    default:
+      throw Unplaceable(component, "this kind of topology is not known to this reader");
+  }
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/graph/ComponentKind.h"
+
+#include <cctype>
+#include <unordered_map>
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using Table = std::unordered_map<std::string_view, ComponentClass>;
+using enum ComponentKind;
+
+void addModels(Table& table) {
+  for (const auto name : {"PointModel", "PointCollisionModel", "TPointModel", "Point", "PointMesh", "PointSet"})
+    table[name] = {PointModel, "TPointModel"};
+  for (const auto name : {"LineModel", "LineCollisionModel", "TLineModel", "Line", "LineMesh", "LineSet",
+                          "LineMeshModel", "LineSetModel"})
+    table[name] = {LineModel, "TLineModel"};
+  for (const auto name : {"TriangleModel", "TriangleCollisionModel", "TTriangleModel", "Triangle", "TriangleMesh",
+                          "TriangleSet", "TriangleMeshModel", "TriangleSetModel"})
+    table[name] = {TriangleModel, "TTriangleModel"};
+  for (const auto name : {"TriangleOctreeModel", "TriangleOctree", "TriangleOctreeCollisionModel"})
+    table[name] = {TriangleModel, "TriangleOctreeModel"};
+  for (const auto name : {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere"})
+    table[name] = {SphereModel, "TSphereModel"};
+  for (const auto name : {"CapsuleModel", "CapsuleCollisionModel", "TCapsuleModel", "Capsule", "RigidCapsule",
+                          "RigidCapsuleModel", "RigidCapsuleCollisionModel"})
+    table[name] = {CapsuleModel, "TCapsuleModel"};
+  for (const auto name : {"CylinderModel", "CylinderCollisionModel", "TCylinderModel", "Cylinder"})
+    table[name] = {CylinderModel, "TCylinderModel"};
+  for (const auto name : {"OBB", "OBBModel", "TOBBModel", "OBBCollisionModel"})
+    table[name] = {OrientedBoxModel, "TOBBModel"};
+  for (const auto name : {"Tetrahedron", "TetrahedronModel", "TetrahedronCollisionModel"})
+    table[name] = {TetrahedronModel, "TetrahedronModel"};
+  for (const auto name : {"RigidSphere", "RigidSphereModel", "RigidDistanceGridCollisionModel",
+                          "DistanceGridCollisionModel", "FFDDistanceGridCollisionModel", "SpatialGridPointModel",
+                          "RayModel", "RayCollisionModel", "Ray", "ImplicitSurfaceCollisionModel"})
+    table[name] = {UnknownModel, {}};
+}
+
+void addPipeline(Table& table) {
+  for (const auto name : {"DefaultPipeline", "CollisionPipeline"}) table[name] = {Pipeline, "DefaultPipeline"};
+  for (const auto name :
+       {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase", "BruteForce", "DirectSAP",
+        "DirectSAPNarrowPhase", "IncrSAP", "IncrementalSAP", "RayTraceDetection", "RayTraceNarrowPhase"})
+    table[name] = {BroadPhase, name};
+  table["DiscreteIntersection"] = {DiscreteMethod, "DiscreteIntersection"};
+  for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"})
+    table[name] = {ProximityMethod, name};
+}
+
+void addTopologies(Table& table) {
+  for (const auto name : {"MeshTopology", "Mesh"}) table[name] = {MeshTopology, "MeshTopology"};
+  table["PointSetTopologyContainer"] = {PointContainer, "PointSetTopologyContainer"};
+  table["EdgeSetTopologyContainer"] = {EdgeContainer, "EdgeSetTopologyContainer"};
+  table["TriangleSetTopologyContainer"] = {TriangleContainer, "TriangleSetTopologyContainer"};
+  table["QuadSetTopologyContainer"] = {QuadContainer, "QuadSetTopologyContainer"};
+  table["TetrahedronSetTopologyContainer"] = {TetrahedronContainer, "TetrahedronSetTopologyContainer"};
+  table["HexahedronSetTopologyContainer"] = {HexahedronContainer, "HexahedronSetTopologyContainer"};
+  for (const auto name : {"RegularGridTopology", "RegularGrid"}) table[name] = {RegularGrid, "RegularGridTopology"};
+  for (const auto name : {"SparseGridTopology", "SparseGrid", "SparseGridRamification",
+                          "SparseGridRamificationTopology", "SparseGridMultiple", "SparseGridMultipleTopology"})
+    table[name] = {SparseGrid, "SparseGridTopology"};
+  for (const auto name : {"CubeTopology"}) table[name] = {CubeTopology, "CubeTopology"};
+  for (const auto name : {"CylinderGridTopology", "CylinderGrid"}) table[name] = {CylinderGrid, "CylinderGridTopology"};
+  for (const auto name : {"SphereGridTopology", "SphereGrid"}) table[name] = {SphereGrid, "SphereGridTopology"};
+  for (const auto name : {"ManifoldEdgeSetTopologyContainer", "MultilevelHexahedronSetTopologyContainer",
+                          "BezierTetrahedronSetTopologyContainer", "HighOrderTetrahedronSetTopologyContainer",
+                          "HighOrderTriangleSetTopologyContainer", "SphereQuadTopology", "GridTopology", "Grid",
+                          "DynamicSparseGridTopologyContainer"})
+    table[name] = {UnknownTopology, {}};
+}
+
+void addMappings(Table& table) {
+  table["Tetra2TriangleTopologicalMapping"] = {Tetra2Triangle, {}};
+  table["Hexa2QuadTopologicalMapping"] = {Hexa2Quad, {}};
+  table["Quad2TriangleTopologicalMapping"] = {Quad2Triangle, {}};
+  table["Hexa2TetraTopologicalMapping"] = {Hexa2Tetra, {}};
+  table["Triangle2EdgeTopologicalMapping"] = {Triangle2Edge, {}};
+  table["Edge2QuadTopologicalMapping"] = {Edge2Quad, {}};
+  for (const auto name : {"RigidMapping", "RigidRigidMapping"}) table[name] = {RigidMapping, name};
+  table["IdentityMapping"] = {IdentityMapping, "IdentityMapping"};
+  table["SubsetMapping"] = {SubsetMapping, "SubsetMapping"};
+  for (const auto name : {"BarycentricMapping", "TopologyBarycentricMapping"})
+    table[name] = {BarycentricMapping, "BarycentricMapping"};
+  table["IdentityMultiMapping"] = {IdentityMultiMapping, "IdentityMultiMapping"};
+  table["SubsetMultiMapping"] = {SubsetMultiMapping, "SubsetMultiMapping"};
+  table["DeformableOnRigidFrameMapping"] = {DeformableOnRigidFrameMapping, "DeformableOnRigidFrameMapping"};
+  for (const auto name : {"SkinningMapping", "LinearBlendSkinningMapping"})
+    table[name] = {SkinningMapping, "SkinningMapping"};
+}
+
+void addSources(Table& table) {
+  table["MechanicalObject"] = {MechanicalState, "MechanicalObject"};
+  for (const auto name : {"MeshObjLoader", "MeshOBJLoader", "MeshGmshLoader", "MeshVTKLoader", "MeshOffLoader",
+                          "MeshTrianLoader", "MeshSTLLoader"})
+    table[name] = {MeshLoader, name};
+  for (const auto name : {"MeshXspLoader", "GIDMeshLoader", "StringMeshCreator", "GridMeshCreator", "VoxelGridLoader",
+                          "MeshTetraStuffingLoader", "MeshLoader"})
+    table[name] = {UnknownLoader, name};
+  table["SphereLoader"] = {SphereLoader, "SphereLoader"};
+  for (const auto name : {"TransformEngine"}) table[name] = {TransformEngine, name};
+  table["MergePoints"] = {MergePoints, "MergePoints"};
+  table["BoxROI"] = {BoxRoi, "BoxROI"};
+}
+
+const Table& knownClasses() {
+  static const Table table = [] {
+    Table classes;
+    addModels(classes);
+    addPipeline(classes);
+    addTopologies(classes);
+    addMappings(classes);
+    addSources(classes);
+    return classes;
+  }();
+  return table;
+}
+
+}  // namespace
+
+ComponentClass classOf(std::string_view type) {
+  const auto& classes = knownClasses();
+  if (const auto found = classes.find(type); found != classes.end()) return found->second;
+  if (type.ends_with("TopologicalMapping")) return {UnknownTopologicalMapping, {}};
+  if (type.ends_with("Mapping")) return {UnknownMapping, {}};
+  if (type.ends_with("CollisionModel")) return {UnknownModel, {}};
+  if (type.ends_with("TopologyContainer") || type.ends_with("Topology")) return {UnknownTopology, {}};
+  if (type.ends_with("Intersection")) return {OtherMethod, {}};
+  return {};
+}
+
+std::string defaultNameStem(std::string_view type) {
+  if (type == "MechanicalObject") return "mObject";
+  std::string stem{classOf(type).name};
+  if (!stem.empty()) stem[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(stem[0])));
+  return stem;
+}
+
+bool isModel(ComponentKind kind) { return kind >= PointModel && kind <= UnknownModel; }
+bool isTopology(ComponentKind kind) { return kind >= MeshTopology && kind <= UnknownTopology; }
+bool isTopologicalMapping(ComponentKind kind) { return kind >= Tetra2Triangle && kind <= UnknownTopologicalMapping; }
+bool isMapping(ComponentKind kind) { return kind >= RigidMapping && kind <= UnknownMapping; }
+bool isState(ComponentKind kind) { return kind == MechanicalState || kind == UnknownState; }
+bool isMethod(ComponentKind kind) { return kind >= DiscreteMethod && kind <= OtherMethod; }
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/graph/Links.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace allpairs::scene::sofa {
+namespace {
+
+const Component* componentNamed(const Node& node, std::string_view name) {
+  const auto found = std::ranges::find_if(node.components, [&](const auto& c) { return c->name == name; });
+  return found == node.components.end() ? nullptr : found->get();
+}
+
+const Node* childNamed(const Node& node, std::string_view name) {
+  const auto found = std::ranges::find_if(node.children, [&](const auto& c) { return c->name == name; });
+  return found == node.children.end() ? nullptr : found->get();
+}
+
+const Node& rootOf(const Node& node) { return node.parent == nullptr ? node : rootOf(*node.parent); }
+
+/// "[-2]" is the second before `self`; without `self`, before the end.
+LinkTarget countBack(const Node& node, const Component* self, std::string_view path) {
+  const int back = std::atoi(std::string{path.substr(1)}.c_str());
+  const auto start = self != nullptr && self->node == &node ? self->index : node.components.size() - 1;
+  if (back > 0 || static_cast<std::size_t>(-static_cast<long>(back)) > start) return {};
+  return {&node, node.components[start - static_cast<std::size_t>(-static_cast<long>(back))].get()};
+}
+
+/// A name in a node, or, for the first name of a path that starts with one, in the nearest ancestor that has it.
+LinkTarget findName(const Node* node, std::string_view name, bool alsoInAncestors) {
+  for (; node != nullptr; node = node->parent) {
+    if (const auto* child = childNamed(*node, name)) return {child, nullptr};
+    if (const auto* component = componentNamed(*node, name)) return {node, component};
+    if (!alsoInAncestors) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<LinkText> parseLink(std::string_view text) {
+  if (!text.starts_with('@')) return std::nullopt;
+  text.remove_prefix(1);
+  const auto slash = text.rfind('/');
+  auto dot = text.rfind('.');
+  const auto nameStart = slash == std::string_view::npos ? 0 : slash + 1;
+  if (dot == std::string_view::npos || dot < nameStart) return LinkText{std::string{text}, {}};
+  const auto last = text.substr(nameStart);
+  if (last == "." || last == "..") return LinkText{std::string{text}, {}};
+  return LinkText{std::string{text.substr(0, dot)}, std::string{text.substr(dot + 1)}};
+}
+
+LinkTarget followPath(const Node& from, const Component* self, std::string_view path) {
+  if (path.empty() || path == "[]") return {&from, self};
+  if (path.starts_with('['))
+    return path.ends_with(']') && !from.components.empty() ? countBack(from, self, path) : LinkTarget{};
+  LinkTarget at{&from, nullptr};
+  bool anchored = path.starts_with('/');
+  if (anchored) at.node = &rootOf(from);
+  while (!path.empty()) {
+    const auto step = path.substr(0, path.find('/'));
+    path.remove_prefix(std::min(step.size() + 1, path.size()));
+    if (step.empty()) continue;
+    if (at.component != nullptr) return {};  // Components have no components of their own here.
+    if (step == "..")
+      at.node = at.node->parent;
+    else if (step != ".")
+      at = findName(at.node, step, !anchored);
+    if (at.node == nullptr) return {};
+    anchored = true;
+  }
+  return at;
+}
+
+const Component* inContext(const Node& node, const Wanted& wanted) {
+  const auto last =
+      std::find_if(node.components.rbegin(), node.components.rend(), [&](const auto& c) { return wanted(*c); });
+  if (last != node.components.rend()) return last->get();
+  for (const auto* ancestor = node.parent; ancestor != nullptr; ancestor = ancestor->parent) {
+    const auto first = std::ranges::find_if(ancestor->components, [&](const auto& c) { return wanted(*c); });
+    if (first != ancestor->components.end()) return first->get();
+  }
+  return nullptr;
+}
+
+const Component* followTo(const Component& self, std::string_view text, const Wanted& wanted) {
+  if (!text.starts_with('@')) return nullptr;
+  const auto target = followPath(*self.node, &self, text.substr(1));
+  if (target.component != nullptr) return wanted(*target.component) ? target.component : nullptr;
+  if (target.node == nullptr) return nullptr;
+  const Component* only = nullptr;
+  for (const auto& component : target.node->components) {
+    if (!wanted(*component)) continue;
+    if (only != nullptr) return nullptr;
+    only = component.get();
+  }
+  return only != nullptr ? only : inContext(*target.node, wanted);
+}
+
+}  // namespace allpairs::scene::sofa

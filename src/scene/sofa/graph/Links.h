@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sofa/graph/SceneGraph.h"
+
+namespace allpairs::scene::sofa {
+
+/// "@../mesh.position": the path "../mesh" and the data "position".
+struct LinkText {
+  std::string path;
+  std::string data;  ///< Empty where the link names none.
+};
+
+/// Takes a link apart; nothing if the text is not a link.
+[[nodiscard]] std::optional<LinkText> parseLink(std::string_view text);
+
+/// Where a path leads: to a component, or to a node and then `component` is null. Both are null where it leads nowhere.
+struct LinkTarget {
+  const Node* node = nullptr;
+  const Component* component = nullptr;
+};
+
+/// Follows a path from a node; "[-2]" counts back from `self`.
+[[nodiscard]] LinkTarget followPath(const Node& from, const Component* self, std::string_view path);
+
+using Wanted = std::function<bool(const Component&)>;
+
+/// The component that a path leads to if it is wanted; for a path to a node the only wanted one in it, else (for `self`
+/// in that node or not) the nearest in its ancestors. Null if there is none, or more than one.
+[[nodiscard]] const Component* followTo(const Component& self, std::string_view text, const Wanted& wanted);
+
+/// The one that a node's own components see: the last wanted one in it, or else the first in its nearest ancestor.
+[[nodiscard]] const Component* inContext(const Node& node, const Wanted& wanted);
+
+}  // namespace allpairs::scene::sofa

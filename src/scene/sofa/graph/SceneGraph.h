@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "allpairs/scene/FileError.h"
+#include "sofa/graph/ComponentKind.h"
+
+namespace allpairs::scene::sofa {
+
+/// Where in which file something was written.
+struct Place {
+  std::shared_ptr<const std::filesystem::path> file;
+  std::size_t line = 0;
+};
+
+struct Attribute {
+  std::string name;
+  std::string value;
+};
+
+/// The attributes of an element, few and in the order of the file.
+class Attributes {
+ public:
+  [[nodiscard]] const std::string* find(std::string_view name) const;
+  [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
+  void set(std::string_view name, std::string_view value);
+
+  [[nodiscard]] auto begin() const { return m_entries.begin(); }
+  [[nodiscard]] auto end() const { return m_entries.end(); }
+
+ private:
+  std::vector<Attribute> m_entries;
+};
+
+struct Node;
+
+/// One component of a scene: an element of the file that isn't a node.
+struct Component {
+  std::string type;  ///< The class, as the file calls it.
+  std::string name;  ///< As given, or as SOFA would number it.
+  Attributes attributes;
+  Place place;
+  Node* node = nullptr;
+  std::size_t index = 0;  ///< Among the components of its node.
+  ComponentClass what;
+
+  [[nodiscard]] ComponentKind kind() const { return what.kind; }
+  [[nodiscard]] std::string path() const;
+  /// "MeshTopology 'mesh' (/Body/mesh)".
+  [[nodiscard]] std::string describe() const;
+};
+
+/// One node of a scene, with what is in it.
+struct Node {
+  std::string name;
+  bool active = true;
+  Place place;
+  Node* parent = nullptr;
+  /// Names of components, each of the first before its second when the simulation starts, whatever their order here.
+  std::vector<std::pair<std::string, std::string>> order;
+  std::vector<std::unique_ptr<Component>> components;
+  std::vector<std::unique_ptr<Node>> children;
+
+  /// "/Body/Surface"; empty for the root.
+  [[nodiscard]] std::string path() const;
+};
+
+/// A component cannot be read or a position cannot be computed; names the file, the line, the component and the reason.
+class Unplaceable : public FileError {
+ public:
+  Unplaceable(const Component& component, const std::string& reason);
+  Unplaceable(const Place& place, const std::string& problem);
+
+  [[nodiscard]] const std::string& reason() const noexcept { return m_reason; }
+
+ private:
+  std::string m_reason;
+};
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/graph/SceneXml.h"
+
+#include <algorithm>
+#include <map>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
+#include "input/LineIndex.h"
+#include "sofa/graph/Values.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+constexpr std::size_t kMaxDepth = 200;          // No scene nests deeper than a dozen; the stack must not overflow.
+constexpr std::size_t kMaxIncludeDepth = 32;    // Includes of includes of includes: scenes use three.
+constexpr std::size_t kBytesPerElement = 1000;  // In memory, besides its attributes.
+constexpr std::size_t kBytesPerValue = 100;     // Of an attribute, besides its text.
+
+/// An element of a scene file on its way to a node or a component.
+struct Element {
+  enum class Splice { Keep, Children, Merge };
+
+  bool isNode = false;
+  std::string type;
+  std::string name;
+  Attributes attributes;
+  Attributes replacements;
+  std::vector<Element> children;
+  Splice splice = Splice::Keep;
+  Place place;
+};
+
+/// One scene file, or one file that it includes.
+struct SourceFile {
+  std::shared_ptr<const std::filesystem::path> path;
+  std::string text;
+  LineIndex lines;
+  pugi::xml_document document;
+
+  explicit SourceFile(const std::filesystem::path& file)
+      : path(std::make_shared<const std::filesystem::path>(file)), text(readText(file)), lines(text) {
+    const auto result = document.load_buffer(text.data(), text.size());
+    if (!result) {
+      const auto [line, column] = lines.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
+      throw FileError(file, std::string{"not well-formed XML: "} + result.description(), line, column);
+    }
+    if (!document.document_element()) throw FileError(file, "there is no element in this scene");
+  }
+
+  [[nodiscard]] Place placeOf(const pugi::xml_node& node) const {
+    return {path, lines.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0))).line};
+  }
+};
+
+/// What an include puts in the place of attributes of what it includes.
+struct Replacement {
+  std::string_view name;
+  std::string_view value;
+  std::string_view onlyIn;  ///< The element of that name alone; all where it is empty.
+};
+
+void setReplacement(Element& element, const Replacement& replacement, ReadScope& scope) {
+  if (replacement.onlyIn.empty() || element.name == replacement.onlyIn) {
+    scope.take(kBytesPerValue + replacement.value.size());
+    element.replacements.set(replacement.name, replacement.value);
+  }
+  for (auto& child : element.children) setReplacement(child, replacement, scope);
+}
+
+Element::Splice spliceOf(std::string_view name) {
+  if (name == "Group" || name == "_Group_") return Element::Splice::Children;
+  return name == "_Merge_" ? Element::Splice::Merge : Element::Splice::Keep;
+}
+
+void merge(Element& into, Element&& from) {
+  for (const auto& [name, value] : from.attributes) into.attributes.set(name, value);
+  for (auto& child : from.children) {
+    const auto same = std::ranges::find_if(into.children, [&](const Element& other) {
+      return other.type == child.type && other.name == child.name && other.isNode == child.isNode;
+    });
+    if (same != into.children.end())
+      merge(*same, std::move(child));
+    else
+      into.children.push_back(std::move(child));
+  }
+}
+
+void addChild(Element& parent, Element&& child) {
+  switch (child.splice) {
+    case Element::Splice::Keep:
+      parent.children.push_back(std::move(child));
+      break;
+    case Element::Splice::Children:
+      std::ranges::move(child.children, std::back_inserter(parent.children));
+      break;
+    case Element::Splice::Merge:
+      merge(parent, std::move(child));
+      break;
+  }
+}
+
+/// Reads elements, follows includes, and numbers what has no name.
+class ElementReader {
+ public:
+  explicit ElementReader(ReadScope& scope) : m_scope(scope) {}
+
+  Element readFile(const std::filesystem::path& path) {
+    if (m_openFiles.size() >= kMaxIncludeDepth) throw FileError(path, "included too many levels deep");
+    const auto canonical = path.lexically_normal();  // A link that hides a circle runs into the depth above.
+    if (std::ranges::find(m_openFiles, canonical) != m_openFiles.end())
+      throw FileError(path, "this file includes itself, directly or through another");
+    m_openFiles.push_back(canonical);
+    auto& file = m_files[canonical];
+    if (!file) {
+      m_scope.admit(path);
+      file = std::make_unique<SourceFile>(path);
+    }
+    auto root = read(*file, file->document.document_element());
+    m_openFiles.pop_back();
+    if (!root || !root->isNode) throw FileError(path, "the outermost element of a scene must be a Node");
+    return std::move(*root);
+  }
+
+ private:
+  std::optional<Element> read(const SourceFile& file, const pugi::xml_node& xml) {
+    if (std::string_view{xml.name()} == "include") return readInclude(file, xml, xml.attribute("href").value());
+    auto element = makeElement(file, xml);
+    if (!element) return element;
+    if (!element->isNode && classOf(element->type).kind == ComponentKind::Other)
+      if (const auto file2 = replacementFor(element->type, *file.path)) return readInclude(file, xml, *file2);
+    if (element->name.empty()) element->name = numberedName(*element);
+    if (++m_depth > kMaxDepth) throw Unplaceable(element->place, "nodes are nested too deep");
+    for (const auto& child : xml.children())
+      if (child.type() == pugi::node_element)
+        if (auto read = this->read(file, child)) addChild(*element, std::move(*read));
+    --m_depth;
+    return element;
+  }
+
+  std::optional<Element> makeElement(const SourceFile& file, const pugi::xml_node& xml) {
+    m_scope.take(kBytesPerElement);  // includes can double with every level
+    const std::string_view tag = xml.name();
+    const bool typed = xml.attribute("type");
+    Element element;
+    element.place = file.placeOf(xml);
+    element.isNode = tag == "Node";
+    if (tag == "Attribute" || tag == "Data") return std::nullopt;
+    if (!element.isNode && tag != "Object" && typed) return std::nullopt;  // SOFA makes nothing of such an element.
+    element.type = tag == "Object" ? xml.attribute("type").value() : xml.name();
+    element.name = xml.attribute("name").value();
+    for (const auto& attribute : xml.attributes()) {
+      const std::string_view name = attribute.name();
+      m_scope.take(kBytesPerValue + 2 * std::string_view{attribute.value()}.size());
+      if (name != "name" && name != "type") element.attributes.set(name, attribute.value());
+    }
+    for (const auto& child : xml.children("Attribute"))
+      element.attributes.set(child.attribute("type").value(), child.attribute("value").value());
+    return element;
+  }
+
+  std::optional<Element> readInclude(const SourceFile& file, const pugi::xml_node& xml, const std::string& name) {
+    const auto place = file.placeOf(xml);
+    if (name.empty()) throw Unplaceable(place, "an include without href");
+    const auto found = m_scope.find(name, *file.path);
+    if (!found.problem.empty()) throw Unplaceable(place, "the included file '" + name + "' " + found.problem);
+    auto included = readFile(found.path);
+    included.splice = spliceOf(included.name);
+    for (const auto& attribute : xml.attributes()) replace(included, attribute.name(), attribute.value());
+    return included;
+  }
+
+  void replace(Element& included, std::string_view name, std::string_view value) const {
+    if (name == "href") return;
+    if (name == "name") {
+      included.name = value;
+      included.splice = spliceOf(value);
+    } else if (const auto split = name.find("__"); split != std::string_view::npos && split > 0) {
+      setReplacement(included, {name.substr(split + 2), value, name.substr(0, split)}, m_scope);
+    } else {
+      setReplacement(included, {name, value, {}}, m_scope);
+    }
+  }
+
+  /// Old scenes write <TorusFEM .../> for the file Objects/TorusFEM.xml.
+  std::optional<std::string> replacementFor(const std::string& type, const std::filesystem::path& from) const {
+    std::string name = "Objects/" + type + ".xml";
+    if (type.find('/') == std::string::npos && m_scope.find(name, from).problem.empty()) return name;
+    return std::nullopt;
+  }
+
+  std::string numberedName(const Element& element) {
+    const auto stem = element.isNode ? std::string{} : defaultNameStem(element.type);
+    return stem + std::to_string(++m_counters[stem]);
+  }
+
+  ReadScope& m_scope;
+  std::vector<std::filesystem::path> m_openFiles;
+  std::map<std::filesystem::path, std::unique_ptr<SourceFile>> m_files;
+  std::map<std::string, std::size_t> m_counters;
+  std::size_t m_depth = 0;
+};
+
+void addComponent(Node& node, Element&& element) {
+  auto component = std::make_unique<Component>();
+  component->what = classOf(element.type);
+  component->type = std::move(element.type);
+  component->name = std::move(element.name);
+  component->attributes = std::move(element.attributes);
+  for (const auto& [name, value] : element.replacements)
+    if (component->attributes.has(name)) component->attributes.set(name, value);
+  component->place = element.place;
+  component->node = &node;
+  component->index = node.components.size();
+  node.components.push_back(std::move(component));
+}
+
+std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
+  auto node = std::make_unique<Node>();
+  node->name = std::move(element.name);
+  node->place = element.place;
+  node->parent = parent;
+  if (const auto* activated = element.attributes.find("activated")) node->active = parseBool(*activated).value_or(true);
+  if (const auto* depend = element.attributes.find("depend")) {
+    std::istringstream names(*depend);
+    for (std::string first, second; names >> first >> second;) node->order.emplace_back(first, second);
+  }
+  for (auto& child : element.children) {
+    if (child.isNode)
+      node->children.push_back(toNode(std::move(child), node.get()));
+    else
+      addComponent(*node, std::move(child));
+  }
+  return node;
+}
+
+}  // namespace
+
+std::unique_ptr<Node> readSceneGraph(const std::filesystem::path& path, ReadScope& scope) {
+  return toNode(ElementReader(scope).readFile(path), nullptr);
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/graph/Values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <system_error>
+
+#include "input/Words.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+constexpr double kMaxIndex = 1e12;
+constexpr double kMaxRange = 50'000'000;  // "0-4000000000" is a mistake, not a list.
+
+template <class Number>
+std::optional<Number> parseAny(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  Number value{};
+  const auto error = parseWhole(word, value);
+  // Too small for the type is zero enough; too large is not a number that a scene can use.
+  if (error == std::errc::result_out_of_range && std::abs(std::strtod(std::string{word}.c_str(), nullptr)) < 1)
+    return 0;
+  if (error != std::errc{}) return std::nullopt;
+  return value;
+}
+
+std::optional<double> parseFinite(std::string_view word) {
+  const auto value = parseAny<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& scope) {
+  const auto dash = word.find('-', 1);
+  if (dash == std::string_view::npos) return false;
+  const auto first = parseFinite(word.substr(0, dash)), last = parseFinite(word.substr(dash + 1));
+  if (!first || !last || *last - *first > kMaxRange) return false;
+  if (std::abs(*first) > kMaxIndex || std::abs(*last) > kMaxIndex) return false;  // from where on one more is no more
+  const auto count = static_cast<std::uint64_t>(std::max(0.0, *last - *first + 1));
+  if (count > scope.left() / (4 * sizeof(double))) return false;
+  scope.takeElements(count, sizeof(double));
+  for (double value = *first; value <= *last; ++value) values.push_back(value);
+  return true;
+}
+
+}  // namespace
+
+Numbers withWidth(const Numbers& numbers, std::size_t width, const std::vector<double>& filler) {
+  if (numbers.width == width) return numbers;
+  Numbers result{.values = {}, .width = width};
+  result.values.reserve(numbers.size() * width);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t j = 0; j < width; ++j)
+      result.values.push_back(j < numbers.width ? numbers.values[i * numbers.width + j]
+                                                : (j < filler.size() ? filler[j] : 0.0));
+  return result;
+}
+
+std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad) {
+  std::vector<double> values;
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
+    const auto value = parseFinite(word);
+    if (!value) {
+      bad = word;
+      return std::nullopt;
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad, ReadScope& scope) {
+  std::vector<double> values;
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
+    const auto value = parseFinite(word);
+    if (value) {
+      values.push_back(*value);
+    } else if (!appendRange(word, values, scope)) {
+      bad = word;
+      return std::nullopt;
+    }
+  }
+  return values;
+}
+
+std::optional<bool> parseBool(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  if (text[0] == 'T' || text[0] == 't') return true;
+  if (text[0] == 'F' || text[0] == 'f') return false;
+  if (text[0] != '-' && (text[0] < '0' || text[0] > '9')) return std::nullopt;
+  return std::atoi(std::string{text}.c_str()) != 0;
+}
+
+std::optional<double> parseWholeFloat(std::string_view text) {
+  while (!text.empty() && isBlankOrLineEnd(text.front())) text.remove_prefix(1);
+  const auto value = parseAny<float>(text);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return static_cast<double>(*value);
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/ReadScope.h"
+
+namespace allpairs::scene::sofa {
+
+/// The value of one of a component's data: numbers, and how many of them make one entry.
+struct Numbers {
+  std::vector<double> values;
+  std::size_t width = 1;
+
+  [[nodiscard]] std::size_t size() const { return values.size() / width; }
+};
+
+/// The same entries with another number of numbers each: cut, or filled up from `filler` from that place on.
+[[nodiscard]] Numbers withWidth(const Numbers& numbers, std::size_t width, const std::vector<double>& filler = {});
+
+/// All numbers in a text; nothing, and the word at fault in `bad`, if there is one that is no finite number.
+[[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad);
+
+/// As the integers of an index list, where "3-7" means 3 4 5 6 7.
+/// A range that is larger than may be read is no list.
+[[nodiscard]] std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad,
+                                                               ReadScope& scope);
+
+/// Yes and no in the ways in which scenes write them.
+[[nodiscard]] std::optional<bool> parseBool(std::string_view text);
+
+/// A text that is one float32 from its first character to its last; nothing otherwise.
+[[nodiscard]] std::optional<double> parseWholeFloat(std::string_view text);
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <map>
+#include <span>
+
+#include "input/FileBytes.h"
+#include "input/TextScanner.h"
+#include "input/Words.h"
+#include "mesh/ObjParser.h"
+#include "sofa/mesh/Mesh.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+/// Reads faces and lines as SOFA's loader does. What stands in the file no message repeats, as in TextScanner.
+class ObjReader final : ObjParser {
+ public:
+  ObjReader(const std::filesystem::path& path, const ObjOptions& options)
+      : ObjParser(path, {.elements = "fl", .joinsLines = false, .readsSeams = true}), m_options(options) {}
+
+  Mesh read(std::string_view text) {
+    parse(text);
+    m_lastLine = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+    if (m_mesh.positions.empty()) failAtEnd("this is no Wavefront mesh: it has no line of 'v' with a point");
+    if (m_options.splitSeams) splitSeams();
+    for (const auto& face : m_faces) addFace(face);
+    return std::move(m_mesh);
+  }
+
+ private:
+  void addPosition(std::string_view coordinates) override {
+    Vec3 position{};
+    for (auto& coordinate : position) {
+      const auto word = takeWord(coordinates, isBlank);
+      if (word.empty()) fail("a number is missing");
+      const auto value = scannedNumber(word);
+      if (!value) fail("what stands here is not a finite number");
+      coordinate = *value;
+    }
+    m_mesh.positions.push_back(position);
+  }
+
+  void addElement(char /*kind*/, std::span<const ObjCorner> corners) override {
+    if (corners.size() >= 2) m_faces.emplace_back(corners.begin(), corners.end());
+  }
+
+  void beginObject(std::string_view /*keyword*/, std::string_view /*name*/) override {}
+
+  [[noreturn]] void refuse(ObjProblem problem, std::string_view /*index*/) const override {
+    switch (problem) {
+      case ObjProblem::NoPosition:
+        fail("a face without a point");
+      case ObjProblem::IsZero:
+        fail("indices count from 1, this one is 0");
+      case ObjProblem::BeforeFirst:
+        fail("an index reaches back before the first point");
+      default:
+        fail("what stands here is not an integer");
+    }
+  }
+
+  [[noreturn]] void failAtEnd(const std::string& problem) const { failAt(m_lastLine, problem); }
+
+  template <class Uses>
+  auto& usesOf(Uses& uses, const ObjCorner& corner) const {
+    if (static_cast<std::size_t>(corner.position) >= uses.size()) failAtEnd("a face names a point that isn't there");
+    return uses[static_cast<std::size_t>(corner.position)];
+  }
+
+  /// Renumbers the points so that each has one texture coordinate and one normal; points of no face disappear.
+  void splitSeams() {
+    std::vector<std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>> uses(m_mesh.positions.size());
+    for (const auto& face : m_faces)
+      for (const auto& corner : face) usesOf(uses, corner)[{corner.texture, corner.normal}] = 0;
+    std::vector<Vec3> positions;
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      for (auto& [combination, index] : uses[i]) {
+        index = static_cast<std::int64_t>(positions.size());
+        positions.push_back(m_mesh.positions[i]);
+      }
+    for (auto& face : m_faces)
+      for (auto& corner : face) corner.position = usesOf(uses, corner)[{corner.texture, corner.normal}];
+    m_mesh.positions = std::move(positions);
+  }
+
+  void addFace(std::span<const ObjCorner> corners) {
+    const auto at = [&](std::size_t i) {
+      if (static_cast<std::size_t>(corners[i].position) >= m_mesh.positions.size())
+        failAtEnd("a face names a point that isn't there");
+      return static_cast<Index>(corners[i].position);
+    };
+    if (corners.size() == 2) {
+      m_mesh.edges.push_back({std::min(at(0), at(1)), std::max(at(0), at(1))});
+    } else if (corners.size() == 4 && !m_options.triangulate) {
+      m_mesh.quads.push_back({at(0), at(1), at(2), at(3)});
+    } else {
+      for (std::size_t i = 2; i < corners.size(); ++i) m_mesh.triangles.push_back({at(0), at(i - 1), at(i)});
+    }
+  }
+
+  ObjOptions m_options;
+  Mesh m_mesh;
+  std::size_t m_lastLine = 0;
+  std::vector<std::vector<ObjCorner>> m_faces;
+};
+
+}  // namespace
+
+Mesh readObj(const std::filesystem::path& path, const ObjOptions& options) {
+  const std::string text = readText(path);
+  return ObjReader(path, options).read(text);
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <pugixml.hpp>
+
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
+#include "input/LineIndex.h"
+#include "input/TextScanner.h"
+#include "sofa/graph/Values.h"
+#include "sofa/mesh/Mesh.h"
+#include "sofa/mesh/VtkCells.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+constexpr std::size_t kMaxCount = 500'000'000;  // Entries of one array; more is a damaged header.
+
+/// The lists of cells of a file, as numbers that nobody has checked yet.
+struct CellLists {
+  std::vector<std::int64_t> cells;  ///< For each cell: number of points, then the points.
+  std::vector<std::int64_t> types;  ///< Empty for surfaces.
+};
+
+template <class Fail>
+void addCells(const CellLists& lists, Mesh& mesh, const Fail& fail) {
+  VtkCells cells(mesh);
+  std::vector<Index> corners;
+  std::size_t cell = 0;
+  for (std::size_t i = 0; i < lists.cells.size(); ++cell) {
+    const auto count = lists.cells[i++];
+    if (count < 0 || static_cast<std::size_t>(count) > lists.cells.size() - i) fail("the list of cells is cut off");
+    corners.clear();
+    for (std::int64_t left = count; left > 0; --left) {
+      const auto index = lists.cells[i++];
+      if (index < 0 || static_cast<std::size_t>(index) >= mesh.positions.size()) fail("a cell names a missing point");
+      corners.push_back(static_cast<Index>(index));
+    }
+    if (lists.types.empty())
+      cells.addPolygon(corners);
+    else if (cell >= lists.types.size() || !cells.add(lists.types[cell], corners))
+      fail("a cell does not have the points or the type that it needs");
+  }
+}
+
+template <class Raw>
+Raw fromBigEndian(const char* bytes) {
+  std::array<char, sizeof(Raw)> raw{};
+  std::memcpy(raw.data(), bytes, sizeof(Raw));
+  if constexpr (std::endian::native == std::endian::little) std::ranges::reverse(raw);
+  return std::bit_cast<Raw>(raw);
+}
+
+/// The old format: a header in text, the arrays in text or as big-endian bytes.
+class LegacyVtkReader {
+ public:
+  explicit LegacyVtkReader(const std::filesystem::path& path) : m_text(path) {}
+
+  Mesh read() {
+    m_text.skipLine();
+    m_text.skipLine();
+    m_binary = m_text.word() == "BINARY";
+    m_text.expect("DATASET");
+    const auto dataset = m_text.word();
+    if (dataset != "POLYDATA" && dataset != "UNSTRUCTURED_GRID")
+      m_text.fail("only the datasets POLYDATA and UNSTRUCTURED_GRID can be read");
+    for (auto word = m_text.word(); !word.empty() && word != "POINT_DATA" && word != "CELL_DATA"; word = m_text.word())
+      readSection(word);
+    addCells(m_lists, m_mesh, [this](const char* problem) { m_text.fail(problem); });
+    return std::move(m_mesh);
+  }
+
+ private:
+  void readSection(std::string_view name) {
+    if (name == "POINTS") return readPoints();
+    if (name != "POLYGONS" && name != "CELLS" && name != "CELL_TYPES" && name != "LINES" && name != "VERTICES") return;
+    const bool kept = name == "POLYGONS" || name == "CELLS" || name == "CELL_TYPES";
+    auto count = this->count();
+    if (name != "CELL_TYPES") count = this->count();
+    m_text.skipLine();
+    auto values = integers(count);
+    if (kept) (name == "CELL_TYPES" ? m_lists.types : m_lists.cells) = std::move(values);
+  }
+
+  void readPoints() {
+    const auto count = this->count();
+    const bool isDouble = m_text.word() == "double";
+    m_text.skipLine();
+    for (std::size_t i = 0; i < count; ++i) {
+      Vec3 point{};
+      for (auto& coordinate : point)
+        coordinate = !m_binary  ? m_text.number()
+                     : isDouble ? fromBigEndian<double>(m_text.bytes(8).data())
+                                : static_cast<double>(fromBigEndian<float>(m_text.bytes(4).data()));
+      m_mesh.positions.push_back(point);
+    }
+  }
+
+  std::vector<std::int64_t> integers(std::size_t count) {
+    std::vector<std::int64_t> values;
+    for (std::size_t i = 0; i < count; ++i)
+      values.push_back(m_binary ? fromBigEndian<std::int32_t>(m_text.bytes(4).data()) : m_text.integer());
+    return values;
+  }
+
+  std::size_t count() {
+    const auto value = m_text.integer();
+    if (value < 0 || static_cast<std::uint64_t>(value) > kMaxCount) m_text.fail("a count out of all reason");
+    return static_cast<std::size_t>(value);
+  }
+
+  TextScanner m_text;
+  bool m_binary = false;
+  Mesh m_mesh;
+  CellLists m_lists;
+};
+
+/// The XML format with its arrays in text.
+class XmlVtkReader {
+ public:
+  explicit XmlVtkReader(const std::filesystem::path& path) : m_path(path), m_bytes(readText(path)) {
+    const auto result = m_document.load_buffer(m_bytes.data(), m_bytes.size());
+    if (!result) {
+      const auto place = LineIndex(m_bytes).at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
+      throw FileError(path, std::string{"not well-formed XML: "} + result.description(), place.line, place.column);
+    }
+  }
+
+  Mesh read() {
+    const auto file = m_document.child("VTKFile");
+    const auto grid = file.child("UnstructuredGrid"), surface = file.child("PolyData");
+    if (!grid && !surface) fail("only UnstructuredGrid and PolyData can be read");
+    const auto piece = (grid ? grid : surface).child("Piece");
+    const auto points = numbers(piece.child("Points").child("DataArray"));
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+      m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
+    addCells(lists(piece.child(grid ? "Cells" : "Polys")), m_mesh, [this](const char* problem) { fail(problem); });
+    return std::move(m_mesh);
+  }
+
+ private:
+  CellLists lists(const pugi::xml_node& cells) const {
+    const auto array = [&](const char* name) { return numbers(cells.find_child_by_attribute("Name", name)); };
+    const auto corners = array("connectivity"), ends = array("offsets"), types = array("types");
+    CellLists result;
+    std::size_t begin = 0;
+    for (const double end : ends) {
+      if (!(end >= static_cast<double>(begin)) || end > static_cast<double>(corners.size())) fail("wrong cell offsets");
+      result.cells.push_back(static_cast<std::int64_t>(end) - static_cast<std::int64_t>(begin));
+      for (; begin < static_cast<std::size_t>(end); ++begin) result.cells.push_back(toInteger(corners[begin]));
+    }
+    for (const double type : types) result.types.push_back(toInteger(type));
+    return result;
+  }
+
+  std::vector<double> numbers(const pugi::xml_node& array) const {
+    const std::string_view format = array.attribute("format").value();
+    if (array && format != "ascii" && !format.empty()) fail("only arrays in ASCII can be read");
+    std::string bad;
+    auto values = parseNumbers(array.child_value(), bad);
+    if (!values) fail("an array holds something that is not a finite number");
+    return std::move(*values);
+  }
+
+  std::int64_t toInteger(double value) const {
+    if (!(value >= 0) || value > static_cast<double>(kMaxCount)) fail("a point number or cell type out of all reason");
+    return static_cast<std::int64_t>(value);
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem); }
+
+  std::filesystem::path m_path;
+  std::string m_bytes;
+  pugi::xml_document m_document;
+  Mesh m_mesh;
+};
+
+}  // namespace
+
+Mesh readVtk(const std::filesystem::path& path) {
+  const auto start = readText(path).substr(0, 4096);
+  if (start.starts_with("# vtk DataFile")) return LegacyVtkReader(path).read();
+  if (start.find("<VTKFile") != std::string::npos) return XmlVtkReader(path).read();
+  throw FileError(path, "this is no VTK file");
+}
+
+}  // namespace allpairs::scene::sofa

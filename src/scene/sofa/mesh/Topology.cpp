@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/mesh/Topology.h"
+
+#include <algorithm>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace allpairs::scene::sofa {
+namespace {
+
+template <std::size_t N>
+struct CornersHash {
+  std::size_t operator()(const std::array<Index, N>& corners) const {
+    std::size_t hash = 0;
+    for (const auto corner : corners) hash = (hash ^ corner) * 0x9E3779B97F4A7C15U;  // 2^64 over the golden ratio.
+    return hash ^ (hash >> 29);
+  }
+};
+
+template <std::size_t N>
+using Seen = std::unordered_set<std::array<Index, N>, CornersHash<N>>;
+template <std::size_t N>
+using Counts = std::unordered_map<std::array<Index, N>, std::size_t, CornersHash<N>>;
+
+/// Collects edges, each once, whichever way round it comes.
+class EdgeCollector {
+ public:
+  void addSorted(Index a, Index b) {
+    const auto edge = sorted<2>({a, b});
+    if (m_seen.insert(edge).second) edges.push_back(edge);
+  }
+  void addAsIs(Index a, Index b) {
+    if (m_seen.insert(sorted<2>({a, b})).second) edges.push_back({a, b});
+  }
+
+  Elements<2> edges;
+
+ private:
+  Seen<2> m_seen;
+};
+
+constexpr std::size_t kTetrahedronEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+constexpr std::size_t kHexahedronEdges[12][2] = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
+                                                 {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+constexpr std::size_t kHexahedronFaces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+void collect(EdgeCollector& into, const Elements<4>& tetrahedra, const Elements<8>& hexahedra) {
+  for (const auto& t : tetrahedra)
+    for (const auto& [a, b] : kTetrahedronEdges) into.addSorted(t[a], t[b]);
+  for (const auto& h : hexahedra)
+    for (const auto& [a, b] : kHexahedronEdges) into.addSorted(h[a], h[b]);
+}
+
+void collect(EdgeCollector& into, const Elements<3>& triangles) {
+  for (const auto& t : triangles)
+    for (std::size_t j = 0; j < 3; ++j) into.addAsIs(t[(j + 1) % 3], t[(j + 2) % 3]);
+}
+
+void collectQuads(EdgeCollector& into, const Elements<4>& quads) {
+  for (const auto& q : quads)
+    for (std::size_t j = 0; j < 4; ++j) into.addSorted(q[(j + 1) % 4], q[(j + 2) % 4]);
+}
+
+std::array<Index, 3> faceOf(const std::array<Index, 4>& t, std::size_t j) {
+  std::array<Index, 3> face{t[(j + 1) % 4], t[(j + 2) % 4], t[(j + 3) % 4]};
+  if (j % 2 == 0) std::swap(face[1], face[2]);
+  std::ranges::rotate(face, std::ranges::min_element(face));
+  return face;
+}
+
+std::array<Index, 4> faceOf(const std::array<Index, 8>& h, std::size_t j) {
+  const auto& corners = kHexahedronFaces[j];
+  std::array<Index, 4> face{h[corners[0]], h[corners[1]], h[corners[2]], h[corners[3]]};
+  std::ranges::rotate(face, std::ranges::min_element(face));
+  return face;
+}
+
+template <std::size_t N>
+std::size_t indicesUsed(const Elements<N>& elements) {
+  std::size_t used = 0;
+  for (const auto& corners : elements)
+    for (const auto corner : corners) used = std::max(used, std::size_t{corner} + 1);
+  return used;
+}
+
+template <std::size_t N>
+Elements<N> onlyOnce(const Elements<N>& elements, const Counts<N>& counts) {
+  Elements<N> result;
+  for (const auto& corners : elements)
+    if (const auto found = counts.find(sorted(corners)); found != counts.end() && found->second == 1)
+      result.push_back(corners);
+  return result;
+}
+
+}  // namespace
+
+std::size_t indicesUsed(const Mesh& mesh) {
+  return std::max({indicesUsed(mesh.edges), indicesUsed(mesh.triangles), indicesUsed(mesh.quads),
+                   indicesUsed(mesh.tetrahedra), indicesUsed(mesh.hexahedra)});
+}
+
+Elements<3> facesOf(const Elements<4>& tetrahedra, SameWayRound sameWayRound) {
+  Elements<3> faces;
+  Seen<3> seen;
+  for (const auto& tetrahedron : tetrahedra)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const auto face = faceOf(tetrahedron, j);
+      if (seen.contains({face[0], face[2], face[1]})) continue;
+      if (seen.insert(face).second || sameWayRound == SameWayRound::Twice) faces.push_back(face);
+    }
+  return faces;
+}
+
+Elements<4> facesOf(const Elements<8>& hexahedra) {
+  Elements<4> faces;
+  Seen<4> seen;
+  for (const auto& hexahedron : hexahedra)
+    for (std::size_t j = 0; j < 6; ++j) {
+      const auto face = faceOf(hexahedron, j);
+      if (seen.insert(sorted(face)).second) faces.push_back(face);
+    }
+  return faces;
+}
+
+Elements<3> borderOf(const Elements<3>& triangles, const Elements<4>& tetrahedra) {
+  Counts<3> counts;
+  for (const auto& tetrahedron : tetrahedra)
+    for (std::size_t j = 0; j < 4; ++j) ++counts[sorted(faceOf(tetrahedron, j))];
+  return onlyOnce(triangles, counts);
+}
+
+Elements<4> borderOf(const Elements<4>& quads, const Elements<8>& hexahedra) {
+  Counts<4> counts;
+  for (const auto& hexahedron : hexahedra)
+    for (std::size_t j = 0; j < 6; ++j) ++counts[sorted(faceOf(hexahedron, j))];
+  return onlyOnce(quads, counts);
+}
+
+Elements<2> borderOf(const Elements<2>& edges, const Elements<3>& triangles) {
+  Counts<2> counts;
+  for (const auto& t : triangles)
+    for (std::size_t j = 0; j < 3; ++j) ++counts[sorted<2>({t[j], t[(j + 1) % 3]})];
+  return onlyOnce(edges, counts);
+}
+
+const Elements<3>& Topology::triangles() {
+  if (!given.triangles.empty() || given.tetrahedra.empty()) return given.triangles;
+  if (family == Family::Container && pointCount == 0) return given.triangles;
+  const auto sameWayRound = family == Family::Mesh ? SameWayRound::Twice : SameWayRound::Once;
+  if (!m_triangles) m_triangles = facesOf(given.tetrahedra, sameWayRound);
+  return *m_triangles;
+}
+
+const Elements<4>& Topology::quads() {
+  if (!given.quads.empty() || given.hexahedra.empty()) return given.quads;
+  if (family == Family::Container && pointCount == 0) return given.quads;
+  if (!m_quads) m_quads = facesOf(given.hexahedra);
+  return *m_quads;
+}
+
+const Elements<2>& Topology::edges() {
+  if (!given.edges.empty() || (family == Family::Container && pointCount == 0)) return given.edges;
+  if (!m_edges) m_edges = derivedEdges();
+  return *m_edges;
+}
+
+Elements<2> Topology::derivedEdges() {
+  EdgeCollector collector;
+  if (!given.tetrahedra.empty() || !given.hexahedra.empty()) {
+    collect(collector, given.tetrahedra, given.hexahedra);
+  } else {
+    collect(collector, triangles());
+    collectQuads(collector, quads());
+  }
+  return std::move(collector.edges);
+}
+
+Vec3 Topology::position(std::size_t index) const {
+  return index < given.positions.size() ? given.positions[index] : Vec3{};
+}
+
+void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points) {
+  const auto at = [&points](std::size_t x, std::size_t y, std::size_t z) {
+    return static_cast<Index>(points[0] * (points[1] * z + y) + x);
+  };
+  auto& mesh = topology.given;
+  const std::array<std::size_t, 3> steps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto forAll = [&](const std::array<std::size_t, 3>& less, auto&& visit) {
+    for (std::size_t z = 0; z + less[2] < points[2]; ++z)
+      for (std::size_t y = 0; y + less[1] < points[1]; ++y)
+        for (std::size_t x = 0; x + less[0] < points[0]; ++x) visit(x, y, z);
+  };
+  const auto addQuads = [&](const auto& u, const auto& v) {
+    forAll({u[0] + v[0], u[1] + v[1], u[2] + v[2]}, [&](std::size_t x, std::size_t y, std::size_t z) {
+      mesh.quads.push_back({at(x, y, z), at(x + u[0], y + u[1], z + u[2]),
+                            at(x + u[0] + v[0], y + u[1] + v[1], z + u[2] + v[2]), at(x + v[0], y + v[1], z + v[2])});
+    });
+  };
+  for (const auto& s : steps)
+    forAll(s, [&](std::size_t x, std::size_t y, std::size_t z) {
+      mesh.edges.push_back({at(x, y, z), at(x + s[0], y + s[1], z + s[2])});
+    });
+  addQuads(steps[0], steps[1]);
+  addQuads(steps[0], steps[2]);
+  addQuads(steps[1], steps[2]);
+  for (const auto& q : mesh.quads) {
+    mesh.triangles.push_back({q[0], q[1], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[3]});
+  }
+  forAll({1, 1, 1}, [&](std::size_t x, std::size_t y, std::size_t z) {
+    mesh.hexahedra.push_back({at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),
+                              at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)});
+  });
+}
+
+}  // namespace allpairs::scene::sofa

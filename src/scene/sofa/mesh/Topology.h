@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "sofa/mesh/Mesh.h"
+
+namespace allpairs::scene::sofa {
+
+/// The shape of a grid whose axes are those of space.
+struct GridShape {
+  std::array<std::size_t, 3> points{2, 2, 2};
+  Vec3 origin{};
+  Vec3 spacing{};
+
+  [[nodiscard]] bool isVolume() const { return points[0] > 1 && points[1] > 1 && points[2] > 1; }
+  [[nodiscard]] Vec3 point(std::size_t x, std::size_t y, std::size_t z) const {
+    return {origin[0] + spacing[0] * static_cast<double>(x), origin[1] + spacing[1] * static_cast<double>(y),
+            origin[2] + spacing[2] * static_cast<double>(z)};
+  }
+};
+
+/// The points and elements that a topology component of a scene holds; lists that it wasn't given it derives when
+/// asked.
+///
+/// Geometry: derived lists come in the order, and their elements in the orientation, in which SOFA derives them.
+class Topology {
+ public:
+  /// How a component derives the lists that it wasn't given.
+  enum class Family {
+    Mesh,       ///< From cells to faces, from cells or else faces to edges.
+    Container,  ///< Each container from its own elements, and only if it has points.
+  };
+
+  Family family = Family::Mesh;
+  /// For containers: the highest kind of element that it can hold, by the number of corners (1, 2, 3, 4 quad, 5 tetra,
+  /// 8 hexa).
+  int holds = 0;
+  std::size_t pointCount = 0;
+  bool hasPositions = false;  ///< Whether states may take their points from it.
+  Mesh given;                 ///< Positions may be fewer or more than pointCount.
+  std::optional<GridShape> grid;
+  std::array<std::size_t, 3> cells{2, 1, 1};  ///< Of grids along x, y and z, which some mappings ask for.
+  bool sparse = false;                        ///< A sparse grid: neither its points nor its cells are known.
+
+  [[nodiscard]] const Elements<2>& edges();
+  [[nodiscard]] const Elements<3>& triangles();
+  [[nodiscard]] const Elements<4>& quads();
+  [[nodiscard]] const Elements<4>& tetrahedra() const { return given.tetrahedra; }
+  [[nodiscard]] const Elements<8>& hexahedra() const { return given.hexahedra; }
+  /// The position of a point, the origin where none was given.
+  [[nodiscard]] Vec3 position(std::size_t index) const;
+
+ private:
+  [[nodiscard]] Elements<2> derivedEdges();
+
+  std::optional<Elements<2>> m_edges;
+  std::optional<Elements<3>> m_triangles;
+  std::optional<Elements<4>> m_quads;
+};
+
+/// One more than the largest index that any element uses.
+[[nodiscard]] std::size_t indicesUsed(const Mesh& mesh);
+
+/// Whether a face that two tetrahedra have the same way round, which only damaged meshes have, is listed twice.
+enum class SameWayRound { Once, Twice };
+/// The faces of tetrahedra, each once.
+[[nodiscard]] Elements<3> facesOf(const Elements<4>& tetrahedra, SameWayRound sameWayRound);
+/// The faces of hexahedra, each once.
+[[nodiscard]] Elements<4> facesOf(const Elements<8>& hexahedra);
+/// Those of the triangles that are a face of exactly one of the tetrahedra.
+[[nodiscard]] Elements<3> borderOf(const Elements<3>& triangles, const Elements<4>& tetrahedra);
+[[nodiscard]] Elements<4> borderOf(const Elements<4>& quads, const Elements<8>& hexahedra);
+/// Those of the edges that belong to exactly one of the triangles.
+[[nodiscard]] Elements<2> borderOf(const Elements<2>& edges, const Elements<3>& triangles);
+
+/// All edges, quads, triangles and hexahedra of a regular grid.
+void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points);
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "allpairs/scene/ReadOptions.h"
+#include "sofa/mesh/Math.h"
+#include "sofa/mesh/Mesh.h"
+
+namespace allpairs::scene::sofa {
+
+/// What the elements of a collision model are.
+enum class ModelShape { Points, Lines, Triangles, Tetrahedra, Spheres, Capsules, OrientedBoxes };
+
+/// Everything that a scene says of one collision model, at the start of the simulation.
+struct ModelDescription {
+  std::string path;  ///< "/Node/Child/Name".
+  std::string type;  ///< SOFA's class name, "TTriangleModel".
+  ModelShape shape = ModelShape::Points;
+  std::size_t owner = 0;  ///< Models of one node have the same.
+  std::filesystem::path file;
+  std::size_t line = 0;
+
+  bool active = true;
+  bool simulated = true;
+  bool moving = true;
+  bool selfCollision = false;
+  bool useCurvature = false;
+  std::set<int> groups;
+  double contactDistance = 0;
+
+  /// Points, corners, centres; for capsules the two ends of each, in turn.
+  std::vector<Vec3> positions;
+  std::vector<Quat> orientations;  ///< Of oriented boxes.
+  Elements<2> lines;               ///< Of lines; of capsules: the two positions of each.
+  Elements<3> triangles;
+  Elements<4> tetrahedra;
+  std::vector<double> radii;      ///< Of spheres and capsules.
+  std::vector<Vec3> halfExtents;  ///< Of oriented boxes.
+
+  [[nodiscard]] std::size_t elementCount() const;
+};
+
+/// A collision model that was left out, and why.
+struct Ignored {
+  std::filesystem::path file;
+  std::size_t line = 0;
+  std::string subject;
+  std::string reason;
+};
+
+/// How the models are to be tested.
+struct MethodDescription {
+  std::string name;        ///< As the scene calls it; empty where it names none.
+  bool proximity = false;  ///< One of the methods with an alarm distance to which contact distances are added.
+  double alarmDistance = 0;
+  double contactDistance = 0;
+};
+
+struct RegionDescription {
+  Vec3 min{};
+  Vec3 max{};
+};
+
+/// What a scene holds for collision detection.
+struct SceneDescription {
+  std::vector<ModelDescription> models;  ///< In the order of traversal.
+  std::vector<std::string> owners;       ///< The paths of the nodes that models belong to.
+  MethodDescription method;
+  std::optional<RegionDescription> region;
+  std::vector<Ignored> ignored;
+};
+
+/// Reads a .scn or .xml scene of SOFA.
+///
+/// Bad input: a scene that is malformed, refers to missing files, or holds a model whose place depends on something
+/// that
+///            this reader does not know throws FileError with file, line, component and reason; with `partial` such
+///            models are listed in `ignored`, and only a scene that cannot be read at all throws.
+/// Reference: SEMANTICS, section 8.
+[[nodiscard]] SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options);
+
+}  // namespace allpairs::scene::sofa

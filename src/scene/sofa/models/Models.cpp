@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/models/Models.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using enum ComponentKind;
+
+const State& stateOf(Evaluation& evaluation, const Component& model) {
+  const auto* which = inContext(*model.node, [](const Component& c) { return isState(c.kind()); });
+  if (which == nullptr) throw Unplaceable(model, "there is no MechanicalObject in its node or above");
+  return evaluation.knownState(*which);
+}
+
+const Component& topologyComponentOf(const Component& model) {
+  const auto* which = inContext(*model.node, [](const Component& c) { return isTopology(c.kind()); });
+  if (which == nullptr) throw Unplaceable(model, "there is no topology in its node or above");
+  return *which;
+}
+
+Topology& topologyOf(Evaluation& evaluation, const Component& model) {
+  const auto* which = &topologyComponentOf(model);
+  auto& topology = evaluation.topology(*which);
+  if (topology.sparse) throw Unplaceable(model, "the cells of its sparse grid are not known to this reader");
+  return topology;
+}
+
+const State& pointsOf(Evaluation& evaluation, const Component& model) {
+  const auto& state = stateOf(evaluation, model);
+  if (state.kind != State::Kind::Points) throw Unplaceable(model, "it needs a state of points, its state is rigid");
+  return state;
+}
+
+const State& framesOf(Evaluation& evaluation, const Component& model) {
+  const auto& state = stateOf(evaluation, model);
+  if (state.kind != State::Kind::Rigid) throw Unplaceable(model, "it needs a rigid state, its state has only points");
+  return state;
+}
+
+template <std::size_t N>
+void checkCorners(const Component& model, const Elements<N>& elements, std::size_t points) {
+  for (const auto& corners : elements)
+    for (const auto corner : corners)
+      if (corner >= points)
+        throw Unplaceable(
+            model, "its topology names point " + std::to_string(corner) + ", its state has " + std::to_string(points));
+}
+
+/// How many values a list must have, and what follows those that are given.
+struct Padding {
+  std::size_t count = 0;
+  double value = 0;
+};
+
+std::vector<double> padded(Evaluation& evaluation, const Component& model, std::string_view list,
+                           const Padding& padding) {
+  std::vector<double> values;
+  if (auto given = evaluation.numbers(model, {list}, 1)) values = std::move(given->values);
+  values.resize(padding.count, padding.value);
+  return values;
+}
+
+/// A model of triangles from a Wavefront file without faces would be silently empty: most likely it is another file.
+void checkObj(const Evaluation& evaluation, const Component& model) {
+  const auto file = evaluation.objFileOf(topologyComponentOf(model));
+  if (!file.empty()) throw Unplaceable(model, "it needs triangles, and '" + file + "' has no line of 'f' with a face");
+}
+
+void describeTriangles(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  model.positions = pointsOf(evaluation, component).positions;
+  auto& topology = topologyOf(evaluation, component);
+  model.triangles = topology.triangles();
+  for (const auto& q : topology.quads()) {
+    model.triangles.push_back({q[1], q[2], q[0]});
+    model.triangles.push_back({q[3], q[0], q[2]});
+  }
+  if (model.triangles.empty()) checkObj(evaluation, component);
+  checkCorners(component, model.triangles, model.positions.size());
+}
+
+void describeLines(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  model.positions = pointsOf(evaluation, component).positions;
+  model.lines = topologyOf(evaluation, component).edges();
+  checkCorners(component, model.lines, model.positions.size());
+}
+
+void describeTetrahedra(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  model.positions = pointsOf(evaluation, component).positions;
+  model.tetrahedra = topologyOf(evaluation, component).tetrahedra();
+  checkCorners(component, model.tetrahedra, model.positions.size());
+}
+
+void describeSpheres(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  model.positions = stateOf(evaluation, component).positions;
+  const double radius = evaluation.number(component, {"radius", "defaultRadius"}, 1);
+  model.radii = padded(evaluation, component, "listRadius", {model.positions.size(), radius});
+}
+
+void describeOrientedBoxes(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  const auto& state = framesOf(evaluation, component);
+  model.positions = state.positions;
+  model.orientations = state.orientations;
+  const double extent = evaluation.number(component, {"defaultExtent"}, 1);
+  model.halfExtents = evaluation.points(component, {"extents"});
+  model.halfExtents.resize(model.positions.size(), {extent, extent, extent});
+}
+
+/// Capsules and cylinders of a rigid state: along an axis of each frame, half the height to either side.
+void describeRigidCapsules(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  const auto& state = framesOf(evaluation, component);
+  const auto count = state.positions.size();
+  const bool cylinder = component.kind() == CylinderModel;
+  const double height = cylinder ? evaluation.number(component, {"defaultHeight", "dafaultHeight"}, 2)
+                                 : evaluation.number(component, {"dafaultHeight", "defaultHeight"}, 2);
+  const auto heights = padded(evaluation, component, "heights", {count, height});
+  model.radii = padded(evaluation, component, "radii", {count, evaluation.number(component, {"defaultRadius"}, 0.5)});
+  const Vec3 along = cylinder ? evaluation.vector(component, {"defaultLocalAxis"}, {0, 1, 0}) : Vec3{0, 1, 0};
+  auto axes = cylinder ? evaluation.points(component, {"localAxes"}) : std::vector<Vec3>{};
+  axes.resize(count, along);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto half = rotate(state.orientations[i], axes[i]) * (heights[i] / 2);
+    model.positions.push_back(state.positions[i] - half);
+    model.positions.push_back(state.positions[i] + half);
+    model.lines.push_back({static_cast<Index>(2 * i), static_cast<Index>(2 * i + 1)});
+  }
+}
+
+void describeCapsules(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  if (component.kind() == CylinderModel || stateOf(evaluation, component).kind == State::Kind::Rigid)
+    return describeRigidCapsules(evaluation, component, model);
+  describeLines(evaluation, component, model);
+  const double radius = evaluation.number(component, {"defaultRadius"}, 0.5);
+  model.radii = padded(evaluation, component, "listCapsuleRadii", {model.lines.size(), radius});
+}
+
+void describeElements(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  switch (component.kind()) {
+    case PointModel:
+      model.positions = pointsOf(evaluation, component).positions;
+      break;
+    case LineModel:
+      describeLines(evaluation, component, model);
+      break;
+    case TriangleModel:
+      describeTriangles(evaluation, component, model);
+      break;
+    case SphereModel:
+      describeSpheres(evaluation, component, model);
+      break;
+    case CapsuleModel:
+    case CylinderModel:
+      describeCapsules(evaluation, component, model);
+      break;
+    case OrientedBoxModel:
+      describeOrientedBoxes(evaluation, component, model);
+      break;
+    case TetrahedronModel:
+      describeTetrahedra(evaluation, component, model);
+      break;
+    default:
+      throw Unplaceable(component, "this kind of collision model is not known to this reader");
+  }
+}
+
+ModelShape shapeOf(ComponentKind kind) {
+  switch (kind) {
+    case LineModel:
+      return ModelShape::Lines;
+    case TriangleModel:
+      return ModelShape::Triangles;
+    case SphereModel:
+      return ModelShape::Spheres;
+    case CapsuleModel:
+    case CylinderModel:
+      return ModelShape::Capsules;
+    case OrientedBoxModel:
+      return ModelShape::OrientedBoxes;
+    case TetrahedronModel:
+      return ModelShape::Tetrahedra;
+    default:
+      return ModelShape::Points;
+  }
+}
+
+void describeRules(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  model.active = evaluation.flag(component, "active", true);
+  model.simulated = evaluation.flag(component, "simulated", true);
+  model.moving = evaluation.flag(component, "moving", true);
+  model.selfCollision = evaluation.flag(component, "selfCollision", false);
+  model.useCurvature = evaluation.flag(component, "useCurvature", false);
+  model.contactDistance = evaluation.number(component, {"contactDistance", "proximity"}, 0);
+  if (const auto groups = evaluation.numbers(component, {"group"}, 1))
+    for (const double group : groups->values) {
+      if (std::abs(group) > std::numeric_limits<int>::max())
+        throw Unplaceable(component, "a group beyond all integers");
+      model.groups.insert(static_cast<int>(group));
+    }
+}
+
+}  // namespace
+
+std::size_t ModelDescription::elementCount() const {
+  switch (shape) {
+    case ModelShape::Lines:
+    case ModelShape::Capsules:
+      return lines.size();
+    case ModelShape::Triangles:
+      return triangles.size();
+    case ModelShape::Tetrahedra:
+      return tetrahedra.size();
+    default:
+      return positions.size();
+  }
+}
+
+ModelDescription describeModel(Evaluation& evaluation, const Component& component) {
+  ModelDescription model;
+  model.path = component.path();
+  model.type = component.what.name.empty() ? component.type : std::string{component.what.name};
+  model.shape = shapeOf(component.kind());
+  model.file = *component.place.file;
+  model.line = component.place.line;
+  describeRules(evaluation, component, model);
+  evaluation.scope().take(ReadScope::kBytesPerModel + 4 * model.path.size());
+  if (model.active) describeElements(evaluation, component, model);
+  evaluation.takePoints(component, model.positions.size() + model.elementCount());
+  return model;
+}
+
+}  // namespace allpairs::scene::sofa

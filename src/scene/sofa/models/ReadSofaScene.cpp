@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <utility>
+
+#include "allpairs/Error.h"
+#include "allpairs/collision/CapsuleModel.h"
+#include "allpairs/collision/DiscreteIntersection.h"
+#include "allpairs/collision/LineModel.h"
+#include "allpairs/collision/LocalMinDistance.h"
+#include "allpairs/collision/MinProximityIntersection.h"
+#include "allpairs/collision/NewProximityIntersection.h"
+#include "allpairs/collision/OrientedBoxModel.h"
+#include "allpairs/collision/PointModel.h"
+#include "allpairs/collision/SphereModel.h"
+#include "allpairs/collision/TetrahedronModel.h"
+#include "allpairs/collision/TriangleModel.h"
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/ReadSofaScene.h"
+#include "sofa/models/ModelDescription.h"
+
+namespace allpairs::scene {
+namespace {
+
+using Model = std::unique_ptr<collision::CollisionModel>;
+
+/// SOFA's cylinders have the boxes of capsules, under a name of their own.
+class CylinderModel final : public collision::CapsuleModel {
+ public:
+  using CapsuleModel::CapsuleModel;
+
+  [[nodiscard]] std::string_view typeName() const override { return "TCylinderModel"; }
+};
+
+Model makeOrientedBoxes(sofa::ModelDescription& model) {
+  std::vector<collision::OrientedBox> boxes(model.positions.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const auto& turn = model.orientations[i];
+    const auto axis = [&](const sofa::Vec3& unit) { return sofa::rotate(turn, unit); };
+    boxes[i] = {model.positions[i], {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})}, model.halfExtents[i]};
+  }
+  return std::make_unique<collision::OrientedBoxModel>(model.path, std::move(boxes));
+}
+
+Model makeCapsules(sofa::ModelDescription& model) {
+  std::vector<collision::Capsule> capsules(model.lines.size());
+  for (std::size_t i = 0; i < capsules.size(); ++i)
+    capsules[i] = {model.positions[model.lines[i][0]], model.positions[model.lines[i][1]], model.radii[i]};
+  if (model.type == "TCylinderModel") return std::make_unique<CylinderModel>(model.path, std::move(capsules));
+  return std::make_unique<collision::CapsuleModel>(model.path, std::move(capsules));
+}
+
+Model makeTriangles(sofa::ModelDescription& model) {
+  auto triangles =
+      std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions), std::move(model.triangles));
+  triangles->setUseCurvature(model.useCurvature);
+  return triangles;
+}
+
+Model makeElements(sofa::ModelDescription& model) {
+  using enum sofa::ModelShape;
+  switch (model.shape) {
+    case Lines:
+      return std::make_unique<collision::LineModel>(model.path, std::move(model.positions), std::move(model.lines));
+    case Triangles:
+      return makeTriangles(model);
+    case Tetrahedra:
+      return std::make_unique<collision::TetrahedronModel>(model.path, std::move(model.positions),
+                                                           std::move(model.tetrahedra));
+    case Spheres:
+      return std::make_unique<collision::SphereModel>(model.path, std::move(model.positions), std::move(model.radii));
+    case Capsules:
+      return makeCapsules(model);
+    case OrientedBoxes:
+      return makeOrientedBoxes(model);
+    case Points:
+      break;
+  }
+  return std::make_unique<collision::PointModel>(model.path, std::move(model.positions));
+}
+
+Model makeModel(sofa::ModelDescription& description) {
+  auto model = makeElements(description);
+  model->setActive(description.active);
+  model->setSimulated(description.simulated);
+  model->setMoving(description.moving);
+  model->setSelfCollision(description.selfCollision);
+  model->setGroups({description.groups.begin(), description.groups.end()});
+  model->setContactDistance(description.contactDistance);
+  return model;
+}
+
+void addModels(sofa::SceneDescription& description, bool partial, Scene& scene) {
+  for (auto& model : description.models) {
+    try {
+      scene.models.push_back(makeModel(model));
+      scene.models.back()->setOwner(scene.owners[model.owner].get());
+    } catch (const Error& problem) {  // What only the model itself checks: a negative radius, say.
+      if (!partial) throw FileError(model.file, problem.what(), model.line);
+      scene.remarks.push_back({model.file, model.line, model.path, problem.what(), true});
+    }
+  }
+}
+
+std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescription& method) {
+  std::unique_ptr<collision::Intersection> result;
+  if (method.name == "MinProximityIntersection")
+    result = std::make_unique<collision::MinProximityIntersection>();
+  else if (method.name == "NewProximityIntersection")
+    result = std::make_unique<collision::NewProximityIntersection>();
+  else if (method.name == "LocalMinDistance")
+    result = std::make_unique<collision::LocalMinDistance>();
+  else
+    result = std::make_unique<collision::DiscreteIntersection>();
+  result->setAlarmDistance(method.alarmDistance);
+  result->setContactDistance(method.contactDistance);
+  return result;
+}
+
+}  // namespace
+
+Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& options) {
+  auto description = sofa::describeScene(path, options);
+  Scene scene;
+  scene.intersection = makeMethod(description.method);
+  scene.intersectionName = description.method.name;
+  if (const auto& region = description.region) scene.region = Box{region->min, region->max};
+  for (auto& owner : description.owners) scene.owners.push_back(std::make_unique<Owner>(Owner{std::move(owner)}));
+  for (auto& ignored : description.ignored)
+    scene.remarks.push_back(
+        {std::move(ignored.file), ignored.line, std::move(ignored.subject), std::move(ignored.reason), true});
+  addModels(description, options.partial, scene);
+  return scene;
+}
+
+}  // namespace allpairs::scene

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "allpairs/scene/WriteResult.h"
+#include "write/TextBuffer.h"
+
+namespace allpairs::scene {
+namespace {
+
+/// Quoted and escaped; bytes that are no UTF-8 become U+FFFD, since JSON has no way to say them.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string number(double value) {
+  if (std::isinf(value)) return value > 0 ? "\"inf\"" : "\"-inf\"";
+  return fmt::format("{}", value);
+}
+
+std::string corner(const std::array<double, 3>& point) {
+  return '[' + number(point[0]) + ", " + number(point[1]) + ", " + number(point[2]) + ']';
+}
+
+void writeModel(const ModelRecord& model, TextBuffer& out) {
+  out.format(R"({{"name": {}, "type": {}, "elements": {}, )", quoted(model.name), quoted(model.type), model.elements);
+  out.format(R"("box": [{}, {}], )", corner(model.box.min), corner(model.box.max));
+  out.format(R"("active": {}, "simulated": {}, "moving": {}, "selfCollision": {}, )", model.active, model.simulated,
+             model.moving, model.selfCollision);
+  out.format(R"("groups": [{}], "contactDistance": {}}})", fmt::join(model.groups, ", "),
+             number(model.contactDistance));
+}
+
+void writeModels(const ResultView& result, TextBuffer& out) {
+  out.append("{\"models\": [");
+  for (std::size_t i = 0; i < result.modelCount; ++i) {
+    out.append(i == 0 ? "\n  " : ",\n  ");
+    writeModel(result.model(i), out);
+  }
+  out.append("],\n");
+}
+
+void writePairs(const ResultView& result, TextBuffer& out) {
+  constexpr std::size_t kPairsPerLine = 8;  // so that no editor meets a line of megabytes
+  out.append("\"pairs\": [");
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    const Pair pair = result.pairs[i];
+    if (i != 0) out.append(i % kPairsPerLine == 0 ? ",\n  " : ", ");
+    out.format("[{}, {}]", result.swapped ? pair.second : pair.first, result.swapped ? pair.first : pair.second);
+  }
+  out.append("],\n");
+}
+
+void writeIgnored(const ResultView& result, TextBuffer& out) {
+  out.append("\"ignored\": [");
+  for (std::size_t i = 0; i < result.ignored.size(); ++i) {
+    const Remark& remark = result.ignored[i];
+    out.append(i == 0 ? "\n  " : ",\n  ");
+    out.format(R"({{"file": {}, "line": {}, )", quoted(remark.file.string()), remark.line);
+    out.format(R"("subject": {}, "reason": {}}})", quoted(remark.subject), quoted(remark.reason));
+  }
+  out.append("],\n");
+}
+
+void writeStatistics(const ResultView& result, TextBuffer& out) {
+  const DetectionStatistics& statistics = result.statistics;
+  out.format(R"("statistics": {{"models": {}, "pairs": {}, "distance": {}, )", result.modelCount, result.pairs.size(),
+             number(statistics.distance));
+  out.format(R"("strategy": {}, "threads": {}, "verified": {}, )", quoted(statistics.strategy), statistics.threads,
+             statistics.verified);
+  out.format(R"("testsOfAllPairs": {}, "testsMade": {}, "candidates": {}, )", statistics.testsOfAllPairs,
+             statistics.testsMade, statistics.candidates);
+  out.format(R"("readSeconds": {}, "detectSeconds": {}}}}})", statistics.readSeconds, statistics.detectSeconds);
+  out.append("\n");
+}
+
+}  // namespace
+
+void writeJson(const ResultView& result, ByteSink sink) {
+  TextBuffer out(sink);
+  writeModels(result, out);
+  writePairs(result, out);
+  writeIgnored(result, out);
+  writeStatistics(result, out);
+  out.flush();
+}
+
+}  // namespace allpairs::scene
