@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -22,10 +23,16 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kNewFileMode = 0666;  // as any program creates files; the umask takes away what it must
 
-/// The file that a path means in the end, so that a link stays a link and its target is replaced.
+/// The file that a path means in the end, there or not, so that a link stays a link and its target is replaced.
 fs::path resolved(const fs::path& path) {
-  std::error_code ignored;
-  fs::path target = fs::weakly_canonical(path, ignored);
+  constexpr int kMostLinks = 40;  // as many as the system follows
+  std::error_code problem;
+  fs::path target = path;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(target, problem)); ++i) {
+    target = target.parent_path() / fs::read_symlink(target);
+  }
+  target = fs::weakly_canonical(target, problem);
+  if (problem == std::errc::not_enough_memory) throw std::bad_alloc();  // it may be a link all the same
   return target.empty() ? path : target;
 }
 
@@ -64,7 +71,8 @@ int openNameless([[maybe_unused]] const fs::path& place) {
 
 }  // namespace
 
-Output::Output(const std::optional<fs::path>& path) {
+/// What the first constructor has made is destroyed where the second one throws.
+Output::Output(const std::optional<fs::path>& path) : Output() {
   if (!path) {
     m_descriptor = STDOUT_FILENO;
     return;
@@ -103,8 +111,8 @@ void Output::openNamed(const fs::path& place) {
   std::string name = place.string() + ".XXXXXX";
   m_descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (m_descriptor < 0) fail("created");
-  m_temporary = name;
-  removeOnSignal(name);
+  m_temporary = std::move(name);
+  removeOnSignal(m_temporary);
 }
 
 /// A link cannot replace a file, and a rename can: the complete file gets a name beside its place first.
@@ -112,14 +120,14 @@ void Output::giveName() {
   const std::string source = descriptorPath(m_descriptor);
   const std::string base = resolved(m_target).string() + '.' + std::to_string(::getpid());
   for (int attempt = 0; m_temporary.empty(); ++attempt) {
-    const std::string name = base + '-' + std::to_string(attempt);
+    std::string name = base + '-' + std::to_string(attempt);
     if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      m_temporary = name;
+      m_temporary = std::move(name);  // without memory, of which there may be none: the file would stay
     } else if (errno != EEXIST) {
       fail("put in its place");
     }
   }
-  removeOnSignal(m_temporary.string());
+  removeOnSignal(m_temporary);
   m_isNameless = false;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace allpairs::app {
@@ -28,14 +29,15 @@ class Output {
   void commit();
 
  private:
+  Output() = default;
   void openTarget();
   void openBeside();
   void openNamed(const std::filesystem::path& place);
   void giveName();
   [[noreturn]] void fail(const char* action) const;
 
-  std::filesystem::path m_target;     ///< Empty for standard output.
-  std::filesystem::path m_temporary;  ///< Where the file is until it is complete; empty while it has no name.
+  std::filesystem::path m_target;  ///< Empty for standard output.
+  std::string m_temporary;         ///< Where the file is until it is complete; empty while it has no name.
   bool m_isNameless = false;
   int m_descriptor = -1;
 };

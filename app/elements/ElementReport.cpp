@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "cli/JsonText.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
@@ -15,15 +14,23 @@ std::string countsText(const elements::ElementCounts& counts) {
                      counted(counts.triangles, "triangle"));
 }
 
-nlohmann::ordered_json meshesJson(const ElementReport& report) {
-  nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
-  for (const ElementReport::Mesh& mesh : report.meshes) {
-    meshes.push_back({{"name", mesh.name},
-                      {"vertices", mesh.counts.vertices},
-                      {"edges", mesh.counts.edges},
-                      {"faces", mesh.counts.triangles}});
-  }
-  return meshes;
+void addMesh(const ElementReport::Mesh& mesh, JsonText& json) {
+  json.beginObject();
+  json.add("name", mesh.name);
+  json.add("vertices", mesh.counts.vertices);
+  json.add("edges", mesh.counts.edges);
+  json.add("faces", mesh.counts.triangles);
+  json.endObject();
+}
+
+void addStatistics(const ElementReport& report, JsonText& json) {
+  json.beginObject("statistics");
+  json.add("distance", report.distance);
+  json.add("between", report.betweenOnly);
+  json.add("threads", report.threads);
+  json.add("readSeconds", report.readSeconds);
+  json.add("findSeconds", report.findSeconds);
+  json.endObject();
 }
 
 }  // namespace
@@ -47,20 +54,21 @@ std::string tableOf(const ElementReport& report) {
 }
 
 std::string jsonOf(const ElementReport& report) {
-  nlohmann::ordered_json json;
-  for (std::size_t i = 0; i < kKindNames.size(); ++i) json[std::string(kKindNames[i].key)] = report.candidates[i];
-  json["vertices"] = report.counts.vertices;
-  json["edges"] = report.counts.edges;
-  json["faces"] = report.counts.triangles;
-  json["meshes"] = meshesJson(report);
-  json["files"] = nlohmann::ordered_json::object();
-  for (const ElementReport::File& file : report.files) json["files"][file.key] = file.path;
-  json["statistics"] = {{"distance", report.distance},
-                        {"between", report.betweenOnly},
-                        {"threads", report.threads},
-                        {"readSeconds", report.readSeconds},
-                        {"findSeconds", report.findSeconds}};
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  JsonText json(JsonText::Layout::Indented);
+  json.beginObject();
+  for (std::size_t i = 0; i < kKindNames.size(); ++i) json.add(kKindNames[i].key, report.candidates[i]);
+  json.add("vertices", report.counts.vertices);
+  json.add("edges", report.counts.edges);
+  json.add("faces", report.counts.triangles);
+  json.beginList("meshes");
+  for (const ElementReport::Mesh& mesh : report.meshes) addMesh(mesh, json);
+  json.endList();
+  json.beginObject("files");
+  for (const ElementReport::File& file : report.files) json.add(file.key, file.path);
+  json.endObject();
+  addStatistics(report, json);
+  json.endObject();
+  return json.text() + '\n';
 }
 
 }  // namespace allpairs::app

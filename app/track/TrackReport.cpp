@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "cli/JsonText.h"
 #include "cli/NpyOutput.h"
 #include "cli/Text.h"
 
@@ -58,33 +58,41 @@ std::string csvOf(const TrackReport& report) {
 }
 
 template <class Value>
-nlohmann::ordered_json column(const std::vector<TrackedFrame>& frames, Value TrackedFrame::*member) {
-  nlohmann::ordered_json values = nlohmann::ordered_json::array();
-  for (const TrackedFrame& frame : frames) values.push_back(frame.*member);
-  return values;
+void addColumn(const char* key, const std::vector<TrackedFrame>& frames, Value TrackedFrame::*member, JsonText& json) {
+  json.beginList(key);
+  for (const TrackedFrame& frame : frames) json.add({}, frame.*member);
+  json.endList();
+}
+
+void addStatistics(const TrackReport& report, JsonText& json) {
+  const FrameTimes times = timesOf(report.frames);
+  const Totals totals = totalsOf(report.frames);
+  json.beginObject("statistics");
+  json.add("distance", report.distance);
+  json.add("began", totals.began);
+  json.add("ended", totals.ended);
+  json.add("medianMs", times.medianMs);
+  json.add("percentile99Ms", times.percentile99Ms);
+  json.add("worstMs", times.worstMs);
+  json.add("worstFrame", times.worstFrame);
+  json.add("rebuilds", report.rebuilds);
+  json.add("threads", report.threads);
+  json.add("verified", report.verified);
+  json.endObject();
 }
 
 std::string jsonOf(const TrackReport& report) {
-  const FrameTimes times = timesOf(report.frames);
-  const Totals totals = totalsOf(report.frames);
-  nlohmann::ordered_json json;
-  json["frames"] = report.frames.size();
-  json["boxes"] = report.boxes;
-  json["pairs"] = column(report.frames, &TrackedFrame::pairs);
-  json["began"] = column(report.frames, &TrackedFrame::began);
-  json["ended"] = column(report.frames, &TrackedFrame::ended);
-  json["milliseconds"] = column(report.frames, &TrackedFrame::milliseconds);
-  json["statistics"] = {{"distance", report.distance},
-                        {"began", totals.began},
-                        {"ended", totals.ended},
-                        {"medianMs", times.medianMs},
-                        {"percentile99Ms", times.percentile99Ms},
-                        {"worstMs", times.worstMs},
-                        {"worstFrame", times.worstFrame},
-                        {"rebuilds", report.rebuilds},
-                        {"threads", report.threads},
-                        {"verified", report.verified}};
-  return json.dump() + '\n';
+  JsonText json(JsonText::Layout::Compact);
+  json.beginObject();
+  json.add("frames", report.frames.size());
+  json.add("boxes", report.boxes);
+  addColumn("pairs", report.frames, &TrackedFrame::pairs, json);
+  addColumn("began", report.frames, &TrackedFrame::began, json);
+  addColumn("ended", report.frames, &TrackedFrame::ended, json);
+  addColumn("milliseconds", report.frames, &TrackedFrame::milliseconds, json);
+  addStatistics(report, json);
+  json.endObject();
+  return json.text() + '\n';
 }
 
 void writeNpyTo(Output& output, const TrackReport& report) {

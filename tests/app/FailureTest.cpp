@@ -134,6 +134,17 @@ TEST(OutputFile, ALinkStaysALinkAndKeepsItsTargetsPermissions) {
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
+TEST(OutputFile, ALinkToNothingYetStaysALinkToo) {
+  const TempFolder folder;
+  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
+  const std::filesystem::path link = folder.path() / "link.csv";
+  std::filesystem::create_symlink("second", link);
+  std::filesystem::create_symlink(folder.path() / "new.csv", folder.path() / "second");
+  expectSuccess(runProgram({"detect", path, "-o", link}));
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(readBytes(folder.path() / "new.csv"), "first,second\n");
+}
+
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TempFolder folder;
   const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(1, 1, 1)}));

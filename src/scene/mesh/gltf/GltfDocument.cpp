@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kMaxJsonDepth = 200;             // of arrays and objects in each other; glTF itself needs eight
+constexpr std::size_t kMaxJsonDepth = 200;     // of arrays and objects in each other; glTF itself needs eight
 constexpr std::uint64_t kBytesPerValue = 100;  // of JSON in memory, the node of an object and its key included
 constexpr std::size_t kGlbHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
@@ -83,10 +83,10 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, ReadScope& scope)
   } else {
     parse(m_bytes);
   }
-  if (!m_root.is_object()) fail("is no glTF: it is no JSON object");
-  const auto asset = m_root.find("asset");
-  const std::string version = asset != m_root.end() ? text({&*asset, "asset"}, "version") : "";
-  if (version.starts_with("1") || (m_root.contains("meshes") && m_root["meshes"].is_object())) {
+  if (!m_json.root.is_object()) fail("is no glTF: it is no JSON object");
+  const auto asset = m_json.root.find("asset");
+  const std::string version = asset != m_json.root.end() ? text({&*asset, "asset"}, "version") : "";
+  if (version.starts_with("1") || (m_json.root.contains("meshes") && m_json.root["meshes"].is_object())) {
     fail("is glTF 1.0; only glTF 2.0 is read");
   }
   m_buffers.resize(size("buffers"));
@@ -95,17 +95,10 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, ReadScope& scope)
 void GltfDocument::parse(std::string_view json) {
   const auto isStructure = [](char c) { return c == ',' || c == '[' || c == '{'; };
   m_scope.take(kBytesPerValue * static_cast<std::uint64_t>(std::count_if(json.begin(), json.end(), isStructure)));
-  const Json::parser_callback_t limitDepth = [this](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kMaxJsonDepth) fail("is nested more than " + std::to_string(kMaxJsonDepth) + " deep");
-    return true;
-  };
-  try {
-    m_root = Json::parse(json.begin(), json.end(), limitDepth);
-  } catch (const Json::parse_error& problem) {  // its text repeats what stands there
-    fail("is no well-formed JSON at byte " + std::to_string(problem.byte));
-  } catch (const Json::exception&) {
-    fail("is no well-formed JSON");
-  }
+  const std::optional<JsonProblem> problem = m_json.parse(json, kMaxJsonDepth);
+  if (!problem) return;
+  if (problem->isTooDeep) fail("is nested more than " + std::to_string(kMaxJsonDepth) + " deep");
+  fail("is no well-formed JSON" + (problem->byte ? " at byte " + std::to_string(*problem->byte) : ""));
 }
 
 void GltfDocument::readChunks() {
@@ -138,15 +131,15 @@ void GltfDocument::readChunks() {
 }
 
 std::size_t GltfDocument::size(const char* list) const {
-  const auto found = m_root.find(list);
-  if (found == m_root.end()) return 0;
+  const auto found = m_json.root.find(list);
+  if (found == m_json.root.end()) return 0;
   if (!found->is_array()) fail(std::string("'") + list + "' is no list");
   return found->size();
 }
 
 GltfItem GltfDocument::item(const char* list, std::uint64_t index) const {
   if (index >= size(list)) fail("there is no " + itemName(list, index));
-  GltfItem item{&m_root[list][static_cast<std::size_t>(index)], itemName(list, index)};
+  GltfItem item{&m_json.root[list][static_cast<std::size_t>(index)], itemName(list, index)};
   if (!item.json->is_object()) fail(item.name + " is no object");
   return item;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "input/ReadScope.h"
+#include "mesh/gltf/JsonTree.h"
 
 namespace allpairs::scene {
 
@@ -29,7 +30,7 @@ class GltfDocument {
  public:
   GltfDocument(const std::filesystem::path& path, ReadScope& scope);
 
-  [[nodiscard]] const nlohmann::json& root() const noexcept { return m_root; }
+  [[nodiscard]] const nlohmann::json& root() const noexcept { return m_json.root; }
   [[nodiscard]] ReadScope& scope() const noexcept { return m_scope; }
 
   /// How long a list is; 0 where there is none.
@@ -60,7 +61,7 @@ class GltfDocument {
   std::filesystem::path m_path;
   ReadScope& m_scope;
   std::string m_bytes;
-  nlohmann::json m_root;
+  JsonTree m_json;
   std::optional<std::string_view> m_binary;  ///< The second chunk of a GLB.
   std::vector<std::optional<std::string>> m_buffers;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <new>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -43,6 +44,7 @@ struct SourceFile {
   explicit SourceFile(const std::filesystem::path& file)
       : path(std::make_shared<const std::filesystem::path>(file)), text(readText(file)), lines(text) {
     const auto result = document.load_buffer(text.data(), text.size());
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
       const auto [line, column] = lines.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
       throw FileError(file, std::string{"not well-formed XML: "} + result.description(), line, column);

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <new>
 #include <pugixml.hpp>
 
 #include "allpairs/scene/FileError.h"
@@ -122,6 +123,7 @@ class XmlVtkReader {
  public:
   explicit XmlVtkReader(const std::filesystem::path& path) : m_path(path), m_bytes(readText(path)) {
     const auto result = m_document.load_buffer(m_bytes.data(), m_bytes.size());
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
       const auto place = LineIndex(m_bytes).at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
       throw FileError(path, std::string{"not well-formed XML: "} + result.description(), place.line, place.column);
