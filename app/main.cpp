@@ -34,7 +34,7 @@ constexpr const char* kProgramExamples = R"(Examples:
 See 'allpairs COMMAND --help'. Exit status: 0 success, 1 --verify found a
 difference, 2 usage error, 3 a file cannot be read or written.)";
 
-/// One line on standard error, whatever the message holds: names of files are the user's, or a stranger's.
+/// One line on standard error, whatever the message contains: file names may be untrusted.
 void complain(std::string message) {
   for (char& c : message) {
     if (c == '\n' || c == '\r') c = ' ';
@@ -94,7 +94,7 @@ void parse(CLI::App& program, const std::vector<std::string>& arguments) {
   }
 }
 
-/// Runs the command and turns whatever goes wrong into one line and an exit status.
+/// Runs the command and converts every failure to one line and an exit status.
 ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
   try {
     parse(program, allpairs::app::joinNumbers(count, arguments));

@@ -22,7 +22,7 @@ _KINDS = {
 
 class MeshCandidates:
     """Finds the pairs of elements of triangle meshes that may touch while their vertices move, for continuous collision
-    detection; elements with a vertex in common are none.
+    detection; elements that share a vertex are never candidates.
 
     Elements are numbered through: those of the first mesh, then those of the second, and so on.
 

@@ -101,7 +101,7 @@ def overlaps(
     region : array_like, shape (2, 3) or (6,)
         Boxes outside of this box, widened by distance and margin, are left out.
     group : array_like, shape (n,), integers 0 to 2**32 - 1
-        Boxes of the same group are no pair, unless it is 0.
+        Boxes of the same group are never paired, unless it is 0.
     category, mask : array_like, shape (n,), integers 0 to 2**32 - 1
         Bits: a pair stays if each box's mask has a bit of the other's category. Without one, all bits are set.
     ignore : array_like, shape (k, 2), integers

@@ -28,7 +28,7 @@ class Step(NamedTuple):
     persisted: Pairs
     """Those that were."""
     ended: Pairs
-    """Those of the last step that are none now; a box in it may have been removed."""
+    """Pairs of the last step that no longer exist; their boxes may have been removed."""
 
 
 def _properties(size: int, values: dict[str, Any]) -> _core.Properties:

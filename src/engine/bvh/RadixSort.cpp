@@ -12,14 +12,16 @@ namespace {
 /// Runs up to this length are sorted by insertion.
 constexpr std::size_t kShortRun = 24;
 
-/// Digits are no longer than this, so that their counters stay in the first-level cache beside the numbers.
+/// The maximum length of a digit, so that its counters stay in the first-level cache together with the numbers.
 constexpr unsigned kMaxDigitBits = 11;
 
-/// From this length on the places that a pass writes to, one for each digit, had better lie in the first-level cache.
+/// From this length on digits are short enough for the destinations of a pass, one per digit value, to stay in the
+/// first-level cache.
 constexpr unsigned kFewDigitBits = 8;
 constexpr std::size_t kLongRun = 65536;
 
-/// Up to this size numbers are sorted as one run: there and back they fill a second-level cache. Threads share fewer.
+/// Up to this size numbers are sorted as one run: source and destination then fit a second-level cache. With threads,
+/// less.
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
 constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
 
@@ -39,19 +41,19 @@ void insertionSort(Number* values, std::size_t size, unsigned begin) noexcept {
   }
 }
 
-/// How long a digit is at most: with more counters than numbers, a pass would spend its time on those.
+/// The maximum length of a digit: with more counters than numbers, the counters would dominate a pass.
 unsigned digitBits(std::size_t size) noexcept {
   const unsigned most = size < kLongRun ? kMaxDigitBits : kFewDigitBits;
   return std::min(static_cast<unsigned>(std::bit_width(size)) - 1, most);
 }
 
-/// Turns counts into where each digit begins.
+/// Turns counts into the beginning of each digit value.
 void exclusivePrefixSum(std::uint32_t* counts, std::size_t size) noexcept {
   std::uint32_t place = 0;
   for (std::size_t digit = 0; digit < size; ++digit) place += std::exchange(counts[digit], place);
 }
 
-/// Moves numbers by one digit; returns whether there was more than one value to tell them apart by.
+/// Moves numbers by one digit; returns whether the digit had more than one value.
 template <class Number>
 bool moveByDigit(const Number* from, Number* to, std::size_t size, unsigned shift, unsigned bits) noexcept {
   const Number mask = (Number{1} << bits) - 1;
@@ -85,7 +87,7 @@ Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, un
 template std::uint32_t* radixSort(std::uint32_t*, std::uint32_t*, std::size_t, unsigned, unsigned) noexcept;
 template std::uint64_t* radixSort(std::uint64_t*, std::uint64_t*, std::size_t, unsigned, unsigned) noexcept;
 
-/// Cuts all numbers into buckets by the bits from `shift` on.
+/// Splits all numbers into buckets by the bits from `shift` on.
 void RadixSort::scatter(const std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned shift,
                         Executor& executor) {
   const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();

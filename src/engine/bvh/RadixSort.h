@@ -10,14 +10,14 @@
 
 namespace allpairs::engine {
 
-/// Sorts numbers by their bits [begin, end), a pass for each digit from the lowest up, back and forth between two arrays;
-/// returns which of them holds the result. Numbers that agree in those bits keep their order. For std::uint32_t and
-/// std::uint64_t, and fewer than 2^32 numbers.
+/// Sorts numbers by their bits [begin, end), a pass for each digit from the lowest up, back and forth between two
+/// arrays; returns which of them holds the result. Numbers that agree in those bits keep their order. For std::uint32_t
+/// and std::uint64_t, and fewer than 2^32 numbers.
 template <class Number>
 [[nodiscard]] Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, unsigned end) noexcept;
 
-/// Sorts any number of 64-bit numbers, and keeps the memory of its counters: many are first cut into buckets by their
-/// highest digit, so that a bucket fits a cache near the core, or so that threads share them.
+/// Sorts any number of 64-bit numbers, and keeps the memory of its counters: long lists are first split into buckets by
+/// their highest digit, so that a bucket fits a cache near the core, and threads can share the work.
 ///
 /// Cost:    one pass over all numbers, and about three over each bucket.
 /// Threads: parallel over the executor; the result is the same for any.
@@ -25,7 +25,7 @@ class RadixSort {
  public:
   explicit RadixSort(std::pmr::memory_resource* memory) : m_places(memory), m_bucketBegin(memory) {}
 
-  /// Sorts by the bits [begin, end) from `from`, whose contents are lost, into `to`; higher bits are 0.
+  /// Sorts by the bits [begin, end) from `from`, which is overwritten, into `to`; higher bits are 0.
   void sort(std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned begin, unsigned end, Executor& executor);
 
  private:

@@ -15,7 +15,7 @@ constexpr std::size_t kKeysPerBucket = 512;
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
 constexpr std::size_t kMostBuckets = 2048;
 
-/// Pairs of a key in a scene as most are.
+/// Pairs per key in a typical scene.
 constexpr std::size_t kPairsPerKey = 4;
 
 /// The pairs of a bucket as numbers of 32 bits; returns their end.
@@ -93,7 +93,7 @@ void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
     m_next[bucket] = bucket * kChunk;
     m_fullChunks[bucket] = 0;
   }
-  // Of this room only what is used takes memory.
+  // Only the used part of this address space takes memory.
   const std::size_t likelyPairs = kPairsPerKey * (rule.buckets << rule.keyBits) / workers;
   makeRoom(2 * rule.buckets + likelyPairs / kChunk);
 }
@@ -117,7 +117,7 @@ void PairBuckets::distribute(std::span<const Pair> pairs) {
     if ((place + 1) % kChunk != 0) [[likely]] {
       continue;
     }
-    next[bucket] = place;  // If there is no memory for another chunk, the pair has not come.
+    next[bucket] = place;  // If allocating a chunk throws, the pair is not counted.
     next[bucket] = chunkAfter(place / kChunk) * kChunk;
     ++m_fullChunks[bucket];
     to = m_pairs.data();

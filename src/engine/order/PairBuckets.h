@@ -12,7 +12,7 @@
 
 namespace allpairs::engine {
 
-/// How pairs are cut into buckets of neighbouring keys. The key is the index that they are ordered by first.
+/// How pairs are divided into buckets of neighbouring keys. The key is the index by which they are ordered first.
 struct BucketRule {
   unsigned keyBits = 0;  ///< Keys of a bucket differ in these low bits only.
   std::size_t buckets = 0;
@@ -21,23 +21,23 @@ struct BucketRule {
 
   BucketRule(std::size_t firsts, std::size_t seconds, Order order);
 
-  /// Whether what the keys of a bucket differ in and the other index make a number of 32 bits.
+  /// Whether the low bits of a bucket's keys and the other index fit a number of 32 bits.
   [[nodiscard]] bool packs() const noexcept { return otherBits < 32 && keyBits + otherBits <= 32; }
 };
 
-/// Puts the pairs of a bucket in order that lie as numbers of 32 bits in the second half of their place.
+/// Sorts the pairs of a bucket, which are stored as numbers of 32 bits in the second half of their place.
 void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<Pair> place) noexcept;
 
-/// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they are
-/// found, so that they need not be written and read once more.
+/// Pairs in buckets of neighbouring keys, in the order in which they are found: the first pass of a sort, done during
+/// the search, so that pairs need not be written and read once more.
 ///
-/// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have.
+/// A bucket is a chain of chunks from a common store, since its size is not known in advance.
 class PairBuckets {
  public:
   explicit PairBuckets(std::pmr::memory_resource* memory)
       : m_pairs(memory), m_following(memory), m_next(memory), m_fullChunks(memory) {}
 
-  /// Starts anew, as one of so many workers; memory is kept.
+  /// Clears all buckets, and keeps their memory. `workers` is the number of workers.
   void start(const BucketRule& rule, std::size_t workers);
 
   void add(std::span<const Pair> pairs);
@@ -46,7 +46,8 @@ class PairBuckets {
     return m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
   }
 
-  /// Writes the pairs of a bucket as numbers of 32 bits, what their keys differ in above the other index; returns the end.
+  /// Writes the pairs of a bucket as numbers of 32 bits, the low bits of the key above the other index; returns the
+  /// end.
   std::uint32_t* pack(const BucketRule& rule, std::size_t bucket, std::uint32_t* to) const noexcept;
 
  private:

@@ -127,7 +127,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   btOverlappingPairCache* getOverlappingPairCache() override { return m_cache; }
   [[nodiscard]] const btOverlappingPairCache* getOverlappingPairCache() const override { return m_cache; }
 
-  /// The box around all proxies; both corners are 0 where there are none.
+  /// The box around all proxies; both corners are 0 without proxies.
   void getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const override {
     aabbMin.setZero();
     aabbMax.setZero();
@@ -140,7 +140,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     }
   }
 
-  /// Starts afresh, with the same numbers as a new broad phase, if there are no proxies.
+  /// Resets to the state of a new broad phase, with its numbering, if there are no proxies.
   void resetPool(btDispatcher* /*dispatcher*/) override {
     if (m_world.size() != 0) return;
     m_world = makeWorld();

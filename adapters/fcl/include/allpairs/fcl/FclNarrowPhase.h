@@ -51,10 +51,10 @@ struct ExactPair {
   /// How many pairs of elements (triangles, segments, points, balls) meet; those of a Contained pair do not.
   std::uint64_t contactCount = 0;
 
-  /// Where they meet: a point for each such pair of elements, or so many of them, evenly chosen, as the limit says.
+  /// Contact points: one for each intersecting pair of elements, evenly sampled if there are more than the limit.
   std::vector<collision::Vec3> contactPoints{};
 
-  /// The box around all points where they meet, the chosen and the others; empty where there are none.
+  /// The box around all contact points, sampled or not; empty without any.
   Box contactBox = kEmptyBox;
 };
 

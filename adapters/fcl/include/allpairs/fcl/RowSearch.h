@@ -28,7 +28,7 @@ class RowSearch {
   /// Forgets all boxes.
   void clear();
 
-  /// Says that a row is new or has changed; of a row that nobody speaks of, what it was before may be used.
+  /// Marks a row as new or changed; for an unmarked row, its previous contents may be used.
   void note(BoxId row) {
     if (m_isPending.size() <= row) m_isPending.resize(std::size_t{row} + 1, 0);
     m_isPending[row] = 1;
