@@ -25,7 +25,7 @@ class RowSearch {
   /// Pairs come ordered by (first, second) if that is asked for, else in an order that is the same each time.
   explicit RowSearch(Executor* executor, bool isOrdered);
 
-  /// Forgets all boxes.
+  /// Removes all boxes.
   void clear();
 
   /// Marks a row as new or changed; for an unmarked row, its previous contents may be used.
