@@ -1,7 +1,7 @@
 # Debian packages of what is installed, by `cpack -G DEB` in the build folder or ./dev package: allpairs (the command and
 # shared libraries), liballpairs-dev, python3-allpairs.
 
-# A Debian package names whom to write to; whoever hands packages out sets it. example.org is nobody's (RFC 2606).
+# A Debian package names a maintainer to write to; the distributor sets it. example.org is nobody's (RFC 2606).
 set(ALLPAIRS_PACKAGE_CONTACT "Allpairs developers <allpairs@example.org>"
     CACHE STRING "The maintainer that packages name: a name and an address")
 

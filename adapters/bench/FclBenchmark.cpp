@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Self-collision of many objects in FCL: our manager beside DynamicAABBTreeCollisionManager and its _Array sister, on the
-// same objects in turns, step by step. What is timed is what a program does in a step, update() and collide(), with a
-// callback that counts and that no compiler can see into; which pairs it gets is compared outside of the time.
+// Self-collision of many objects in FCL: our manager beside DynamicAABBTreeCollisionManager and its _Array sister, on
+// the same objects in turns, step by step. What is timed is what a program does in a step, update() and collide(), with
+// a callback that counts and that no compiler can see into; which pairs it gets is compared outside of the time.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/box.h>
@@ -65,7 +65,7 @@ bool countPair(Object*, Object*, void* count) {
   return false;
 }
 
-/// Read anew for each query, so that none is compiled for the callback that it gets.
+/// Read again for each query, so that no query is compiled for its callback.
 fcl::CollisionCallBack<double> volatile callback = countPair;
 
 using Pairs = std::vector<std::pair<Object*, Object*>>;

@@ -11,7 +11,7 @@ enum class ExitStatus : int {
   Difference = 1,    ///< --verify found that two strategies disagree.
   WrongUsage = 2,    ///< An option or argument that makes no sense.
   BadInput = 3,      ///< A file that can't be read, understood or written.
-  ClosedPipe = 141,  ///< Whoever read the output went away: what a shell reports for SIGPIPE.
+  ClosedPipe = 141,  ///< The reader of the output has gone: what a shell reports for SIGPIPE.
 };
 
 /// A command line that makes no sense.

@@ -14,7 +14,7 @@ namespace allpairs::app {
 /// left behind, nor by a signal that ends the program: where the system has files without a name, it gets one only
 /// when it is complete. A path that is no regular file, such as a pipe or a device, is written directly, and so is one
 /// that means a descriptor of the program, such as /dev/stdout.
-/// Bad input: whatever can't be opened or written throws FileError; a pipe that nobody reads throws ClosedPipe.
+/// Bad input: an output that cannot be opened or written throws FileError; a pipe without a reader throws ClosedPipe.
 class Output {
  public:
   explicit Output(const std::optional<std::filesystem::path>& path);

@@ -21,9 +21,9 @@ OverlapOptions engineOptions(const DetectionOptions& options, BoxPairOrder order
 }
 
 [[noreturn]] void reportDifference(const scene::BoxArray& boxes, const Pair& pair, bool isMissing) {
-  throw collision::VerificationError("verification failed: '" + boxes.name(pair.first) + "' and '" +
-                                     boxes.name(pair.second) +
-                                     (isMissing ? "' are a pair that was not found" : "' were found and are no pair"));
+  throw collision::VerificationError(
+      "verification failed: '" + boxes.name(pair.first) + "' and '" + boxes.name(pair.second) +
+      (isMissing ? "' are a pair that was not found" : "' were found and are not a pair"));
 }
 
 /// Runs the exhaustive search in constant memory and compares it with what was found, pair by pair, in order.

@@ -59,7 +59,7 @@ enum class BoxPairOrder : std::uint8_t {
 /// The word for a strategy on the command line.
 [[nodiscard]] std::string strategyName(Strategy strategy);
 
-/// An executor for so many threads where the work is worth waking them; null where it isn't.
+/// An executor for that many threads if there is enough work for them; else null.
 [[nodiscard]] std::unique_ptr<Executor> makeExecutor(std::size_t threads, std::size_t models);
 
 }  // namespace allpairs::app

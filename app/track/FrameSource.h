@@ -34,8 +34,8 @@ class FrameSource {
   [[nodiscard]] virtual PairPredicate accept() const { return {}; }
 };
 
-/// The frames of one .npy file, (t, n, 6); or of mesh files, one each: the boxes of their triangles, of which two with a
-/// vertex in common are no pair.
+/// The frames of one .npy file, (t, n, 6); or of mesh files, one each: the boxes of their triangles, of which two with
+/// a vertex in common are never paired.
 ///
 /// Bad input: throws FileError; more than one .npy file, or one among meshes, throws UsageError.
 [[nodiscard]] std::unique_ptr<FrameSource> openFrames(const std::vector<std::string>& paths,

@@ -54,7 +54,7 @@ Examples:
   allpairs track frames.npy --format csv -o frames.csv
   allpairs track cloth_*.ply --distance 0.001)";
 
-/// The changes of each frame found anew, by searching all boxes and comparing with the frame before.
+/// Computes the changes of each frame by searching all boxes and comparing with the previous frame.
 class Verification {
  public:
   Verification(double distance, PairPredicate accept) {

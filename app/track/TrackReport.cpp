@@ -40,7 +40,7 @@ std::string tableOf(const TrackReport& report) {
   text += fmt::format("distance {}\n", report.distance);
   text += fmt::format("pairs    {} to {} a frame\n", grouped(totals.fewest), grouped(totals.most));
   text += fmt::format("began    {}\nended    {}\n", grouped(totals.began), grouped(totals.ended));
-  if (report.verified) text += "verify   searching each frame anew gives the same pairs and changes\n";
+  if (report.verified) text += "verify   searching each frame from scratch gives the same pairs and changes\n";
   text += fmt::format("time     {:.4f} ms median, {:.4f} ms 99th percentile, {:.4f} ms worst (frame {})\n",
                       times.medianMs, times.percentile99Ms, times.worstMs, times.worstFrame);
   text += fmt::format("first    {:.4f} ms; {} of the order since, on {}\n", first, counted(report.rebuilds, "rebuild"),

@@ -22,7 +22,7 @@ constexpr const char* kOpener = "open";
 constexpr const char* kOpener = "xdg-open";
 #endif
 
-/// Starts the opener, without a word of its own on the terminal; 0, or why it did not start.
+/// Starts the opener, without output on the terminal; returns 0, or why it did not start.
 int start(const std::string& target, pid_t& child) {
   std::string program = kOpener;
   std::string argument = target;
@@ -36,7 +36,7 @@ int start(const std::string& target, pid_t& child) {
   return problem;
 }
 
-/// Whether it ended at once and badly. One that goes on is the browser itself, which nobody waits for.
+/// Whether it ended at once with a failure. One that keeps running is the browser itself, which is not waited for.
 bool hasFailed(pid_t child) {
   constexpr std::chrono::milliseconds kPatience{2000};
   constexpr std::chrono::milliseconds kStep{20};

@@ -25,7 +25,8 @@ constexpr const char* kHost = "127.0.0.1";
 /// A browser opens six connections to a server at most; one more than this closes the oldest.
 constexpr std::size_t kMaxConnections = 64;
 
-/// How many may wait to be accepted. The library's own bound, 5, makes a client wait for a second where many come at once.
+/// How many may wait to be accepted. The library's own bound, 5, makes a client wait for a second where many come at
+/// once.
 constexpr int kMaxWaiting = 128;
 
 /// A whole request: its line, its headers and what follows. Browsers send less than 2 KiB, in one piece.
@@ -35,7 +36,7 @@ constexpr std::chrono::seconds kMaxRequestTime(5);
 /// How long a client may take nothing of the answer.
 constexpr std::chrono::seconds kMaxWriteStall(30);
 
-/// The connections that have been accepted. Each has a thread of its own, so that a slow one keeps nobody waiting.
+/// The accepted connections. Each has its own thread, so that a slow one does not block others.
 class Connections {
  public:
   /// Makes a connection one of at most kMaxConnections; where there are as many, the oldest is shut down.
@@ -124,7 +125,7 @@ class RequestStream final : public httplib::Stream {
 
   void get_local_ip_and_port(std::string& address, int& port) const override {
     address = kHost;
-    port = 0;  // nobody asks
+    port = 0;  // no one asks
   }
 
   [[nodiscard]] int socket() const override { return m_socket; }

@@ -17,7 +17,7 @@ namespace allpairs::app {
 /// How boxes are tested, in words.
 [[nodiscard]] std::string boxMethod(const DetectionOptions& options);
 
-/// Gives a scene the columns of so many boxes, which have neither flags nor groups.
+/// Gives a scene the columns of that many boxes, which have neither flags nor groups.
 void addBoxColumns(std::size_t count, view::ViewScene& to);
 
 /// Boxes at one moment, without pairs.

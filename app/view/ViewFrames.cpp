@@ -106,7 +106,7 @@ void addTriangles(const std::vector<TriangleMesh>& meshes, view::ViewScene& to) 
   }
   addBoxColumns(to.corners.size() / 3, to);
   to.typeNames = {"Triangle"};
-  to.method += "; triangles with a vertex in common are no pair";
+  to.method += "; triangles that share a vertex are never paired";
 }
 
 std::vector<double> positionsOf(const std::vector<TriangleMesh>& meshes) {

@@ -16,8 +16,8 @@ namespace allpairs::app {
 [[nodiscard]] bool isAnyBoxFrames(const std::vector<std::string>& paths);
 
 /// Boxes or meshes that move, frame by frame, as `track` takes them: one array of boxes (t, n, 6), whose frames the
-/// inputs then are; or mesh files, one for each frame, whose triangles are the models. Two with a vertex in common are no
-/// pair.
+/// inputs then are; or mesh files, one per frame, whose triangles are the models. Two that share a vertex are never
+/// paired.
 ///
 /// Bad input: an array among others, or options that only scenes know, throws UsageError; meshes that are not the first
 /// ones moved throw FileError; more than a page holds throws Error as soon as that is known.

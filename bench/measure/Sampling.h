@@ -17,7 +17,7 @@ struct Effort {
   std::size_t mostSamples = 200;
 };
 
-/// Does what is measured so many times in a row, and says how long one of them took.
+/// Runs the measured function that many times in a row, and returns the time of one run.
 using TimedRuns = std::function<Duration(std::size_t runs)>;
 
 /// Takes samples of one thing, as many as an effort allows: a trial or two at first, which do not count, say how many.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which boxes overlap? Every pair, exactly, in order, from NumPy arrays.
+"""Finds all pairs of overlapping boxes in NumPy arrays: exactly, and in order.
 
 >>> import numpy as np
 >>> import allpairs

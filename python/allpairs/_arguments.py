@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arguments as callers write them, made into what _core takes; arrays that fit are not copied."""
+"""Converts callers' arguments to those of _core; suitable arrays are not copied."""
 
 from __future__ import annotations
 

@@ -22,16 +22,16 @@ _KINDS = {
 
 class MeshCandidates:
     """Finds the pairs of elements of triangle meshes that may touch while their vertices move, for continuous collision
-    detection; elements with a vertex in common are none.
+    detection; elements that share a vertex are never candidates.
 
-    Elements are numbered through: those of the first mesh, then those of the second, and so on.
+    Elements are numbered consecutively: those of the first mesh, then those of the second, and so on.
 
     Parameters
     ----------
     triangles : array_like, shape (k, 3), integers, or list of such arrays
         The vertices of each triangle, of one mesh or of several.
     vertex_count : int, or list of int
-        How many vertices each mesh has.
+        The number of vertices of each mesh.
     distance : float
         Elements whose boxes are at most this far apart on every axis are candidates.
     within, between : bool
@@ -89,12 +89,12 @@ class MeshCandidates:
         self.triangles: npt.NDArray[np.uint32] = np.asarray(self._core.triangles())
 
     def set_positions(self, start: npt.ArrayLike, end: npt.ArrayLike | None = None, *, mesh: int = 0) -> None:
-        """Says where the vertices of a mesh are at the start of the step and at its end.
+        """Sets the positions of the vertices of a mesh at the start and at the end of the step.
 
         Parameters
         ----------
         start, end : array_like, shape (n, 3), float32 or float64
-            Without ``end``, they rest.
+            Without ``end``, the vertices rest.
         mesh : int
         """
         begin, finish = _arguments.corner_pair("start", start, "end", start if end is None else end)
@@ -116,5 +116,5 @@ class MeshCandidates:
         return np.asarray(self._core.find(_arguments.choice("kind", kind, _KINDS)))
 
     def count(self, kind: str) -> int:
-        """How many candidates `find` would give, in memory that does not depend on it."""
+        """The number of candidates of `find`; uses memory independent of that number."""
         return self._core.count(_arguments.choice("kind", kind, _KINDS))

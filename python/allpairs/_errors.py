@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""What goes wrong, as exceptions: each is a ValueError, and one about a file is an OSError too."""
+"""Exceptions: each is a ValueError, and one about a file is also an OSError."""
 
 from __future__ import annotations
 
 
 class Error(ValueError):
-    """Base of everything that this package raises about bad data, settings or files."""
+    """Base of all exceptions of this package about bad data, settings or files."""
 
 
 class InvalidArgument(Error):
-    """A setting or an array that makes no sense: another shape, a NaN distance, a reversed region."""
+    """An invalid setting or array: a wrong shape, a NaN distance, a reversed region."""
 
 
 class InvalidBox(Error):
-    """A box, or a value that belongs to a box, that cannot be used; ``index`` says which one."""
+    """An invalid box or per-box value; ``index`` is its index."""
 
     def __init__(self, message: str, index: int) -> None:
         super().__init__(message)
@@ -24,7 +24,7 @@ class InvalidBox(Error):
 
 
 class LimitExceeded(Error):
-    """There are more pairs than ``max_pairs``; ``count`` is how many had been found when that was noticed."""
+    """More pairs than ``max_pairs``; ``count`` is the number found when the limit was exceeded."""
 
     def __init__(self, message: str, count: int) -> None:
         super().__init__(message)
@@ -37,7 +37,7 @@ class LimitExceeded(Error):
 class FileError(Error, OSError):
     """A file that is missing, unreadable or malformed.
 
-    ``path`` names it; ``line`` and ``column`` count from 1, and are 0 where there is none.
+    ``path`` names it; ``line`` and ``column`` count from 1, and are 0 if unknown.
     """
 
     def __init__(self, message: str, path: str, line: int, column: int) -> None:

@@ -17,7 +17,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 class Model(NamedTuple):
-    """What a scene says of one collision model."""
+    """The record of one collision model in a scene."""
 
     name: str
     type: str
@@ -31,7 +31,7 @@ class Model(NamedTuple):
 
 
 class Remark(NamedTuple):
-    """A part of the input that was left out, and why; ``line`` counts from 1 and is 0 where there is none."""
+    """A part of the input that was skipped, and why; ``line`` counts from 1 and is 0 if unknown."""
 
     file: str
     line: int
@@ -41,7 +41,7 @@ class Remark(NamedTuple):
 
 
 class Scene:
-    """What `load` has read: n collision models, and how they are tested.
+    """The result of `load`: n collision models and their intersection method.
 
     Attributes
     ----------
@@ -50,11 +50,11 @@ class Scene:
     method : str
         The intersection method.
     alarm_distance : float
-        How far apart things are when they begin to be of interest.
+        The largest gap on each axis at which two models are reported.
     region : ndarray, shape (2, 3), or None
-        Where models have to be.
+        Models outside it are excluded.
     remarks : list of Remark
-        What was left out.
+        The parts of the input that were skipped.
     """
 
     def __init__(self, core: _core.Scene) -> None:
@@ -81,7 +81,7 @@ class Scene:
 
     @property
     def names(self) -> list[str]:
-        """What each model is called."""
+        """The name of each model."""
         return [model.name for model in self]
 
     def detect(
@@ -104,12 +104,12 @@ class Scene:
         strategy, threads
             As in `allpairs.overlaps`.
         verify : bool
-            Also test all pairs one by one, and raise Error where the two disagree.
+            Also test all pairs one by one, and raise Error if the two lists differ.
 
         Returns
         -------
         ndarray, shape (m, 2), uint32
-            In the orientation and the order of the double loop: newest model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
+            In the orientation and the order of the double loop: newer model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
         """
         options = _core.DetectionOptions()
         options.distance = distance
@@ -122,7 +122,7 @@ class Scene:
 
 
 class Detection(NamedTuple):
-    """What `detect` gives: the scene, and the pairs of its models that may touch."""
+    """The result of `detect`: the scene, and the pairs of its models that may touch."""
 
     scene: Scene
     pairs: Pairs
@@ -150,9 +150,9 @@ def load(
     search_roots : iterable of str or path
         Folders to search for files that a scene names, after its own folder.
     partial : bool
-        Leave out what cannot be placed, with a remark, instead of raising.
+        Skip models that cannot be placed, with a remark, instead of raising.
     allow_outside : bool
-        Read files that the input names wherever they are, not only in its own folder and the search roots.
+        Read files that the input names in any folder, not only in its own folder and the search roots.
     max_memory : int
         The most bytes that reading may take; by default, 0, half of the machine's memory and no more than 256 MiB plus
         256 bytes for each byte of the files that are read.

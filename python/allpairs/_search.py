@@ -91,27 +91,28 @@ def overlaps(
     Parameters
     ----------
     lower, upper : array_like, shape (n, 3), float32 or float64
-        The corners of n boxes. Or ``lower`` alone, of shape (n, 6): a row is minx miny minz maxx maxy maxz. Any strides
-        will do, and nothing is copied unless one of the two is float32 and the other float64, or the type is another.
-        Integers are taken as float64.
+        The corners of n boxes. Or ``lower`` alone, of shape (n, 6): a row is minx miny minz maxx maxy maxz. Any
+        strides are allowed. Arrays are copied only if one is float32 and the other float64, or for other types.
+        Integers are converted to float64.
     distance : float
-        Boxes that are at most this far apart on every axis are a pair. Negative shrinks.
+        Boxes that are at most this far apart on every axis are a pair. A negative distance requires that much overlap.
     margin : float or array_like, shape (n,)
-        How far each box reaches beyond its bounds: a pair's margins are added to the distance.
+        How far each box extends beyond its bounds: a pair's margins are added to the distance.
     region : array_like, shape (2, 3) or (6,)
-        Boxes outside of this box, widened by distance and margin, are left out.
+        Boxes farther from this box than distance plus margin are excluded.
     group : array_like, shape (n,), integers 0 to 2**32 - 1
-        Boxes of the same group are no pair, unless it is 0.
+        Boxes of the same group are never paired, unless it is 0.
     category, mask : array_like, shape (n,), integers 0 to 2**32 - 1
-        Bits: a pair stays if each box's mask has a bit of the other's category. Without one, all bits are set.
+        Bits: a pair is kept if each box's mask shares a bit with the other's category. By default all bits are set.
     ignore : array_like, shape (k, 2), integers
-        Pairs to leave out, in either orientation.
+        Pairs to exclude, in either orientation.
     order : {"first", "second", "unordered"}
-        Ascending by (first, second); by (second, first); or as found, which is faster and not random either.
+        Ascending by (first, second); by (second, first); or in the order of discovery, which is faster and also
+        deterministic.
     strategy : {"auto", "exhaustive", "bvh"}
-        How pairs are found. It never changes which.
+        How pairs are found. It never changes the result.
     threads : int
-        How many threads may work; 0 means as many as the machine runs at once. It never changes the result.
+        The maximum number of threads; 0 means one per hardware thread. It never changes the result.
     max_pairs : int, optional
         More pairs than this raise LimitExceeded.
 
@@ -123,13 +124,13 @@ def overlaps(
     Raises
     ------
     InvalidBox
-        A NaN, or a number that does not fit; ``error.index`` says of which box.
+        A NaN, or a number that does not fit; ``error.index`` is the index of the box.
     InvalidArgument
-        An array of another shape or type, or a setting that makes no sense. Both are ValueErrors.
+        An array of a wrong shape or type, or an invalid setting. Both are ValueErrors.
 
     Notes
     -----
-    Other Python threads run during the search; they must not change the arrays meanwhile.
+    The search releases the GIL; other threads must not change the arrays during it.
 
     Examples
     --------
@@ -175,9 +176,9 @@ def overlaps_between(
     first, second : array_like, shape (n, 6), or tuple of two array_like of shape (n, 3)
         Each set as one array, or as ``(lower, upper)``; float32 or float64, also one of each.
     margin, group, category, mask : tuple of two, optional
-        What `overlaps` takes, for the first set and for the second; None leaves one out.
+        As in `overlaps`, for the first set and for the second; None means the default.
     ignore : array_like, shape (k, 2), integers
-        Pairs (first, second) to leave out.
+        Pairs (first, second) to exclude.
 
     The other parameters, and what is raised, are those of `overlaps`.
 
@@ -215,7 +216,7 @@ def count(
     strategy: str = "auto",
     threads: int = 1,
 ) -> int:
-    """How many pairs `overlaps` would give, in memory that does not depend on it.
+    """The number of pairs of `overlaps`; uses memory independent of that number.
 
     The parameters are those of `overlaps`.
 
@@ -245,7 +246,7 @@ def count_between(
     strategy: str = "auto",
     threads: int = 1,
 ) -> int:
-    """How many pairs `overlaps_between` would give, in memory that does not depend on it.
+    """The number of pairs of `overlaps_between`; uses memory independent of that number.
 
     The parameters are those of `overlaps_between`.
 
@@ -283,21 +284,21 @@ def batches(
     threads: int = 1,
     batch_size: int = 65536,
 ) -> Iterator[Pairs]:
-    """The pairs of `overlaps`, a batch at a time, in memory that does not depend on how many there are.
+    """The pairs of `overlaps` in batches; uses memory independent of their number.
 
-    The search runs in a thread of its own, at most two batches ahead of its reader. Leaving the loop early ends it.
+    The search runs in its own thread, at most two batches ahead of its reader. Leaving the loop early ends it.
 
     Parameters
     ----------
     batch_size : int
-        How many pairs a batch has at most.
+        The maximum number of pairs in a batch.
 
     The other parameters, and what is raised, are those of `overlaps`.
 
     Yields
     ------
     ndarray, shape (m, 2), uint32
-        One after the other, these are the rows that `overlaps` returns.
+        Concatenated, the batches are the rows that `overlaps` returns.
 
     Examples
     --------
@@ -328,7 +329,7 @@ def batches_between(
     threads: int = 1,
     batch_size: int = 65536,
 ) -> Iterator[Pairs]:
-    """The pairs of `overlaps_between`, a batch at a time, as `batches` gives those of one set.
+    """The pairs of `overlaps_between` in batches, like `batches` for one set.
 
     Examples
     --------
@@ -343,5 +344,5 @@ def batches_between(
 
 
 def instruction_sets() -> tuple[str, ...]:
-    """The instruction sets that this processor has and the module carries; the first is in use."""
+    """The instruction sets that both this processor and the module support; the first is in use."""
     return _core.instruction_sets()

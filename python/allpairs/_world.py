@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Boxes that move: their pairs step by step, and queries."""
+"""Moving boxes: their pairs step by step, and queries."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class Step(NamedTuple):
     pairs: Pairs
     """All pairs."""
     began: Pairs
-    """Those that were none in the last step."""
+    """Pairs that did not exist in the last step."""
     persisted: Pairs
-    """Those that were."""
+    """Pairs that also existed in the last step."""
     ended: Pairs
-    """Those of the last step that are none now; a box in it may have been removed."""
+    """Pairs of the last step that no longer exist; their boxes may have been removed."""
 
 
 def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
@@ -63,16 +63,16 @@ def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
 class World:
     """Boxes that are added, moved and removed by id, their overlapping pairs step by step, and queries.
 
-    Each step costs what has changed since the last one. Boxes are closed, as everywhere.
+    Each step costs what has changed since the last one. Boxes are closed.
 
     Parameters
     ----------
     distance : float
         Boxes that are at most this far apart on every axis are a pair.
     order : {"first", "second"}
-        How the lists of a step are ordered: ascending by (first, second), or by (second, first).
+        The order of the lists of a step: ascending by (first, second), or by (second, first).
     threads : int
-        How many threads may work; 0 means as many as the machine runs at once. It never changes a result.
+        The maximum number of threads; 0 means one per hardware thread. It never changes a result.
 
     Examples
     --------
@@ -112,24 +112,24 @@ class World:
         lower, upper : array_like, shape (n, 3), or one of shape (n, 6)
             As in `allpairs.overlaps`. They are copied.
         category, mask : int or array_like, shape (n,)
-            Bits: a pair stays if each box's mask has a bit of the other's category. All bits are set by default.
+            Bits: a pair is kept if each box's mask shares a bit with the other's category. All bits are set by default.
         group : int or array_like, shape (n,)
             Boxes of the same group are never paired, unless it is 0.
         margin : float or array_like, shape (n,)
-            How far each box reaches beyond its bounds.
+            How far each box extends beyond its bounds.
         static : bool or array_like, shape (n,)
-            Static boxes are never a pair with each other. They may be moved all the same.
+            Static boxes are never paired with each other. They may still be moved.
 
         Returns
         -------
         ndarray, shape (n,), uint32
-            The ids of the boxes. Those of removed boxes are given again.
+            The ids of the boxes. Ids of removed boxes are reused.
         """
         boxes = _arguments.boxes_of(lower, upper, None)
         return np.asarray(self._core.add(boxes, _properties(len(boxes), locals())))
 
     def move(self, ids: npt.ArrayLike, lower: npt.ArrayLike, upper: npt.ArrayLike | None = None) -> None:
-        """Gives boxes new bounds.
+        """Sets the bounds of boxes.
 
         Parameters
         ----------
@@ -141,7 +141,7 @@ class World:
     def move_swept(
         self, ids: npt.ArrayLike, starts: _arguments.BoxesLike, ends: _arguments.BoxesLike
     ) -> None:
-        """Gives boxes the bounds that hold them on their way through a step.
+        """Sets the bounds of boxes to the union of their start and end in a step.
 
         Parameters
         ----------
@@ -152,7 +152,7 @@ class World:
         self._core.move_swept(_arguments.ids(ids), begin, _arguments.boxes_between(ends, None, "ends: "))
 
     def remove(self, ids: npt.ArrayLike) -> None:
-        """Removes boxes; their pairs are among those that ended at the next step.
+        """Removes boxes; the next step lists their pairs among those that ended.
 
         Parameters
         ----------
@@ -170,7 +170,7 @@ class World:
         margin: npt.ArrayLike | None = None,
         static: npt.ArrayLike | None = None,
     ) -> None:
-        """Gives boxes other properties, all of them: what is not named gets its default. They are those of `add`."""
+        """Sets all properties of boxes, those of `add`; an omitted one gets its default."""
         chosen = _arguments.ids(ids)
         self._core.set_properties(chosen, _properties(len(chosen), locals()))
 
@@ -194,7 +194,7 @@ class World:
         return np.asarray(self._core.boxes(_arguments.ids(ids)))
 
     def step(self) -> Step:
-        """The pairs of the boxes as they are now, and what has changed since the last step."""
+        """The current pairs of the boxes, and the changes since the last step."""
         return Step(*map(np.asarray, self._core.step()))
 
     def overlapping(
@@ -207,15 +207,15 @@ class World:
         static: bool = True,
         moving: bool = True,
     ) -> Pairs:
-        """Which boxes overlap each of some others.
+        """The boxes of the world that overlap each of the given boxes.
 
         Parameters
         ----------
         lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
         category, mask : int
-            Only boxes whose category has a bit of ``mask`` and whose mask has a bit of ``category``.
+            Only boxes whose category shares a bit with ``mask`` and whose mask with ``category``.
         static, moving : bool
-            Whether to look at static boxes, and at others.
+            Whether to consider static boxes, and others.
 
         Returns
         -------
@@ -236,7 +236,7 @@ class World:
         static: bool = True,
         moving: bool = True,
     ) -> tuple[Ids, npt.NDArray[np.float64]]:
-        """The first box that each ray meets.
+        """The first box that each ray hits.
 
         Parameters
         ----------
@@ -249,9 +249,9 @@ class World:
         Returns
         -------
         ids : ndarray, shape (k,), uint32
-            NO_BOX where a ray meets none.
+            NO_BOX for a ray without a hit.
         t : ndarray, shape (k,), float64
-            How far along, in units of the direction; infinity where there is none.
+            The parameter of the hit, in units of the direction; infinity without a hit.
         """
         query = _query_filter(locals())
         start, way = _arguments.points("origins", origins), _arguments.points("directions", directions)
@@ -282,7 +282,7 @@ class World:
         Returns
         -------
         ids : ndarray, shape (n, k), uint32
-            NO_BOX where there are fewer boxes than k.
+            NO_BOX for missing entries, if there are fewer than k boxes.
         distances : ndarray, shape (n, k), float64
         """
         query = _query_filter(locals())

@@ -12,7 +12,7 @@
 
 namespace allpairs::python {
 
-/// What of a buffer is asked for: the package has made sure of it, and a stranger who calls _core gets an error.
+/// What of a buffer is asked for: the package has made sure of it, and a direct caller of _core gets an error.
 struct BufferShape {
   std::string format;         ///< As PEP 3118 has it: f, d, I.
   pybind11::ssize_t columns;  ///< 0 for one dimension.

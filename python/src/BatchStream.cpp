@@ -13,7 +13,7 @@ void BatchStream::run(const Search& search) noexcept {
   try {
     search([this](std::span<const Pair> batch) { put(batch); });
   } catch (const Stopped&) {
-    error = nullptr;  // nobody wants the rest
+    error = nullptr;  // the rest is not needed
   } catch (...) {
     error = std::current_exception();
   }

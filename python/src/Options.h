@@ -32,7 +32,7 @@ class Options {
   /// A contiguous buffer of shape (k, 2), uint32: pairs to leave out. For pairs of one set in either orientation.
   void setIgnored(const pybind11::buffer& pairs, bool oneSet);
 
-  /// Settings for a search over so many boxes, with an executor where it is worth its while.
+  /// Settings for a search over that many boxes, with an executor if there is enough work.
   [[nodiscard]] OverlapOptions withExecutor(std::size_t boxes);
 
  private:

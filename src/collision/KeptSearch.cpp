@@ -8,19 +8,19 @@
 namespace allpairs::collision {
 namespace {
 
-/// Fewer rows are searched anew in a few microseconds.
+/// A full search of fewer rows takes a few microseconds.
 constexpr std::size_t kFewRows = 48;
 
-/// If more than one box in so many has changed, a new search of all is faster.
+/// If more than one box in this many has changed, a full search is faster.
 constexpr std::size_t kShareOfChanged = 8;
 
-/// Steps of few changes before the search is made, whose making costs two or three of them.
+/// Successive steps with few changes before the world is built, which costs two or three searches.
 constexpr std::size_t kQuietSteps = 3;
 
-/// If one in so many of all pairs of rows is one, a new search tests all pairs of boxes, and is faster.
+/// If at least one in this many of all pairs of rows overlaps, a full search tests all pairs of boxes and is faster.
 constexpr double kShareOfPairs = 20.0;
 
-/// Room for models to come: for one in so many.
+/// Ids reserved for models added later: one per this many rows.
 constexpr std::size_t kShareOfFreeRows = 8;
 
 }  // namespace

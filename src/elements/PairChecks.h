@@ -44,7 +44,7 @@ struct TwoFaces {
 
 /// Which meshes the two elements may be of.
 struct MeshRule {
-  const std::uint32_t* meshOfVertex = nullptr;  ///< Null where meshes need not be told apart.
+  const std::uint32_t* meshOfVertex = nullptr;  ///< Null if meshes need not be distinguished.
   bool wantSame;
 
   template <class Elements>
@@ -62,8 +62,8 @@ struct BoxTables {
   const Box* exact = nullptr;
 };
 
-/// Whether boxes that overlap when they are rounded do so before. Rounding keeps their order: bounds that differ after it
-/// differed the same way, and only where it makes two equal must be looked at again.
+/// Whether boxes that overlap when they are rounded do so before. Rounding keeps their order: bounds that differ after
+/// it differed the same way, and only where it makes two equal must be looked at again.
 [[nodiscard]] inline bool overlapExactly(const BoxTables& first, const BoxTables& second, Pair pair) noexcept {
   if (first.rounded[pair.first].overlapsInside(second.rounded[pair.second])) return true;
   return overlap(first.exact[pair.first], second.exact[pair.second]);

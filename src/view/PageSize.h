@@ -8,7 +8,7 @@
 
 namespace allpairs::view {
 
-/// How many bytes a frame takes in a page, with so many pairs.
+/// The size of a frame with that many pairs in a page, in bytes.
 [[nodiscard]] std::size_t bytesOf(const ViewFrame& frame, std::size_t pairs);
 
 /// Whether float32 holds all numbers exactly: of a sequence of meshes, positions are then kept so.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How evenly a join splits, by counting tests: no clock, and so many threads as no test machine has.
+// How evenly a join splits, by counting tests: without a clock, and with more threads than a test machine has.
 #include <gtest/gtest.h>
 
 #include <algorithm>

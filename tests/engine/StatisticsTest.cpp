@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What statistics say, and what they show that no result does: that a world makes its order anew when it has gone bad.
+// What statistics say, and what they show that no result does: that a world rebuilds its hierarchy when it has
+// degraded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,7 +91,7 @@ TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {
   std::ranges::shuffle(boxes, generator);
   world.move(ids, boxes);
   (void)world.step();
-  // The order is as bad as can be: what a step has lost by it exceeds the price of a new one.
+  // The order is as bad as possible: the loss of a step exceeds the cost of a rebuild.
   for (BoxF& box : boxes) box.max[0] += 0.01F;
   world.move(ids, boxes);
   (void)world.step();
@@ -122,7 +123,7 @@ TEST(Statistics, AWorldWhoseBoxesStayNearKeepsItsOrder) {
 }
 
 TEST(Statistics, QueriesAfterEveryMoveMakeTheOrderAnewTooOnceItHasGoneBad) {
-  // All boxes leave for another place, many times; only few changed boxes meet all others in each step.
+  // All boxes leave for another place, many times; only few changed boxes are joined with all others in each step.
   std::vector<BoxF> boxes = test::randomBoxes(4000, 74);
   World world;
   const std::vector<BoxId> ids = world.add(BoxView(boxes));

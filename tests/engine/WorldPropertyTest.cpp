@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random lives of a world, thousands of operations each, against an oracle that makes everything anew at each step.
+// Random lives of a world, thousands of operations each, against an oracle that recomputes everything in each step.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

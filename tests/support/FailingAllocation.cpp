@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The allocation functions of a test program, one of which fails on demand.
 //
-// With the GNU C library malloc and its kin are replaced, which is below everything: the C++ library, its exceptions, and
-// other libraries. Under sanitizers, which have replaced these themselves, operator new is.
+// With the GNU C library malloc and related functions are replaced, which is below everything: the C++ library, its
+// exceptions, and other libraries. Under sanitizers, which have replaced these themselves, operator new is.
 #include "support/FailingAllocation.h"
 
 #include <atomic>

@@ -13,7 +13,7 @@ namespace allpairs::exact {
 struct Meeting {
   bool surfacesMeet = false;  ///< They are no further apart than the tolerance.
   bool isDeep = false;        ///< One reaches into the other by more than the tolerance.
-  bool hasVolume = false;     ///< One of them is thick or encloses something, so that a depth can be told.
+  bool hasVolume = false;     ///< One of them is thick or encloses a volume, so that depth is defined.
   double distance = 0.0;      ///< Between the surfaces, 0 where they meet or one is within the other.
   double depth = 0.0;
   Point onFirst = Point::Zero();

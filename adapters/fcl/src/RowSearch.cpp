@@ -9,7 +9,7 @@
 namespace allpairs {
 namespace {
 
-/// While one box in so many changes, or less, a step of the world is cheaper than a search of all: measured with 10,000
+/// While at most one box in this many changes, a step of the world is cheaper than a full search: measured with 10,000
 /// boxes that have 1 to 19 pairs each, where they break even at 13 to 3 %.
 constexpr std::size_t kShareOfChanged = 32;
 
@@ -26,8 +26,8 @@ OverlapOptions searchOptions(Executor* executor, bool isOrdered) {
   return options;
 }
 
-/// Rounding to the nearest never changes which of two numbers is the greater, it only makes them equal: what overlaps in
-/// double does so when rounded.
+/// Rounding to the nearest never changes which of two numbers is the greater, it only makes them equal: what overlaps
+/// in double does so when rounded.
 void roundRows(std::span<const double> rows, std::vector<float>& results) {
   static_assert(std::numeric_limits<float>::is_iec559);  // too great a number becomes infinity
   results.resize(rows.size());

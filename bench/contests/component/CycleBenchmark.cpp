@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The seed's cycle, step after step: begin, add all, end, on box models of which some move between the steps. A broad
-// phase that keeps its search beside one that searches all models anew in each step; both lists are compared.
+// phase that keeps its search compared with one that runs a full search in each step; both lists are compared.
 //
 //   cycle_benchmark [--models N...] [--share S...] [--output FILE]
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Embree's rtcCollide on a dynamic scene, committed in each frame: refitted, or built anew at low quality.
+// Embree's rtcCollide on a dynamic scene, committed in each frame: refitted, or rebuilt at low quality.
 #include <embree3/rtcore.h>
 
 #include "MovingSearch.h"

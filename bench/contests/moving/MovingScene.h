@@ -17,7 +17,7 @@ namespace allpairs::bench {
 struct Motion {
   std::string name;
   double movingShare = 1.0;  ///< Of the boxes; the others rest.
-  bool straight = true;      ///< Straight on until they meet a wall; otherwise a new direction in each frame.
+  bool straight = true;      ///< In a straight line until they hit a wall; otherwise a new direction in each frame.
   double length = 0.1;       ///< Of a frame's way, in sides of a box.
 };
 

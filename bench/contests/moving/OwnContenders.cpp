@@ -27,7 +27,7 @@ class WorldSteps final : public MovingSearch {
   StepResult m_result;
 };
 
-/// All boxes searched anew, in memory that is kept.
+/// A full search in each frame, in reused memory.
 class OneShot final : public MovingSearch {
  public:
   explicit OneShot(Order order) {

@@ -28,7 +28,7 @@ constexpr std::size_t kRounds = 7;
 /// Peers compute times and distances in float32; so near must they be to ours, in a room of side 1.
 constexpr double kTolerance = 1e-5;
 
-/// Of float32's rays some graze a box that exact ones miss: one query in so many may differ.
+/// Of float32's rays some graze a box that exact ones miss: one query in this many may differ.
 constexpr std::size_t kOneInSoMany = 1000;
 
 struct Request {

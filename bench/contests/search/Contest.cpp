@@ -11,7 +11,7 @@ namespace allpairs::bench {
 
 namespace {
 
-/// One run; what it built is taken down after the clock has been read.
+/// One run; teardown is not timed.
 measure::Duration timeOnce(const MakeSearch& make, std::span<const float> rows) {
   const measure::Stopwatch watch;
   const std::unique_ptr<Search> search = make();

@@ -29,7 +29,7 @@ struct Outcome {
   std::string mistake;  ///< How its pairs differ from the first contender's; empty if they don't.
 };
 
-/// Measures all contenders on the same boxes, turn by turn, so that whatever else the machine does meets them alike.
+/// Measures all contenders on the same boxes, interleaved, so that other load on the machine affects them equally.
 ///
 /// Each runs once first, untimed as far as the result goes, and its pairs are compared whole with the first one's.
 [[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,

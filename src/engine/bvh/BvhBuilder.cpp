@@ -6,7 +6,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// How many boxes ahead the gather asks for memory.
+/// The prefetch distance of the gather, in boxes.
 constexpr std::size_t kPrefetchDistance = 32;
 
 }  // namespace

@@ -12,19 +12,19 @@
 
 namespace allpairs::engine {
 
-/// Builds the hierarchy over a set of boxes, and keeps its memory: at most 40 bytes a box.
+/// Builds the hierarchy over a set of boxes, and keeps its memory: at most 40 bytes per box.
 ///
 /// Threads: parallel over the executor; the hierarchy does not depend on it.
 class BvhBuilder {
  public:
   explicit BvhBuilder(std::pmr::memory_resource* memory) : m_order(memory), m_levels(memory) {}
 
-  /// Orders, gathers and bounds the boxes; the hierarchy stays until the next call.
+  /// Orders, gathers and bounds the boxes; the hierarchy is valid until the next call.
   void build(const BoxReader& reader, Executor& executor);
 
   [[nodiscard]] BvhLevels& levels() noexcept { return m_levels; }
 
-  /// Boxes from this place on are larger than most.
+  /// Boxes from this position on are larger than most.
   [[nodiscard]] std::size_t firstLarge() const noexcept { return m_order.firstLarge(); }
 
   /// Whether the lanes of all boxes are exactly the boxes.

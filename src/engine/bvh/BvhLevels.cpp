@@ -73,7 +73,7 @@ void BvhLevels::boundAll(const Kernels& kernels, Executor& executor) {
 }
 
 void BvhLevels::boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor) {
-  // A level that has just come bounds nothing yet, not even what hasn't changed.
+  // A new level bounds nothing yet, not even unchanged blocks.
   if (m_boundedDepth != m_depth) {
     boundAll(kernels, executor);
     return;

@@ -14,7 +14,8 @@
 
 namespace allpairs::engine {
 
-/// The memory of a hierarchy: blocks of boxes and, level upon level, their bounds. Boxes may come later and change in place.
+/// The memory of a hierarchy: blocks of boxes and, level by level, their bounds. Boxes may be added and changed in
+/// place.
 class BvhLevels {
  public:
   /// Blocks that one task gathers or bounds: some ten thousand boxes are worth a task.
@@ -23,13 +24,14 @@ class BvhLevels {
   explicit BvhLevels(std::pmr::memory_resource* memory)
       : m_levels(makeArray<Buffer<LaneBlock>, kMaxLevels>(memory)), m_ids(memory) {}
 
-  /// Makes room for so many places and empties all of them: their lanes overlap nothing, their ids are 0.
+  /// Allocates a number of places and empties them: their lanes overlap nothing, their ids are 0.
   void reset(std::size_t capacity);
 
   /// Has the first `places` count, of which none beyond the last ones were used; not more than the capacity.
   void resize(std::size_t places);
 
-  /// Has the first `places` count, which are about to be written, all of them; empties only what is behind the last one.
+  /// Has the first `places` count, which are about to be written, all of them; empties only what is behind the last
+  /// one.
   void resizeUnwritten(std::size_t places);
 
   [[nodiscard]] std::size_t places() const noexcept { return m_places; }
@@ -38,26 +40,26 @@ class BvhLevels {
   [[nodiscard]] std::size_t depth() const noexcept { return m_depth; }
 
   [[nodiscard]] LaneBlock& block(std::size_t b) const noexcept { return m_levels[0][b]; }
-  /// The memory of the blocks of boxes, before they are written or when the hierarchy is not needed any more.
+  /// The memory of the blocks of boxes, before they are written or when the hierarchy is no longer needed.
   template <class T>
   [[nodiscard]] std::span<T> memory() const noexcept {
     return {reinterpret_cast<T*>(m_levels[0].data()), m_levels[0].capacity() * sizeof(LaneBlock) / sizeof(T)};
   }
   [[nodiscard]] std::uint32_t& id(std::size_t place) const noexcept { return m_ids[place]; }
 
-  /// Bounds all blocks anew.
+  /// Updates the bounds of all blocks.
   void boundAll(const Kernels& kernels, Executor& executor);
 
-  /// Bounds some blocks anew, by ascending number, and what is above them. The list is lost.
+  /// Updates the bounds of some blocks, given by ascending number, and of their ancestors. Overwrites the list.
   void boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor);
 
   /// The blocks of levels that are added on top of a hierarchy.
   using Tops = std::array<LaneBlock, kMaxLevels>;
 
-  /// The hierarchy; of depth 0 where it is empty.
+  /// The hierarchy; of depth 0 if it is empty.
   [[nodiscard]] BvhView view() const;
 
-  /// The same with levels of one node added on top of it, in memory of the caller's, until there are `depth`.
+  /// The same, with levels of one node added on top until there are `depth`, in memory of the caller.
   [[nodiscard]] BvhView view(std::size_t depth, Tops& tops) const;
 
  private:
@@ -70,10 +72,10 @@ class BvhLevels {
   std::size_t m_places = 0;
   std::size_t m_capacity = 0;
   std::size_t m_depth = 0;
-  std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were bounded last.
+  std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were last bounded.
 };
 
-/// Two hierarchies as a join wants them: of the same depth.
+/// Two hierarchies of the same depth, as a join requires.
 struct BvhPair {
   BvhPair(const BvhLevels& one, const BvhLevels& other)
       : first(one.view(other.depth(), firstTops)), second(other.view(one.depth(), secondTops)) {}

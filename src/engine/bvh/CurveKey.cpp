@@ -16,7 +16,7 @@ constexpr std::size_t kMostSamples = 256;
 /// A box is large if it is this many times as long as the median one.
 constexpr float kLargeFactor = 6.0F;
 
-/// Sample widths beyond this many times the middle four fifths are taken for outliers.
+/// Values farther out than this many times the width of the middle four fifths are outliers.
 constexpr float kOutlierFactor = 64.0F;
 
 /// Centres and longest sides of some boxes.
@@ -35,12 +35,12 @@ struct Sample {
   }
 };
 
-/// About a sixteenth of the boxes, so that sampling costs nothing to speak of.
+/// About a sixteenth of the boxes, so that the cost of sampling is negligible.
 std::size_t sampleSize(std::size_t boxes) {
   return std::min(boxes, std::clamp<std::size_t>(boxes / 16, 32, kMostSamples));
 }
 
-/// As many cells as boxes, and then four times as many along each axis, for sets that are crowded in places.
+/// As many cells as boxes, and then four times as many along each axis, for sets with dense regions.
 unsigned bitsFor(std::size_t boxes) {
   return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 1, CurveGrid::kMaxBitsPerAxis);
 }
@@ -51,7 +51,7 @@ float nth(std::span<float> values, std::size_t n) {
   return *place;
 }
 
-/// Where most of the values begin, and how wide they are spread: all of them, unless a few are very far away.
+/// The beginning and the width of the range of most values: of all, unless a few are outliers.
 std::pair<float, float> rangeOf(std::span<float> values) {
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const std::pair all{*least, std::min(*greatest - *least, kLaneMax)};
@@ -62,7 +62,7 @@ std::pair<float, float> rangeOf(std::span<float> values) {
   return all;
 }
 
-/// The grid for so many boxes of which these are some.
+/// The grid for a set of boxes of which these are a sample.
 CurveGrid fitTo(Sample& sample, std::size_t boxes) {
   CurveGrid grid;
   if (sample.size == 0) return grid;

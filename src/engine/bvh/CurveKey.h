@@ -9,7 +9,8 @@
 
 namespace allpairs::engine {
 
-/// A box in the order: its key in the upper half, its index in the lower, so that numbers compare as boxes do.
+/// A box in the order: its key in the upper half, its index in the lower, so that comparing the numbers compares the
+/// boxes.
 using CurveKey = std::uint64_t;
 
 /// Keys are above the index.

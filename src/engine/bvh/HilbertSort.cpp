@@ -14,13 +14,14 @@ namespace {
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kBoxesPerChunk = std::size_t{1} << 13;
 
-/// Boxes whose keys are computed together: steps of one wait for each other, of several blocks they do not.
+/// Blocks whose keys are computed together: the steps for one block depend on each other, those for several do not.
 constexpr std::size_t kBoxesAtOnce = 4 * kFanOut;
 
-/// Boxes of one key that are worth an order of their own: blocks of them would be as wide as their cell.
+/// The number of boxes with equal keys from which on they are ordered again: blocks of them would be as wide as the
+/// cell.
 constexpr std::size_t kDenseCell = 64;
 
-/// A grid within a cell within a cell: cells get narrower by some hundred times each time.
+/// The maximum nesting of grids: each makes cells some hundred times narrower.
 constexpr unsigned kMostGrids = 4;
 
 std::uint64_t keyOf(CurveKey box) { return box >> kIndexBits; }
@@ -101,7 +102,7 @@ void sortDenseCells(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader&
                [&](std::size_t i) { sortDenseCell(cells[i], spare + (cells[i].data() - boxes.data()), reader, 1); });
 }
 
-/// Writes the keys; returns how many there are.
+/// Writes the keys; returns their number.
 std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, Executor& executor) {
   const CurveGrid grid = fitCurveGrid(reader);
   m_classShift = kIndexBits + grid.classShift();

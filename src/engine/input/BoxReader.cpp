@@ -12,8 +12,8 @@ namespace {
 /// Kernels take offsets of 32 bits, six values a box.
 constexpr std::size_t kMostOffsets = std::numeric_limits<std::int32_t>::max() / 6;
 
-/// Reads a box of float32 without margins: the lanes are the box, but that infinity becomes the largest number. Returns, as
-/// the others do, whether the lanes are exactly the box.
+/// Reads a box of float32 without margins: the lanes are the box, except that infinity becomes the largest finite
+/// number. Returns, like the others, whether the lanes are exactly the box.
 bool readPlain(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
   const auto& [min, max] = boxes.float32();
   bool exact = true;
@@ -53,7 +53,8 @@ bool readWidened(const BoxView& boxes, double distance, std::size_t i, LaneBox& 
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float low = roundDown(box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude));
     const float high = roundUp(box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude));
-    // A negative margin may turn a box over, and it can still meet a larger one. Turned back it is no smaller.
+    // A negative margin may invert a box, which can still overlap a larger one. Swapping its bounds makes it no
+    // smaller.
     lanes.bound[axis] = std::min(low, high);
     lanes.bound[axis + 3] = std::max(low, high);
   }

@@ -24,7 +24,7 @@ struct BoxList {
     return ids != nullptr ? ids[i] : static_cast<std::uint32_t>(begin + i);
   }
 
-  /// From place `first` on, as many as asked for if there are.
+  /// From position `first` on, at most as many as requested.
   [[nodiscard]] BoxList part(std::size_t first, std::size_t most) const noexcept {
     return {ids != nullptr ? ids + first : nullptr, begin + first, std::min(most, size - first)};
   }
@@ -33,7 +33,7 @@ struct BoxList {
 /// Reads the boxes of a set as float32 lanes that are never smaller than the boxes, with half the distance of the
 /// search and the box's own margin added on each side.
 ///
-/// Boxes that can overlap nothing, because they are empty or outside of the region, are told apart.
+/// Reports boxes that can overlap nothing, because they are empty or outside the region.
 class BoxReader {
  public:
   BoxReader(const BoxView& boxes, const OverlapOptions& options, const Kernels& kernels);
@@ -44,7 +44,7 @@ class BoxReader {
   /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.
   BlockRead read(const BoxList& boxes, LaneBlock& block) const;
 
-  /// Asks for the memory of box i ahead of its use.
+  /// Prefetches the memory of box i.
   void prefetch(std::size_t i) const noexcept;
 
  private:

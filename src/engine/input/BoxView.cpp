@@ -29,7 +29,7 @@ std::size_t rowCount(std::span<const T> values, std::size_t width) {
   return values.size() / width;
 }
 
-/// True where a corner coordinate of box i is a NaN.
+/// Whether a corner coordinate of box i is a NaN.
 template <class T>
 bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
   const T* row = corner.data + i * corner.boxStride;
@@ -50,7 +50,7 @@ bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
   throw InvalidBox(index, "box " + std::to_string(index) + " has a NaN");
 }
 
-/// Whether any of the values is a NaN; a loop that compilers turn into vectors.
+/// Whether any of the values is a NaN; a loop that compilers vectorise.
 template <class T>
 bool anyNan(const T* values, std::size_t count) {
   std::size_t nans = 0;

@@ -14,10 +14,10 @@ struct Sets {
   bool one = true;
 };
 
-/// Throws InvalidArgument, with a message that names the setting, where options make no sense for these sets.
+/// Throws InvalidArgument, with a message that names the setting, if options are invalid for these sets.
 void checkOptions(const Sets& sets, const OverlapOptions& options);
 
-/// The kernels that the options ask for; throws InvalidArgument for an instruction set that is not there.
+/// The kernels that the options select; throws InvalidArgument for an unavailable instruction set.
 [[nodiscard]] const Kernels& chooseKernels(const OverlapOptions& options);
 
 }  // namespace allpairs::engine

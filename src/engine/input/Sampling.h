@@ -9,9 +9,9 @@
 
 namespace allpairs::engine {
 
-/// One index out of each of `count` equal parts of [0, size), at a place that looks random and is always the same.
+/// One index from each of `count` equal parts of [0, size), at a pseudo-random but fixed position.
 ///
-/// Not at equal distances: input often has a period, and a sample with the same period sees one kind of box only.
+/// Not equidistant: input is often periodic, and a sample with the same period would see only one kind of box.
 [[nodiscard]] inline std::size_t sampleIndex(std::size_t part, std::size_t count, std::size_t size) noexcept {
   const std::size_t begin = size / count * part + std::min(part, size % count);
   const std::size_t length = size / count + (part < size % count ? 1 : 0);
@@ -22,8 +22,8 @@ namespace allpairs::engine {
   return begin + (bits ^ (bits >> 31U)) % std::max<std::size_t>(length, 1);
 }
 
-/// Calls take(lanes) for about `count` boxes that may overlap something: for each sampled one that may not, for the next
-/// one that may, if there is one within a hundred.
+/// Calls take(lanes) for about `count` boxes that may overlap something: instead of a sampled box that cannot, it takes
+/// the next one that may, if there is one within a hundred.
 template <class Take>
 void sampleBoxes(const BoxReader& reader, std::size_t count, Take&& take) {
   constexpr std::size_t kLongestSearch = 100;

@@ -10,22 +10,22 @@
 
 namespace allpairs::engine {
 
-/// The grid that gives a box its place along the curve: cubic cells, since cells stretched to the extent of each axis
-/// would make blocks of a flat scene wide and flat too.
+/// The grid that determines a box's position along the curve: cubic cells, since cells stretched to the extent of each
+/// axis would make blocks of a flat scene wide and flat too.
 ///
-/// The key is a class, for boxes much larger than most, above the place along Hilbert's curve of the cell of the box's
-/// centre. Large boxes so come to lie with their like and do not blow up the bounds of blocks of small ones.
+/// The key is a class, for boxes much larger than most, above the position along Hilbert's curve of the cell of the
+/// box's centre. Large boxes are thus grouped together and do not enlarge the bounds of blocks of small ones.
 struct CurveGrid {
   static constexpr unsigned kMaxBitsPerAxis = 9;
 
-  unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells for each box: more would only make keys longer to sort.
-  /// The axes in the order in which the curve takes them: the one that the boxes are least spread along first, since the
-  /// curve crosses its middle only once; flat scenes lie on one side of it.
+  unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells per box: more would only make the sort of the keys longer.
+  /// The axes in the curve's order: the one with the smallest extent first, since the curve crosses its middle only
+  /// once; flat scenes lie on one side of it.
   std::array<std::uint32_t, 3> axes{0, 1, 2};
 
   std::array<float, 3> origin{};
   float scale = 0.0F;        ///< Cells per unit of length.
-  float largeExtent = 0.0F;  ///< Boxes longer than this are of a class of their own.
+  float largeExtent = 0.0F;  ///< Boxes longer than this belong to a class of their own.
 
   /// Where the class begins in a key, and how many of a key's low bits can differ.
   [[nodiscard]] unsigned classShift() const noexcept { return 3 * bitsPerAxis; }

@@ -49,7 +49,7 @@ HWY_INLINE void turnAxis(hn::Vec<IdTag>& first, hn::Vec<IdTag>& axis, hn::Vec<Id
   axis = hn::Xor(axis, swapped);
 }
 
-/// The way of some cells to their places along Hilbert's curve.
+/// Converts cells to positions along Hilbert's curve.
 ///
 /// Reference: J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004.
 struct Turn {
@@ -67,7 +67,7 @@ struct Turn {
     turnAxis(x, z, bit, below);
   }
 
-  /// To be called after all steps: the key.
+  /// The key; call it after all steps.
   [[nodiscard]] HWY_INLINE hn::Vec<IdTag> key() const {
     const auto gray = hn::Xor(y, x);
     const auto last = hn::Xor(z, gray);
@@ -87,7 +87,7 @@ HWY_INLINE FloatVector extents(const LaneBlock& block, std::size_t lane, std::si
   return hn::Sub(hn::Load(d, &block.bound[axis + 3][lane]), hn::Load(d, &block.bound[axis][lane]));
 }
 
-/// The keys of kBlocks blocks at once: each step waits for the one before, of one block's boxes, and not of another's.
+/// The keys of kBlocks blocks at once: a step depends on the previous one of the same block, not on other blocks.
 template <std::size_t kBlocks>
 HWY_INLINE void writeKeys(const LaneBlock* blocks, std::size_t lane, const CurveGrid& grid, std::uint32_t* keys) {
   static_assert(kBlocks == 1 || kBlocks == 2);

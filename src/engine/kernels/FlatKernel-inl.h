@@ -22,7 +22,7 @@ namespace {  // Each file that compiles the kernels has its own.
 /// Up to this many columns a branch around vectors without hits costs more than it saves.
 constexpr std::size_t kDenseColumns = 512;
 
-/// A row is dense if one of so many columns is a hit.
+/// A row is dense if at least one in this many columns is a hit.
 constexpr std::size_t kDenseRow = 3;
 
 /// The columns that a row is tested against.
@@ -55,10 +55,10 @@ HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t
   }
 }
 
-/// So many rows are counted at once: they share what is loaded of the columns.
+/// The number of rows that are counted at once: they share the loads of the columns.
 constexpr std::size_t kRowsAtOnce = 4;
 
-/// Those rows against the vectors of a tile that lie in [begin, end) as wholes; returns how many hits there are.
+/// Those rows against the whole vectors of a tile within [begin, end); returns the number of hits.
 template <class Tile>
 HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, const Tile& columns, std::size_t begin,
                                     std::size_t end) {
@@ -100,7 +100,7 @@ void countColumns(const FlatSearch& search, std::size_t row, Range columns, Hits
   }
 }
 
-/// Counts several rows at a time, for as many as are left, and returns the first of those that remain.
+/// Counts several rows at a time while enough are left, and returns the first remaining one.
 std::size_t countRows(const FlatSearch& search, Hits& hits) {
   std::size_t row = search.rowBegin;
   for (; row + kRowsAtOnce <= search.rowEnd; row += kRowsAtOnce) {
@@ -118,14 +118,14 @@ std::size_t countRows(const FlatSearch& search, Hits& hits) {
   return row;
 }
 
-/// So many pairs are more than the caches near a core hold.
+/// From this many pairs on, a result exceeds the caches near a core.
 constexpr std::size_t kCachedPairs = std::size_t{1} << 18;
 
-/// Where pairs are gathered to whole cache lines, which then go past the caches to where they stay: a line that is written
-/// in a cache is read into it first. Across rows, since a row ends anywhere within a line.
+/// Gathers pairs into whole cache lines and writes them with streaming stores, which bypass the caches: a normal store
+/// first reads the line. Lines continue across rows, since a row ends anywhere within a line.
 class PairStream {
  public:
-  /// Pairs follow on `to`, before which there are so many already.
+  /// Writes to `to`, which `before` pairs precede.
   HWY_INLINE void begin(Pair* to, std::size_t before) {
     if (!m_started && before >= kCachedPairs) {
       m_started = true;
@@ -135,7 +135,7 @@ class PairStream {
     m_line = reinterpret_cast<std::uint32_t*>(to - m_size);
   }
 
-  /// Where the next vector of pairs goes.
+  /// The destination of the next vector of pairs.
   [[nodiscard]] HWY_INLINE std::uint32_t* next() { return (m_started ? m_pairs.data() : m_line) + 2 * m_size; }
 
   HWY_INLINE void add(std::size_t count) {
@@ -143,7 +143,7 @@ class PairStream {
     if (m_started && m_size >= kBatch) flush();
   }
 
-  /// Everything is where it belongs.
+  /// Flushes the rest.
   HWY_INLINE void finish() {
     if (!m_started) return;
     flush();
@@ -170,7 +170,7 @@ class PairStream {
   bool m_started = false;
 };
 
-/// Takes the hits of one row as pairs, to where they stay.
+/// Writes the hits of one row as pairs to their final place.
 struct PairWriter {
   PairStream& stream;
   hn::Vec<IdTag> rowIds;
@@ -191,7 +191,7 @@ struct PairWriter {
   }
 };
 
-/// One row whose pairs are expected to be many; returns how many there are.
+/// One row that is expected to have many pairs; returns their number.
 HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range columns, PairStream& stream,
                                 Hits& hits) {
   constexpr std::size_t kTile = LaneTile::kCapacity;
@@ -209,7 +209,7 @@ HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range
   return writer.size;
 }
 
-/// Rows of which most columns are hits: their pairs are written at once. Returns where rows are no longer like that.
+/// Rows of which most columns are hits: writes their pairs directly. Returns the first row that is not dense.
 std::size_t writeRows(const FlatSearch& search, std::size_t row, Hits& hits) {
   PairStream stream;
   for (bool dense = true; dense && row < search.rowEnd; ++row) {

@@ -8,22 +8,22 @@
 
 namespace allpairs::engine {
 
-/// Where the two ids of a hit go in a pair.
+/// The order of the two ids of a hit in a pair.
 enum class PairSide : std::uint8_t {
   RowFirst,      ///< (row, partner): two sets, or rows in ascending order against what follows.
   RowSecond,     ///< (partner, row): rows in ascending order against what precedes.
   SmallerFirst,  ///< (min, max): one set in the order of the hierarchy.
 };
 
-/// Where pairs may be written: behind so many before them, of which the first begins a cache line.
+/// A destination for pairs: `before` pairs precede it, of which the first begins a cache line.
 struct RoomForPairs {
   Pair* pairs;
   std::size_t before;
 };
 
-/// Hits of the lane test, two ids each, gathered until there are enough to be worth turning into pairs.
+/// Hits of the lane test, two ids each, buffered until there are enough to convert to pairs.
 ///
-/// Kernels write whole vectors, up to kSlack values past the end, and flush when another stretch might not fit.
+/// Kernels write whole vectors, up to kSlack values past the end, and flush when the next hits might not fit.
 struct Hits {
   static constexpr std::size_t kSlack = 64;
 
@@ -39,12 +39,12 @@ struct Hits {
   std::uint64_t boxTests = 0;
   std::uint64_t groupTests = 0;
 
-  /// Takes what is stored; must leave size at 0.
+  /// Consumes the stored hits; must set size to 0.
   void (*flush)(void* receiver, Hits& hits) = nullptr;
   void* receiver = nullptr;
 
-  /// If set, returns where that many pairs may be written at once, which is cheaper where there are many; what is stored
-  /// is taken first. takePairs() says how many there were. Pairs are of the sides that `rowSecond` says.
+  /// If set, returns where that many pairs may be written at once, which is cheaper where there are many; what is
+  /// stored is taken first. takePairs() says how many there were. Pairs are of the sides that `rowSecond` says.
   RoomForPairs (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
   void (*takePairs)(void* receiver, std::size_t count) = nullptr;
   bool rowSecond = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The join of two hierarchies: each node of the first meets the list of nodes of the second that touch it.
+// The join of two hierarchies: each node of the first is tested against the list of nodes of the second that overlap
+// it.
 
 #if defined(ALLPAIRS_JOIN_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_JOIN_KERNEL_INL_H
@@ -70,10 +71,9 @@ HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hit
   emitter.finish(hits);
 }
 
-/// The boxes of a leaf, which stay in registers, against the boxes at some places of another hierarchy, one by one.
+/// The boxes of a leaf, which stay in registers, against the boxes at some positions of another hierarchy, one by one.
 ///
-/// The other way round, rows of the leaf against a list of candidates, the candidates' bounds would have to be gathered
-/// first.
+/// Testing rows of the leaf against a list of candidates would require gathering the candidates' bounds first.
 template <class Emitter>
 HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std::span<const std::uint32_t> places,
                           Hits& hits) {
@@ -98,7 +98,7 @@ HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std:
 /// A tile of candidates is full when another block might not fit.
 constexpr std::size_t kFullTile = CandidateTile::kCapacity - kFanOut;
 
-/// How many blocks ahead the members of a partner are asked for.
+/// The prefetch distance for the members of a partner, in blocks.
 constexpr std::size_t kPrefetchDistance = 4;
 
 HWY_INLINE void prefetchBlock(const LaneBlock& block) {
@@ -122,7 +122,7 @@ struct TileFiller {
     size += hn::CountTrue(d, mask);
   }
 
-  /// Appends the members of block b of a level that touch the query.
+  /// Appends the members of block b of a level that overlap the query.
   HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     const LaneBlock& block = level.blocks[b];
@@ -131,7 +131,7 @@ struct TileFiller {
     }
   }
 
-  /// Appends all members of block b, so that member i of a node that meets itself is candidate i of its own list.
+  /// Appends all members of block b, so that in a self-join member i of a node is candidate i of its own list.
   HWY_INLINE void appendAll(const Level& level, std::size_t b) {
     const FloatTag d;
     const std::size_t lanes = hn::Lanes(d);
@@ -172,7 +172,7 @@ class JoinRun {
     for (std::size_t child = begin; child < end; ++child) meetChild(level, node, child);
   }
 
-  /// The children, on `level`, of the partners of a node, as far as they touch the node, in tiles.
+  /// The children, on `level`, of the partners of a node that overlap the node, in tiles.
   void gather(std::size_t level, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
     const Level& source = m_task.second->level[level];
     JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
@@ -187,7 +187,7 @@ class JoinRun {
     m_hits.groupTests += count * kFanOut;
   }
 
-  /// Finds the partners of one child among the candidates of its node, and goes on with it.
+  /// Finds the partners of one child among the candidates of its node, and descends into the child.
   // NOLINTNEXTLINE(misc-no-recursion)
   void meetChild(std::size_t level, std::size_t node, std::size_t child) {
     JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
@@ -222,7 +222,8 @@ class JoinRun {
     m_hits.boxTests += (size + (m_task.withItself ? kFanOut / 2 : 0)) * leaf.fill;
   }
 
-  /// Lists the places of the boxes, in blocks of the second hierarchy, that touch the bounds; returns how many.
+  /// Lists the positions of the boxes, in blocks of the second hierarchy, that overlap the bounds; returns their
+  /// number.
   std::size_t listTouching(const LaneBox& bounds, std::span<const std::uint32_t> blocks, std::uint32_t* places) {
     const IdTag d;
     const std::size_t lanes = hn::Lanes(d);

@@ -2,8 +2,8 @@
 // Compiles the kernels once for each instruction set that the compiler knows, and finds them by name.
 #include "kernels/Kernels.h"
 
-// Vectors whose length the compiler doesn't know cannot be members of a struct, which the kernels rely on; on processors
-// with SVE the kernels for NEON run.
+// Vectors whose length the compiler doesn't know cannot be members of a struct, which the kernels rely on; on
+// processors with SVE the kernels for NEON run.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 #undef HWY_TARGET_INCLUDE
@@ -28,14 +28,15 @@ struct Target {
   TableFunction table;
 };
 
-/// Best first; null where this build has none.
+/// Best first; null if this build has none.
 constexpr Target kTargets[] = {
     {HWY_AVX3_DL, HWY_CHOOSE_AVX3_DL(kernelTable)}, {HWY_AVX3, HWY_CHOOSE_AVX3(kernelTable)},
     {HWY_AVX2, HWY_CHOOSE_AVX2(kernelTable)},       {HWY_SSE4, HWY_CHOOSE_SSE4(kernelTable)},
     {HWY_SSSE3, HWY_CHOOSE_SSSE3(kernelTable)},     {HWY_NEON, HWY_CHOOSE_NEON(kernelTable)},
 };
 
-/// What this processor has of them, and the scalar ones. Nothing to destroy: searches may come after all that is static.
+/// Those that this processor supports, and the scalar ones. Trivially destructible: searches may run after static
+/// destructors.
 struct KernelList {
   static constexpr std::size_t kMost = std::size(kTargets) + 2;
 

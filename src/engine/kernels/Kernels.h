@@ -34,7 +34,7 @@ struct FlatSearch {
   Columns tested = Columns::All;
 };
 
-/// Working memory of a join, one per task that runs: at each level the candidates of the node in hand.
+/// Working memory of a join, one per running task: at each level the candidates of the current node.
 struct JoinScratch {
   explicit JoinScratch(std::pmr::memory_resource* memory) : level(makeArray<PerLevel, kMaxLevels>(memory)) {}
 
@@ -46,7 +46,7 @@ struct JoinScratch {
     std::size_t tileCount = 0;
     Buffer<std::uint32_t> partners;
 
-    /// Room for the partners of a node; more than is asked for, so that scenes that move do not ask again and again.
+    /// Memory for the partners of a node; over-allocates, so that moving scenes do not reallocate repeatedly.
     std::uint32_t* roomFor(std::size_t size) {
       constexpr std::size_t kLeastRoom = 4096;  // Few nodes have more.
       if (size > partners.capacity()) partners.require(std::max(kLeastRoom, 2 * size));
@@ -65,8 +65,8 @@ struct JoinScratch {
 
 /// The part of a join that starts from some leaf blocks of `first`.
 ///
-/// Each node of `first` is met, from the top down and from left to right, with the list of the nodes of `second` on its
-/// level that touch it; in a join with itself, those from its own place on.
+/// Each node of `first` is tested, from the top down and from left to right, against the list of the nodes of `second`
+/// on its level that overlap it; in a self-join, those from the node itself on.
 struct JoinTask {
   const BvhView* first = nullptr;
   const BvhView* second = nullptr;
@@ -76,13 +76,13 @@ struct JoinTask {
   JoinScratch* scratch = nullptr;
 };
 
-/// What is known of sixteen boxes after they were read from rows of six.
+/// Properties of sixteen boxes that were read from rows of six.
 struct BlockRead {
   bool exact = true;             ///< Their lanes are exactly the boxes.
   std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
 };
 
-/// What is compiled once for each instruction set. The results do not depend on which one runs.
+/// The functions compiled once per instruction set. The results do not depend on which one runs.
 struct Kernels {
   std::string_view name;
 
@@ -104,12 +104,12 @@ struct Kernels {
   /// Reads sixteen boxes from rows that follow each other.
   BlockRead (*readRun32)(const float* rows, LaneBlock& block);
 
-  /// Reads sixteen boxes, those that start `offsets` values after `rows`, as lanes that are no smaller.
+  /// Reads sixteen boxes, which start `offsets` values after `rows`, as lanes that contain them.
   BlockRead (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);
   BlockRead (*readFloat64)(const double* rows, const std::int32_t* offsets, LaneBlock& block);
 
-  /// Which of sixteen boxes a query may meet, as bits: all that it does, and few others. Where a number is asked for, it
-  /// is no more than what the query comes to, for each of them: the time of meeting, the square of the distance.
+  /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
+  /// bound for each of them: of the time of the hit, or of the squared distance.
   std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
   std::uint32_t (*nearLanes)(const LaneBlock& block, const PointLanes& point, float limit, float* squares);

@@ -38,7 +38,7 @@ HWY_INLINE Query broadcast(const LaneBox& box) {
           hn::Set(d, box.bound[3]), hn::Set(d, box.bound[4]), hn::Set(d, box.bound[5])};
 }
 
-/// The lanes that meet the query on an axis. Both sides are boxes that are not empty, or lanes that never overlap.
+/// The lanes that overlap the query on an axis. Both sides are boxes that are not empty, or lanes that never overlap.
 ///
 /// Minima and maxima run on more ports of a processor than comparisons into a mask, so a mix of both is fastest: a
 /// conjunction of two comparisons under a mask on the first axis, max(min, min) <= min(max, max) on the others.
@@ -50,11 +50,11 @@ HWY_INLINE FloatMask meets(FloatVector queryMin, FloatVector queryMax, FloatVect
 #endif
 }
 
-/// The lanes that meet on this axis too.
+/// The lanes that overlap on this axis too.
 HWY_INLINE FloatMask meetsAlso(FloatMask also, FloatVector queryMin, FloatVector queryMax, FloatVector min,
                                FloatVector max) {
 #if HWY_TARGET <= HWY_AVX3
-  // A comparison under a mask: the conjunction costs nothing.
+  // A masked comparison: the conjunction is free.
   return FloatMask{
       _mm512_mask_cmp_ps_mask(also.raw, hn::Max(queryMin, min).raw, hn::Min(queryMax, max).raw, _CMP_LE_OQ)};
 #else
@@ -74,7 +74,8 @@ HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t 
 alignas(64) inline constexpr std::array<std::uint32_t, kFanOut> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
                                                                              8, 9, 10, 11, 12, 13, 14, 15};
 
-/// first, first + 1, and so on. Not hn::Iota, which GCC turns into a store of each number and a load that waits for all.
+/// first, first + 1, and so on. Not hn::Iota, which GCC turns into a store of each number and a load that waits for
+/// all.
 HWY_INLINE hn::Vec<IdTag> numbersFrom(std::size_t first) {
   const IdTag d;
   return hn::Add(hn::Load(d, kLaneNumbers.data()), hn::Set(d, static_cast<std::uint32_t>(first)));

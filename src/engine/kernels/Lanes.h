@@ -11,10 +11,10 @@
 
 namespace allpairs::engine {
 
-/// Boxes, or bounds, that lie together: the fan-out of the hierarchy, the same for every instruction set.
+/// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set.
 inline constexpr std::size_t kFanOut = 16;
 
-/// The largest finite float32. Lanes never reach beyond it, so that a lane of +infinity below and -infinity above
+/// The largest finite float32. Lanes never exceed it, so that a lane of +infinity below and -infinity above
 /// overlaps nothing at all, an infinite box included.
 inline constexpr float kLaneMax = std::numeric_limits<float>::max();
 inline constexpr float kNever = std::numeric_limits<float>::infinity();
@@ -66,10 +66,10 @@ struct alignas(64) LaneBlock {
   }
 };
 
-/// Up to so many boxes with their ids, an array for each bound: what stays in the first-level cache while it is tested.
+/// Up to a fixed number of boxes with their ids, one array per bound, small enough to stay in the first-level cache.
 ///
 /// The distance between the arrays is a constant, so that kernels reach them all from one register.
-/// There is room behind the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
+/// There is room after the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
 template <std::size_t kBoxes>
 struct alignas(64) LaneTileOf {
   static constexpr std::size_t kCapacity = kBoxes;
@@ -102,14 +102,14 @@ struct LaneList {
   [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return tileOf(i).get(i % LaneTile::kCapacity); }
   [[nodiscard]] std::uint32_t id(std::size_t i) const noexcept { return tileOf(i).id[i % LaneTile::kCapacity]; }
 
-  /// How many tiles `size` boxes take.
+  /// The number of tiles for `size` boxes.
   [[nodiscard]] static std::size_t tilesFor(std::size_t size) noexcept {
     return (size + LaneTile::kCapacity - 1) / LaneTile::kCapacity;
   }
 };
 
-/// What is added to, or taken from, a result in float32 so that it bounds the same in double: far more than the four
-/// roundings of it can come to, and than what may get lost below the least normal number.
+/// Added to, or subtracted from, a result in float32 so that it bounds the result in double: much more than its four
+/// roundings can amount to, and than underflow can lose.
 inline constexpr float kQuerySlack = 0x1p-20F;
 inline constexpr float kQueryTiny = 1e-36F;
 
@@ -119,7 +119,7 @@ struct SweepLanes {
     Rests,      ///< The boxes must overlap on this axis.
     Forward,    ///< The query moves to greater values,
     Backward,   ///< or to smaller ones.
-    Unbounded,  ///< So fast or slow that float32 can't say: whatever is met on the other axes may be met.
+    Unbounded,  ///< So fast or slow that float32 cannot decide: every box that is hit on the other axes may be hit.
   };
 
   std::array<float, 3> min;

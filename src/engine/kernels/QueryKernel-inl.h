@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One query against the sixteen boxes of a block: which of them it may meet, and how soon at the earliest.
+// One query against the sixteen boxes of a block: which of them it may hit, and the earliest time.
 
 #if defined(ALLPAIRS_QUERY_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_QUERY_KERNEL_INL_H
@@ -28,7 +28,7 @@ HWY_INLINE std::uint32_t bitsOfBlock(const MaskOf& maskOf) {
   return bits;
 }
 
-/// Which lanes touch a box.
+/// Which lanes overlap a box.
 std::uint32_t touchingLanes(const LaneBlock& block, const LaneBox& box) {
   const Query query = broadcast(box);
   return bitsOfBlock([&](std::size_t i) HWY_ATTR { return overlapping(query, block.bound, i); });
@@ -49,13 +49,13 @@ HWY_INLINE AxisBounds boundsOn(const LaneBlock& block, std::size_t axis, std::si
           hn::IfThenElse(hn::Ge(max, most), hn::Set(d, kNever), max)};
 }
 
-/// From when on, and until when, a query can be within boxes.
+/// The interval of times at which a query can be within boxes.
 struct SlabInterval {
   FloatVector enter, leave;
   FloatMask possible;
 };
 
-/// The stay on one axis. Whatever overflows is kept to the side on which nothing is lost, and so is a NaN.
+/// The interval on one axis. Overflow and NaN are resolved conservatively, so that no hit is lost.
 HWY_INLINE void clipToSlab(const SweepLanes& sweep, std::size_t axis, AxisBounds box, SlabInterval& stay) {
   const FloatTag d;
   const auto queryMin = hn::Set(d, sweep.min[axis]);
@@ -94,7 +94,7 @@ HWY_INLINE SlabInterval slabIntervalIn(const LaneBlock& block, const SweepLanes&
   return stay;
 }
 
-/// Which lanes a moving box may meet up to `limit`, and when, or later.
+/// Which lanes a swept box may hit up to `limit`, and a lower bound of the time.
 std::uint32_t meetingLanes(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times) {
   return bitsOfBlock([&](std::size_t i) HWY_ATTR {
     const FloatTag d;
@@ -104,7 +104,7 @@ std::uint32_t meetingLanes(const LaneBlock& block, const SweepLanes& sweep, floa
   });
 }
 
-/// Which lanes may be as near to a point as the square root of `limit`, and the squares of their distances, or less.
+/// Which lanes may be as near to a point as the square root of `limit`, and lower bounds of their squared distances.
 std::uint32_t nearLanes(const LaneBlock& block, const PointLanes& point, float limit, float* squares) {
   return bitsOfBlock([&](std::size_t i) HWY_ATTR {
     const FloatTag d;

@@ -88,7 +88,7 @@ HWY_INLINE bool readRows(const float* rows, LaneBlock& block, std::size_t at) {
 
 #if HWY_TARGET == HWY_SCALAR
 
-/// One box from wherever its row is.
+/// One box from its row, anywhere in memory.
 HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, LaneBlock& block, std::size_t at) {
   return readRows(rows + offsets[0], block, at);
 }
@@ -115,7 +115,7 @@ HWY_INLINE void zip(FloatVector first, FloatVector second, FloatVector& lower, F
   upper = hn::BitCast(d, hn::InterleaveUpper(pairs, hn::BitCast(pairs, first), hn::BitCast(pairs, second)));
 }
 
-/// As many boxes as a vector has lanes, from wherever their rows are; returns whether they are finite.
+/// As many boxes as a vector has lanes, from rows anywhere in memory; returns whether they are finite.
 ///
 /// Rows are loaded and transposed, which takes half the time of gathering each bound.
 HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, LaneBlock& block, std::size_t at) {
@@ -176,7 +176,7 @@ BlockRead readFloat32(const float* rows, const std::int32_t* offsets, LaneBlock&
   return {exact, emptyLanes(block)};
 }
 
-/// Whether a box is empty is asked in double: rounded outward, it may not be.
+/// Emptiness is tested in double: rounded outward, an empty box may no longer be empty.
 BlockRead readFloat64(const double* rows, const std::int32_t* offsets, LaneBlock& block) {
   const DoubleTag d;
   const HalfFloatTag df;

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Emits hits as two ids each: one that the hits of a vector share, and their own; writes whole vectors.
+/// Emits hits as two ids each: one that all hits of a vector share, and the partner's; writes whole vectors.
 struct HitWriter {
   std::uint32_t* HWY_RESTRICT shared;
   std::uint32_t* HWY_RESTRICT own;

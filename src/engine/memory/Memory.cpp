@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// What operator new aligns by itself, and faster.
+/// The alignment that plain operator new guarantees, which is faster.
 constexpr std::size_t kAligned = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 
-/// Asks for large pages where whole ones lie within the block. Advice only: where it is not taken, the memory is as good,
-/// only slower to touch for the first time. Blocks that begin at a large page cost more than they gain (docs/decisions/0015).
+/// Requests large pages for each aligned range within the block. If the system ignores the request, only first touches
+/// are slower. Aligning blocks to large pages costs more than it gains (docs/decisions/0015).
 void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
@@ -34,7 +34,7 @@ class LargePageMemory final : public std::pmr::memory_resource {
     return memory;
   }
 
-  // Without the size: Clang 16 has no sized deallocation unless asked for it.
+  // Without the size: Clang 16 has no sized deallocation by default.
   void do_deallocate(void* memory, std::size_t /*bytes*/, std::size_t alignment) override {
     if (alignment <= kAligned) {
       ::operator delete(memory);
@@ -46,7 +46,7 @@ class LargePageMemory final : public std::pmr::memory_resource {
   [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 };
 
-/// Has no state and is never destroyed: objects may outlive all others of the process.
+/// Has no state and is never destroyed: objects that use it may outlive all other static objects.
 union DefaultMemory {
   LargePageMemory memory;
   constexpr DefaultMemory() : memory() {}

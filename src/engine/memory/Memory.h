@@ -13,16 +13,16 @@
 
 namespace allpairs::engine {
 
-/// Where memory comes from if nobody says otherwise: aligned operator new. Linux is asked for large pages (2 MiB) where whole
-/// ones lie within a block: most of the time of a first touch is spent on page faults.
+/// The default memory resource: aligned operator new. On Linux it requests large pages (2 MiB) for each aligned range
+/// within a block, because page faults dominate the cost of first touches.
 [[nodiscard]] std::pmr::memory_resource* defaultMemory() noexcept;
 
-/// The memory that options name, or the default.
+/// The memory resource of the options, or the default.
 [[nodiscard]] inline std::pmr::memory_resource* memoryOr(std::pmr::memory_resource* memory) noexcept {
   return memory != nullptr ? memory : defaultMemory();
 }
 
-/// Destroys an object and gives its memory back to where it came from.
+/// Destroys an object and returns its memory to its resource.
 struct Deleter {
   std::pmr::memory_resource* memory = nullptr;
 
@@ -35,13 +35,13 @@ struct Deleter {
 template <class T>
 using Owned = std::unique_ptr<T, Deleter>;
 
-/// An object in memory of a resource, which takes all of its own memory from there too.
+/// An object in memory of a resource, from which the object also allocates.
 template <class T>
 [[nodiscard]] Owned<T> makeOwned(std::pmr::memory_resource* memory) {
   return {std::pmr::polymorphic_allocator<>(memory).template new_object<T>(memory), Deleter{memory}};
 }
 
-/// An array of objects that take their memory from a resource.
+/// An array of objects that allocate from a resource.
 template <class T, std::size_t kSize>
 [[nodiscard]] std::array<T, kSize> makeArray(std::pmr::memory_resource* memory) {
   return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
@@ -72,7 +72,7 @@ class Buffer {
   Buffer& operator=(const Buffer&) = delete;
   ~Buffer() { release(); }
 
-  /// Makes room for `size` values. What was there before is lost if the buffer has to grow, or fails to.
+  /// Allocates `size` values. The old contents are lost if the buffer has to grow, or fails to.
   void require(std::size_t size) {
     if (size <= m_capacity) return;
     release();
@@ -80,8 +80,8 @@ class Buffer {
     m_capacity = size;
   }
 
-  /// Makes room for `size` values and keeps what is there; at least doubles, so that appending is linear. If there is no
-  /// memory, the buffer is as it was.
+  /// Allocates `size` values and keeps the contents; at least doubles, so that appending is linear. If memory is
+  /// exhausted, the buffer is unchanged.
   void grow(std::size_t size) {
     if (size <= m_capacity) return;
     const std::size_t capacity = std::max(size, 2 * m_capacity);
@@ -92,7 +92,7 @@ class Buffer {
     m_capacity = capacity;
   }
 
-  /// Gives the memory back.
+  /// Releases the memory.
   void release() noexcept {
     if (m_data != nullptr) m_memory->deallocate(m_data, m_capacity * sizeof(T), kAlignment);
     m_data = nullptr;

@@ -34,7 +34,7 @@ class PairBuckets {
   explicit PairBuckets(std::pmr::memory_resource* memory)
       : m_pairs(memory), m_following(memory), m_next(memory), m_fullChunks(memory) {}
 
-  /// Starts anew, as one of so many workers; memory is kept.
+  /// Empties all buckets for a search with so many workers; memory is kept.
   void start(const BucketRule& rule, std::size_t workers);
 
   void add(std::span<const Pair> pairs);

@@ -7,7 +7,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// Pairs that a task turns into numbers, or back.
+/// Pairs that a task converts to numbers, or back.
 constexpr std::size_t kPairsPerTask = std::size_t{1} << 16;
 
 /// The index that orders first, above the other one.
@@ -24,7 +24,7 @@ Pair pairOf(std::uint64_t number, unsigned otherBits) {
   return kBySecond ? Pair{other, key} : Pair{key, other};
 }
 
-/// Calls convert(begin, end) for parts of so many pairs.
+/// Calls convert(begin, end) for parts of all pairs.
 template <class Convert>
 void inParts(std::size_t size, Executor& executor, const Convert& convert) {
   executor.run((size + kPairsPerTask - 1) / kPairsPerTask,

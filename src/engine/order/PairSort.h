@@ -21,13 +21,13 @@ class PairSort {
  public:
   explicit PairSort(std::pmr::memory_resource* memory) : m_own(memory), m_radix(memory) {}
 
-  /// What a sort is told besides where the pairs are.
+  /// Parameters of a sort, besides the pairs.
   struct Task {
     std::size_t firsts = 0;   ///< All first indices are below.
     std::size_t seconds = 0;  ///< All second indices are below.
     Order order = Order::ByFirst;
 
-    /// Memory that may be overwritten: where the pairs fit in there, the sort needs none of its own.
+    /// Memory that may be overwritten: if the pairs fit there, the sort allocates none.
     std::span<Pair> spare;
   };
 

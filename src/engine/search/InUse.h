@@ -8,12 +8,12 @@
 
 namespace allpairs::engine {
 
-/// Whether an object is at work. What its own callbacks ask of it then would change what it works on.
+/// Marks an object as running. Calls from its own callbacks would then change the data that it works on.
 ///
-/// Threads: tasks of the work that is going on may check.
+/// Threads: tasks of the running work may call check().
 class InUse {
  public:
-  /// For as long as work goes on.
+  /// Marks the object as running while the scope exists.
   class Scope {
    public:
     explicit Scope(InUse& inUse) noexcept : m_inUse(inUse) { ++m_inUse.m_scopes; }
@@ -25,7 +25,7 @@ class InUse {
     InUse& m_inUse;
   };
 
-  /// Throws InvalidArgument that names the kind of object if it is.
+  /// Throws InvalidArgument, which names the kind of object, if the object is running.
   void check(const char* object) const {
     if (m_scopes != 0) throw InvalidArgument(std::string(object) + " is called by its own filter, visitor or task");
   }

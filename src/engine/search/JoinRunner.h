@@ -16,20 +16,20 @@
 
 namespace allpairs::engine {
 
-/// Joins hierarchies, or tests rows of boxes against columns, on all threads of an executor. Each thread has a worker, and
-/// each worker a sink for its pairs.
+/// Joins hierarchies, or tests rows of boxes against columns, on all threads of an executor. Each thread has a worker,
+/// and each worker a sink for its pairs.
 class JoinRunner {
  public:
   explicit JoinRunner(std::pmr::memory_resource* memory) : m_workers(memory), m_segments(memory) {}
 
-  /// What to run, cut into tasks by units: leaf blocks of `first`, or rows.
+  /// What to run, divided into tasks by units: leaf blocks of `first`, or rows.
   struct Job {
     const BvhView* first = nullptr;
     const BvhView* second = nullptr;  ///< The same as `first` in a join with itself; else of the same depth.
     std::size_t units = 0;
     std::size_t firstLarge = 0;  ///< Leaf blocks from here on hold boxes larger than most.
 
-    bool isFlat = false;  ///< Whether to run `flat`, and not a join.
+    bool isFlat = false;  ///< Whether to run `flat` instead of a join.
     FlatSearch flat;
 
     static Job ofJoin(const BvhView& first, const BvhView& second);
@@ -42,8 +42,7 @@ class JoinRunner {
     std::size_t end = 0;
   };
 
-  /// Starts anew, with a worker for each thread of the executor; returns how many there are. The options must outlive the
-  /// runs.
+  /// Resets, with one worker per thread of the executor; returns their number. The options must outlive the runs.
   std::size_t start(const SinkOptions& options, const Executor& executor);
 
   /// Runs all tasks of a job. Sinks keep what they have.
@@ -54,7 +53,7 @@ class JoinRunner {
   [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker]->sink; }
   [[nodiscard]] std::span<const Segment> segments() const noexcept { return m_segments; }
 
-  /// What all workers have done since start().
+  /// The statistics of all workers since start().
   [[nodiscard]] OverlapStatistics totals() const noexcept;
 
  private:

@@ -99,14 +99,14 @@ void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisi
 
 namespace {
 
-/// The memory of a search that is made, used and thrown away: for some thousand boxes one block, as large as it is likely to
-/// need. glibc gives many blocks back to the system at the end of each search, to fetch them again for the next; fewer
-/// boxes need few, and for more the block would be made of large pages and cost more than it saves (docs/decisions/0015).
+/// The memory of a one-shot search: for some thousand boxes one block, of the size that it is likely to need. Otherwise
+/// glibc returns many blocks to the system at the end of each search and maps them again for the next. Fewer boxes need
+/// few blocks; for more, the block would consist of large pages and cost more than it saves (docs/decisions/0015).
 class OneShot {
  public:
   OneShot(std::size_t boxes, const OverlapOptions& options)
       : m_block(kBytesPerBox * boxes, engine::memoryOr(options.memory)), m_options(options) {
-    // The block is not made for several threads.
+    // The block is not thread-safe.
     if (boxes >= kLeast && boxes < kMost && options.executor == nullptr) m_options.memory = &m_block;
   }
 

@@ -12,8 +12,8 @@ namespace {
 /// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
 constexpr std::size_t kHitCapacity = 2048;
 
-/// Where they begin within a page, in ids: behind where the bounds of some hundred boxes lie in theirs. A processor that
-/// loads from the same place in another page as it has just stored to waits for the store.
+/// Their offset within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that loads
+/// from the offset in another page at which it has just stored waits for the store (4K aliasing).
 constexpr std::size_t kHitOffset = 640;
 constexpr std::size_t kHitStride = 3072;
 static_assert(kHitStride >= kHitCapacity + Hits::kSlack);
@@ -48,7 +48,7 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_size = 0;
   m_count = 0;
   m_exactTests = 0;
-  // Then it never needs more.
+  // Then it never grows.
   if (options.emit) m_pairs.grow(kHitCapacity + Hits::kSlack);
 }
 

@@ -16,49 +16,50 @@
 
 namespace allpairs::engine {
 
-/// More pairs than the search has set itself as a limit. Not an error: the search catches it.
+/// More pairs than the search's own limit. Not an error: the search catches it.
 struct Overfull {};
 
 /// How hits become pairs, the same for all workers of a search.
 struct SinkOptions {
   const Kernels* kernels = nullptr;
-  const PairTest* test = nullptr;  ///< If null, all pairs stay.
+  const PairTest* test = nullptr;  ///< If null, all pairs are kept.
   PairSide side = PairSide::RowFirst;
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
-  /// Room for this many pairs is made at first: address space, of which only what is used takes memory.
+  /// Space for this many pairs is reserved initially: address space, of which only the used part takes memory.
   std::size_t likelyPairs = 0;
 
-  /// Whether more pairs than that are the caller's to hear of; otherwise they are an Overfull for the search itself.
+  /// Whether exceeding it is an error for the caller; otherwise it throws Overfull, for the search itself.
   bool limitIsCallers = true;
   bool countOnly = false;
 
   /// Rows are numbered from here; more than 0 only where a part of a set is searched.
   std::uint32_t firstRow = 0;
 
-  /// Keeps pairs with first < second only: where part of a set meets the whole of it.
+  /// Keeps only pairs with first < second: for a part of a set against the whole set.
   bool ascendingOnly = false;
 
-  /// Hands over the pairs of a worker, which it may change, whenever some have come; returns how many of them, from the
-  /// first, the sink is to forget. Without it the sink keeps all pairs.
+  /// Receives the pairs of a worker, which it may change, whenever there are new ones; returns how many of them, from
+  /// the first, the sink drops. Without it the sink keeps all pairs.
   std::optional<FunctionRef<std::size_t(std::span<Pair> pairs, std::size_t worker)>> emit = std::nullopt;
 };
 
-/// Throws LimitExceeded or Overfull where there are more pairs than the options allow.
+/// Throws LimitExceeded or Overfull if there are more pairs than the options allow.
 void checkLimit(const SinkOptions& options, std::uint64_t count);
 
-/// Receives the hits of a worker, turns them into pairs, tests what is left to test, and keeps, counts or emits them.
+/// Receives the hits of a worker, converts them to pairs, applies the exact test and the filters, and keeps, counts or
+/// emits them.
 class PairSink {
  public:
   explicit PairSink(std::pmr::memory_resource* memory) : m_memory(memory), m_pairs(memory) {}
 
-  /// Starts anew: nothing received, memory kept. The options must outlive the search.
+  /// Clears the sink and keeps its memory. The options must outlive the search.
   void start(const SinkOptions& options, std::size_t worker);
 
   /// Where kernels put their hits.
   [[nodiscard]] Hits& hits() noexcept { return m_hits; }
 
-  /// Takes what the kernels have left in the buffer of hits. To be called when they are done.
+  /// Takes the remaining hits from the buffer. Call it when the kernels are done.
   void finish() { receive(m_hits); }
 
   [[nodiscard]] Buffer<Pair>& pairs() noexcept { return m_pairs; }

@@ -11,14 +11,14 @@
 
 namespace allpairs::engine {
 
-/// Whether each side accepts what the other one is.
+/// Whether each side accepts the other's category.
 [[nodiscard]] inline bool acceptEachOther(std::uint32_t categoryA, std::uint32_t maskA, std::uint32_t categoryB,
                                           std::uint32_t maskB) noexcept {
   return ((categoryA & maskB) != 0) & ((categoryB & maskA) != 0);
 }
 
-/// What a test looks at of the boxes of one side: bounds, margins, and filters, `stride` values apart. What is null takes
-/// its default.
+/// The data of one side's boxes that a test reads: bounds, margins, and filters, `stride` values apart. Null means the
+/// default.
 struct TestedBoxes {
   const BoxView* boxes = nullptr;
   const std::uint32_t* categories = nullptr;
@@ -35,8 +35,7 @@ struct TestedBoxes {
   }
 };
 
-/// What a pair that passed the float32 test must pass still: the exact test in double, where lanes were rounded, and
-/// the filter.
+/// The tests of a pair that passed the float32 test: the exact test in double, if lanes were rounded, and the filter.
 class PairTest {
  public:
   PairTest(const TestedBoxes& first, const TestedBoxes& second, double distance, const PairPredicate& accept)
@@ -54,7 +53,7 @@ class PairTest {
 
   [[nodiscard]] bool keeps(Pair pair) const { return (!m_exact || touches(pair)) && (!m_filtered || passes(pair)); }
 
-  /// Moves the pairs that it keeps to the front; returns how many there are.
+  /// Moves the pairs that it keeps to the front; returns their number.
   [[nodiscard]] std::size_t select(std::span<Pair> pairs) const {
     if (!needed()) return pairs.size();
     std::size_t kept = 0;

@@ -11,25 +11,25 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0003).
+/// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0009).
 constexpr double kFlatPairs = 256.0 * 256.0;
 
-/// So few boxes against any number are tested one by one: ordering the others would cost more.
+/// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more.
 constexpr std::size_t kFewRows = 32;
 
-/// Pairs of a box in a scene as most are, and the most that room is made for before any has been found.
+/// Pairs per box in a typical scene, and the maximum that memory is reserved for in advance.
 constexpr std::size_t kLikelyPairs = 4;
 constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
 
-/// Beyond this many boxes a sample is not trusted to say that all pairs had better be tested.
+/// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap.
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
-/// From this share of all pairs on there is so little to leave out that the exhaustive search is faster; it finds its
-/// pairs in order, and so needs less to be.
+/// From this share of all pairs on, so few tests can be skipped that the exhaustive search is faster; it finds pairs in
+/// order, so that for ordered output the share is smaller.
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
-/// About what share of all pairs overlaps, by a few of them.
+/// Estimates the share of all pairs that overlap from a sample.
 double shareOfOverlaps(const BoxReader& reader) {
   constexpr std::size_t kSample = 24;
   std::array<LaneBox, kSample> boxes;
@@ -42,7 +42,7 @@ double shareOfOverlaps(const BoxReader& reader) {
   return static_cast<double>(hits) / (0.5 * static_cast<double>(kSample * (kSample - 1)));
 }
 
-/// Reads all boxes of a set, in their own order, as lanes; those that can overlap nothing as lanes that never do.
+/// Reads all boxes of a set, in their order, as lanes; boxes that can overlap nothing become lanes that never overlap.
 bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
   buffer.require(LaneList::tilesFor(reader.size()));
   list = {buffer.data(), reader.size()};
@@ -157,11 +157,11 @@ void Search::run(const Plan& plan, Executor& executor) {
   m_runner.start(plan.sink, executor);
   m_runner.run(plan.job, executor);
   m_statistics = m_runner.totals();
-  // Each worker has looked at its own pairs; here are all of them.
+  // Each worker has checked only its own pairs.
   checkLimit(plan.sink, m_statistics.pairs);
 }
 
-/// Where the pairs of all tasks are put together.
+/// Where the pairs of all tasks are concatenated.
 std::span<Pair> Search::roomForPairs() {
   if (m_taken != nullptr) {
     m_taken->resize(m_statistics.pairs);
@@ -171,7 +171,7 @@ std::span<Pair> Search::roomForPairs() {
   return {m_joined.data(), m_statistics.pairs};
 }
 
-/// Puts together what the tasks have found.
+/// Concatenates the pairs of the tasks.
 void Search::concatenate() {
   const std::span<const JoinRunner::Segment> segments = m_runner.segments();
   if (segments.size() == 1) {
@@ -244,7 +244,7 @@ void Search::sortBuckets(const BucketRule& rule) {
 }
 
 void Search::sortPairs(const Sets& sets, Order order) {
-  // The hierarchy has done its work: its memory is where the sort moves pairs to and fro.
+  // The hierarchy is no longer needed: its memory is the sort's second buffer.
   m_sort.sort(m_pairs, {sets.first.size(), sets.second.size(), order, m_first.levels().memory<Pair>()}, *m_executor);
 }
 

@@ -19,13 +19,13 @@
 
 namespace allpairs::engine {
 
-/// Who takes the pairs of a stream, and how many at a time at most.
+/// The visitor of a stream, and the maximum size of a batch.
 struct Batches {
   PairVisitor visitor;
   std::size_t size;
 };
 
-/// Everything that a search needs between its start and its end, and the memory that it keeps for the next one.
+/// The state of a search, and the memory that it keeps for the next one.
 class Search {
  public:
   explicit Search(std::pmr::memory_resource* memory)
@@ -47,7 +47,7 @@ class Search {
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
   void stream(const Sets& sets, const OverlapOptions& options, const Batches& to);
 
-  /// Gives back all memory but that of the last result.
+  /// Releases all memory except that of the last result.
   void shrink() noexcept;
 
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
@@ -62,7 +62,7 @@ class Search {
 
   static PairTest testOf(const Sets& sets, const OverlapOptions& options);
 
-  /// Whether to test all pairs, and about how many there will be, which is known only where they are many.
+  /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
   void begin(const Sets& sets, const OverlapOptions& options);
@@ -77,7 +77,7 @@ class Search {
   void concatenate();
   void sortPairs(const Sets& sets, Order order);
 
-  /// Finds pairs and orders them by buckets, where that pays; else false, and nothing is done.
+  /// Finds pairs and orders them by buckets if that pays off; else does nothing and returns false.
   bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
   void sortBuckets(const BucketRule& rule);
 
@@ -100,7 +100,7 @@ class Search {
   Buffer<Pair> m_joined;
   std::vector<Pair>* m_taken = nullptr;  ///< Where given, what is used instead of m_joined.
   std::pmr::vector<std::size_t> m_places;
-  std::span<Pair> m_pairs;  ///< The result: joined from several tasks, or where the only one left it.
+  std::span<Pair> m_pairs;  ///< The result: concatenated from several tasks, or in the memory of a single one.
   PairSort m_sort;
 };
 

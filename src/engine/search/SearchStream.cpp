@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Searches that hand their pairs over as they go, in bounded memory.
+// Searches that pass pairs to a visitor as they find them, in bounded memory.
 #include <algorithm>
 #include <limits>
 
@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-/// Boxes of a range when an ordered stream starts, and at most.
+/// The initial and the maximum number of boxes in a range of an ordered stream.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
 
-/// Pairs of a range that are held at a time, at most, unless a single box has more partners.
+/// The maximum number of buffered pairs of a range, unless a single box has more partners.
 constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
 
-/// Hands pairs over in batches, and no more than the limit.
+/// Passes pairs on in batches, and no more than the limit.
 class Delivery {
  public:
   Delivery(const Batches& to, std::uint64_t limit) : m_to(to), m_limit(limit) {}
@@ -32,7 +32,7 @@ class Delivery {
     }
   }
 
-  /// Whole batches only; returns how many pairs those were.
+  /// Passes on whole batches only; returns their number of pairs.
   std::size_t giveFull(std::span<const Pair> pairs) {
     const std::size_t full = pairs.size() / m_to.size * m_to.size;
     give(pairs.first(full));
@@ -57,12 +57,12 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, const Batch
   }
   Plan plan{testOf(sets, options)};
   makePlan(sets, options, plan);
-  plan.sink.likelyPairs = 0;  // handed on before there are many
+  plan.sink.likelyPairs = 0;  // passed on before there are many
   plan.sink.maxPairs = kNoLimit;
   streamAll(plan, options, to);
 }
 
-/// Hands over full batches as they come; the rest waits for the next pairs.
+/// Passes on full batches immediately; the rest waits for the next pairs.
 void Search::streamAll(Plan& plan, const OverlapOptions& options, const Batches& to) {
   Delivery delivery(to, options.maxPairs);
   const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return delivery.giveFull(pairs); };
@@ -71,7 +71,7 @@ void Search::streamAll(Plan& plan, const OverlapOptions& options, const Batches&
   delivery.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 
-/// The boxes that the pairs are ordered by, range by range, each against all of the other side.
+/// Searches the boxes that pairs are ordered by, range by range, each range against all boxes of the other side.
 void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Batches& to) {
   Delivery delivery(to, options.maxPairs);
   const bool bySecond = options.order == Order::BySecond;
@@ -114,7 +114,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
   try {
     run(plan, *m_executor);
   } catch (const Overfull&) {
-    return false;  // More than may be held at a time: the caller halves the range.
+    return false;  // More pairs than the buffer may hold: the caller halves the range.
   }
   concatenate();
   sortPairs(sets, options.order);

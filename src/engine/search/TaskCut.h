@@ -6,11 +6,11 @@
 
 namespace allpairs::engine {
 
-/// How many tasks there may be for each thread: several, since some take longer than others.
+/// The maximum number of tasks per thread: several, since some take longer than others.
 inline constexpr std::size_t kTasksPerThread = 16;
 
-/// How the rows of an exhaustive search, or the leaf blocks of a join, are cut into tasks: into runs, so that what they
-/// find can be put together in order.
+/// Divides the rows of an exhaustive search, or the leaf blocks of a join, into tasks of consecutive units, so that
+/// their results can be concatenated in order.
 class TaskCut {
  public:
   /// All in one task.
@@ -26,8 +26,9 @@ class TaskCut {
     return cut;
   }
 
-  /// Leaf blocks, of which those from `firstLarge` on hold boxes larger than most: one of them may have as many partners
-  /// as all the others. Of the others a task has enough that its way down from the root does not weigh.
+  /// Leaf blocks, of which those from `firstLarge` on hold boxes larger than most: one of them may have as many
+  /// partners as all the others. Of the others a task has enough to make the cost of its descent from the root
+  /// negligible.
   static TaskCut ofLeaves(std::size_t leaves, std::size_t firstLarge, std::size_t threads) {
     constexpr std::size_t kMinLeaves = 16;
     TaskCut cut(leaves);
@@ -41,7 +42,7 @@ class TaskCut {
 
   [[nodiscard]] std::size_t tasks() const noexcept { return m_firstTasks + m_lastTasks; }
 
-  /// Where a task begins; the one after it begins where it ends.
+  /// The first unit of a task; the next task begins where it ends.
   [[nodiscard]] std::size_t begin(std::size_t task) const noexcept {
     if (task < m_firstTasks) return m_firstUnits * task / m_firstTasks;
     if (m_lastTasks == 0) return m_units;

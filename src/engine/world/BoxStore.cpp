@@ -12,7 +12,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// If one id in so many is in a list, going through all of them is faster than through the list.
+/// If at least one id in this many is in a list, iterating over all ids is faster than over the list.
 constexpr std::size_t kShareOfIds = 16;
 
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {
@@ -81,7 +81,7 @@ bool anyMargin(std::span<const BoxProperties> properties) {
   return std::any_of(properties.begin(), properties.end(), [](const BoxProperties& p) { return p.margin != 0.0; });
 }
 
-/// Room for so many values; at least doubles, so that adding boxes one by one is linear.
+/// Reserves memory for that many values; at least doubles, so that adding boxes one by one is linear.
 template <class T>
 void makeRoom(std::pmr::vector<T>& values, std::size_t size) {
   if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
@@ -109,12 +109,12 @@ void BoxStore::reserveRoom(std::size_t bound, bool float64, bool margins) {
   }
 }
 
-/// Makes ids below the bound, float64 rows and margins where they are needed and not there yet. All that a change
-/// allocates is allocated before anything is changed: a batch is done as a whole or not at all.
+/// Creates ids below the bound, and float64 rows and margins if they are needed and missing. A change allocates
+/// everything before it changes anything: a batch is applied completely or not at all.
 void BoxStore::prepare(std::size_t bound, bool float64, bool margins) {
   margins = margins || !m_margins.empty();
   reserveRoom(bound, float64, margins);
-  // Nothing below throws: there is room.
+  // Nothing below throws: memory is reserved.
   if (float64 && !m_isFloat64) widenToDouble();
   m_setIsCurrent = m_setIsCurrent && bound == idBound() && m_margins.empty() == !margins;
   m_flags.resize(bound, 0);
@@ -145,12 +145,12 @@ void BoxStore::shrink() noexcept {
   m_setIsCurrent = false;
 }
 
-/// Room for so many more resettled boxes, of all with ids below the bound.
+/// Reserves memory for that many more resettled boxes, of all with ids below the bound.
 void BoxStore::reserveResettled(std::size_t boxes, std::size_t bound) {
   makeRoom(m_resettled, std::min(m_resettled.size() + boxes, bound));
 }
 
-/// Whether boxes have bounds that the rows, as they are, don't hold exactly.
+/// Whether boxes have bounds that the current rows cannot represent exactly.
 bool BoxStore::needsFloat64(const BoxView& boxes) const {
   if (m_isFloat64 || !boxes.isFloat64()) return false;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -226,15 +226,15 @@ void BoxStore::move(std::span<const BoxId> ids, const BoxView& boxes) {
   }
 }
 
-/// Rows of six to rows of six, of the same kind. The lists' ends are kept in registers: flags are bytes, and a byte that is
-/// written may be of anything.
+/// Rows of six to rows of six, of the same kind. The lists' ends are kept in registers: flags are bytes, and a byte
+/// that is written may be of anything.
 template <class T>
 void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
   ListEnds ends = listEnds();
   std::uint8_t* const flags = m_flags.data();
   for (const BoxId id : ids) {
     T* const row = to + std::size_t{6} * id;
-    // Not the bytes: 0 and -0 are the same bound.
+    // Does not compare bytes: 0 and -0 are the same bound.
     const bool changed = !std::equal(from, from + 6, row);
     std::copy_n(from, 6, row);
     from += 6;
@@ -249,7 +249,7 @@ void BoxStore::remove(std::span<const BoxId> ids) {
     m_flags[ids[known++]] |= Leaving;
   }
   for (std::size_t i = 0; i < known; ++i) m_flags[ids[i]] &= static_cast<std::uint8_t>(~Leaving);
-  // Unknown, or there twice.
+  // Unknown, or repeated.
   if (known < ids.size()) throwUnknown(known, ids[known]);
   prepareRemoval(ids.size());
   for (const BoxId id : ids) removeOne(id);
@@ -351,7 +351,7 @@ void BoxStore::settle() noexcept {
 
 void BoxStore::endStep() noexcept {
   static_assert(Stepped == Live << 4U);
-  // All boxes that there are have been part of a step now.
+  // All current boxes have now been part of a step.
   const auto ended = [](std::uint8_t flags) {
     return static_cast<std::uint8_t>((flags & ~Touched) | ((flags & Live) << 4U));
   };

@@ -13,7 +13,7 @@
 
 namespace allpairs::engine {
 
-/// With whom a box may pair.
+/// The filter data of a box.
 struct FilterRow {
   std::uint32_t category = 0xFFFFFFFFU;
   std::uint32_t mask = 0xFFFFFFFFU;
@@ -22,19 +22,19 @@ struct FilterRow {
   friend constexpr bool operator==(const FilterRow&, const FilterRow&) = default;
 };
 
-/// The boxes of a world by id, in float32 as long as that holds them all exactly, and what has become of them since the
-/// last step and since the hierarchies were last brought up to date.
+/// The boxes of a world by id, in float32 as long as that represents them all exactly, and their changes since the last
+/// step and since the hierarchies were last updated.
 ///
-/// The row of an id that is not in use holds an empty box, which whatever reads it skips.
-/// Memory: what throws has changed nothing; a batch is done as a whole or not at all.
+/// The row of an unused id holds an empty box, which readers skip.
+/// Memory: a call that throws changes nothing; a batch is applied completely or not at all.
 class BoxStore {
  public:
-  /// What is known of a box, in bits.
+  /// The state of a box, as bits.
   enum Flag : std::uint8_t {
     Live = 1,
     Static = 2,
     Touched = 4,    ///< Changed since the last step.
-    Stale = 8,      ///< Changed since the hierarchies were brought up to date.
+    Stale = 8,      ///< Changed since the hierarchies were updated.
     Stepped = 16,   ///< Has been part of a step, and so may have pairs.
     Leaving = 32,   ///< While a batch is checked: in it, to be removed.
     Resettled = 64  ///< May belong to another hierarchy than before.
@@ -54,7 +54,7 @@ class BoxStore {
 
   void reserve(std::size_t boxes);
 
-  /// Gives back room that no box has, and the highest ids that are free.
+  /// Releases unused memory, and the highest free ids.
   void shrink() noexcept;
 
   void add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
@@ -75,7 +75,7 @@ class BoxStore {
   [[nodiscard]] bool isTouched(BoxId id) const noexcept { return (m_flags[id] & Touched) != 0; }
   [[nodiscard]] Box box(BoxId id) const noexcept;
   [[nodiscard]] double margin(BoxId id) const noexcept { return m_margins.empty() ? 0.0 : m_margins[id]; }
-  /// What a pair test looks at; set() has been called since anything changed.
+  /// The data that a pair test reads; set() has been called since anything changed.
   [[nodiscard]] TestedBoxes tested() const noexcept {
     if (!m_filtered) return {&m_set};
     const FilterRow* rows = m_filters.data();
@@ -85,7 +85,7 @@ class BoxStore {
   [[nodiscard]] const FilterRow& filter(BoxId id) const noexcept { return m_filters[id]; }
   [[nodiscard]] BoxProperties properties(BoxId id) const noexcept;
 
-  /// How many of the boxes are static.
+  /// The number of static boxes.
   [[nodiscard]] std::size_t staticCount() const noexcept { return m_staticCount; }
 
   /// Whether any box has, or has had, other than the default filter.
@@ -103,10 +103,10 @@ class BoxStore {
   /// Those of them that were added, removed, or have become static or dynamic, each once.
   [[nodiscard]] std::span<const BoxId> resettled() const noexcept { return m_resettled; }
 
-  /// Forgets what is stale.
+  /// Clears the list of stale boxes.
   void settle() noexcept;
 
-  /// Ends a step: forgets what was touched, and gives the ids of removed boxes back for use.
+  /// Ends a step: clears the list of touched boxes, and frees the ids of removed boxes.
   void endStep() noexcept;
 
  private:

@@ -11,7 +11,7 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, cons
                           Executor& executor) {
   const BvhLevels& source = from.levels();
   const std::size_t words = (source.places() + 63) / 64;
-  // What another call has marked before it threw.
+  // Marks left by a call that threw.
   if (std::exchange(m_marking, true)) std::fill(m_marked.begin(), m_marked.end(), std::uint64_t{0});
   if (m_marked.size() < words) m_marked.resize(words + words / 4, 0);
   std::size_t count = 0;

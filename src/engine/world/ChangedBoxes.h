@@ -12,10 +12,10 @@
 
 namespace allpairs::engine {
 
-/// A hierarchy over those boxes of another one that have changed, in the same order.
+/// A hierarchy over the changed boxes of another hierarchy, in the same order.
 ///
-/// Those of one block there are one block here, however few: filled up with others from afar, its bounds would touch as
-/// many boxes as all the blocks in between together.
+/// The changed boxes of one block form one block here, however few: if it were filled with distant boxes, its bounds
+/// would overlap as many boxes as all the blocks in between together.
 class ChangedBoxes {
  public:
   explicit ChangedBoxes(std::pmr::memory_resource* memory) : m_marked(memory), m_levels(memory) {}
@@ -24,7 +24,7 @@ class ChangedBoxes {
 
   [[nodiscard]] BvhLevels& levels() noexcept { return m_levels; }
 
-  /// How many boxes it holds.
+  /// The number of its boxes.
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
  private:

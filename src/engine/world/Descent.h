@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ways down a hierarchy.
+// Descents of a hierarchy.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace allpairs::engine {
 
-/// A box at which a descent has arrived.
+/// A box that a descent has reached.
 struct Arrival {
   BoxId id = kNoBox;
   const LaneBlock& block;
@@ -31,7 +31,7 @@ struct Arrival {
   }
 };
 
-/// Calls take(arrival) for all boxes that may be met, where lanesOf(block) has a bit for each lane that may be.
+/// Calls take(arrival) for all candidate boxes; lanesOf(block) has a bit for each candidate lane.
 template <class LanesOf, class Take>
 void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
   // As deep as there are levels, at most kMaxLevels.
@@ -56,10 +56,10 @@ void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
   return best;
 }
 
-/// Calls take(arrival) for the boxes in about the order of a cost, as far as it is within a limit that take() may lower.
+/// Calls take(arrival) for boxes in approximate order of cost, up to a limit that take() may lower.
 ///
 /// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
-/// lanes: no more than those of whatever they hold, and not negative.
+/// lanes: lower bounds of the costs of their boxes, and not negative.
 template <class LanesOf, class Take>
 void descendByCost(const BvhView& view, const LanesOf& lanesOf, const float& limit, const Take& take) {
   const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {

@@ -10,16 +10,16 @@
 namespace allpairs::engine {
 namespace {
 
-/// An order has room for a share of its boxes that come later, and leaves as much empty before it is made anew.
+/// The share of places reserved for boxes added later, and of places that may become vacant before a rebuild.
 constexpr std::size_t kShareOfChange = 8;
 constexpr std::size_t kLeastRoom = 64;
 
-/// If one box in so many has moved, all blocks are read anew.
+/// If at least one box in this many has moved, all blocks are read again.
 constexpr std::size_t kShareOfMoved = 8;
 
 constexpr std::size_t kKeptBlocksPerTask = 256;
 
-/// How many blocks ahead the boxes of a block are asked for.
+/// The prefetch distance for the boxes of a block, in blocks.
 constexpr std::size_t kPrefetchBlocks = 2;
 
 std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + kLeastRoom; }
@@ -51,7 +51,7 @@ void DynamicBvh::release() noexcept {
   m_isWhole = false;
 }
 
-/// Finds out what happened to the boxes that changed: new here, gone, or moved.
+/// Classifies the changed boxes: added, removed, or moved.
 void DynamicBvh::sortOut(const BoxStore& store) {
   if (store.stale().empty()) return;
   if (m_places.size() < store.idBound()) m_places.resize(store.idBound(), kNowhere);
@@ -62,7 +62,7 @@ void DynamicBvh::sortOut(const BoxStore& store) {
     if (!belongsHere && here) leave(id);
   }
   if (m_size == 0) return;
-  // If many have moved, all blocks are read anew, without asking which.
+  // If many have moved, all blocks are read again, without checking which.
   if (store.stale().size() * kShareOfMoved > store.size()) {
     m_dirtyBoxes = m_size;
     return;
@@ -134,7 +134,7 @@ void DynamicBvh::orderByCurve(std::span<const BoxId> ids, const BoxReader& reade
   sortDenseCells({m_keyed.data(), ids.size()}, m_spare.data(), reader, executor, m_denseCells);
 }
 
-/// Gives boxes the next places.
+/// Assigns the next places to boxes.
 void DynamicBvh::append(std::span<const CurveKey> order) {
   const std::size_t begin = m_levels.places();
   m_levels.resize(begin + order.size());
@@ -191,7 +191,7 @@ void DynamicBvh::gather(std::size_t block, const BoxReader& reader) {
   for (std::uint32_t bits = unused; bits != 0; bits &= bits - 1) {
     lanes.set(static_cast<std::size_t>(std::countr_zero(bits)), kNeverLanes);
   }
-  // Empty boxes have infinite bounds, which no lane holds; that is not for the others to suffer from.
+  // Empty boxes have infinite bounds, which no lane can represent; they must not make the whole block inexact.
   if (unused != 0 && !read.exact) {
     read.exact = true;
     LaneBlock one;

@@ -17,11 +17,11 @@
 
 namespace allpairs::engine {
 
-/// A hierarchy over the static or the dynamic boxes of a world, kept from step to step.
+/// A hierarchy over the static or the dynamic boxes of a world, kept between steps.
 ///
-/// Each box has a place in the order of a curve, as it was when the order was made. Boxes that move stay in their
-/// places, and the bounds follow; boxes that come later get places at the end, ordered among themselves; places of boxes
-/// that go stay empty. The order is made anew when the rule says so, or when too many boxes have come or gone.
+/// Each box has a place in curve order, as of the last rebuild. Boxes that move keep their places, and the bounds are
+/// updated; boxes that are added get places at the end, ordered among themselves; places of removed boxes stay empty.
+/// The hierarchy is rebuilt when RebuildRule says so, or when too many boxes have been added or removed.
 class DynamicBvh {
  public:
   DynamicBvh(std::pmr::memory_resource* memory, bool ofStatic)
@@ -38,21 +38,21 @@ class DynamicBvh {
         m_radix(memory),
         m_denseCells(memory) {}
 
-  /// Takes over what has changed in the store since the last call. Returns whether the order was made anew.
+  /// Applies the changes of the store since the last call. Returns whether the hierarchy was rebuilt.
   ///
-  /// After an update that threw, nothing else may be asked before the next one, which makes the order anew.
+  /// After an update that threw, only update() may be called; it rebuilds the hierarchy.
   bool update(const BoxStore& store, const BoxReader& reader, Executor& executor);
 
-  /// Gives all memory back. The next update makes the order anew; before it, nothing else may be asked.
+  /// Releases all memory. Until the next update, which rebuilds the hierarchy, nothing else may be called.
   void release() noexcept;
 
-  /// Whether the last update has come to its end, and nothing was given back since.
+  /// Whether the last update completed, and no memory was released since.
   [[nodiscard]] bool isWhole() const noexcept { return m_isWhole; }
 
   [[nodiscard]] const BvhLevels& levels() const noexcept { return m_levels; }
   [[nodiscard]] RebuildRule& rule() noexcept { return m_rule; }
 
-  /// How many boxes it holds.
+  /// The number of its boxes.
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
   /// Whether the lanes of all boxes are exactly the boxes.
@@ -60,7 +60,7 @@ class DynamicBvh {
 
   static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
-  /// Where the box is; kNowhere if it isn't here.
+  /// The place of the box; kNowhere if it is not in this hierarchy.
   [[nodiscard]] std::uint32_t placeOf(BoxId id) const noexcept {
     return id < m_places.size() ? m_places[id] : kNowhere;
   }
@@ -82,7 +82,7 @@ class DynamicBvh {
   void gather(std::size_t block, const BoxReader& reader);
 
   bool m_ofStatic;
-  bool m_isWhole = true;  ///< The last update has come to its end.
+  bool m_isWhole = true;  ///< The last update completed.
   BvhLevels m_levels;
   RebuildRule m_rule;
   CurveGrid m_grid;

@@ -10,7 +10,7 @@ namespace {
 /// Rows up to this length are searched one by one.
 constexpr std::size_t kShortRow = 16;
 
-/// How many pairs ahead the memory of a row is asked for.
+/// The prefetch distance for rows, in pairs.
 constexpr std::size_t kPrefetchPairs = 16;
 
 }  // namespace
@@ -38,7 +38,7 @@ void PairHistory::shrink() noexcept {
   *this = std::move(rest);
 }
 
-/// Where the old pairs of each box begin.
+/// The index of the first old pair of each box.
 void PairHistory::findRows() {
   const std::span<const Pair> pairs = m_result.pairs;
   m_rowBegin.resize(std::max(m_rowBegin.size(), m_idBound + 1));
@@ -92,7 +92,7 @@ std::size_t PairHistory::freshSize() const noexcept {
   return size;
 }
 
-/// Puts what is fresh in order, with memory that may be overwritten.
+/// Sorts the new pairs, with memory that may be overwritten.
 void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor) {
   Pair* end = to.data();
   for (const Fresh& fresh : m_fresh) end = std::copy_n(fresh.pairs.data(), fresh.size, end);
@@ -104,7 +104,7 @@ void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& e
   m_sort.sort({to.data(), end}, task, executor);
 }
 
-/// Makes all the room that the end of a step needs before it changes anything.
+/// Allocates everything that the end of a step needs before it changes anything.
 void PairHistory::makeRoomForChanges() {
   const std::size_t old = m_result.pairs.size();
   const std::size_t fresh = freshSize();
@@ -128,7 +128,7 @@ void PairHistory::finishAll(Executor& executor) {
   m_rowsAreCurrent = false;
 }
 
-/// Compares two ordered lists, without branches: what is in both persists, what is in one only has begun or ended.
+/// Compares two ordered lists, without branches: pairs in both persist, pairs in only one began or ended.
 void PairHistory::compare(std::span<const Pair> now) noexcept {
   const std::span<const Pair> old = m_result.pairs;
   Pair* persisted = m_persisted.data();
@@ -157,7 +157,7 @@ void PairHistory::compare(std::span<const Pair> now) noexcept {
   m_result.ended = {m_ended.data(), ended};
 }
 
-/// Merges what persists with what began.
+/// Merges the pairs that persist with those that began.
 void PairHistory::mergeFresh() noexcept {
   shiftRows();
   const std::span<const Pair> persisted = m_result.persisted;
@@ -166,7 +166,7 @@ void PairHistory::mergeFresh() noexcept {
   const Pair* next = persisted.data();
   const Pair* const end = next + persisted.size();
   for (const Pair& pair : m_result.began) {
-    // Stretches are short: copied one by one they cost less than a call would.
+    // Runs are short: copying pair by pair costs less than a call.
     while (next != end && keyOf(*next) < keyOf(pair)) *to++ = *next++;
     *to++ = pair;
   }
@@ -174,7 +174,7 @@ void PairHistory::mergeFresh() noexcept {
   m_result.pairs = {m_pairs.data(), size};
 }
 
-/// Moves the beginnings of the rows by what began and ended before them.
+/// Shifts the beginnings of the rows by the number of pairs that began and ended before them.
 void PairHistory::shiftRows() noexcept {
   const std::size_t rows = m_rowBegin.size();
   const std::span<const Pair> began = m_result.began;

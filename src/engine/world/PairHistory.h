@@ -18,10 +18,10 @@ namespace allpairs::engine {
 
 /// The pairs of the last step in order, and those of this one as they are found.
 ///
-/// Where all pairs are looked for, they are gathered, sorted, and compared with the old ones, list against list. Where
-/// only those of changed boxes are, each is looked up among the old ones and ticked off, and those that are new are sorted:
-/// what was not ticked off has ended, or was not looked for because neither of its boxes changed.
-/// Memory: until a step has come to its end the pairs are those of the last one that has.
+/// After a join of all boxes, the pairs are gathered, sorted, and compared with the old list. After a join of changed
+/// boxes only, each pair is looked up among the old ones and marked, and new ones are sorted: an unmarked pair has
+/// ended, or neither of its boxes changed.
+/// Memory: until a step completes, the pairs are those of the last completed step.
 class PairHistory {
  public:
   PairHistory(std::pmr::memory_resource* memory, Order order)
@@ -36,31 +36,31 @@ class PairHistory {
         m_ended(memory),
         m_sort(memory) {}
 
-  /// Starts a step: nothing found. All ids are below the bound. There are `workers` that work side by side.
+  /// Starts a step, without pairs. All ids are below the bound. `workers` is the number of concurrent workers.
   void begin(std::size_t idBound, std::size_t workers, Joined looksFor);
 
-  /// Takes pairs that have been found, each with first < second and once in a step.
+  /// Adds pairs that were found, each with first < second and once per step.
   ///
   /// Threads: one call at a time per worker.
   void take(std::span<const Pair> found, std::size_t worker) {
     m_looksFor == Joined::All ? gather(found, m_fresh[worker]) : tickOff(found, m_fresh[worker]);
   }
 
-  /// Ends a step that has looked for all pairs.
+  /// Ends a step that has searched for all pairs.
   void finishAll(Executor& executor);
 
-  /// Ends a step that has looked for changed boxes' pairs: those of which `lookedFor(pair)` is true.
+  /// Ends a step that has searched for the pairs of changed boxes: those for which `lookedFor(pair)` is true.
   template <class LookedFor>
   void finishChanged(const LookedFor& lookedFor, Executor& executor) {
     makeRoomForChanges();
     sortFresh(m_began, {m_persisted.data(), m_persisted.capacity()}, executor);
-    // Nothing throws any more.
+    // Nothing below throws.
     split(lookedFor);
     m_result.began = {m_began.data(), freshSize()};
     mergeFresh();
   }
 
-  /// Gives back all memory but that of the result.
+  /// Releases all memory except that of the result.
   void shrink() noexcept;
 
   [[nodiscard]] const StepResult& result() const noexcept { return m_result; }
@@ -73,7 +73,7 @@ class PairHistory {
     std::size_t size = 0;
   };
 
-  /// Cuts the old pairs into those that persist and those that ended, in order, without branches.
+  /// Splits the old pairs into those that persist and those that ended, in order, without branches.
   template <class LookedFor>
   void split(const LookedFor& lookedFor) {
     const std::span<const Pair> old = m_result.pairs;
@@ -90,7 +90,7 @@ class PairHistory {
     m_result.ended = {m_ended.data(), ended};
   }
 
-  /// More than is needed, so that a number of pairs that goes up and down soon allocates nothing.
+  /// Over-allocates, so that a fluctuating number of pairs soon allocates nothing.
   template <class T>
   static void makeRoom(Buffer<T>& buffer, std::size_t size) {
     if (size + 1 > buffer.capacity()) buffer.require(size + size / 4 + 1);
@@ -109,7 +109,7 @@ class PairHistory {
   /// The box whose row a pair is in.
   [[nodiscard]] BoxId rowOf(Pair pair) const noexcept { return m_order == Order::ByFirst ? pair.first : pair.second; }
 
-  /// Compares as pairs are ordered.
+  /// Compares pairs in the order of the options.
   [[nodiscard]] std::uint64_t keyOf(Pair pair) const noexcept {
     const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
     return std::rotl(byFirst, m_order == Order::ByFirst ? 0 : 32);
@@ -125,7 +125,7 @@ class PairHistory {
   bool m_rowsAreCurrent = false;
   Buffer<std::uint8_t> m_seen;  ///< By old pair: whether it was found again.
   Buffer<Pair> m_pairs;
-  Buffer<Pair> m_next;  ///< The pairs of a step that has looked for all, until they are the old ones.
+  Buffer<Pair> m_next;  ///< The pairs of a step that has searched for all, until they become the old ones.
   Buffer<Pair> m_began;
   Buffer<Pair> m_persisted;
   Buffer<Pair> m_ended;

@@ -12,7 +12,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// Fewer queries are answered as they come.
+/// Fewer queries are answered in the given order.
 constexpr std::size_t kFewQueries = 64;
 
 constexpr unsigned kBitsPerAxis = 9;
@@ -25,7 +25,7 @@ std::uint32_t spreadBits(std::uint32_t bits) noexcept {
   return (bits | bits << 2U) & 0x09249249U;
 }
 
-/// Where the cells of one axis begin, and how many there are to a unit.
+/// The beginning of the cells of one axis, and their number per unit.
 std::pair<float, float> cellsOf(std::span<const std::array<float, 3>> points, std::size_t axis) {
   float least = kNever;
   float greatest = -kNever;

@@ -10,13 +10,13 @@
 
 namespace allpairs::engine {
 
-/// The order in which the queries of a batch are answered: those that are near each other in space one after the other,
-/// so that they find in the cache what they read.
+/// The order in which the queries of a batch are answered: queries that are near each other in space are consecutive,
+/// for cache locality.
 class QueryOrder {
  public:
   explicit QueryOrder(std::pmr::memory_resource* memory) : m_keys(memory), m_spare(memory) {}
 
-  /// Orders the queries by the points at which they begin. Points at infinity are anywhere.
+  /// Orders the queries by their starting points. The position of points at infinity is unspecified.
   void sort(std::span<const std::array<float, 3>> points);
 
   [[nodiscard]] std::size_t operator[](std::size_t i) const noexcept { return static_cast<std::uint32_t>(m_keys[i]); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What decides the answer of a query.
+// The exact tests of queries.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace allpairs::engine {
 
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// A box with its margin added, in double. An infinite margin reaches everywhere, from wherever the box is.
+/// A box enlarged by its margin, in double. With an infinite margin it covers all of space, wherever the box is.
 [[nodiscard]] inline Box widened(const Box& box, double margin) noexcept {
   if (margin == kFar) return {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
   Box result = box;
@@ -27,7 +27,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   return result;
 }
 
-/// The least t at which a moving box meets a resting one, infinity if it doesn't; bounds may be turned over by a margin.
+/// The smallest t at which a swept box hits a resting one, or infinity; a margin may have inverted the bounds.
 [[nodiscard]] inline double meetingTime(const BoxSweep& sweep, const Box& box) noexcept {
   double enter = 0.0;
   double leave = sweep.length;
@@ -41,7 +41,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
     }
     const double in = (v > 0.0 ? ahead : behind) / v;
     const double out = (v > 0.0 ? behind : ahead) / v;
-    // A NaN, of two infinities, leaves both as they are.
+    // A NaN, from two infinities, changes neither.
     if (in > enter) enter = in;
     if (out < leave) leave = out;
   }
@@ -59,7 +59,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   constexpr double kLeast = 0x1p-960;
   constexpr double kLarge = 0x1p600;
   const double squares = scaled(1.0);
-  // Beyond that squares lose digits, or all; a power of two loses none.
+  // Outside this range squares underflow or overflow; scaling by a power of two is exact.
   if (squares == kFar) return std::sqrt(scaled(1.0 / kLarge)) * kLarge;
   if (squares < kLeast) return std::sqrt(scaled(kLarge)) / kLarge;
   return std::sqrt(squares);
@@ -78,9 +78,9 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   return {{ray.origin, ray.origin}, ray.direction, ray.length};
 }
 
-// Queries as the kernels take them: in float32, and never asking for less than the query in double does.
+// Queries for the kernels: in float32, and conservative, so that they find all that the query in double does.
 
-/// The least float32 that is no less, infinity included.
+/// The smallest float32 that is not less, infinity included.
 [[nodiscard]] inline float roundUpFar(double value) noexcept {
   return value > static_cast<double>(kLaneMax) ? kNever : roundUp(value);
 }

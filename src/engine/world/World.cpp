@@ -46,7 +46,7 @@ void checkSweeps(std::span<const BoxSweep> sweeps) {
   for (std::size_t i = 0; i < sweeps.size(); ++i) checkSweep(sweeps[i], false, i);
 }
 
-/// What a box of a world reaches beyond its bounds is one of its properties.
+/// In a world the margin of a box is one of its properties.
 void refuseMargins(const BoxView& boxes) {
   if (boxes.hasMargins()) throw InvalidArgument("boxes for a world carry no margins; give BoxProperties::margin");
 }
@@ -76,7 +76,7 @@ struct World::State {
   std::pmr::vector<Box> swept;
   engine::InUse inUse;
 
-  /// What the members that are const look at.
+  /// The data that const members read.
   static const engine::BoxStore& storeOf(const World& world) {
     static const engine::BoxStore kNone(engine::defaultMemory());
     return world.m_state != nullptr ? world.m_state->store : kNone;
@@ -88,7 +88,7 @@ struct World::State {
     swept = std::pmr::vector<Box>(search.memory());
   }
 
-  /// Brings the hierarchies up to date for queries, once after each change.
+  /// Updates the hierarchies for queries, once after each change.
   void settle() {
     if (isSettled.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(settling);

@@ -31,7 +31,7 @@ float asFloat(double value) noexcept {
   return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
 
-/// The order in which a batch is answered, by the point at which each query begins.
+/// The order in which a batch is answered, by the starting points of the queries.
 template <class PointOf>
 QueryOrder orderOf(std::size_t queries, const PointOf& pointOf) {
   std::vector<std::array<float, 3>> points(queries);
@@ -44,8 +44,8 @@ QueryOrder orderOf(std::size_t queries, const PointOf& pointOf) {
   return order;
 }
 
-/// Keeps the `count` nearest of those that are found, from place `begin` of the list on, as a heap with the farthest of them
-/// on top; returns whether there are as many and they have changed.
+/// Keeps the `count` nearest boxes found, from position `begin` of the list on, as a heap with the farthest on top;
+/// returns whether it is full and has changed.
 bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t count, const Neighbor& found) {
   const auto first = [&] { return list.begin() + static_cast<std::ptrdiff_t>(begin); };
   if (list.size() - begin == count) {
@@ -82,7 +82,7 @@ void WorldQueries::eachBvh(const Visit& visit) const {
   if (m_filter.staticBoxes && staticBoxes.depth != 0) visit(staticBoxes, m_target.exact[1]);
 }
 
-/// Calls answer(task, query) for all queries, in the order of space: neighbours are answered by the same task.
+/// Calls answer(task, query) for all queries, in spatial order: the same task answers neighbours.
 template <class Answer>
 void WorldQueries::answerInOrder(const QueryOrder& order, std::size_t queries, const Answer& answer) const {
   m_target.executor->run((queries + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
@@ -172,7 +172,7 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
   std::sort(hits.begin() + begin, hits.end(), isNearer);
 }
 
-/// The square of the distance within which all of some boxes are, rounded up.
+/// The square of a distance within which all given boxes are, rounded up.
 float WorldQueries::limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const {
   double farthest = 0.0;
   for (const Neighbor& other : others) {
@@ -182,7 +182,7 @@ float WorldQueries::limitFrom(const std::array<double, 3>& point, std::span<cons
   return roundUpFar(farthest * farthest);
 }
 
-/// What is nearest to the query before, which is near in space, can't be far: a limit before any box has been met.
+/// The boxes nearest to the previous query, which is close in space, cannot be far: they give an initial limit.
 void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count,
                            std::vector<Neighbor>& neighbors) const {
   if (count == 0) return;

@@ -16,7 +16,7 @@
 
 namespace allpairs::engine {
 
-/// What queries look at: the boxes, and the hierarchies over them, up to date.
+/// The data of queries: the boxes, and the updated hierarchies over them.
 struct QueryTarget {
   const BoxStore* store = nullptr;
   std::array<BvhView, 2> hierarchies;  ///< Of the dynamic boxes and of the static ones.
@@ -27,14 +27,14 @@ struct QueryTarget {
 
 /// Queries against the boxes of a world.
 ///
-/// A query goes down the hierarchies, whose blocks the kernels test in float32, and decides in double what comes of it.
-/// Batches are answered in the order of space, in tasks.
-/// Threads: const; nothing is kept from one query to the next.
+/// A query descends the hierarchies, whose blocks the kernels test in float32, and tests the candidates in double.
+/// Batches are answered in spatial order, in tasks.
+/// Threads: const; nothing is kept between queries.
 class WorldQueries {
  public:
   WorldQueries(const QueryTarget& target, const QueryFilter& filter) noexcept;
 
-  // One query: what it finds is appended.
+  // Single queries: they append their results.
   void overlapping(const Box& query, std::vector<BoxId>& ids) const;
   [[nodiscard]] SweepHit first(const BoxSweep& sweep) const;
   void all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const;
@@ -51,7 +51,7 @@ class WorldQueries {
   template <class T, class PointOf, class Find>
   [[nodiscard]] ResultLists<T> findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const;
 
-  /// Calls visit(hierarchy, exact) for those of the two that the filter looks at and that are not empty.
+  /// Calls visit(hierarchy, exact) for each of the two that is not empty and that the filter includes.
   template <class Visit>
   void eachBvh(const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id) const noexcept;
@@ -60,7 +60,7 @@ class WorldQueries {
 
   QueryTarget m_target;
   QueryFilter m_filter;
-  bool m_everyBox;  ///< All boxes pass the filter, so that none need be asked.
+  bool m_everyBox;  ///< All boxes pass the filter, so that none need be tested.
 };
 
 }  // namespace allpairs::engine

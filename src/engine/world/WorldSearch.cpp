@@ -11,16 +11,17 @@
 namespace allpairs::engine {
 namespace {
 
-/// If one box in so many has changed, all boxes are joined: the changed ones meet all others from both sides.
+/// If at least one box in this many has changed, all boxes are joined: the join of changed boxes finds pairs from both
+/// sides.
 constexpr std::size_t kShareOfChanged = 4;
 
-/// Whether a hit of a changed box, the first of the pair, is to be dropped: it met itself, or a partner that changed too
-/// and finds the same pair from its side.
+/// Whether to drop a hit of a changed box, the first of the pair: the partner is the box itself, or has changed too and
+/// finds the same pair from its side.
 bool isFoundTwice(const BoxStore& store, Pair pair) noexcept {
   return (pair.first == pair.second) | (store.isTouched(pair.second) & (pair.second < pair.first));
 }
 
-/// Drops what is found twice and puts the smaller id of the others first; returns how many are left.
+/// Drops duplicates and puts the smaller id first in the other pairs; returns the remaining number.
 std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
   std::size_t kept = 0;
   for (const Pair pair : pairs) {
@@ -36,7 +37,7 @@ void WorldSearch::update(BoxStore& store) {
   const BoxView& boxes = store.set();
   if (store.stale().empty() && m_dynamic.isWhole() && m_static.isWhole()) return;
   OverlapOptions lanes;
-  // Queries ask for the boxes themselves: lanes are never smaller than those.
+  // Queries test the boxes themselves: lanes contain them.
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
   m_statistics.rebuilds += m_dynamic.update(store, reader, executor()) ? 1U : 0U;
@@ -66,14 +67,14 @@ StepResult WorldSearch::step(BoxStore& store) {
   return m_history.result();
 }
 
-/// The test of pairs of this world and that other one, or of this one alone.
+/// The test of pairs of this world and another one, or of this one alone.
 PairTest WorldSearch::testOf(const BoxStore& store, const BoxStore& other, double distance, bool exact) const {
   PairTest test(store.tested(), other.tested(), distance, m_options.accept);
   test.requireExactTest(!exact || distance != 0.0);
   return test;
 }
 
-/// Joins two hierarchies; returns how many tests of boxes that took.
+/// Joins two hierarchies; returns the number of box tests.
 std::uint64_t WorldSearch::join(const BvhLevels& first, const BvhLevels& second, JoinRunner& runner) const {
   const BvhPair both(first, second);
   return join(JoinRunner::Job::ofJoin(both.first, both.second), runner);
@@ -137,7 +138,7 @@ void WorldSearch::joinChanged(const BoxStore& store) {
 std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSearch& other,
                                            const BoxStore& otherStore) const {
   const bool exact = isExact() && other.isExact() && m_options.distance == 0.0 && other.m_options.distance == 0.0;
-  // Half of each: what the lanes of the two worlds have been widened by.
+  // Half of each: the lanes of the two worlds have been enlarged by that.
   const double distance = 0.5 * m_options.distance + 0.5 * other.m_options.distance;
   const PairTest test = testOf(store, otherStore, distance, exact);
   std::mutex mutex;

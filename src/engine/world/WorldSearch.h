@@ -30,18 +30,18 @@ class WorldSearch {
         m_runner(memory),
         m_history(memory, options.order) {}
 
-  /// Brings the hierarchies up to date with the store.
+  /// Updates the hierarchies from the store.
   void update(BoxStore& store);
 
-  /// Finds the pairs of the boxes as they are now.
+  /// Finds the current pairs.
   StepResult step(BoxStore& store);
 
-  /// Gives back all memory but that of the last step's result.
+  /// Releases all memory except that of the last step's result.
   void shrink() noexcept;
 
   [[nodiscard]] StepResult result() const noexcept { return m_history.result(); }
 
-  /// The pairs of a box of this world and a box of another, in order. Both are up to date.
+  /// The pairs of a box of this world and a box of another, in order. Both must be updated.
   [[nodiscard]] std::vector<Pair> findBetween(const BoxStore& store, const WorldSearch& other,
                                               const BoxStore& otherStore) const;
 

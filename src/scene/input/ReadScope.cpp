@@ -97,7 +97,7 @@ bool ReadScope::allows(const fs::path& file) const {
 void ReadScope::admit(const fs::path& file) {
   std::error_code problem;
   const std::uint64_t size = fs::file_size(file, problem);
-  if (problem) return;  // whoever opens it says what is wrong
+  if (problem) return;  // opening it reports the problem
   if (m_files.insert(fs::weakly_canonical(file, problem)).second) {
     m_bytes += size;
     m_limit = limit();

@@ -28,7 +28,7 @@ class TextScanner {
   std::int64_t integer();
   void expect(std::string_view word);
   void skipLine();
-  /// Takes exactly so many bytes; throws when there are fewer.
+  /// Takes exactly that many bytes; throws if there are fewer.
   std::string_view bytes(std::size_t count);
 
   [[noreturn]] void fail(const std::string& problem) const;

@@ -42,7 +42,7 @@ void writeModels(const ResultView& result, TextBuffer& out) {
 }
 
 void writePairs(const ResultView& result, TextBuffer& out) {
-  constexpr std::size_t kPairsPerLine = 8;  // so that no editor meets a line of megabytes
+  constexpr std::size_t kPairsPerLine = 8;  // so that no line has megabytes
   out.append("\"pairs\": [");
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     const Pair pair = result.pairs[i];

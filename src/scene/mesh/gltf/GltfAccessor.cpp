@@ -86,7 +86,7 @@ class AccessorReader {
   }
 
  private:
-  /// As many numbers as so many entries are.
+  /// The numbers of that many entries.
   std::size_t charge(std::uint64_t count, std::size_t width) const {
     m_document.scope().takeElements(count, width * sizeof(double));
     return static_cast<std::size_t>(count) * width;

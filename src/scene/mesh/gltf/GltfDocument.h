@@ -43,7 +43,7 @@ class GltfDocument {
   [[nodiscard]] std::uint64_t needCount(const GltfItem& item, const char* key) const;
   /// A list of indices.
   [[nodiscard]] std::vector<std::uint64_t> indices(const GltfItem& item, const char* key) const;
-  /// A list of exactly so many numbers; empty where there is none.
+  /// A list of exactly `size` numbers; empty if absent.
   [[nodiscard]] std::vector<double> numbers(const GltfItem& item, const char* key, std::size_t size) const;
   [[nodiscard]] std::string text(const GltfItem& item, const char* key) const;
 

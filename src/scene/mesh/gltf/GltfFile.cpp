@@ -91,7 +91,7 @@ class GltfNodeReader {
     std::for_each(nodes.rbegin(), nodes.rend(), [&](std::uint64_t node) { open.push_back({node, parent}); });
   }
 
-  /// Those of the scene to be shown, else of the first; without scenes the nodes that are nobody's children.
+  /// Those of the scene to be shown, else of the first; without scenes, the nodes without a parent.
   std::vector<std::uint64_t> roots() const {
     if (m_document.size("scenes") != 0) {
       const std::uint64_t scene = m_document.count({&m_document.root(), "the document"}, "scene").value_or(0);

@@ -43,7 +43,7 @@ class Carriers {
   }
 
  private:
-  /// One number: so many points to each frame; several: one number for each frame.
+  /// One number: the points of each frame; several: one number per frame.
   void spread(const std::vector<std::size_t>& counts, std::size_t points) {
     m_perPoint.clear();
     for (std::size_t frame = 0; !counts.empty() && m_perPoint.size() < points; ++frame) {

@@ -101,7 +101,7 @@ Corners gridCorners(Evaluation& evaluation, const Component& grid) {
   return corners;
 }
 
-/// Origin and spacing of a grid of so many points between two corners; an axis with one point is special.
+/// Origin and spacing of a grid with that many points between two corners; an axis with one point is special.
 GridShape gridBetween(const Corners& corners, const Vec3& counts) {
   GridShape shape;
   shape.origin = corners.min;
@@ -126,7 +126,7 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   }
   if (component.attributes.has("p0")) shape.origin = evaluation.vector(component, {"p0"}, {});
   shape.points = toCounts(component, counts);
-  constexpr std::uint64_t kElements = 8;  // points of a grid have so many times their own size in elements
+  constexpr std::uint64_t kElements = 8;  // elements of a grid take this many times the memory of its points
   evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
 
   Topology topology;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxCount = 500'000'000;  // Entries of one array; more is a damaged header.
 
-/// The lists of cells of a file, as numbers that nobody has checked yet.
+/// The lists of cells of a file, as unchecked numbers.
 struct CellLists {
   std::vector<std::int64_t> cells;  ///< For each cell: number of points, then the points.
   std::vector<std::int64_t> types;  ///< Empty for surfaces.

@@ -23,7 +23,7 @@ struct BulletBroadphaseOptions {
   /// Where Bullet keeps its pairs, not owned; null gives the broad phase a btHashedOverlappingPairCache of its own.
   btOverlappingPairCache* pairCache = nullptr;
 
-  /// Where parallel work runs; null means on the calling thread. Not owned.
+  /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 };
 
@@ -31,10 +31,10 @@ struct BulletBroadphaseOptions {
 ///
 /// After calculateOverlappingPairs() the pair cache holds the pairs whose boxes overlap and whose groups and masks, or
 /// the cache's filter callback, let them collide: exactly those, without the margin that a btDbvtBroadphase adds. Only
-/// pairs that begin or end touch the cache. A box that grows or moves has its new pairs from then on, not before; a
-/// proxy that is destroyed loses its pairs at once.
+/// pairs that begin or end change the cache. A box that grows or moves gets its new pairs in that call, not before;
+/// destroying a proxy removes its pairs at once.
 ///
-/// Geometry:  boxes are closed, in the precision of btScalar. A ray, with the box that Bullet may give it, meets boxes
+/// Geometry:  boxes are closed, in the precision of btScalar. Rays, with the box that Bullet may give them, are tested
 ///            in double.
 /// Bad input: a box with a NaN throws InvalidBox.
 /// Cost:      a step of allpairs::World, and Bullet's own for each pair that begins or ends.
@@ -91,7 +91,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     aabbMax = proxy->m_aabbMax;
   }
 
-  /// Calls the callback for each box that the ray, or the given box along the ray, meets: from near to far.
+  /// Calls the callback for each box that the ray, or the given box along the ray, hits: from near to far.
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
@@ -127,7 +127,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   btOverlappingPairCache* getOverlappingPairCache() override { return m_cache; }
   [[nodiscard]] const btOverlappingPairCache* getOverlappingPairCache() const override { return m_cache; }
 
-  /// The box around all proxies; both corners are 0 where there are none.
+  /// The box around all proxies; both corners are 0 without proxies.
   void getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const override {
     aabbMin.setZero();
     aabbMax.setZero();
@@ -140,7 +140,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     }
   }
 
-  /// Starts afresh, with the same numbers as a new broad phase, if there are no proxies.
+  /// Resets to the state of a new broad phase, with its numbering, if there are no proxies.
   void resetPool(btDispatcher* /*dispatcher*/) override {
     if (m_world.size() != 0) return;
     m_world = makeWorld();
@@ -149,8 +149,8 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   void printStats() override {}
 
-  /// What the boxes are kept in: for its statistics, and for queries that Bullet doesn't know. Add, move and remove
-  /// through this class only.
+  /// The world that holds the boxes, for its statistics and for queries that Bullet does not have. Add, move and remove
+  /// boxes through this class only.
   [[nodiscard]] World& world() { return m_world; }
 
   /// The proxy of a box of world().
@@ -244,7 +244,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     return {std::min(a, b), std::max(a, b)};
   }
 
-  /// Somebody took pairs out of the cache, or put some in: what is missing comes back, as a pair without contacts.
+  /// Pairs were removed from the cache, or added, from outside: adds missing pairs again, without contacts.
   void restorePairs(std::span<const Pair> pairs) {
     for (const Pair& pair : pairs) {
       if (m_cache->findPair(m_proxies[pair.first].get(), m_proxies[pair.second].get()) == nullptr) addPair(pair);

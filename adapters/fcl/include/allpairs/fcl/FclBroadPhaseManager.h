@@ -19,10 +19,10 @@ namespace allpairs {
 
 /// Settings of FclBroadPhaseManager; the defaults are right for most programs.
 struct FclBroadPhaseManagerOptions {
-  /// Where parallel work runs; null means on the calling thread. Not owned.
+  /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// Gives the pairs of collide() by when their first object was registered, and then their second. It takes time.
+  /// Orders the pairs of collide() by the registration of their first object, and then of their second. It takes time.
   bool isOrdered = false;
 };
 
@@ -64,7 +64,7 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
     if (number != kNoBox) m_search.note(number);
   }
 
-  /// Finds the pairs, so that the next collide() need not.
+  /// Finds the pairs in advance of the next collide().
   void setup() override { static_cast<void>(pairs()); }
 
   void update() override {

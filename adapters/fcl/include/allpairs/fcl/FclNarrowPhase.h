@@ -14,16 +14,16 @@
 
 namespace allpairs {
 
-/// What two models are to each other, by their shapes and not their boxes.
+/// The relation of two models, by their shapes instead of their boxes.
 enum class ExactState : std::uint8_t {
-  Apart,        ///< There is room between them.
-  Touching,     ///< Their surfaces meet, and neither reaches into the other; or neither encloses a volume.
-  Overlapping,  ///< They share volume, and their surfaces cross or meet.
-  Contained,    ///< One lies within the other's volume, and their surfaces don't meet.
-  NotExamined,  ///< A model with itself, or of a type whose shape is not known.
+  Apart,        ///< They are disjoint.
+  Touching,     ///< Their surfaces intersect without penetration; or neither encloses a volume.
+  Overlapping,  ///< They share volume, and their surfaces intersect.
+  Contained,    ///< One lies within the other's volume, and their surfaces do not intersect.
+  NotExamined,  ///< A model with itself, or of an unsupported type.
 };
 
-/// Whether the models touch in any way: what a user calls a clash or a contact.
+/// Whether the models touch in any way: a clash or a contact.
 [[nodiscard]] constexpr bool isContact(ExactState state) noexcept {
   return state == ExactState::Touching || state == ExactState::Overlapping || state == ExactState::Contained;
 }
@@ -34,27 +34,27 @@ struct ExactPair {
   collision::CollisionModel* second = nullptr;
   ExactState state = ExactState::NotExamined;
 
-  /// How far apart they are, Euclidean; 0 where they touch.
+  /// Their Euclidean distance; 0 if they touch.
   double distance = 0.0;
 
-  /// How far the deepest point found of one lies below the other's surface; 0 where they only touch. Nothing where no
-  /// depth can be told: surfaces that enclose no volume.
+  /// How far the deepest point found of one lies below the other's surface; 0 if they only touch. Empty if depth is
+  /// undefined: for surfaces that enclose no volume.
   std::optional<double> depth{};
 
   /// Apart: the nearest point of each. Else: the deepest point, and the point of the other's surface nearest to it.
   collision::Vec3 pointOnFirst{};
   collision::Vec3 pointOnSecond{};
 
-  /// A unit vector: which way to move the first to part them, or away from the second where they are apart.
+  /// A unit vector: the direction in which to move the first to separate them; if they are apart, away from the second.
   collision::Vec3 normal{};
 
-  /// How many pairs of elements (triangles, segments, points, balls) meet; those of a Contained pair do not.
+  /// The number of pairs of elements (triangles, segments, points, balls) that intersect; 0 for a Contained pair.
   std::uint64_t contactCount = 0;
 
-  /// Where they meet: a point for each such pair of elements, or so many of them, evenly chosen, as the limit says.
+  /// Contact points: one for each intersecting pair of elements, evenly sampled if there are more than the limit.
   std::vector<collision::Vec3> contactPoints{};
 
-  /// The box around all points where they meet, the chosen and the others; empty where there are none.
+  /// The box around all contact points, sampled or not; empty without any.
   Box contactBox = kEmptyBox;
 };
 
@@ -64,11 +64,11 @@ struct ExactOptions {
   /// the larger of the two models' greatest extents. A billionth: what is left of a double after some arithmetic.
   double tolerance = 1e-9;
 
-  /// How many contact points to keep for a pair.
+  /// The maximum number of contact points of a pair.
   std::size_t contactLimit = 16;
 };
 
-/// A narrow phase that hands pairs of models to the Flexible Collision Library on their real shapes.
+/// A narrow phase that tests pairs of models by their shapes with the Flexible Collision Library.
 ///
 /// Triangle, tetrahedron (by their boundary), line and point models, boxes, spheres and capsules; a model of the user's
 /// own type is NotExamined. Each model's hierarchy is built when it is first in a pair, once in a step.

@@ -25,10 +25,10 @@ class RowSearch {
   /// Pairs come ordered by (first, second) if that is asked for, else in an order that is the same each time.
   explicit RowSearch(Executor* executor, bool isOrdered);
 
-  /// Forgets all boxes.
+  /// Removes all boxes.
   void clear();
 
-  /// Says that a row is new or has changed; of a row that nobody speaks of, what it was before may be used.
+  /// Marks a row as new or changed; for an unmarked row, its previous contents may be used.
   void note(BoxId row) {
     if (m_isPending.size() <= row) m_isPending.resize(std::size_t{row} + 1, 0);
     m_isPending[row] = 1;
