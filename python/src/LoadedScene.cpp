@@ -45,15 +45,11 @@ Content read(const std::filesystem::path& path, const scene::ReadOptions& option
 
 /// The six columns of a file's boxes as they lie in memory: the max corners are behind the min corners in each.
 template <class T>
-py::buffer_info columnsOf(const BoxView::Corners<T>& corners, std::size_t size) {
+Table columnsOf(const BoxView::Corners<T>& corners, std::size_t size) {
   constexpr py::ssize_t kSize = sizeof(T);
-  return {const_cast<T*>(corners.min.data),
-          kSize,
-          py::format_descriptor<T>::format(),
-          2,
-          {static_cast<py::ssize_t>(size), py::ssize_t{6}},
-          {corners.min.boxStride * kSize, corners.min.axisStride * kSize},
-          true};
+  Table table = tableOf(const_cast<T*>(corners.min.data), 6 * size, 6);
+  table.strides = {corners.min.boxStride * kSize, corners.min.axisStride * kSize};
+  return table;
 }
 
 std::unique_ptr<Executor> executorOf(std::size_t threads) {
@@ -124,13 +120,15 @@ class AlarmDistance {
 
 LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOptions& options)
     : m_content(read(path, options)) {
-  const auto* scene = std::get_if<scene::Scene>(&m_content);
-  if (scene == nullptr) return;
-  for (const auto& model : scene->models) {
-    const Box box = scene::modelRecord(*model).box;
-    m_rootBoxes.insert(m_rootBoxes.end(), box.min.begin(), box.min.end());
-    m_rootBoxes.insert(m_rootBoxes.end(), box.max.begin(), box.max.end());
+  if (const auto* scene = std::get_if<scene::Scene>(&m_content)) {
+    for (const auto& model : scene->models) {
+      const Box box = scene::modelRecord(*model).box;
+      m_rootBoxes.insert(m_rootBoxes.end(), box.min.begin(), box.min.end());
+      m_rootBoxes.insert(m_rootBoxes.end(), box.max.begin(), box.max.end());
+    }
   }
+  m_boxes = boxes();
+  m_boxes.isReadOnly = true;
 }
 
 std::size_t LoadedScene::size() const {
@@ -166,15 +164,11 @@ std::optional<Box> LoadedScene::region() const {
   return scene != nullptr ? scene->region : std::nullopt;
 }
 
-py::buffer_info LoadedScene::boxes() {
-  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) {
-    const BoxView& set = boxes->boxes();
-    return set.isFloat64() ? columnsOf(set.float64(), set.size()) : columnsOf(set.float32(), set.size());
-  }
-  constexpr py::ssize_t kSize = sizeof(double);
-  const auto rows = static_cast<py::ssize_t>(m_rootBoxes.size() / 6);
-  return {m_rootBoxes.data(), kSize, py::format_descriptor<double>::format(), 2, {rows, py::ssize_t{6}},
-          {6 * kSize, kSize}, true};
+Table LoadedScene::boxes() {
+  const auto* boxes = std::get_if<scene::BoxArray>(&m_content);
+  if (boxes == nullptr) return tableOf(m_rootBoxes.data(), m_rootBoxes.size(), 6);
+  const BoxView& set = boxes->boxes();
+  return set.isFloat64() ? columnsOf(set.float64(), set.size()) : columnsOf(set.float32(), set.size());
 }
 
 std::vector<Pair> LoadedScene::detect(const DetectionOptions& options) {

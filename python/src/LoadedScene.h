@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <mutex>
@@ -11,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "BufferProtocol.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "allpairs/scene/BoxArray.h"
@@ -46,14 +45,17 @@ class LoadedScene {
 
   /// An array of shape (n, 6): float32 or float64 where a file of boxes has it so, which stays where it is; root boxes
   /// are float64, for as long as the scene lives.
-  [[nodiscard]] pybind11::buffer_info boxes();
+  [[nodiscard]] Table& table() { return m_boxes; }
 
   /// The pairs that may touch, newest model first, in the order of the double loop.
   [[nodiscard]] std::vector<Pair> detect(const DetectionOptions& options);
 
  private:
+  [[nodiscard]] Table boxes();
+
   std::variant<scene::Scene, scene::BoxArray> m_content;
   std::vector<double> m_rootBoxes;
+  Table m_boxes;
   std::mutex m_mutex;
 };
 

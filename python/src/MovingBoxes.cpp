@@ -90,9 +90,10 @@ MovingBoxes::MovingBoxes(double distance, Order order, std::size_t threads)
     : m_executor(executorOf(threads)), m_world(optionsOf(distance, order, m_executor.get())) {}
 
 MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properties) {
-  std::vector<BoxId> ids(boxes.set().size());
-  alone([&](World& world) { world.add(boxes.set(), properties.values(), ids); });
-  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
+  // All memory first: boxes whose ids nobody knows could never be removed.
+  auto ids = std::make_unique<NumberArray<std::uint32_t>>(std::vector<BoxId>(boxes.set().size()));
+  alone([&](World& world) { world.add(boxes.set(), properties.values(), ids->values()); });
+  return ids;
 }
 
 void MovingBoxes::move(const py::buffer& ids, const Boxes& boxes) {

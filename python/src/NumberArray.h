@@ -4,8 +4,11 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include "BufferProtocol.h"
 
 namespace allpairs::python {
 
@@ -14,19 +17,16 @@ template <class T>
 class NumberArray {
  public:
   explicit NumberArray(std::vector<T> values, pybind11::ssize_t columns = 0)
-      : m_values(std::move(values)), m_columns(columns) {}
+      : m_values(std::move(values)), m_table(tableOf(m_values.data(), m_values.size(), columns)) {}
+  NumberArray(const NumberArray&) = delete;
+  NumberArray& operator=(const NumberArray&) = delete;
 
-  [[nodiscard]] pybind11::buffer_info buffer() {
-    constexpr pybind11::ssize_t kSize = sizeof(T);
-    const auto size = static_cast<pybind11::ssize_t>(m_values.size());
-    const std::string format = pybind11::format_descriptor<T>::format();
-    if (m_columns == 0) return {m_values.data(), kSize, format, 1, {size}, {kSize}};
-    return {m_values.data(), kSize, format, 2, {size / m_columns, m_columns}, {m_columns * kSize, kSize}};
-  }
+  [[nodiscard]] Table& table() { return m_table; }
+  [[nodiscard]] std::span<T> values() { return m_values; }
 
  private:
   std::vector<T> m_values;
-  pybind11::ssize_t m_columns;
+  Table m_table;
 };
 
 }  // namespace allpairs::python

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "BufferProtocol.h"
 #include "allpairs/Pair.h"
 
 namespace allpairs::python {
@@ -14,12 +13,15 @@ namespace allpairs::python {
 /// Pairs that Python owns: numpy.asarray makes an array of shape (m, 2), uint32, of it without a copy.
 class PairArray {
  public:
-  explicit PairArray(std::vector<Pair> pairs) : m_pairs(std::move(pairs)) {}
+  explicit PairArray(std::vector<Pair> pairs);
+  PairArray(const PairArray&) = delete;
+  PairArray& operator=(const PairArray&) = delete;
 
-  [[nodiscard]] pybind11::buffer_info buffer();
+  [[nodiscard]] Table& table() { return m_table; }
 
  private:
   std::vector<Pair> m_pairs;
+  Table m_table;
 };
 
 [[nodiscard]] inline std::unique_ptr<PairArray> toPython(std::vector<Pair> pairs) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "Bindings.h"
+#include "BufferProtocol.h"
 #include "LoadedScene.h"
 #include "PairArray.h"
 
@@ -67,8 +68,7 @@ void bindScene(py::module_& module) {
       .def("set_region", [](DetectionOptions& self, const Bounds& b) {
         self.region = Box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
       });
-  py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(module, "Scene", py::buffer_protocol())
-      .def_buffer(&LoadedScene::boxes)
+  py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(module, "Scene", tableProtocol<LoadedScene>())
       .def("__len__", &LoadedScene::size)
       .def("model", &modelOf)
       .def("remarks", &remarksOf)

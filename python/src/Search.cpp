@@ -9,6 +9,7 @@
 #include "Batches.h"
 #include "Bindings.h"
 #include "Boxes.h"
+#include "BufferProtocol.h"
 #include "Options.h"
 #include "PairArray.h"
 
@@ -74,7 +75,7 @@ void bindArguments(py::module_& module) {
       .def("__len__", [](const Boxes& self) { return self.set().size(); })
       .def("set_margin", &Boxes::setMargin)
       .def("set_margins", &Boxes::setMargins);
-  py::class_<PairArray>(module, "PairArray", py::buffer_protocol()).def_buffer(&PairArray::buffer);
+  py::class_<PairArray>(module, "PairArray", tableProtocol<PairArray>());
   bindOptions(module);
 }
 

@@ -2,6 +2,7 @@
 #include "allpairs/World.h"
 
 #include "Bindings.h"
+#include "BufferProtocol.h"
 #include "MovingBoxes.h"
 
 namespace allpairs::python {
@@ -10,7 +11,7 @@ namespace {
 
 template <class T>
 void bindNumbers(py::module_& module, const char* name) {
-  py::class_<NumberArray<T>>(module, name, py::buffer_protocol()).def_buffer(&NumberArray<T>::buffer);
+  py::class_<NumberArray<T>>(module, name, tableProtocol<NumberArray<T>>());
 }
 
 template <std::uint32_t BoxProperties::*Field>
