@@ -12,9 +12,8 @@ namespace {
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
 constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
 
-/// A first pass leaves buckets of about 2^kRunBits numbers, in no more than 2^kMostBucketBits buckets.
+/// A first pass leaves buckets of about 2^kRunBits numbers, in no more than 2^kMaxDigitBits buckets.
 constexpr unsigned kRunBits = 12;
-constexpr unsigned kMostBucketBits = 11;
 
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 13;
@@ -23,9 +22,9 @@ constexpr std::size_t kMinChunk = std::size_t{1} << 13;
 
 template <class Number>
 Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, unsigned end) noexcept {
-  RadixPasses<Number> passes(from, to, size, begin, end);
-  const bool isWritten = passes.run([](Number* last, std::size_t place, Number number) { last[place] = number; });
-  return isWritten ? passes.to() : passes.from();
+  const bool isWritten =
+      radixSortTo(from, to, size, begin, end, [&to](std::size_t place, Number number) { to[place] = number; });
+  return isWritten ? to : from;
 }
 
 template std::uint32_t* radixSort(std::uint32_t*, std::uint32_t*, std::size_t, unsigned, unsigned) noexcept;
@@ -65,7 +64,7 @@ void RadixSort::sort(std::uint64_t* from, std::uint64_t* to, std::size_t size, u
     return;
   }
   const unsigned width = static_cast<unsigned>(std::bit_width(size));
-  const unsigned digit = std::clamp(width, kRunBits + 4, kRunBits + kMostBucketBits) - kRunBits;
+  const unsigned digit = std::clamp(width, kRunBits + 4, kRunBits + kMaxDigitBits) - kRunBits;
   const unsigned shift = std::max(begin, end - std::min(end, digit));
   const std::size_t buckets = std::size_t{1} << (end - shift);
   m_bucketBegin.resize(buckets + 1);

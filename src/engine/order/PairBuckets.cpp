@@ -76,11 +76,12 @@ void sortBucketBy(const BucketRule& rule, std::size_t bucket, std::span<const Pa
       from;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   std::array<std::uint32_t, kMostOnStack> to;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   packAll<kBySecond>(rule, bucket, ofWorkers, from.data());
-  RadixPasses<std::uint32_t> passes(from.data(), to.data(), size, 0, bits);
-  const bool isWritten = passes.run([=](const std::uint32_t*, std::size_t at, std::uint32_t number) {
+  std::uint32_t* numbers = from.data();
+  std::uint32_t* others = to.data();
+  const bool isWritten = radixSortTo(numbers, others, size, 0, bits, [=](std::size_t at, std::uint32_t number) {
     place[at] = unpacked<kBySecond>(number, firstKey, otherBits);
   });
-  if (!isWritten) unpackAll<kBySecond>(passes.from(), firstKey, otherBits, place);
+  if (!isWritten) unpackAll<kBySecond>(numbers, firstKey, otherBits, place);
 }
 
 }  // namespace

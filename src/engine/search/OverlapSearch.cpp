@@ -88,63 +88,57 @@ std::uint64_t OverlapSearch::count(const BoxView& first, const BoxView& second) 
 void OverlapSearch::stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  state.search.stream({boxes, boxes, true}, state.options, {visitor, batchSize});
+  state.search.stream({boxes, boxes, true}, state.options, {visitor, batchSize, state.options.maxPairs});
 }
 
 void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  state.search.stream({first, second, false}, state.options, {visitor, batchSize});
+  state.search.stream({first, second, false}, state.options, {visitor, batchSize, state.options.maxPairs});
 }
 
 namespace {
 
-/// The memory of a one-shot search: for some thousand boxes one block, of the size that it is likely to need. Otherwise
-/// glibc returns many blocks to the system at the end of each search and maps them again for the next. Fewer boxes need
-/// few blocks; for more, the block would consist of large pages and cost more than it saves (docs/decisions/0015).
-class OneShot {
- public:
-  OneShot(std::size_t boxes, const OverlapOptions& options)
-      : m_block(kBytesPerBox * boxes, engine::memoryOr(options.memory)), m_options(options) {
-    // The block is not thread-safe.
-    if (boxes >= kLeast && boxes < kMost && options.executor == nullptr) m_options.memory = &m_block;
-  }
-
-  [[nodiscard]] const OverlapOptions& options() const noexcept { return m_options; }
-
- private:
-  static constexpr std::size_t kLeast = 4096;
-  static constexpr std::size_t kMost = 16384;
-  static constexpr std::size_t kBytesPerBox = 127;  ///< kMost of them are less than a large page.
-
-  std::pmr::monotonic_buffer_resource m_block;
-  OverlapOptions m_options;
-};
-
-/// The pairs of a search that is made for this one question.
-std::vector<Pair> takePairs(const engine::Sets& sets, std::size_t boxes, const OverlapOptions& given) {
-  const OneShot search(boxes, given);
-  return engine::Search(engine::memoryOr(search.options().memory)).take(sets, search.options());
+/// Calls use(search) with a search for one question. For some thousand boxes its memory is one block, of the size that it is
+/// likely to need: glibc would return many blocks to the system at the end of each search and map them again for the next.
+/// Fewer boxes need few blocks; for more, the block would consist of large pages and cost more than it saves
+/// (docs/decisions/0015).
+template <class Use>
+auto searchOnce(std::size_t boxes, const OverlapOptions& given, const Use& use) {
+  constexpr std::size_t kLeast = 4096;
+  constexpr std::size_t kMost = 16384;
+  constexpr std::size_t kBytesPerBox = 127;  // kMost of them are less than a large page.
+  std::pmr::monotonic_buffer_resource block(kBytesPerBox * boxes, engine::memoryOr(given.memory));
+  // The block is not thread-safe.
+  const bool takesBlock = boxes >= kLeast && boxes < kMost && given.executor == nullptr;
+  engine::Search search(takesBlock ? &block : engine::memoryOr(given.memory));
+  return use(search);
 }
 
 }  // namespace
 
 std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
-  return takePairs({boxes, boxes, true}, boxes.size(), options);
+  return searchOnce(boxes.size(), options, [&](engine::Search& search) {
+    return search.take({boxes, boxes, true}, options);
+  });
 }
 
 std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  return takePairs({first, second, false}, first.size() + second.size(), options);
+  return searchOnce(first.size() + second.size(), options, [&](engine::Search& search) {
+    return search.take({first, second, false}, options);
+  });
 }
 
 std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {
-  const OneShot search(boxes.size(), options);
-  return OverlapSearch(search.options()).count(boxes);
+  return searchOnce(boxes.size(), options, [&](engine::Search& search) {
+    return search.count({boxes, boxes, true}, options);
+  });
 }
 
 std::uint64_t countOverlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  const OneShot search(first.size() + second.size(), options);
-  return OverlapSearch(search.options()).count(first, second);
+  return searchOnce(first.size() + second.size(), options, [&](engine::Search& search) {
+    return search.count({first, second, false}, options);
+  });
 }
 
 void streamOverlaps(const BoxView& boxes, PairVisitor visitor, const OverlapOptions& options, std::size_t batchSize) {

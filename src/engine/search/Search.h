@@ -19,10 +19,24 @@
 
 namespace allpairs::engine {
 
-/// The visitor of a stream, and the maximum size of a batch.
-struct Batches {
-  PairVisitor visitor;
-  std::size_t size;
+/// Passes the pairs of a stream on in batches of at most `size`, and no more than the limit.
+class Batches {
+ public:
+  Batches(PairVisitor visitor, std::size_t size, std::uint64_t limit)
+      : m_visitor(visitor), m_size(size), m_limit(limit) {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+
+  void give(std::span<const Pair> pairs);
+
+  /// Whole batches only; returns how many pairs those were.
+  std::size_t giveFull(std::span<const Pair> pairs);
+
+ private:
+  PairVisitor m_visitor;
+  std::size_t m_size;
+  std::uint64_t m_limit;
+  std::uint64_t m_given = 0;
 };
 
 /// The state of a search, and the memory that it keeps for the next one.
@@ -45,7 +59,7 @@ class Search {
   /// is touched for the first time.
   [[nodiscard]] std::vector<Pair> take(const Sets& sets, const OverlapOptions& options);
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
-  void stream(const Sets& sets, const OverlapOptions& options, const Batches& to);
+  void stream(const Sets& sets, const OverlapOptions& options, Batches to);
 
   /// Releases all memory except that of the last result.
   void shrink() noexcept;
@@ -81,8 +95,8 @@ class Search {
   bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
   void sortBuckets(const BucketRule& rule);
 
-  void streamAll(Plan& plan, const OverlapOptions& options, const Batches& to);
-  void streamInRanges(const Sets& sets, const OverlapOptions& options, const Batches& to);
+  void streamAll(Plan& plan, Batches& to);
+  void streamInRanges(const Sets& sets, const OverlapOptions& options, Batches& to);
   bool findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end);
 
   OverlapStatistics m_statistics;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Searches that pass pairs to a visitor as they find them, in bounded memory.
 #include <algorithm>
-#include <limits>
 
 #include "allpairs/Error.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
 namespace {
-
-constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 /// The initial and the maximum number of boxes in a range of an ordered stream.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
@@ -18,37 +15,25 @@ constexpr std::size_t kLastRange = std::size_t{1} << 20;
 /// The maximum number of buffered pairs of a range, unless a single box has more partners.
 constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
 
-/// Passes pairs on in batches, and no more than the limit.
-class Delivery {
- public:
-  Delivery(const Batches& to, std::uint64_t limit) : m_to(to), m_limit(limit) {}
-
-  void give(std::span<const Pair> pairs) {
-    for (std::size_t begin = 0; begin < pairs.size(); begin += m_to.size) {
-      const std::span<const Pair> batch = pairs.subspan(begin, std::min(m_to.size, pairs.size() - begin));
-      m_given += batch.size();
-      checkLimit({.maxPairs = m_limit}, m_given);
-      m_to.visitor(batch);
-    }
-  }
-
-  /// Passes on whole batches only; returns their number of pairs.
-  std::size_t giveFull(std::span<const Pair> pairs) {
-    const std::size_t full = pairs.size() / m_to.size * m_to.size;
-    give(pairs.first(full));
-    return full;
-  }
-
- private:
-  const Batches& m_to;
-  std::uint64_t m_limit;
-  std::uint64_t m_given = 0;
-};
-
 }  // namespace
 
-void Search::stream(const Sets& sets, const OverlapOptions& options, const Batches& to) {
-  if (to.size == 0) throw InvalidArgument("a batch size of 0 pairs");
+void Batches::give(std::span<const Pair> pairs) {
+  for (std::size_t begin = 0; begin < pairs.size(); begin += m_size) {
+    const std::span<const Pair> batch = pairs.subspan(begin, std::min(m_size, pairs.size() - begin));
+    m_given += batch.size();
+    checkLimit({.maxPairs = m_limit}, m_given);
+    m_visitor(batch);
+  }
+}
+
+std::size_t Batches::giveFull(std::span<const Pair> pairs) {
+  const std::size_t full = pairs.size() / m_size * m_size;
+  give(pairs.first(full));
+  return full;
+}
+
+void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to) {
+  if (to.size() == 0) throw InvalidArgument("a batch size of 0 pairs");
   begin(sets, options);
   std::size_t likelyPairs = 0;
   if (options.order != Order::Unordered && !choosesFlat(sets, options, likelyPairs)) {
@@ -57,23 +42,21 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, const Batch
   }
   Plan plan{testOf(sets, options)};
   makePlan(sets, options, plan);
-  plan.sink.likelyPairs = 0;  // passed on before there are many
-  plan.sink.maxPairs = kNoLimit;
-  streamAll(plan, options, to);
+  plan.sink.likelyPairs = 0;                    // passed on before there are many
+  plan.sink.maxPairs = SinkOptions().maxPairs;  // the batches are counted
+  streamAll(plan, to);
 }
 
 /// Passes on full batches immediately; the rest waits for the next pairs.
-void Search::streamAll(Plan& plan, const OverlapOptions& options, const Batches& to) {
-  Delivery delivery(to, options.maxPairs);
-  const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return delivery.giveFull(pairs); };
+void Search::streamAll(Plan& plan, Batches& to) {
+  const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return to.giveFull(pairs); };
   plan.sink.emit.emplace(fullBatches);
   run(plan, m_serial);
-  delivery.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
+  to.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 
 /// Searches the boxes that pairs are ordered by, range by range, each range against all boxes of the other side.
-void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Batches& to) {
-  Delivery delivery(to, options.maxPairs);
+void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Batches& to) {
   const bool bySecond = options.order == Order::BySecond;
   const BoxView& rows = bySecond ? sets.second : sets.first;
   m_second.build(BoxReader(bySecond ? sets.first : sets.second, options, *m_kernels), *m_executor);
@@ -85,7 +68,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
       length = (end - begin + 1) / 2;
       continue;
     }
-    delivery.give(m_pairs);
+    to.give(m_pairs);
     total.pairs += m_statistics.pairs;
     total.boxTests += m_statistics.boxTests;
     total.groupTests += m_statistics.groupTests;
@@ -106,7 +89,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  plan.sink.maxPairs = end - begin == 1 ? kNoLimit : kRangePairs;
+  plan.sink.maxPairs = end - begin == 1 ? SinkOptions().maxPairs : kRangePairs;
   plan.sink.limitIsCallers = false;
   plan.sink.firstRow = static_cast<std::uint32_t>(begin);
   plan.sink.ascendingOnly = sets.one;
