@@ -112,13 +112,4 @@ BlockRead BoxReader::readEach(const BoxList& boxes, const LanesOf& lanesOf, Lane
   return result;
 }
 
-void BoxReader::prefetch(std::size_t i) const noexcept {
-  const auto row = static_cast<std::ptrdiff_t>(i);
-  const auto ask = [&](const auto& corners) {
-    __builtin_prefetch(corners.min.data + row * corners.min.boxStride);
-    __builtin_prefetch(corners.max.data + row * corners.max.boxStride + 2);
-  };
-  m_boxes->isFloat64() ? ask(m_boxes->float64()) : ask(m_boxes->float32());
-}
-
 }  // namespace allpairs::engine

@@ -111,8 +111,10 @@ void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
     m_next[bucket] = bucket * kChunk;
     m_fullChunks[bucket] = 0;
   }
-  // Of this room only what is used takes memory.
-  const std::size_t likelyPairs = kPairsPerKey * (rule.buckets << rule.keyBits) / workers;
+  // Of the default memory only what is used is taken: room for dense scenes too, so that no pairs are copied to fresh pages.
+  const std::size_t keys = rule.buckets << rule.keyBits;
+  const bool isAmple = m_isDefaultMemory && keys <= kMostBuckets * kKeysPerBucket;
+  const std::size_t likelyPairs = (isAmple ? 4 : 1) * kPairsPerKey * keys / workers;
   makeRoom(2 * rule.buckets + likelyPairs / kChunk);
 }
 

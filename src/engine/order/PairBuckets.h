@@ -32,7 +32,11 @@ struct BucketRule {
 class PairBuckets {
  public:
   explicit PairBuckets(std::pmr::memory_resource* memory)
-      : m_pairs(memory), m_following(memory), m_next(memory), m_fullChunks(memory) {}
+      : m_isDefaultMemory(memory == defaultMemory()),
+        m_pairs(memory),
+        m_following(memory),
+        m_next(memory),
+        m_fullChunks(memory) {}
 
   /// Empties all buckets for a search with so many workers; memory is kept.
   void start(const BucketRule& rule, std::size_t workers);
@@ -62,6 +66,7 @@ class PairBuckets {
   std::size_t chunkAfter(std::size_t chunk);
   void makeRoom(std::size_t chunks);
 
+  bool m_isDefaultMemory;
   unsigned m_keyBits = 0;
   bool m_bySecond = false;
   std::size_t m_chunks = 0;  ///< Those in use; the first one of each bucket has the bucket's number.
