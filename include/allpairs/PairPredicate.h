@@ -26,7 +26,7 @@ class PairPredicate {
     if constexpr (requires { callable == nullptr; }) {
       if (callable == nullptr) return;
     }
-    m_held = new Holder<Callable>(std::move(callable));
+    m_held = new Holder<Callable>(std::move(callable));  // NOLINT(*-owning-memory): without <memory>
   }
 
   PairPredicate(const PairPredicate& other) : m_held(other.m_held != nullptr ? other.m_held->copy() : nullptr) {}
@@ -54,7 +54,7 @@ class PairPredicate {
   struct Holder final : Held {
     explicit Holder(Callable&& given) : callable(std::move(given)) {}
     explicit Holder(const Callable& given) : callable(given) {}
-    [[nodiscard]] Held* copy() const override { return new Holder(callable); }
+    [[nodiscard]] Held* copy() const override { return new Holder(callable); }  // NOLINT(*-owning-memory)
     bool ask(std::uint32_t first, std::uint32_t second) override { return callable(first, second); }
 
     Callable callable;

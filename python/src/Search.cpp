@@ -75,7 +75,7 @@ void bindArguments(py::module_& module) {
       .def("__len__", [](const Boxes& self) { return self.set().size(); })
       .def("set_margin", &Boxes::setMargin)
       .def("set_margins", &Boxes::setMargins);
-  py::class_<PairArray>(module, "PairArray", tableProtocol<PairArray>());
+  const py::class_<PairArray> pairs(module, "PairArray", tableProtocol<PairArray>());
   bindOptions(module);
 }
 

@@ -72,12 +72,12 @@ class WorldIndex final : public QueryIndex {
     m_answers.clear();
     for (std::size_t i = 0; i < scene.rays.size(); ++i) {
       if (m_kind == QueryKind::Overlapping) {
-        take(m_world.findOverlapping(boxAt(scene, i)));
+        take<BoxId>(m_world.findOverlapping(boxAt(scene, i)));
       } else if (m_kind == QueryKind::FirstHit) {
         const SweepHit hit = m_world.findFirst(scene.rays[i]);
         take(std::span<const SweepHit>(&hit, 1));
       } else {
-        take(m_world.findNearest(scene.points[i], neighbours()));
+        take<Neighbor>(m_world.findNearest(scene.points[i], neighbours()));
       }
     }
   }
