@@ -3,12 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "allpairs/BoxView.h"
+#include "allpairs/PairPredicate.h"
 #include "allpairs/scene/ReadOptions.h"
 
 namespace allpairs::app {
