@@ -18,7 +18,7 @@ namespace allpairs::engine {
 /// Runs up to this length are sorted by insertion.
 inline constexpr std::size_t kShortRun = 24;
 
-/// Digits are no longer than this, so that their counters stay in the first-level cache beside the numbers.
+/// The most bits of a digit: its counters then stay in the first-level cache beside the numbers.
 inline constexpr unsigned kMaxDigitBits = 11;
 
 /// From this length on the places that a pass writes to, one for each digit, have to lie in the first-level cache.
@@ -44,7 +44,8 @@ void insertionSort(Number* values, std::size_t size, unsigned begin) noexcept {
 }
 
 /// Sorts numbers by their bits [begin, end): a pass for each digit from the lowest up, back and forth between two arrays,
-/// which change their names with each. Numbers that agree in those bits keep their order. For fewer than 2^32 numbers.
+/// which change their names with each. Numbers that agree in those bits keep their order; the bits above `end` are the
+/// same in all of them. For fewer than 2^32 numbers.
 ///
 /// The last pass calls write(place, number) for each number. Returns whether there was such a pass: where few numbers, or
 /// equal digits, need none, the result is in `from`.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "order/PairBuckets.h"
 
-#include <array>
 #include <bit>
 
 #include "bvh/RadixSort.h"
@@ -15,9 +14,6 @@ constexpr std::size_t kKeysPerBucket = 512;
 
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
 constexpr std::size_t kMostBuckets = 2048;
-
-/// Up to so many numbers of a bucket are sorted on the stack, and written as pairs in the last pass.
-constexpr std::size_t kMostOnStack = 8192;
 
 /// Pairs of a key in a scene as most are.
 constexpr std::size_t kPairsPerKey = 4;
@@ -60,24 +56,21 @@ void packAll(const BucketRule& rule, std::size_t bucket, std::span<const PairBuc
 
 template <bool kBySecond>
 void sortBucketBy(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                  std::span<Pair> place) noexcept {
+                  std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
   static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
   const unsigned bits = rule.keyBits + rule.otherBits;
   const unsigned otherBits = rule.otherBits;
   const auto firstKey = static_cast<std::uint32_t>(bucket << rule.keyBits);
   const std::size_t size = place.size();
-  if (size > kMostOnStack) {
+  if (2 * size > scratch.size()) {
     auto* const first = reinterpret_cast<std::uint32_t*>(place.data());
     packAll<kBySecond>(rule, bucket, ofWorkers, first + size);
     unpackAll<kBySecond>(radixSort(first + size, first, size, 0, bits), firstKey, otherBits, place);
     return;
   }
-  std::array<std::uint32_t, kMostOnStack>
-      from;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
-  std::array<std::uint32_t, kMostOnStack> to;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  packAll<kBySecond>(rule, bucket, ofWorkers, from.data());
-  std::uint32_t* numbers = from.data();
-  std::uint32_t* others = to.data();
+  std::uint32_t* numbers = scratch.data();
+  std::uint32_t* others = scratch.data() + size;
+  packAll<kBySecond>(rule, bucket, ofWorkers, numbers);
   const bool isWritten = radixSortTo(numbers, others, size, 0, bits, [=](std::size_t at, std::uint32_t number) {
     place[at] = unpacked<kBySecond>(number, firstKey, otherBits);
   });
@@ -96,9 +89,9 @@ BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : b
 }
 
 void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                std::span<Pair> place) noexcept {
-  rule.bySecond ? sortBucketBy<true>(rule, bucket, ofWorkers, place)
-                : sortBucketBy<false>(rule, bucket, ofWorkers, place);
+                std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
+  rule.bySecond ? sortBucketBy<true>(rule, bucket, ofWorkers, place, scratch)
+                : sortBucketBy<false>(rule, bucket, ofWorkers, place, scratch);
 }
 
 void PairBuckets::start(const BucketRule& rule, std::size_t workers) {

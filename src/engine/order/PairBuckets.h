@@ -76,8 +76,9 @@ class PairBuckets {
   Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
 };
 
-/// Puts the pairs of a bucket, which each worker has some of, in order into their place in the result.
+/// Puts the pairs of a bucket, which each worker has some of, in order into their place in the result. Where they fit twice
+/// into the scratch memory as numbers of 32 bits, they are sorted there and written as pairs in the last pass.
 void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                std::span<Pair> place) noexcept;
+                std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept;
 
 }  // namespace allpairs::engine

@@ -39,14 +39,12 @@ void JoinRunner::run(const Job& job, Executor& executor) {
                                  : TaskCut::ofLeaves(job.units, job.firstLarge, threads);
   m_segments.resize(cut.tasks());
   executor.run(cut.tasks(), [&](std::size_t task) {
-    const std::size_t index = claimWorker();
-    Worker& worker = *m_workers[index];
-    const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
-    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&worker.busy, clear);
-    const std::size_t begin = worker.sink.size();
-    runPart(job, cut.begin(task), cut.begin(task + 1), worker);
-    worker.sink.finish();
-    m_segments[task] = {index, begin, worker.sink.size()};
+    withWorker([&](std::size_t index, Worker& worker) {
+      const std::size_t begin = worker.sink.size();
+      runPart(job, cut.begin(task), cut.begin(task + 1), worker);
+      worker.sink.finish();
+      m_segments[task] = {index, begin, worker.sink.size()};
+    });
   });
 }
 

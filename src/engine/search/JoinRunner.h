@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -48,6 +49,12 @@ class JoinRunner {
   /// Runs all tasks of a job. Sinks keep what they have.
   void run(const Job& job, Executor& executor);
 
+  /// Calls use(scratch), between runs, with memory of a worker that no other task has meanwhile.
+  template <class Use>
+  void withScratch(const Use& use) {
+    withWorker([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory()); });
+  }
+
   [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.get_allocator().resource(); }
   [[nodiscard]] std::size_t workers() const noexcept { return m_workers.size(); }
   [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker]->sink; }
@@ -66,6 +73,16 @@ class JoinRunner {
   };
 
   std::size_t claimWorker();
+
+  /// Calls use(index, worker) with a worker that no other task has meanwhile.
+  template <class Use>
+  void withWorker(const Use& use) {
+    const std::size_t index = claimWorker();
+    const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
+    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&m_workers[index]->busy, clear);
+    use(index, *m_workers[index]);
+  }
+
   void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
 
   const Kernels* m_kernels = nullptr;

@@ -108,7 +108,7 @@ auto searchOnce(std::size_t boxes, const OverlapOptions& given, const Use& use) 
   constexpr std::size_t kLeast = 4096;
   constexpr std::size_t kMost = 16384;
   constexpr std::size_t kBytesPerBox = 127;  // kMost of them are less than a large page.
-  std::pmr::monotonic_buffer_resource block(kBytesPerBox * boxes, engine::memoryOr(given.memory));
+  std::pmr::monotonic_buffer_resource block(kBytesPerBox * boxes + 1, engine::memoryOr(given.memory));
   // The block is not thread-safe.
   const bool takesBlock = boxes >= kLeast && boxes < kMost && given.executor == nullptr;
   engine::Search search(takesBlock ? &block : engine::memoryOr(given.memory));

@@ -63,6 +63,9 @@ class PairSink {
   void finish() { receive(m_hits); }
 
   [[nodiscard]] Buffer<Pair>& pairs() noexcept { return m_pairs; }
+
+  /// The memory that hits are received in, free between runs.
+  [[nodiscard]] std::span<std::uint32_t> idleMemory() noexcept { return {m_memory.data(), m_memory.capacity()}; }
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
   /// All pairs so far, emitted ones included.

@@ -107,6 +107,7 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_executor = options.executor != nullptr ? options.executor : &m_serial;
   m_statistics = {};
   m_pairs = {};
+  m_taken = nullptr;
 }
 
 void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
@@ -192,8 +193,9 @@ void Search::concatenate() {
   });
 }
 
-std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options) {
+std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options, std::vector<Pair>* into) {
   begin(sets, options);
+  m_taken = into;
   Plan plan{testOf(sets, options)};
   makePlan(sets, options, plan);
   if (!plan.job.isFlat && findInBuckets(sets, options, plan)) return m_pairs;
@@ -205,8 +207,7 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
 
 std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) {
   std::vector<Pair> taken;
-  m_taken = &taken;
-  const std::span<const Pair> pairs = find(sets, options);
+  const std::span<const Pair> pairs = find(sets, options, &taken);
   if (pairs.data() != taken.data()) taken.assign(pairs.begin(), pairs.end());
   return taken;
 }
@@ -239,7 +240,7 @@ void Search::sortBuckets(const BucketRule& rule) {
   }
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
-    sortBucket(rule, b, m_buckets, place);
+    m_runner.withScratch([&](std::span<std::uint32_t> scratch) { sortBucket(rule, b, m_buckets, place, scratch); });
   });
 }
 

@@ -53,7 +53,8 @@ class Search {
         m_places(memory),
         m_sort(memory) {}
 
-  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
+  /// With a vector, pairs that have to be put together or in order are put there.
+  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options, std::vector<Pair>* into = nullptr);
 
   /// The pairs of find() as a vector, into which they are put in order at once: another copy of many pairs is memory that
   /// is touched for the first time.
