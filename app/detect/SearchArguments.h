@@ -18,7 +18,7 @@ struct SearchArguments {
 /// Declares --distance and --box.
 void addSearchOptions(CLI::App& command, SearchArguments& arguments);
 
-/// Bad input: a distance that is no number or a box that is no region throws UsageError.
+/// Bad input: UsageError if the distance is not a number or the box is not a region.
 [[nodiscard]] DetectionOptions detectionOptions(const SearchArguments& arguments);
 
 }  // namespace allpairs::app

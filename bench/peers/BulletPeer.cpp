@@ -2,25 +2,16 @@
 // Bullet's dynamic tree, used directly and as its broad phase with a pair cache, and its axis sweep. The sweep rounds
 // bounds outward to a grid, so its pairs are tested again.
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
-#include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 
 #include <algorithm>
-#include <cstdint>
 
+#include "BulletBoxes.h"
 #include "Peer.h"
 
 namespace allpairs::bench {
 
 namespace {
-
-btVector3 corner(const float* row) { return {row[0], row[1], row[2]}; }
-
-/// Bullet keeps a pointer for the user; we keep the number of the box in it.
-void* pointerOf(std::size_t number) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(number)); }
-std::uint32_t numberOf(const void* pointer) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(pointer));
-}
 
 /// The bare tree: boxes inserted one by one, or rebuilt from the top when all are in, then crossed with itself.
 class DynamicTree final : public Search, private btDbvt::ICollide {
@@ -30,7 +21,7 @@ class DynamicTree final : public Search, private btDbvt::ICollide {
   std::span<const Pair> find(std::span<const float> rows) override {
     for (std::size_t i = 0; i < rows.size() / 6; ++i) {
       const float* const row = rows.data() + 6 * i;
-      m_tree.insert(btDbvtVolume::FromMM(corner(row), corner(row + 3)), pointerOf(i));
+      m_tree.insert(volumeOf(row), pointerOf(i));
     }
     if (m_rebuild) m_tree.optimizeTopDown();
     m_tree.collideTTpersistentStack(m_tree.m_root, m_tree.m_root, *this);

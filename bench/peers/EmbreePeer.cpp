@@ -3,6 +3,7 @@
 // time. Embree reports pairs of leaves and leaves the test of the boxes to the callback.
 #include <embree3/rtcore.h>
 
+#include "EmbreeBoxes.h"
 #include "Peer.h"
 
 namespace allpairs::bench {
@@ -26,13 +27,7 @@ struct EmbreeSetting {
 
 void boundsOfBox(const RTCBoundsFunctionArguments* arguments) {
   const float* const row = static_cast<const float*>(arguments->geometryUserPtr) + 6 * std::size_t{arguments->primID};
-  RTCBounds& bounds = *arguments->bounds_o;
-  bounds.lower_x = row[0];
-  bounds.lower_y = row[1];
-  bounds.lower_z = row[2];
-  bounds.upper_x = row[3];
-  bounds.upper_y = row[4];
-  bounds.upper_z = row[5];
+  writeBounds(row, *arguments->bounds_o);
 }
 
 class EmbreeSearch final : public Search {

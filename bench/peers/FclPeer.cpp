@@ -5,27 +5,12 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/config.h>
 
+#include "FclBoxes.h"
 #include "Peer.h"
 
 namespace allpairs::bench {
 
 namespace {
-
-/// A collision object that is nothing but its box: no geometry, which the broad phase never asks for.
-class BoxObject final : public fcl::CollisionObjectd {
- public:
-  BoxObject(const float* row, std::uint32_t number) : fcl::CollisionObjectd(nullptr), m_number(number) {
-    for (int axis = 0; axis < 3; ++axis) {
-      aabb.min_[axis] = static_cast<double>(row[axis]);
-      aabb.max_[axis] = static_cast<double>(row[axis + 3]);
-    }
-  }
-
-  [[nodiscard]] std::uint32_t number() const { return m_number; }
-
- private:
-  std::uint32_t m_number;
-};
 
 template <class Manager>
 class FclSearch final : public Search {

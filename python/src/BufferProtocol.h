@@ -34,8 +34,8 @@ Table tableOf(T* data, std::size_t size, pybind11::ssize_t columns) {
   return table;
 }
 
-/// Gives the table of an object whose class has a member function table(), which lives as long as the object. It takes no
-/// memory: NumPy makes an array of one object, without a word, of what can't give its buffer.
+/// Gives the table of an object whose class has a member function table(), which lives as long as the object. It
+/// allocates nothing: of an object that fails to give its buffer NumPy silently makes an array of one object.
 template <class T>
 int getTable(PyObject* object, Py_buffer* view, int flags) noexcept {
   Table& table = pybind11::handle(object).cast<T&>().table();

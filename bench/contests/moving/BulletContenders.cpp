@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Bullet's dynamic tree: bare, with its leaves updated in place, and as its broad phase with a pair cache.
-#include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 
+#include "BulletBoxes.h"
 #include "MovingSearch.h"
 
 namespace allpairs::bench {
 
 namespace {
 
-btVector3 corner(const float* row) { return {row[0], row[1], row[2]}; }
-
-/// Bullet keeps a pointer for the user; we keep the number of the box in it.
-void* pointerOf(std::size_t number) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(number)); }
-std::uint32_t numberOf(const void* pointer) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(pointer));
-}
-
 class TreeSteps final : public MovingSearch, private btDbvt::ICollide {
  public:
   void start(const MovingScene& scene) override {
     for (std::size_t i = 0; i < scene.rows().size() / 6; ++i) {
       const float* const row = scene.rows().data() + 6 * i;
-      m_leaves.push_back(m_tree.insert(btDbvtVolume::FromMM(corner(row), corner(row + 3)), pointerOf(i)));
+      m_leaves.push_back(m_tree.insert(volumeOf(row), pointerOf(i)));
     }
     m_tree.optimizeTopDown();
   }
@@ -30,7 +22,7 @@ class TreeSteps final : public MovingSearch, private btDbvt::ICollide {
   void step(const MovingScene& scene) override {
     for (const BoxId id : scene.movingIds()) {
       const float* const row = scene.rows().data() + std::size_t{6} * id;
-      btDbvtVolume volume = btDbvtVolume::FromMM(corner(row), corner(row + 3));
+      btDbvtVolume volume = volumeOf(row);
       m_tree.update(m_leaves[id], volume);
     }
     m_tree.optimizeIncremental(1 + m_tree.m_leaves / 100);

@@ -2,6 +2,7 @@
 // Embree's rtcCollide on a dynamic scene, committed in each frame: refitted, or rebuilt at low quality.
 #include <embree3/rtcore.h>
 
+#include "EmbreeBoxes.h"
 #include "MovingSearch.h"
 
 namespace allpairs::bench {
@@ -49,13 +50,7 @@ class EmbreeSteps final : public MovingSearch {
   static void bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& self = *static_cast<const EmbreeSteps*>(arguments->geometryUserPtr);
     const float* const row = self.m_rows + 6 * std::size_t{arguments->primID};
-    RTCBounds& to = *arguments->bounds_o;
-    to.lower_x = row[0];
-    to.lower_y = row[1];
-    to.lower_z = row[2];
-    to.upper_x = row[3];
-    to.upper_y = row[4];
-    to.upper_z = row[5];
+    writeBounds(row, *arguments->bounds_o);
   }
 
   /// Embree reports pairs of leaves and leaves the test of the boxes to the callback.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "EmbreeBoxes.h"
 #include "QueryContest.h"
 
 namespace allpairs::bench {
@@ -84,13 +85,7 @@ class EmbreeIndex final : public QueryIndex {
   static void boundsOfBox(const RTCBoundsFunctionArguments* arguments) {
     const auto& self = *static_cast<const EmbreeIndex*>(arguments->geometryUserPtr);
     const float* const row = self.m_rows + 6 * std::size_t{arguments->primID};
-    RTCBounds& to = *arguments->bounds_o;
-    to.lower_x = row[0];
-    to.lower_y = row[1];
-    to.lower_z = row[2];
-    to.upper_x = row[3];
-    to.upper_y = row[4];
-    to.upper_z = row[5];
+    writeBounds(row, *arguments->bounds_o);
   }
 
   static void meet(const RTCIntersectFunctionNArguments* arguments) {

@@ -152,8 +152,8 @@ class ScopedFiles final : public Assimp::IOSystem {
 
   void Close(Assimp::IOStream* stream) override { const std::unique_ptr<Assimp::IOStream> closed(stream); }
 
-  /// The mesh outside that the input names; empty if there is none. What else it may name, such as materials, is left
-  /// alone without a word: it has no geometry.
+  /// The mesh outside that the input names; empty if there is none. What else it may name, such as materials, is
+  /// silently left alone: it has no geometry.
   [[nodiscard]] const std::string& refused() const { return m_refused; }
 
   /// Whether what goes wrong may be due to another file, of which no message must show anything.
