@@ -3,8 +3,8 @@
 
 #include <atomic>
 #include <cstddef>
-#include <memory>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
