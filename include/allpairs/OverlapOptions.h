@@ -24,7 +24,8 @@ enum class Strategy : std::uint8_t {
 enum class Order : std::uint8_t {
   ByFirst,    ///< Ascending by (first, second). The default.
   BySecond,   ///< Ascending by (second, first): as if boxes were added one by one and tested against earlier ones.
-  Unordered,  ///< In the order of discovery, which depends only on the boxes and the strategy.
+  Unordered,  ///< In the order of discovery: it depends only on the boxes and the strategy, and where that is
+              ///< Automatic, on the instruction set.
 };
 
 /// Settings of a search for overlapping boxes; the defaults are right for most uses.

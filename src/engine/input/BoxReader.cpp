@@ -74,12 +74,8 @@ BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const 
 }
 
 BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
-  if (boxes.size == kFanOut && (m_rows32 != nullptr || m_rows64 != nullptr)) {
-    if (boxes.ids == nullptr && m_rows32 != nullptr) return m_kernels->readRun32(m_rows32 + 6 * boxes.begin, block);
-    std::array<std::int32_t, kFanOut> offsets;
-    for (std::size_t lane = 0; lane < kFanOut; ++lane) offsets[lane] = static_cast<std::int32_t>(6 * boxes[lane]);
-    return m_rows32 != nullptr ? m_kernels->readFloat32(m_rows32, offsets.data(), block)
-                               : m_kernels->readFloat64(m_rows64, offsets.data(), block);
+  if ((m_rows32 != nullptr || m_rows64 != nullptr) && boxes.size != 0) {
+    return boxes.size == kFanOut ? readRows(boxes, block) : readFewRows(boxes, block);
   }
   const BoxView& set = *m_boxes;
   if (m_distance != 0.0 || set.hasMargins()) {
@@ -92,6 +88,27 @@ BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
   }
   return readEach(
       boxes, [&](std::size_t i, LaneBox& lanes) { return readPlain(set, i, lanes); }, block);
+}
+
+BlockRead BoxReader::readRows(const BoxList& boxes, LaneBlock& block) const {
+  if (boxes.size == kFanOut && boxes.ids == nullptr && m_rows32 != nullptr) {
+    return m_kernels->readRun32(m_rows32 + 6 * boxes.begin, block);
+  }
+  std::array<std::int32_t, kFanOut> offsets;
+  for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+    offsets[lane] = static_cast<std::int32_t>(6 * boxes[std::min(lane, boxes.size - 1)]);
+  }
+  return m_rows32 != nullptr ? m_kernels->readFloat32(m_rows32, offsets.data(), block)
+                             : m_kernels->readFloat64(m_rows64, offsets.data(), block);
+}
+
+/// Fewer than sixteen: the kernels read the last one again for each that is missing.
+BlockRead BoxReader::readFewRows(const BoxList& boxes, LaneBlock& block) const {
+  LaneBlock all;
+  BlockRead result = readRows(boxes, all);
+  for (std::size_t row = 0; row < 6; ++row) std::copy_n(all.bound[row].data(), boxes.size, block.bound[row].data());
+  result.emptyLanes &= (1U << boxes.size) - 1U;
+  return result;
 }
 
 template <class LanesOf>

@@ -55,6 +55,8 @@ class BoxReader {
   }
 
  private:
+  BlockRead readRows(const BoxList& boxes, LaneBlock& block) const;
+  BlockRead readFewRows(const BoxList& boxes, LaneBlock& block) const;
   template <class LanesOf>
   BlockRead readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const;
 

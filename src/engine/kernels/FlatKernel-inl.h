@@ -33,9 +33,11 @@ struct Range {
   [[nodiscard]] HWY_INLINE std::size_t size() const { return end - std::min(begin, end); }
 };
 
+HWY_INLINE Range columnsOf(Columns tested, std::size_t row, std::size_t columns) {
+  return {tested == Columns::Following ? row + 1 : 0, tested == Columns::Preceding ? row : columns};
+}
 HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
-  return {search.tested == Columns::Following ? row + 1 : 0,
-          search.tested == Columns::Preceding ? row : search.columns.size};
+  return columnsOf(search.tested, row, search.columns.size);
 }
 
 /// One row against the columns [begin, end), tile by tile.
@@ -245,6 +247,17 @@ void searchFlat(const FlatSearch& search, Hits& hits) {
   } else {
     dense ? searchRows<Density::Dense, HitWriter>(search, begin, hits)
           : searchRows<Density::Sparse, HitWriter>(search, begin, hits);
+  }
+}
+
+void searchFew(const FewSearch& search, Hits& hits) {
+  for (std::size_t row = 0; row < search.rowCount; ++row) {
+    const Range columns = columnsOf(search.tested, row, search.columnCount);
+    hits.require(FewTile::kCapacity);
+    HitWriter writer = HitWriter::ofRow(hits, search.rows->id[row]);
+    emitRow<Density::Dense>(broadcast(search.rows->get(row)), *search.columns, columns.begin, columns.end, writer);
+    writer.finish(hits);
+    hits.boxTests += columns.size();
   }
 }
 

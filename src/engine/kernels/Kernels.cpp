@@ -18,6 +18,15 @@
 #include <array>
 #include <iterator>
 
+#if HWY_ARCH_X86 && __has_include(<sys/platform/x86.h>)
+#include <sys/platform/x86.h>
+#endif
+#ifdef CPU_FEATURE_ACTIVE
+#define ALLPAIRS_LIBC_KNOWS_PROCESSOR 1
+#else
+#define ALLPAIRS_LIBC_KNOWS_PROCESSOR 0
+#endif
+
 namespace allpairs::engine {
 namespace {
 
@@ -50,10 +59,43 @@ struct KernelList {
   }
 };
 
+#if ALLPAIRS_LIBC_KNOWS_PROCESSOR
+
+/// What Highway's targets need, as the C library found it at the start of the process. Highway would ask the processor
+/// again, which takes a virtual machine some 70 microseconds.
+std::int64_t supportedTargets() {
+  std::int64_t targets = 0;
+  const bool ssse3 = CPU_FEATURE_ACTIVE(SSE3) && CPU_FEATURE_ACTIVE(SSSE3);
+  const bool sse4 = ssse3 && CPU_FEATURE_ACTIVE(SSE4_1) && CPU_FEATURE_ACTIVE(SSE4_2) &&
+                    CPU_FEATURE_ACTIVE(PCLMULQDQ) && CPU_FEATURE_ACTIVE(AES);
+  const bool avx2 = sse4 && CPU_FEATURE_ACTIVE(AVX) && CPU_FEATURE_ACTIVE(AVX2) && CPU_FEATURE_ACTIVE(LZCNT) &&
+                    CPU_FEATURE_ACTIVE(BMI1) && CPU_FEATURE_ACTIVE(BMI2) && CPU_FEATURE_ACTIVE(FMA) &&
+                    CPU_FEATURE_ACTIVE(F16C);
+  const bool avx3 = avx2 && CPU_FEATURE_ACTIVE(AVX512F) && CPU_FEATURE_ACTIVE(AVX512VL) &&
+                    CPU_FEATURE_ACTIVE(AVX512DQ) && CPU_FEATURE_ACTIVE(AVX512BW) && CPU_FEATURE_ACTIVE(AVX512CD);
+  const bool avx3dl = avx3 && CPU_FEATURE_ACTIVE(AVX512_VNNI) && CPU_FEATURE_ACTIVE(VPCLMULQDQ) &&
+                      CPU_FEATURE_ACTIVE(AVX512_VBMI) && CPU_FEATURE_ACTIVE(AVX512_VBMI2) && CPU_FEATURE_ACTIVE(VAES) &&
+                      CPU_FEATURE_ACTIVE(AVX512_VPOPCNTDQ) && CPU_FEATURE_ACTIVE(AVX512_BITALG) &&
+                      CPU_FEATURE_ACTIVE(GFNI);
+  if (ssse3) targets |= HWY_SSSE3;
+  if (sse4) targets |= HWY_SSE4;
+  if (avx2) targets |= HWY_AVX2;
+  if (avx3) targets |= HWY_AVX3;
+  if (avx3dl) targets |= HWY_AVX3_DL;
+  return targets;
+}
+
+#else
+
+std::int64_t supportedTargets() { return hwy::SupportedTargets(); }
+
+#endif
+
 KernelList availableKernels() {
   KernelList result;
+  const std::int64_t supported = supportedTargets();
   for (const Target& target : kTargets) {
-    if (target.table != nullptr && (hwy::SupportedTargets() & target.bit) != 0) result.add(*target.table());
+    if (target.table != nullptr && (supported & target.bit) != 0) result.add(*target.table());
   }
   const Kernels* baseline = HWY_STATIC_DISPATCH(kernelTable)();
   if (result.size == 0 || result.kernels[result.size - 1] != baseline) result.add(*baseline);

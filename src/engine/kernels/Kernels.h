@@ -34,6 +34,15 @@ struct FlatSearch {
   Columns tested = Columns::All;
 };
 
+/// Every row of one tile against its columns of another, or of the same.
+struct FewSearch {
+  const FewTile* rows = nullptr;
+  const FewTile* columns = nullptr;
+  std::size_t rowCount = 0;
+  std::size_t columnCount = 0;
+  Columns tested = Columns::All;
+};
+
 /// Working memory of a join, one per running task: at each level the candidates of the current node.
 struct JoinScratch {
   explicit JoinScratch(std::pmr::memory_resource* memory) : level(makeArray<PerLevel, kMaxLevels>(memory)) {}
@@ -86,8 +95,14 @@ struct BlockRead {
 struct Kernels {
   std::string_view name;
 
+  /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy (docs/decisions/0009).
+  std::size_t flatBoxes;
+
   /// Tests rows of a list against a range of columns each, without any hierarchy.
   void (*searchFlat)(const FlatSearch& search, Hits& hits);
+
+  /// The same for a few boxes.
+  void (*searchFew)(const FewSearch& search, Hits& hits);
 
   /// Joins part of one hierarchy with another, or with itself.
   void (*join)(const JoinTask& task, Hits& hits);

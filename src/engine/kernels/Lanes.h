@@ -89,9 +89,11 @@ struct alignas(64) LaneTileOf {
   }
 };
 
-/// A tile of an exhaustive search, and a smaller one for the candidates of a join, which are seldom many.
+/// A tile of an exhaustive search, a smaller one for the candidates of a join, which are seldom many, and one that is
+/// small enough for the stack.
 using LaneTile = LaneTileOf<1024>;
 using CandidateTile = LaneTileOf<512>;
+using FewTile = LaneTileOf<128>;
 
 /// Any number of boxes, in tiles of which only the last may be partly filled.
 struct LaneList {

@@ -16,8 +16,8 @@ class InUse {
   /// Marks the object as running while the scope exists.
   class Scope {
    public:
-    explicit Scope(InUse& inUse) noexcept : m_inUse(inUse) { ++m_inUse.m_scopes; }
-    ~Scope() { --m_inUse.m_scopes; }
+    explicit Scope(InUse& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
+    ~Scope() { m_inUse.add(-1); }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
@@ -27,10 +27,16 @@ class InUse {
 
   /// Throws InvalidArgument, which names the kind of object, if the object is running.
   void check(const char* object) const {
-    if (m_scopes != 0) throw InvalidArgument(std::string(object) + " is called by its own filter, visitor or task");
+    if (m_scopes.load(std::memory_order_relaxed) != 0)
+      throw InvalidArgument(std::string(object) + " is called by its own filter, visitor or task");
   }
 
  private:
+  /// Only the thread that uses the object changes the number; a locked addition would cost more than a small search.
+  void add(int scopes) noexcept {
+    m_scopes.store(m_scopes.load(std::memory_order_relaxed) + scopes, std::memory_order_relaxed);
+  }
+
   std::atomic<int> m_scopes = 0;
 };
 

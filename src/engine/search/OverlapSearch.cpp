@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "allpairs/Error.h"
+#include "search/FewBoxes.h"
 #include "search/InUse.h"
 #include "search/Search.h"
 
@@ -104,10 +105,11 @@ namespace {
 /// Fewer boxes need few blocks; for more, the block would consist of large pages and cost more than it saves
 /// (docs/decisions/0015).
 template <class Use>
-auto searchOnce(std::size_t boxes, const OverlapOptions& given, const Use& use) {
+auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use& use) {
   constexpr std::size_t kLeast = 4096;
   constexpr std::size_t kMost = 16384;
   constexpr std::size_t kBytesPerBox = 127;  // kMost of them are less than a large page.
+  const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
   std::pmr::monotonic_buffer_resource block(kBytesPerBox * boxes + 1, engine::memoryOr(given.memory));
   // The block is not thread-safe.
   const bool takesBlock = boxes >= kLeast && boxes < kMost && given.executor == nullptr;
@@ -115,30 +117,34 @@ auto searchOnce(std::size_t boxes, const OverlapOptions& given, const Use& use) 
   return use(search);
 }
 
+std::vector<Pair> takeOverlaps(const engine::Sets& sets, const OverlapOptions& options) {
+  if (engine::areFew(sets, options)) {
+    std::vector<Pair> taken;
+    const auto append = [&](std::span<const Pair> pairs) { taken.insert(taken.end(), pairs.begin(), pairs.end()); };
+    engine::findFew(sets, options, append);
+    return taken;
+  }
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.take(sets, options); });
+}
+
 }  // namespace
 
 std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
-  return searchOnce(boxes.size(), options, [&](engine::Search& search) {
-    return search.take({boxes, boxes, true}, options);
-  });
+  return takeOverlaps({boxes, boxes, true}, options);
 }
 
 std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  return searchOnce(first.size() + second.size(), options, [&](engine::Search& search) {
-    return search.take({first, second, false}, options);
-  });
+  return takeOverlaps({first, second, false}, options);
 }
 
 std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {
-  return searchOnce(boxes.size(), options, [&](engine::Search& search) {
-    return search.count({boxes, boxes, true}, options);
-  });
+  const engine::Sets sets{boxes, boxes, true};
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.count(sets, options); });
 }
 
 std::uint64_t countOverlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  return searchOnce(first.size() + second.size(), options, [&](engine::Search& search) {
-    return search.count({first, second, false}, options);
-  });
+  const engine::Sets sets{first, second, false};
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.count(sets, options); });
 }
 
 void streamOverlaps(const BoxView& boxes, PairVisitor visitor, const OverlapOptions& options, std::size_t batchSize) {

@@ -8,6 +8,7 @@
 #include "allpairs/BoxView.h"
 #include "allpairs/Filter.h"
 #include "allpairs/Pair.h"
+#include "input/Options.h"
 
 namespace allpairs::engine {
 
@@ -44,6 +45,12 @@ class PairTest {
         m_distance(distance),
         m_accept(&accept),
         m_filtered(first.isFiltered() || second.isFiltered() || static_cast<bool>(accept)) {}
+
+  static PairTest of(const Sets& sets, const OverlapOptions& options) {
+    const Filter& filter = options.filter;
+    return {TestedBoxes::of(sets.first, filter.first),
+            TestedBoxes::of(sets.second, sets.one ? filter.first : filter.second), options.distance, filter.accept};
+  }
 
   /// Set once the lanes are known.
   void requireExactTest(bool required) noexcept { m_exact = required; }

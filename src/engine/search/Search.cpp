@@ -7,12 +7,10 @@
 
 #include "input/Options.h"
 #include "input/Sampling.h"
+#include "search/FewBoxes.h"
 
 namespace allpairs::engine {
 namespace {
-
-/// Up to this many pairs of boxes, testing them all is faster than ordering the boxes first (docs/decisions/0009).
-constexpr double kFlatPairs = 256.0 * 256.0;
 
 /// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more.
 constexpr std::size_t kFewRows = 32;
@@ -65,17 +63,12 @@ bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list)
 
 }  // namespace
 
-PairTest Search::testOf(const Sets& sets, const OverlapOptions& options) {
-  const Filter& filter = options.filter;
-  return {TestedBoxes::of(sets.first, filter.first),
-          TestedBoxes::of(sets.second, sets.one ? filter.first : filter.second), options.distance, filter.accept};
-}
-
 bool Search::choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const {
   likelyPairs = std::min(kLikelyPairs * sets.first.size(), kMostLikelyPairs);
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
   const auto firsts = static_cast<double>(sets.first.size());
-  if (firsts * static_cast<double>(sets.second.size()) <= kFlatPairs) return true;
+  const auto flatPairs = static_cast<double>(m_kernels->flatBoxes * m_kernels->flatBoxes);
+  if (firsts * static_cast<double>(sets.second.size()) <= flatPairs) return true;
   if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return true;
   if (!sets.one || sets.first.size() > kMostOverlapping) return false;
   const double share = shareOfOverlaps(BoxReader(sets.first, options, *m_kernels));
@@ -194,14 +187,29 @@ void Search::concatenate() {
 }
 
 std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options, std::vector<Pair>* into) {
+  if (areFew(sets, options)) return findAmongFew(sets, options);
   begin(sets, options);
   m_taken = into;
-  Plan plan{testOf(sets, options)};
+  Plan plan{PairTest::of(sets, options)};
   makePlan(sets, options, plan);
   if (!plan.job.isFlat && findInBuckets(sets, options, plan)) return m_pairs;
   run(plan, *m_executor);
   concatenate();
   if (!plan.job.isFlat) sortPairs(sets, options.order);
+  return m_pairs;
+}
+
+std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOptions& options) {
+  m_statistics = {};
+  m_pairs = {};
+  std::size_t size = 0;
+  const auto append = [&](std::span<const Pair> pairs) {
+    m_joined.grow(size + pairs.size());
+    std::copy(pairs.begin(), pairs.end(), m_joined.data() + size);
+    size += pairs.size();
+  };
+  m_statistics = findFew(sets, options, append);
+  m_pairs = {m_joined.data(), size};
   return m_pairs;
 }
 
@@ -250,8 +258,14 @@ void Search::sortPairs(const Sets& sets, Order order) {
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
+  if (areFew(sets, options)) {
+    m_statistics = {};
+    const auto ignore = [](std::span<const Pair>) {};
+    m_statistics = findFew(sets, options, ignore);
+    return m_statistics.pairs;
+  }
   begin(sets, options);
-  Plan plan{testOf(sets, options)};
+  Plan plan{PairTest::of(sets, options)};
   makePlan(sets, options, plan);
   plan.sink.countOnly = true;
   plan.sink.likelyPairs = 0;

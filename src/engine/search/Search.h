@@ -75,11 +75,10 @@ class Search {
     SinkOptions sink = {};
   };
 
-  static PairTest testOf(const Sets& sets, const OverlapOptions& options);
-
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
+  std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options);
   void begin(const Sets& sets, const OverlapOptions& options);
   void makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan);
   void planFlat(const Sets& sets, const OverlapOptions& options, Plan& plan);

@@ -40,7 +40,7 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
     streamInRanges(sets, options, to);
     return;
   }
-  Plan plan{testOf(sets, options)};
+  Plan plan{PairTest::of(sets, options)};
   makePlan(sets, options, plan);
   plan.sink.likelyPairs = 0;                    // passed on before there are many
   plan.sink.maxPairs = SinkOptions().maxPairs;  // the batches are counted
@@ -83,7 +83,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
   const bool bySecond = options.order == Order::BySecond;
   const BoxView range = (bySecond ? sets.second : sets.first).slice(begin, end);
   m_first.build(BoxReader(range, options, *m_kernels), *m_executor);
-  Plan plan{testOf(sets, options)};
+  Plan plan{PairTest::of(sets, options)};
   joinBoth(false, plan);
   plan.test.requireExactTest(!m_first.exact() || !m_second.exact());
   plan.sink.kernels = m_kernels;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "bvh/HilbertSort.h"
 #include "world/QueryTests.h"
 
 namespace allpairs::engine {
@@ -31,17 +32,19 @@ float asFloat(double value) noexcept {
   return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
 
-/// The order in which a batch is answered, by the starting points of the queries.
+/// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.
 template <class PointOf>
-QueryOrder orderOf(std::size_t queries, const PointOf& pointOf) {
-  std::vector<std::array<float, 3>> points(queries);
+std::vector<CurveKey> orderOf(std::size_t queries, const PointOf& pointOf, const QueryTarget& target) {
+  std::vector<BoxF> starts(queries);
   for (std::size_t i = 0; i < queries; ++i) {
     const std::array<double, 3> point = pointOf(i);
-    points[i] = {asFloat(point[0]), asFloat(point[1]), asFloat(point[2])};
+    starts[i].min = starts[i].max = {asFloat(point[0]), asFloat(point[1]), asFloat(point[2])};
   }
-  QueryOrder order(defaultMemory());
-  order.sort(points);
-  return order;
+  const BoxView boxes(starts);
+  std::vector<CurveKey> spare(queries);
+  HilbertSort sort(defaultMemory());
+  const std::span<const CurveKey> order = sort.sort({boxes, {}, *target.kernels}, spare, *target.executor);
+  return {order.begin(), order.end()};
 }
 
 /// Keeps the `count` nearest boxes found, from position `begin` of the list on, as a heap with the farthest on top;
@@ -84,21 +87,21 @@ void WorldQueries::eachBvh(const Visit& visit) const {
 
 /// Calls answer(task, query) for all queries, in spatial order: the same task answers neighbours.
 template <class Answer>
-void WorldQueries::answerInOrder(const QueryOrder& order, std::size_t queries, const Answer& answer) const {
-  m_target.executor->run((queries + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
-    const std::size_t end = std::min(queries, (task + 1) * kQueriesPerTask);
-    for (std::size_t i = task * kQueriesPerTask; i < end; ++i) answer(task, order[i]);
+void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& answer) const {
+  m_target.executor->run((order.size() + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
+    const std::size_t end = std::min(order.size(), (task + 1) * kQueriesPerTask);
+    for (std::size_t i = task * kQueriesPerTask; i < end; ++i) answer(task, indexOf(order[i]));
   });
 }
 
 /// Answers each query by find(i, values), which appends to the values of its task; then gathers them by query.
 template <class T, class PointOf, class Find>
 ResultLists<T> WorldQueries::findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const {
-  const QueryOrder order = orderOf(queries, pointOf);
+  const std::vector<CurveKey> order = orderOf(queries, pointOf, m_target);
   std::vector<std::vector<T>> parts((queries + kQueriesPerTask - 1) / kQueriesPerTask);
   ResultLists<T> lists;
   lists.offsets.assign(queries + 1, 0);
-  answerInOrder(order, queries, [&](std::size_t task, std::size_t query) {
+  answerInOrder(order, [&](std::size_t task, std::size_t query) {
     const std::size_t before = parts[task].size();
     find(query, parts[task]);
     lists.offsets[query + 1] = parts[task].size() - before;
@@ -106,7 +109,7 @@ ResultLists<T> WorldQueries::findEach(std::size_t queries, const PointOf& pointO
   for (std::size_t i = 0; i < queries; ++i) lists.offsets[i + 1] += lists.offsets[i];
   lists.values.resize(lists.offsets[queries]);
   std::vector<std::size_t> read(parts.size(), 0);
-  answerInOrder(order, queries, [&](std::size_t task, std::size_t query) {
+  answerInOrder(order, [&](std::size_t task, std::size_t query) {
     const std::size_t size = lists.offsets[query + 1] - lists.offsets[query];
     std::copy_n(parts[task].data() + read[task], size, lists.values.data() + lists.offsets[query]);
     read[task] += size;
@@ -213,8 +216,9 @@ ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
 }
 
 void WorldQueries::first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const {
-  const QueryOrder order = orderOf(sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; });
-  answerInOrder(order, sweeps.size(), [&](std::size_t, std::size_t query) { hits[query] = first(sweeps[query]); });
+  const auto order = orderOf(
+      sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; }, m_target);
+  answerInOrder(order, [&](std::size_t, std::size_t query) { hits[query] = first(sweeps[query]); });
 }
 
 ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep> sweeps) const {

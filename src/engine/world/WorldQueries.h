@@ -8,11 +8,11 @@
 
 #include "allpairs/Executor.h"
 #include "allpairs/WorldTypes.h"
+#include "bvh/CurveKey.h"
 #include "kernels/Kernels.h"
 #include "world/BoxStore.h"
 #include "world/Descent.h"
 #include "world/DynamicBvh.h"
-#include "world/QueryOrder.h"
 
 namespace allpairs::engine {
 
@@ -47,7 +47,7 @@ class WorldQueries {
 
  private:
   template <class Answer>
-  void answerInOrder(const QueryOrder& order, std::size_t queries, const Answer& answer) const;
+  void answerInOrder(std::span<const CurveKey> order, const Answer& answer) const;
   template <class T, class PointOf, class Find>
   [[nodiscard]] ResultLists<T> findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const;
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "allpairs/FunctionRef.h"
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/Pair.h"
+#include "input/Options.h"
+
+namespace allpairs::engine {
+
+/// Whether findFew() takes these sets: at most FewTile::kCapacity boxes each, not to be searched by a hierarchy. An
+/// unknown instruction set is refused by findFew().
+[[nodiscard]] bool areFew(const Sets& sets, const OverlapOptions& options);
+
+/// Calls take(pairs) with the pairs of a few boxes, in the order of the options and in parts; an unordered search gives
+/// them by first box. Uses some 20 KB of stack and no other memory: with so few boxes, preparing a search would take
+/// longer than the search.
+///
+/// Bad input: as for Search::find().
+OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options,
+                          FunctionRef<void(std::span<const Pair>)> take);
+
+}  // namespace allpairs::engine

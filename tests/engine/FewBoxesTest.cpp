@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Sets so small that they are searched in memory on the stack: every count around the limits between the ways of doing so.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+#include "support/Boxes.h"
+#include "support/Numbers.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+constexpr std::size_t kSomewhatMany = 131;
+
+/// Of every eighth box one is empty, one reaches to infinity, and one touches its neighbour.
+template <class T>
+std::vector<BasicBox<T>> someBoxes(std::size_t n, unsigned seed) {
+  const T infinity = std::numeric_limits<T>::infinity();
+  std::vector<BasicBox<T>> boxes(n);
+  const std::vector<BoxF> random = test::randomBoxes(n, seed, 1.6F);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[i].min[axis] = static_cast<T>(random[i].min[axis]) / 3;
+      boxes[i].max[axis] = static_cast<T>(random[i].max[axis]) / 3;
+    }
+    if (i % 8 == 3) std::swap(boxes[i].min[i % 3], boxes[i].max[i % 3]);
+    if (i % 8 == 5) boxes[i].min[i % 3] = -infinity;
+    if (i % 8 == 6) boxes[i].min[0] = boxes[i - 2].max[0];
+    if (i % 8 == 6) boxes[i].max[0] = boxes[i].min[0] + 1;
+  }
+  return boxes;
+}
+
+template <class T>
+std::vector<Box> inDouble(const std::vector<BasicBox<T>>& boxes) {
+  std::vector<Box> result(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    std::copy(boxes[i].min.begin(), boxes[i].min.end(), result[i].min.begin());
+    std::copy(boxes[i].max.begin(), boxes[i].max.end(), result[i].max.begin());
+  }
+  return result;
+}
+
+std::vector<Pair> inOrder(std::vector<Pair> pairs, Order order) {
+  if (order == Order::BySecond) {
+    std::sort(pairs.begin(), pairs.end(),
+              [](Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; });
+  }
+  return pairs;
+}
+
+template <class T>
+class FewBoxes : public ::testing::Test {};
+using Precisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(FewBoxes, Precisions);
+
+TYPED_TEST(FewBoxes, GiveTheOraclesPairsInEveryOrderForEveryCount) {
+  OverlapSearch kept;
+  for (std::size_t n = 0; n <= kSomewhatMany; ++n) {
+    const auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+    const std::vector<Pair> expected = test::oracle(inDouble(boxes));
+    for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+      OverlapOptions options;
+      options.order = order;
+      kept.setOptions(options);
+      std::vector<Pair> made = overlaps(boxes, options);
+      std::vector<Pair> found = test::toVector(kept.find(boxes));
+      if (order == Order::Unordered) std::sort(made.begin(), made.end());
+      if (order == Order::Unordered) std::sort(found.begin(), found.end());
+      ASSERT_EQ(made, inOrder(expected, order)) << n << " boxes";
+      ASSERT_EQ(found, inOrder(expected, order)) << n << " boxes";
+      ASSERT_EQ(kept.statistics().pairs, expected.size()) << n << " boxes";
+      ASSERT_EQ(kept.count(boxes), expected.size()) << n << " boxes";
+    }
+  }
+}
+
+TYPED_TEST(FewBoxes, OfTwoSetsGiveTheOraclesPairsInEveryOrder) {
+  OverlapSearch kept;
+  for (std::size_t n = 0; n <= kSomewhatMany; n += n < 20 ? 1 : 9) {
+    for (const std::size_t m : {0U, 1U, 7U, 16U, 33U, 128U, 129U}) {
+      const auto first = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+      const auto second = someBoxes<TypeParam>(m, static_cast<unsigned>(1000 + m));
+      const std::vector<Pair> expected = test::oracleBetween(inDouble(first), inDouble(second));
+      for (const Order order : {Order::ByFirst, Order::BySecond}) {
+        OverlapOptions options;
+        options.order = order;
+        kept.setOptions(options);
+        ASSERT_EQ(overlaps(first, second, options), inOrder(expected, order)) << n << " and " << m << " boxes";
+        ASSERT_EQ(test::toVector(kept.find(first, second)), inOrder(expected, order)) << n << " and " << m << " boxes";
+        ASSERT_EQ(kept.count(first, second), expected.size()) << n << " and " << m << " boxes";
+      }
+    }
+  }
+}
+
+TYPED_TEST(FewBoxes, AreFilteredAndWidenedAsManyAre) {
+  for (const std::size_t n : {2U, 5U, 8U, 9U, 16U, 60U, 128U, 129U}) {
+    const auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+    std::vector<std::uint32_t> groups(n);
+    std::vector<double> margins(n);
+    for (std::size_t i = 0; i < n; ++i) groups[i] = static_cast<std::uint32_t>(i % 5);
+    for (std::size_t i = 0; i < n; ++i) margins[i] = 0.03 * static_cast<double>(i % 3);
+    const auto isKept = [&](Pair pair) { return groups[pair.first] == 0 || groups[pair.first] != groups[pair.second]; };
+    BoxView view(boxes);
+    for (const bool widened : {false, true}) {
+      if (widened) view.setMargins(margins);
+      std::vector<Pair> expected;
+      for (const Pair pair : test::oracle(inDouble(boxes), 0.0, widened ? margins : std::vector<double>())) {
+        if (isKept(pair)) expected.push_back(pair);
+      }
+      OverlapOptions options;
+      options.filter.first.groups = groups;
+      ASSERT_EQ(overlaps(view, options), expected) << n << " boxes";
+      options.filter.first.groups = {};
+      options.filter.accept = [&](std::uint32_t a, std::uint32_t b) { return isKept({a, b}); };
+      ASSERT_EQ(overlaps(view, options), expected) << n << " boxes";
+    }
+  }
+}
+
+TYPED_TEST(FewBoxes, BeyondTheLimitAreAnErrorThatLeavesTheSearchUsable) {
+  for (const std::size_t n : {3U, 8U, 9U, 128U}) {
+    const std::vector<BasicBox<TypeParam>> boxes(n, {{0, 0, 0}, {1, 1, 1}});
+    OverlapOptions options;
+    options.maxPairs = n * (n - 1) / 2 - 1;
+    OverlapSearch kept(options);
+    EXPECT_THROW((void)kept.find(boxes), LimitExceeded) << n;
+    EXPECT_THROW((void)kept.count(boxes), LimitExceeded) << n;
+    EXPECT_EQ(kept.statistics().pairs, 0U) << n;
+    ++options.maxPairs;
+    kept.setOptions(options);
+    EXPECT_EQ(kept.find(boxes).size(), options.maxPairs) << n;
+    EXPECT_EQ(kept.statistics().boxTests, options.maxPairs) << n;
+  }
+}
+
+TEST(FewBoxesOptions, AreCheckedHoweverFewTheBoxesAre) {
+  const std::vector<Box> boxes(2, test::cube(0, 0, 0));
+  OverlapOptions options;
+  options.instructionSet = "NONE";
+  EXPECT_THROW((void)overlaps(boxes, options), InvalidArgument);
+  options = {};
+  options.distance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)overlaps(boxes, options), InvalidArgument);
+  options = {};
+  const std::vector<std::uint32_t> groups{1};
+  options.filter.first.groups = groups;
+  EXPECT_THROW((void)overlaps(boxes, options), InvalidArgument);
+  options = {};
+  options.filter.second.masks = groups;
+  EXPECT_THROW((void)overlaps(boxes, options), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace allpairs
