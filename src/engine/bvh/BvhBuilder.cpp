@@ -32,6 +32,7 @@ void BvhBuilder::gather(const BoxReader& reader, std::span<const CurveKey> order
         m_levels.id(i) = indexOf(order[i]);
       }
       static_cast<void>(reader.read({&m_levels.id(begin), 0, size}, m_levels.block(b)));
+      for (std::size_t i = begin; i < begin + size; ++i) m_levels.id(i) = reader.idOf(m_levels.id(i));
     }
   });
 }

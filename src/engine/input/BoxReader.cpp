@@ -64,7 +64,11 @@ bool readWidened(const BoxView& boxes, double distance, std::size_t i, LaneBox& 
 }  // namespace
 
 BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const Kernels& kernels)
-    : m_boxes(&boxes), m_kernels(&kernels), m_distance(options.distance), m_region(options.region) {
+    : m_boxes(&boxes),
+      m_size(boxes.size()),
+      m_kernels(&kernels),
+      m_distance(options.distance),
+      m_region(options.region) {
   if (m_distance != 0.0 || boxes.hasMargins() || m_region || boxes.size() > kMostOffsets) return;
   if (boxes.isFloat64()) {
     if (boxes.float64().isPacked()) m_rows64 = boxes.float64().min.data;
@@ -74,6 +78,14 @@ BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const 
 }
 
 BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
+  if (m_ids == nullptr) return readBoxes(boxes, block);
+  if (boxes.ids == nullptr) return readBoxes({m_ids + boxes.begin, 0, boxes.size}, block);
+  std::array<std::uint32_t, kFanOut> ids;
+  for (std::size_t lane = 0; lane < boxes.size; ++lane) ids[lane] = m_ids[boxes[lane]];
+  return readBoxes({ids.data(), 0, boxes.size}, block);
+}
+
+BlockRead BoxReader::readBoxes(const BoxList& boxes, LaneBlock& block) const {
   if ((m_rows32 != nullptr || m_rows64 != nullptr) && boxes.size != 0) {
     return boxes.size == kFanOut ? readRows(boxes, block) : readFewRows(boxes, block);
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
@@ -38,7 +39,16 @@ class BoxReader {
  public:
   BoxReader(const BoxView& boxes, const OverlapOptions& options, const Kernels& kernels);
 
-  [[nodiscard]] std::size_t size() const noexcept { return m_boxes->size(); }
+  /// From now on box i is the one of the set with the id ids[i]. The memory stays the caller's.
+  void restrictTo(std::span<const std::uint32_t> ids) noexcept {
+    m_ids = ids.data();
+    m_size = ids.size();
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+  [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {
+    return m_ids != nullptr ? m_ids[i] : static_cast<std::uint32_t>(i);
+  }
   [[nodiscard]] const Kernels& kernels() const noexcept { return *m_kernels; }
 
   /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.
@@ -46,7 +56,7 @@ class BoxReader {
 
   /// Prefetches the memory of box i.
   void prefetch(std::size_t i) const noexcept {
-    const auto row = static_cast<std::ptrdiff_t>(i);
+    const auto row = static_cast<std::ptrdiff_t>(idOf(i));
     const auto ask = [&](const auto& corners) {
       __builtin_prefetch(corners.min.data + row * corners.min.boxStride);
       __builtin_prefetch(corners.max.data + row * corners.max.boxStride + 2);
@@ -55,12 +65,15 @@ class BoxReader {
   }
 
  private:
+  BlockRead readBoxes(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readRows(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readFewRows(const BoxList& boxes, LaneBlock& block) const;
   template <class LanesOf>
   BlockRead readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const;
 
   const BoxView* m_boxes;
+  std::size_t m_size;
+  const std::uint32_t* m_ids = nullptr;  ///< Of the boxes that the reader is restricted to.
   const Kernels* m_kernels;
   double m_distance;
   std::optional<Box> m_region;

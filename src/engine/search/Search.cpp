@@ -54,8 +54,8 @@ bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list)
     exact &= read.exact;
     for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), boxes.size, &tile.bound[row][place]);
     for (std::size_t lane = 0; lane < boxes.size; ++lane) {
-      tile.id[place + lane] = boxes[lane];
-      if ((read.emptyLanes >> lane & 1U) != 0) tile.set(place + lane, kNeverLanes, boxes[lane]);
+      tile.id[place + lane] = reader.idOf(boxes[lane]);
+      if ((read.emptyLanes >> lane & 1U) != 0) tile.set(place + lane, kNeverLanes, tile.id[place + lane]);
     }
   }
   return exact;
@@ -63,17 +63,16 @@ bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list)
 
 }  // namespace
 
-bool Search::choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const {
-  likelyPairs = std::min(kLikelyPairs * sets.first.size(), kMostLikelyPairs);
+bool Search::choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const {
+  const std::size_t rows = readers.first.size();
+  const std::size_t columns = readers.second.size();
+  likelyPairs = std::min(kLikelyPairs * rows, kMostLikelyPairs);
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
-  const auto firsts = static_cast<double>(sets.first.size());
-  const auto flatPairs = static_cast<double>(m_kernels->flatBoxes * m_kernels->flatBoxes);
-  if (firsts * static_cast<double>(sets.second.size()) <= flatPairs) return true;
-  if (std::min(sets.first.size(), sets.second.size()) <= kFewRows) return true;
-  if (!sets.one || sets.first.size() > kMostOverlapping) return false;
-  const double share = shareOfOverlaps(BoxReader(sets.first, options, *m_kernels));
+  if (rows * columns <= m_kernels->flatBoxes * m_kernels->flatBoxes || std::min(rows, columns) <= kFewRows) return true;
+  if (!readers.one || rows > kMostOverlapping) return false;
+  const double share = shareOfOverlaps(readers.first);
   if (share <= (options.order == Order::Unordered ? kMuchUnordered : kMuchOrdered)) return false;
-  likelyPairs = std::max(likelyPairs, static_cast<std::size_t>(share * 0.5 * firsts * firsts));
+  likelyPairs = std::max(likelyPairs, static_cast<std::size_t>(share * 0.5 * static_cast<double>(rows * rows)));
   return true;
 }
 
@@ -86,6 +85,7 @@ void Search::shrink() noexcept {
   }
   m_rows.release();
   m_columns.release();
+  m_cull = BoxCull(memory);
   m_first = BvhBuilder(memory);
   m_second = BvhBuilder(memory);
   m_runner = JoinRunner(memory);
@@ -107,23 +107,25 @@ void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& pla
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.maxPairs = options.maxPairs;
+  Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
+  if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;
-  const bool flat = choosesFlat(sets, options, likelyPairs);
+  const bool flat = choosesFlat(readers, options, likelyPairs);
   plan.sink.likelyPairs = std::min(likelyPairs / m_executor->concurrency(), options.maxPairs);
-  flat ? planFlat(sets, options, plan) : planJoin(sets, options, plan);
+  flat ? planFlat(readers, options, plan) : planJoin(readers, plan);
 }
 
-void Search::planFlat(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+void Search::planFlat(const Readers& readers, const OverlapOptions& options, Plan& plan) {
   const bool bySecond = options.order == Order::BySecond;
-  const BoxView& rowSet = bySecond ? sets.second : sets.first;
-  const BoxView& columnSet = bySecond ? sets.first : sets.second;
+  const BoxReader& rowSet = bySecond ? readers.second : readers.first;
+  const BoxReader& columnSet = bySecond ? readers.first : readers.second;
   FlatSearch& flat = plan.job.flat;
-  bool exact = readList(BoxReader(columnSet, options, *m_kernels), m_columns, flat.columns);
-  if (sets.one) {
+  bool exact = readList(columnSet, m_columns, flat.columns);
+  if (readers.one) {
     flat.rows = flat.columns;
     flat.tested = bySecond ? Columns::Preceding : Columns::Following;
   } else {
-    exact &= readList(BoxReader(rowSet, options, *m_kernels), m_rows, flat.rows);
+    exact &= readList(rowSet, m_rows, flat.rows);
   }
   plan.test.requireExactTest(!exact);
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
@@ -131,13 +133,13 @@ void Search::planFlat(const Sets& sets, const OverlapOptions& options, Plan& pla
   plan.job.units = rowSet.size();
 }
 
-void Search::planJoin(const Sets& sets, const OverlapOptions& options, Plan& plan) {
-  m_first.build(BoxReader(sets.first, options, *m_kernels), *m_executor);
-  if (!sets.one) m_second.build(BoxReader(sets.second, options, *m_kernels), *m_executor);
-  const BvhBuilder& second = sets.one ? m_first : m_second;
+void Search::planJoin(const Readers& readers, Plan& plan) {
+  m_first.build(readers.first, *m_executor);
+  if (!readers.one) m_second.build(readers.second, *m_executor);
+  const BvhBuilder& second = readers.one ? m_first : m_second;
   plan.test.requireExactTest(!m_first.exact() || !second.exact());
-  plan.sink.side = sets.one ? PairSide::SmallerFirst : PairSide::RowFirst;
-  joinBoth(sets.one, plan);
+  plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;
+  joinBoth(readers.one, plan);
 }
 
 /// Both hierarchies as one job.

@@ -12,6 +12,7 @@
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
 #include "bvh/BvhBuilder.h"
+#include "input/BoxCull.h"
 #include "input/Options.h"
 #include "order/PairBuckets.h"
 #include "order/PairSort.h"
@@ -45,6 +46,7 @@ class Search {
   explicit Search(std::pmr::memory_resource* memory)
       : m_rows(memory),
         m_columns(memory),
+        m_cull(memory),
         m_first(memory),
         m_second(memory),
         m_runner(memory),
@@ -75,14 +77,21 @@ class Search {
     SinkOptions sink = {};
   };
 
+  /// What to search: two sets, or one twice.
+  struct Readers {
+    BoxReader first;
+    BoxReader second;
+    bool one;
+  };
+
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
-  bool choosesFlat(const Sets& sets, const OverlapOptions& options, std::size_t& likelyPairs) const;
+  bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
   std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options);
   void begin(const Sets& sets, const OverlapOptions& options);
   void makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan);
-  void planFlat(const Sets& sets, const OverlapOptions& options, Plan& plan);
-  void planJoin(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  void planFlat(const Readers& readers, const OverlapOptions& options, Plan& plan);
+  void planJoin(const Readers& readers, Plan& plan);
 
   void joinBoth(bool one, Plan& plan);
 
@@ -106,6 +115,7 @@ class Search {
 
   Buffer<LaneTile> m_rows;
   Buffer<LaneTile> m_columns;
+  BoxCull m_cull;
   BvhBuilder m_first;
   BvhBuilder m_second;
   std::optional<BvhPair> m_both;

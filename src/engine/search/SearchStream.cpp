@@ -36,7 +36,8 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
   if (to.size() == 0) throw InvalidArgument("a batch size of 0 pairs");
   begin(sets, options);
   std::size_t likelyPairs = 0;
-  if (options.order != Order::Unordered && !choosesFlat(sets, options, likelyPairs)) {
+  const Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
+  if (options.order != Order::Unordered && !choosesFlat(readers, options, likelyPairs)) {
     streamInRanges(sets, options, to);
     return;
   }

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "input/BoxCull.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "input/Sampling.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Fewer boxes are not worth a pass that leaves some out.
+constexpr std::size_t kLeastBoxes = 1024;
+
+/// A set is restricted if at most half of this many sampled boxes touch the other set's bounds.
+constexpr std::size_t kSample = 64;
+
+constexpr std::size_t kBoxesPerTask = std::size_t{1} << 14;
+
+/// The bounds of all boxes that may overlap something.
+LaneBox boundsOf(const BoxReader& reader) {
+  LaneBlock bounds;
+  for (std::size_t lane = 0; lane < kFanOut; ++lane) bounds.set(lane, kNeverLanes);
+  LaneBlock block = bounds;
+  const BoxList all{nullptr, 0, reader.size()};
+  for (std::size_t begin = 0; begin < all.size; begin += kFanOut) {
+    const BoxList boxes = all.part(begin, kFanOut);
+    std::uint32_t empty = reader.read(boxes, block).emptyLanes;
+    for (; empty != 0; empty &= empty - 1) block.set(static_cast<std::size_t>(std::countr_zero(empty)), kNeverLanes);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+        bounds.bound[axis][lane] = std::min(bounds.bound[axis][lane], block.bound[axis][lane]);
+        bounds.bound[axis + 3][lane] = std::max(bounds.bound[axis + 3][lane], block.bound[axis + 3][lane]);
+      }
+    }
+  }
+  LaneBox result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.bound[axis] = *std::min_element(bounds.bound[axis].begin(), bounds.bound[axis].end());
+    result.bound[axis + 3] = *std::max_element(bounds.bound[axis + 3].begin(), bounds.bound[axis + 3].end());
+  }
+  return result;
+}
+
+bool areMostlyOutside(const BoxReader& reader, const LaneBox& bounds) {
+  std::size_t inside = 0;
+  sampleBoxes(reader, kSample, [&](const LaneBox& box) { inside += touch(box, bounds) ? 1U : 0U; });
+  return 2 * inside <= kSample;
+}
+
+/// Writes the ids of those of some boxes that touch the bounds; returns the end of what it wrote.
+std::uint32_t* chooseTouching(const BoxReader& reader, const BoxList& boxes, const LaneBox& bounds,
+                              std::uint32_t* ids) {
+  LaneBlock block;
+  for (std::size_t lane = 0; lane < kFanOut; ++lane) block.set(lane, kNeverLanes);
+  for (std::size_t i = 0; i < boxes.size; i += kFanOut) {
+    const BoxList some = boxes.part(i, kFanOut);
+    const std::uint32_t empty = reader.read(some, block).emptyLanes;
+    std::uint32_t lanes = reader.kernels().touchingLanes(block, bounds) & ~empty & ((1U << some.size) - 1U);
+    for (; lanes != 0; lanes &= lanes - 1) *ids++ = some[static_cast<std::size_t>(std::countr_zero(lanes))];
+  }
+  return ids;
+}
+
+}  // namespace
+
+bool BoxCull::restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Executor& executor) {
+  if (reader.size() < kLeastBoxes || !areMostlyOutside(reader, bounds)) return false;
+  ids.require(reader.size());
+  const std::size_t tasks = (reader.size() + kBoxesPerTask - 1) / kBoxesPerTask;
+  const BoxList all{nullptr, 0, reader.size()};
+  m_ends.resize(tasks);
+  executor.run(tasks, [&](std::size_t task) {
+    std::uint32_t* const begin = ids.data() + task * kBoxesPerTask;
+    const BoxList boxes = all.part(task * kBoxesPerTask, kBoxesPerTask);
+    m_ends[task] = static_cast<std::size_t>(chooseTouching(reader, boxes, bounds, begin) - ids.data());
+  });
+  std::size_t size = m_ends[0];
+  for (std::size_t task = 1; task < tasks; ++task) {
+    const std::uint32_t* const begin = ids.data() + task * kBoxesPerTask;
+    std::copy<const std::uint32_t*>(begin, ids.data() + m_ends[task], ids.data() + size);
+    size += m_ends[task] - task * kBoxesPerTask;
+  }
+  reader.restrictTo({ids.data(), size});
+  return true;
+}
+
+void BoxCull::apply(BoxReader& first, BoxReader& second, Executor& executor) {
+  const bool firstIsSmall = first.size() <= second.size();
+  BoxReader& small = firstIsSmall ? first : second;
+  BoxReader& large = firstIsSmall ? second : first;
+  if (large.size() < kLeastBoxes) return;
+  if (restrict(large, boundsOf(small), m_ids[0], executor)) restrict(small, boundsOf(large), m_ids[1], executor);
+}
+
+}  // namespace allpairs::engine

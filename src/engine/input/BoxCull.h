@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "input/BoxReader.h"
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// Leaves out the boxes of two sets that are outside the other set's bounds. Where two sets meet in a small part of
+/// space, that is most of them, and reading a box once takes a tenth of the time of ordering it.
+///
+/// Cost: one pass over the smaller set, and one over each set of which a sample is mostly outside; 4 bytes per box of
+///       such a set.
+class BoxCull {
+ public:
+  explicit BoxCull(std::pmr::memory_resource* memory) : m_ids{Ids(memory), Ids(memory)}, m_ends(memory) {}
+
+  /// Restricts the readers to boxes that may overlap one of the other's.
+  void apply(BoxReader& first, BoxReader& second, Executor& executor);
+
+ private:
+  using Ids = Buffer<std::uint32_t>;
+
+  bool restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Executor& executor);
+
+  Ids m_ids[2];
+  std::pmr::vector<std::size_t> m_ends;  ///< Of the chosen boxes of each task.
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Two sets that meet in a part of space only: boxes outside of it are left out before the search.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "allpairs/Overlaps.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "support/Boxes.h"
+#include "support/Numbers.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+/// Boxes that fill a cube of the given side, at an offset in x.
+std::vector<Box> boxesIn(std::size_t n, unsigned seed, double side, double offset) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(n, seed));
+  double reach = 0.0;
+  for (const Box& box : boxes) reach = std::max(reach, box.max[0]);
+  for (Box& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] *= side / reach;
+      box.max[axis] *= side / reach;
+    }
+    box.min[0] += offset;
+    box.max[0] += offset;
+  }
+  return boxes;
+}
+
+std::vector<BoxF> inFloat(const std::vector<Box>& boxes) {
+  std::vector<BoxF> result(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result[i].min[axis] = static_cast<float>(boxes[i].min[axis]);
+      result[i].max[axis] = static_cast<float>(boxes[i].max[axis]);
+    }
+  }
+  return result;
+}
+
+/// Both sets of a test, of which the larger is at least `kMany` boxes.
+struct Meeting {
+  std::vector<Box> first;
+  std::vector<Box> second;
+};
+
+constexpr std::size_t kMany = 3000;
+
+std::vector<Meeting> meetings() {
+  std::vector<Meeting> all{
+      {boxesIn(kMany, 1, 20, 0), boxesIn(1, 2, 1, 7)},
+      {boxesIn(1, 3, 2, 7), boxesIn(kMany, 4, 20, 0)},
+      {boxesIn(kMany, 5, 20, 0), boxesIn(200, 6, 3, 9)},
+      {boxesIn(1100, 7, 5, 3), boxesIn(kMany, 8, 20, 0)},
+      {boxesIn(kMany, 9, 20, 0), boxesIn(kMany, 10, 20, 19)},   // meet at a face
+      {boxesIn(kMany, 11, 20, 0), boxesIn(kMany, 12, 20, 40)},  // nowhere
+      {boxesIn(kMany, 13, 20, 0), boxesIn(kMany, 14, 20, 0)},   // everywhere
+      {boxesIn(kMany, 15, 20, 0), std::vector<Box>(3, kEmptyBox)},
+  };
+  // Empty boxes have no say in what the bounds are, and infinite ones have.
+  std::swap(all[2].second[5].min[1], all[2].second[5].max[1]);
+  all[2].second[6] = kEmptyBox;
+  all[3].first[17] = {{-test::kInfinity, 0, 0}, {test::kInfinity, 0.5, 0.5}};
+  std::swap(all[4].first[17].min[2], all[4].first[17].max[2]);
+  return all;
+}
+
+TEST(TwoSets, ThatMeetAnywhereGiveTheOraclesPairs) {
+  for (const Meeting& meeting : meetings()) {
+    const std::vector<Pair> expected = test::oracleBetween(meeting.first, meeting.second);
+    for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+      OverlapOptions options;
+      options.strategy = strategy;
+      ASSERT_EQ(overlaps(meeting.first, meeting.second, options), expected);
+      ASSERT_EQ(countOverlaps(meeting.first, meeting.second, options), expected.size());
+      options.order = Order::BySecond;
+      std::vector<Pair> bySecond = overlaps(meeting.first, meeting.second, options);
+      ASSERT_TRUE(std::is_sorted(bySecond.begin(), bySecond.end(), [](Pair a, Pair b) {
+        return a.second != b.second ? a.second < b.second : a.first < b.first;
+      }));
+      std::sort(bySecond.begin(), bySecond.end());
+      ASSERT_EQ(bySecond, expected);
+    }
+  }
+}
+
+TEST(TwoSets, InFloat32AndOnManyThreadsToo) {
+  parallel::TbbExecutor threads(4);
+  OverlapOptions options;
+  options.executor = &threads;
+  OverlapSearch search(options);
+  for (const Meeting& meeting : meetings()) {
+    const std::vector<BoxF> first = inFloat(meeting.first);
+    const std::vector<BoxF> second = inFloat(meeting.second);
+    const std::vector<Pair> expected = test::oracleBetween(test::toDouble(first), test::toDouble(second));
+    ASSERT_EQ(test::toVector(search.find(first, second)), expected);
+    ASSERT_EQ(search.count(first, second), expected.size());
+  }
+}
+
+TEST(TwoSets, AreWidenedByTheDistanceAndTheirMarginsBeforeBoxesAreLeftOut) {
+  const std::vector<Box> first = boxesIn(kMany, 21, 20, 0);
+  const std::vector<Box> second = boxesIn(300, 22, 3, 21.5);
+  ASSERT_TRUE(test::oracleBetween(first, second).empty());
+  OverlapOptions options;
+  options.distance = 2.0;
+  const std::vector<Pair> expected = test::oracleBetween(first, second, 2.0);
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(overlaps(first, second, options), expected);
+  EXPECT_EQ(overlaps(second, first, options).size(), expected.size());
+  BoxView widened(second);
+  widened.setMargin(2.0);
+  EXPECT_EQ(overlaps(first, widened), expected);
+  widened.setMargin(0.5);
+  BoxView alsoWidened(first);
+  const std::vector<double> margins(first.size(), 1.5);
+  alsoWidened.setMargins(margins);
+  EXPECT_EQ(overlaps(alsoWidened, widened), expected);
+}
+
+TEST(TwoSets, AreFilteredByTheIdsThatBoxesHaveInTheirSets) {
+  const std::vector<Box> first = boxesIn(kMany, 31, 20, 0);
+  const std::vector<Box> second = boxesIn(400, 32, 3, 9);
+  std::vector<std::uint32_t> groups(first.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = static_cast<std::uint32_t>(1 + i % 3);
+  const std::vector<std::uint32_t> others(second.size(), 2);
+  std::vector<Pair> expected;
+  for (const Pair pair : test::oracleBetween(first, second)) {
+    if (groups[pair.first] != 2) expected.push_back(pair);
+  }
+  ASSERT_FALSE(expected.empty());
+  OverlapOptions options;
+  options.filter.first.groups = groups;
+  options.filter.second.groups = others;
+  EXPECT_EQ(overlaps(first, second, options), expected);
+}
+
+TEST(TwoSets, ThatMeetInASmallPartOfSpaceNeedFewTests) {
+  const std::vector<Box> first = boxesIn(kMany, 41, 20, 0);
+  const std::vector<Box> second = boxesIn(20, 42, 1, 9);
+  OverlapSearch search;
+  EXPECT_EQ(test::toVector(search.find(first, second)), test::oracleBetween(first, second));
+  EXPECT_LT(search.statistics().boxTests, kMany * 20 / 50);
+}
+
+}  // namespace
+}  // namespace allpairs
