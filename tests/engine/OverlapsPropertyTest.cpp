@@ -93,6 +93,26 @@ RC_GTEST_PROP(OverlapsProperty, AnyFloat32BoxesGiveTheOraclesPairs, ()) {
   for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(boxes, optionsWith(strategy, d)) == expected);
 }
 
+RC_GTEST_PROP(OverlapsProperty, BoxesFarFromTheOriginGiveTheOraclesPairs, ()) {
+  auto boxes = *scene();
+  auto others = *scene();
+  const double place = *rc::gen::element(1e3, -1e7, 1.0 / 3.0 * 1e9, 0x1p52, -1e15, 1e30, 3.4e38, 1e300);
+  for (std::vector<Box>* set : {&boxes, &others}) {
+    for (Box& box : *set) {
+      box.min[0] += place;
+      box.max[0] += place;
+      box.min[2] -= 3.0 * place;
+      box.max[2] -= 3.0 * place;
+    }
+  }
+  const std::vector<Pair> expected = test::oracle(boxes);
+  const std::vector<Pair> between = test::oracleBetween(boxes, others);
+  for (const Strategy strategy : kStrategies) {
+    RC_ASSERT(overlaps(boxes, optionsWith(strategy, 0.0)) == expected);
+    RC_ASSERT(overlaps(boxes, others, optionsWith(strategy, 0.0)) == between);
+  }
+}
+
 RC_GTEST_PROP(OverlapsProperty, AnyMarginsGiveTheOraclesPairs, ()) {
   const auto boxes = *scene();
   const auto margins = *rc::gen::container<std::vector<double>>(boxes.size(), distance());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -62,22 +63,67 @@ TEST(Statistics, RowsOfAllHitsEndWhereTheTaskEnds) {
   EXPECT_EQ(search.count(first, second), 900U * 700U);
 }
 
-TEST(Statistics, ExactTestsAreCountedWhereBoundsAreNoFloat32AndNowhereElse) {
+/// So many boxes end where, in float32, the others begin, a hair too early.
+std::vector<Box> aHairApart(std::size_t ending, std::size_t beginning) {
+  std::vector<Box> boxes(ending, Box{{-1, 0, 0}, {0.1, 1, 1}});
+  boxes.resize(ending + beginning, Box{{std::nextafter(0.1, 1.0), 0, 0}, {2, 1, 1}});
+  return boxes;
+}
+
+TEST(Statistics, ExactTestsAreCountedWhereLanesCannotDecideAndNowhereElse) {
   ManyInTurn many;
-  std::vector<Box> boxes = allOverlapping(400);
-  const std::vector<Box> plain = boxes;
-  for (Box& box : boxes) box.min[0] -= 0.001;  // No float32.
-  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
-    for (Executor* executor : std::initializer_list<Executor*>{nullptr, &many}) {
-      OverlapOptions options;
-      options.strategy = strategy;
-      options.executor = executor;
-      OverlapSearch search(options);
-      EXPECT_EQ(search.count(boxes), 400U * 399U / 2);
-      EXPECT_EQ(search.statistics().exactTests, 400U * 399U / 2);
-      EXPECT_EQ(search.count(plain), 400U * 399U / 2);
-      EXPECT_EQ(search.statistics().exactTests, 0U);
+  for (const std::size_t side : {3U, 40U, 200U}) {
+    const std::vector<Box> boxes = aHairApart(side, 2 * side);
+    const std::uint64_t pairs = side * (side - 1) / 2 + side * (2 * side - 1);
+    const std::vector<Box> plain = allOverlapping(3 * side);
+    for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
+      for (Executor* executor : std::initializer_list<Executor*>{nullptr, &many}) {
+        OverlapOptions options;
+        options.strategy = strategy;
+        options.executor = executor;
+        OverlapSearch search(options);
+        EXPECT_EQ(search.count(boxes), pairs) << side;
+        EXPECT_EQ(search.statistics().exactTests, 2 * side * side) << side;
+        EXPECT_EQ(search.count(plain), 3 * side * (3 * side - 1) / 2) << side;
+        EXPECT_EQ(search.statistics().exactTests, 0U) << side;
+        // Lanes that a distance widens decide nothing.
+        options.distance = 0.25;
+        search.setOptions(options);
+        EXPECT_EQ(search.find(boxes).size(), 3 * side * (3 * side - 1) / 2) << side;
+        EXPECT_EQ(search.statistics().exactTests, 3 * side * (3 * side - 1) / 2) << side;
+      }
     }
+  }
+}
+
+TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(3000, 73));
+  const double places[] = {1e7, -3e9, 2.5e11};
+  std::vector<Box> others(boxes.begin(), boxes.begin() + 500);
+  for (std::vector<Box>* set : {&boxes, &others}) {
+    for (Box& box : *set) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.min[axis] += places[axis];
+        box.max[axis] += places[axis];
+      }
+    }
+  }
+  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
+    OverlapOptions options;
+    options.strategy = strategy;
+    OverlapSearch search(options);
+    EXPECT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes));
+    EXPECT_LT(search.statistics().exactTests, 200U);
+    EXPECT_EQ(test::toVector(search.find(others)), test::oracle(others));
+    EXPECT_EQ(test::toVector(search.find(boxes, others)), test::oracleBetween(boxes, others));
+    EXPECT_LT(search.statistics().exactTests, 700U);  // 500 of them with themselves
+    std::vector<Pair> streamed;
+    search.stream(boxes,
+                  [&](std::span<const Pair> pairs) { streamed.insert(streamed.end(), pairs.begin(), pairs.end()); });
+    EXPECT_EQ(streamed, test::oracle(boxes));
+    options.distance = 0.3;
+    search.setOptions(options);
+    EXPECT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes, 0.3));
   }
 }
 

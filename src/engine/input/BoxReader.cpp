@@ -29,9 +29,16 @@ bool readPlain(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
   return exact;
 }
 
-/// A box of float64 without margins, rounded outward.
-bool readRounded(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
-  const Box box = boxes[i];
+Box relativeTo(const std::array<double, 3>& origin, Box box) noexcept {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] -= origin[axis];
+    box.max[axis] -= origin[axis];
+  }
+  return box;
+}
+
+/// A box without margins, rounded outward.
+bool readRounded(const Box& box, LaneBox& lanes) noexcept {
   bool exact = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lanes.bound[axis] = roundDown(box.min[axis]);
@@ -44,15 +51,18 @@ bool readRounded(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
 
 /// A box with a margin or a distance, in double, with a slack that is larger than what all roundings of the exact
 /// expression, max + ((distance + margin) + margin), can add up to.
-bool readWidened(const BoxView& boxes, double distance, std::size_t i, LaneBox& lanes) noexcept {
+bool readWidened(const BoxView& boxes, double distance, const std::array<double, 3>& origin, std::size_t i,
+                 LaneBox& lanes) noexcept {
   constexpr double kSlack = 0x1p-48;
   const Box box = boxes[i];
   const double margin = boxes.margin(i);
   const double half = 0.5 * distance + margin;
   const double magnitude = 0.5 * std::abs(distance) + std::abs(margin);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float low = roundDown(box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude));
-    const float high = roundUp(box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude));
+    const double min = box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude);
+    const double max = box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude);
+    const float low = roundDown(min - origin[axis]);
+    const float high = roundUp(max - origin[axis]);
     // A negative margin may invert a box, which can still overlap a larger one. Swapping its bounds makes it no
     // smaller.
     lanes.bound[axis] = std::min(low, high);
@@ -77,7 +87,19 @@ BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const 
   }
 }
 
+void BoxReader::setOrigin(const std::array<double, 3>& origin) noexcept {
+  m_origin = origin;
+  m_isMoved = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
+  if (m_isMoved) m_rows32 = nullptr;
+}
+
 BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
+  BlockRead result = readListed(boxes, block);
+  result.exact &= !m_isMoved;
+  return result;
+}
+
+BlockRead BoxReader::readListed(const BoxList& boxes, LaneBlock& block) const {
   if (m_ids == nullptr) return readBoxes(boxes, block);
   if (boxes.ids == nullptr) return readBoxes({m_ids + boxes.begin, 0, boxes.size}, block);
   std::array<std::uint32_t, kFanOut> ids;
@@ -92,11 +114,11 @@ BlockRead BoxReader::readBoxes(const BoxList& boxes, LaneBlock& block) const {
   const BoxView& set = *m_boxes;
   if (m_distance != 0.0 || set.hasMargins()) {
     return readEach(
-        boxes, [&](std::size_t i, LaneBox& lanes) { return readWidened(set, m_distance, i, lanes); }, block);
+        boxes, [&](std::size_t i, LaneBox& lanes) { return readWidened(set, m_distance, m_origin, i, lanes); }, block);
   }
-  if (set.isFloat64()) {
+  if (set.isFloat64() || m_isMoved) {
     return readEach(
-        boxes, [&](std::size_t i, LaneBox& lanes) { return readRounded(set, i, lanes); }, block);
+        boxes, [&](std::size_t i, LaneBox& lanes) { return readRounded(relativeTo(m_origin, set[i]), lanes); }, block);
   }
   return readEach(
       boxes, [&](std::size_t i, LaneBox& lanes) { return readPlain(set, i, lanes); }, block);
@@ -111,7 +133,7 @@ BlockRead BoxReader::readRows(const BoxList& boxes, LaneBlock& block) const {
     offsets[lane] = static_cast<std::int32_t>(6 * boxes[std::min(lane, boxes.size - 1)]);
   }
   return m_rows32 != nullptr ? m_kernels->readFloat32(m_rows32, offsets.data(), block)
-                             : m_kernels->readFloat64(m_rows64, offsets.data(), block);
+                             : m_kernels->readFloat64(m_rows64, offsets.data(), m_origin, block);
 }
 
 /// Fewer than sixteen: the kernels read the last one again for each that is missing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,6 +46,10 @@ class BoxReader {
     m_size = ids.size();
   }
 
+  /// From now on lanes are relative to a point: the farther from the origin float64 boxes are, the coarser their lanes.
+  /// Boxes that are compared need the same one. Rounded lanes keep the order of what they were rounded from.
+  void setOrigin(const std::array<double, 3>& origin) noexcept;
+
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {
     return m_ids != nullptr ? m_ids[i] : static_cast<std::uint32_t>(i);
@@ -65,6 +70,7 @@ class BoxReader {
   }
 
  private:
+  BlockRead readListed(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readBoxes(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readRows(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readFewRows(const BoxList& boxes, LaneBlock& block) const;
@@ -77,6 +83,8 @@ class BoxReader {
   const Kernels* m_kernels;
   double m_distance;
   std::optional<Box> m_region;
+  std::array<double, 3> m_origin{};
+  bool m_isMoved = false;           ///< The origin is not zero.
   const float* m_rows32 = nullptr;  ///< Rows of six that a kernel can read sixteen at a time.
   const double* m_rows64 = nullptr;
 };

@@ -179,7 +179,8 @@ struct PairWriter {
   bool rowSecond;
   std::size_t size = 0;
 
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> partners) {
+  template <class Certain>
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> partners, const Certain& /*certain*/) {
     const IdTag d;
     if (!hn::AllTrue(FloatTag(), mask)) partners = hn::Compress(partners, hn::RebindMask(d, mask));
     if (rowSecond) {
@@ -244,21 +245,29 @@ void searchFlat(const FlatSearch& search, Hits& hits) {
   if (hits.countOnly) {
     dense ? searchRows<Density::Dense, HitCounter>(search, begin, hits)
           : searchRows<Density::Sparse, HitCounter>(search, countRows(search, hits), hits);
+  } else if (hits.doubt != nullptr) {
+    dense ? searchRows<Density::Dense, DoubtWriter>(search, begin, hits)
+          : searchRows<Density::Sparse, DoubtWriter>(search, begin, hits);
   } else {
     dense ? searchRows<Density::Dense, HitWriter>(search, begin, hits)
           : searchRows<Density::Sparse, HitWriter>(search, begin, hits);
   }
 }
 
-void searchFew(const FewSearch& search, Hits& hits) {
+template <class Emitter>
+void searchFewRows(const FewSearch& search, Hits& hits) {
   for (std::size_t row = 0; row < search.rowCount; ++row) {
     const Range columns = columnsOf(search.tested, row, search.columnCount);
     hits.require(FewTile::kCapacity);
-    HitWriter writer = HitWriter::ofRow(hits, search.rows->id[row]);
+    Emitter writer = Emitter::ofRow(hits, search.rows->id[row]);
     emitRow<Density::Dense>(broadcast(search.rows->get(row)), *search.columns, columns.begin, columns.end, writer);
     writer.finish(hits);
     hits.boxTests += columns.size();
   }
+}
+
+void searchFew(const FewSearch& search, Hits& hits) {
+  hits.doubt != nullptr ? searchFewRows<DoubtWriter>(search, hits) : searchFewRows<HitWriter>(search, hits);
 }
 
 }  // namespace

@@ -32,6 +32,10 @@ struct Hits {
   std::size_t size = 0;
   std::size_t capacity = 0;  ///< Without the slack.
 
+  /// If set, receives the positions of the hits that lanes cannot decide, because they were rounded; as large as the others.
+  std::uint32_t* doubt = nullptr;
+  std::size_t doubts = 0;
+
   /// If set, hits are counted in `count` and not stored.
   bool countOnly = false;
   std::uint64_t count = 0;
@@ -39,7 +43,7 @@ struct Hits {
   std::uint64_t boxTests = 0;
   std::uint64_t groupTests = 0;
 
-  /// Consumes the stored hits; must set size to 0.
+  /// Consumes the stored hits; must set size and doubts to 0.
   void (*flush)(void* receiver, Hits& hits) = nullptr;
   void* receiver = nullptr;
 

@@ -43,13 +43,11 @@ struct LeafVectors {
     }
   }
 
-  /// The boxes of vector v that overlap box `lane` of another block.
-  [[nodiscard]] HWY_INLINE FloatMask overlappingWith(const LaneBlock& block, std::size_t lane, std::size_t v) const {
-    const FloatTag d;
-    const auto broadcast = [&](std::size_t row) HWY_ATTR { return hn::Set(d, block.bound[row][lane]); };
-    const FloatMask x = meets(broadcast(0), broadcast(3), bound[0][v], bound[3][v]);
-    const FloatMask xy = meetsAlso(x, broadcast(1), broadcast(4), bound[1][v], bound[4][v]);
-    return meetsAlso(xy, broadcast(2), broadcast(5), bound[2][v], bound[5][v]);
+  /// The boxes of vector v that overlap the query.
+  [[nodiscard]] HWY_INLINE FloatMask overlappingWith(const Query& q, std::size_t v) const {
+    const FloatMask x = meets(q.minX, q.maxX, bound[0][v], bound[3][v]);
+    const FloatMask xy = meetsAlso(x, q.minY, q.maxY, bound[1][v], bound[4][v]);
+    return meetsAlso(xy, q.minZ, q.maxZ, bound[2][v], bound[5][v]);
   }
 };
 
@@ -61,11 +59,12 @@ HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hit
   Emitter emitter = Emitter::ofLeaf(hits);
   for (std::size_t lane = 0; lane + 1 < leaf.fill; ++lane) {
     emitter.sharedId = leaf.ids[lane];
+    const Query q = broadcast(leaf.block.get(lane));
     for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
       const std::size_t first = v * LeafVectors::kLanes;
       const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, LeafVectors::kLanes) : 0;
-      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), vectors.overlappingWith(leaf.block, lane, v));
-      emitter.emit(mask, vectors.id[v]);
+      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), vectors.overlappingWith(q, v));
+      emitter.emit(mask, vectors.id[v], [&]() HWY_ATTR { return vectors.overlappingWith(inward(q), v); });
     }
   }
   emitter.finish(hits);
@@ -87,8 +86,10 @@ HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std:
     for (; i < stop; ++i) {
       const std::size_t place = places[i];
       emitter.sharedId = ids[place];
+      const Query q = broadcast(blocks[place / kFanOut].get(place % kFanOut));
       for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
-        emitter.emit(vectors.overlappingWith(blocks[place / kFanOut], place % kFanOut, v), vectors.id[v]);
+        emitter.emit(vectors.overlappingWith(q, v), vectors.id[v],
+                     [&]() HWY_ATTR { return vectors.overlappingWith(inward(q), v); });
       }
     }
     emitter.finish(hits);
@@ -160,8 +161,9 @@ class JoinRun {
   void descend(std::size_t level, std::size_t node, const LaneBox& bounds, const std::uint32_t* partners,
                std::size_t count) {
     if (level == 0) {
-      m_hits.countOnly ? joinLeaf<HitCounter>(node, bounds, partners, count)
-                       : joinLeaf<HitWriter>(node, bounds, partners, count);
+      m_hits.countOnly          ? joinLeaf<HitCounter>(node, bounds, partners, count)
+      : m_hits.doubt != nullptr ? joinLeaf<DoubtWriter>(node, bounds, partners, count)
+                                : joinLeaf<HitWriter>(node, bounds, partners, count);
       return;
     }
     gather(level, bounds, partners, count);

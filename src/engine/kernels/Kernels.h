@@ -119,9 +119,11 @@ struct Kernels {
   /// Reads sixteen boxes from rows that follow each other.
   BlockRead (*readRun32)(const float* rows, LaneBlock& block);
 
-  /// Reads sixteen boxes, which start `offsets` values after `rows`, as lanes that contain them.
+  /// Reads sixteen boxes, which start `offsets` values after `rows`, as lanes that contain them; those of float64
+  /// relative to an origin.
   BlockRead (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);
-  BlockRead (*readFloat64)(const double* rows, const std::int32_t* offsets, LaneBlock& block);
+  BlockRead (*readFloat64)(const double* rows, const std::int32_t* offsets, const std::array<double, 3>& origin,
+                           LaneBlock& block);
 
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
   /// bound for each of them: of the time of the hit, or of the squared distance.

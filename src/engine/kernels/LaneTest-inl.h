@@ -71,6 +71,29 @@ HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t 
   return meetsAlso(xy, q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
 }
 
+/// The query with each bound moved inward by more than the rounding of both sides: what it overlaps is certain.
+///
+/// A lane is within one unit in the last place of the bound that it was rounded from. If a minimum, increased by eight
+/// units of its own, does not exceed a maximum, then the bounds that they were rounded from do not either: if both are
+/// of similar magnitude, a unit of one is at most two of the other; else they are far apart.
+HWY_INLINE Query inward(const Query& q) {
+  const FloatTag d;
+  const auto slack = [&](FloatVector value) HWY_ATTR {
+    return hn::MulAdd(hn::Abs(value), hn::Set(d, kQuerySlack), hn::Set(d, kQueryTiny));
+  };
+  return {hn::Add(q.minX, slack(q.minX)), hn::Add(q.minY, slack(q.minY)), hn::Add(q.minZ, slack(q.minZ)),
+          hn::Sub(q.maxX, slack(q.maxX)), hn::Sub(q.maxY, slack(q.maxY)), hn::Sub(q.maxZ, slack(q.maxZ))};
+}
+
+/// The lanes of a mask as bits.
+template <class D, class M>
+HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
+  if (hn::AllFalse(d, mask)) return 0;
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(d, mask, bytes.data());
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
+
 alignas(64) inline constexpr std::array<std::uint32_t, kFanOut> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
                                                                              8, 9, 10, 11, 12, 13, 14, 15};
 

@@ -31,15 +31,6 @@ HWY_INLINE FloatVector finite(FloatVector value, bool& same) {
   return inside;
 }
 
-/// The lanes of a mask as bits.
-template <class D, class M>
-HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
-  if (hn::AllFalse(d, mask)) return 0;
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(d, mask, bytes.data());
-  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
-}
-
 /// Which of sixteen boxes are empty, as bits.
 HWY_INLINE std::uint32_t emptyLanes(const LaneBlock& block) {
   const FloatTag d;
@@ -177,7 +168,8 @@ BlockRead readFloat32(const float* rows, const std::int32_t* offsets, LaneBlock&
 }
 
 /// Emptiness is tested in double: rounded outward, an empty box may no longer be empty.
-BlockRead readFloat64(const double* rows, const std::int32_t* offsets, LaneBlock& block) {
+BlockRead readFloat64(const double* rows, const std::int32_t* offsets, const std::array<double, 3>& origin,
+                      LaneBlock& block) {
   const DoubleTag d;
   const HalfFloatTag df;
   const hn::Rebind<std::int32_t, DoubleTag> di;
@@ -185,11 +177,12 @@ BlockRead readFloat64(const double* rows, const std::int32_t* offsets, LaneBlock
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
     const auto offset = hn::PromoteTo(hn::RebindToSigned<DoubleTag>(), hn::LoadU(di, offsets + i));
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto from = hn::Set(d, origin[axis]);
       const auto min = hn::GatherIndex(d, rows + axis, offset);
       const auto max = hn::GatherIndex(d, rows + axis + 3, offset);
       result.emptyLanes |= bitsOf(d, hn::Gt(min, max)) << i;
-      hn::StoreU(lower(min, result.exact), df, &block.bound[axis][i]);
-      hn::StoreU(hn::Neg(lower(hn::Neg(max), result.exact)), df, &block.bound[axis + 3][i]);
+      hn::StoreU(lower(hn::Sub(min, from), result.exact), df, &block.bound[axis][i]);
+      hn::StoreU(hn::Neg(lower(hn::Sub(from, max), result.exact)), df, &block.bound[axis + 3][i]);
     }
   }
   return result;

@@ -8,6 +8,8 @@
 #define ALLPAIRS_ROW_KERNEL_INL_H
 #endif
 
+#include <bit>
+
 #include "allpairs/Pair.h"
 #include "kernels/Hits.h"
 #include "kernels/LaneTest-inl.h"
@@ -29,7 +31,9 @@ struct HitWriter {
   }
   static HWY_INLINE HitWriter ofLeaf(const Hits& hits) { return {hits.partner, hits.row, hits.size}; }
 
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids) {
+  /// certain() has the lanes that overlap whatever the rounding was; called only where that matters.
+  template <class Certain>
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, const Certain& /*certain*/) {
     const IdTag d;
     const auto selected = hn::RebindMask(d, mask);
     hn::StoreU(hn::Set(d, sharedId), d, shared + size);
@@ -39,6 +43,38 @@ struct HitWriter {
   HWY_INLINE void finish(Hits& hits) const { hits.size = size; }
 };
 
+/// Emits hits, and notes which of them need a test in double.
+struct DoubtWriter : HitWriter {
+  std::uint32_t* HWY_RESTRICT doubt;
+  std::size_t doubts;
+
+  static HWY_INLINE DoubtWriter ofRow(const Hits& hits, std::uint32_t row) {
+    return {HitWriter::ofRow(hits, row), hits.doubt, hits.doubts};
+  }
+  static HWY_INLINE DoubtWriter ofLeaf(const Hits& hits) { return {HitWriter::ofLeaf(hits), hits.doubt, hits.doubts}; }
+
+  template <class Certain>
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, const Certain& certain) {
+    const FloatTag d;
+    if (hn::AllFalse(d, mask)) return;
+    const FloatMask doubtful = hn::AndNot(certain(), mask);
+    if (!hn::AllFalse(d, doubtful)) note(bitsOf(d, mask), bitsOf(d, doubtful));
+    HitWriter::emit(mask, ids, certain);
+  }
+  HWY_INLINE void finish(Hits& hits) const {
+    HitWriter::finish(hits);
+    hits.doubts = doubts;
+  }
+
+ private:
+  void note(std::uint32_t lanes, std::uint32_t doubtful) {
+    for (; doubtful != 0; doubtful &= doubtful - 1) {
+      const std::uint32_t before = lanes & ((doubtful & (0U - doubtful)) - 1U);
+      doubt[doubts++] = static_cast<std::uint32_t>(size) + static_cast<std::uint32_t>(std::popcount(before));
+    }
+  }
+};
+
 /// Counts hits.
 struct HitCounter {
   std::size_t size = 0;
@@ -46,7 +82,10 @@ struct HitCounter {
 
   static HWY_INLINE HitCounter ofRow(const Hits& /*hits*/, std::uint32_t /*row*/) { return {}; }
   static HWY_INLINE HitCounter ofLeaf(const Hits& /*hits*/) { return {}; }
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> /*ids*/) { size += hn::CountTrue(FloatTag(), mask); }
+  template <class Certain>
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> /*ids*/, const Certain& /*certain*/) {
+    size += hn::CountTrue(FloatTag(), mask);
+  }
   HWY_INLINE void finish(Hits& hits) const { hits.count += size; }
 };
 
@@ -55,13 +94,21 @@ struct PartnerWriter {
   std::uint32_t* partners;
   std::size_t size;
 
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids) {
+  template <class Certain>
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, const Certain& /*certain*/) {
     const IdTag d;
     const auto selected = hn::RebindMask(d, mask);
     hn::StoreU(hn::Compress(ids, selected), d, partners + size);
     size += hn::CountTrue(d, selected);
   }
 };
+
+/// Emits the hits of a query in the vector at i.
+template <class Tile, class Emitter>
+HWY_INLINE void emitHits(const Query& q, const Tile& columns, std::size_t i, FloatMask mask, Emitter& emitter) {
+  emitter.emit(mask, hn::LoadU(IdTag(), &columns.id[i]),
+               [&]() HWY_ATTR { return overlapping(inward(q), columns.bound, i); });
+}
 
 /// The hits of a query in the vector at i, of which only the columns in [begin, end) count.
 template <class Tile, class Emitter>
@@ -72,7 +119,7 @@ HWY_INLINE void emitPart(const Query& q, const Tile& columns, std::size_t i, std
   FloatMask mask = overlapping(q, columns.bound, i);
   if (begin > i) mask = hn::AndNot(hn::FirstN(d, begin - i), mask);
   if (end < i + lanes) mask = hn::And(hn::FirstN(d, end - i), mask);
-  emitter.emit(mask, hn::LoadU(IdTag(), &columns.id[i]));
+  emitHits(q, columns, i, mask, emitter);
 }
 
 /// Four whole vectors from i on, with one branch for the four of them, since most often none has a hit.
@@ -85,10 +132,10 @@ HWY_INLINE void emitFour(const Query& q, const Tile& columns, std::size_t i, Emi
   const FloatMask m2 = overlapping(q, columns.bound, i + 2 * lanes);
   const FloatMask m3 = overlapping(q, columns.bound, i + 3 * lanes);
   if (hn::AllFalse(d, hn::Or(hn::Or(m0, m1), hn::Or(m2, m3)))) return;
-  emitter.emit(m0, hn::LoadU(IdTag(), &columns.id[i]));
-  emitter.emit(m1, hn::LoadU(IdTag(), &columns.id[i + lanes]));
-  emitter.emit(m2, hn::LoadU(IdTag(), &columns.id[i + 2 * lanes]));
-  emitter.emit(m3, hn::LoadU(IdTag(), &columns.id[i + 3 * lanes]));
+  emitHits(q, columns, i, m0, emitter);
+  emitHits(q, columns, i + lanes, m1, emitter);
+  emitHits(q, columns, i + 2 * lanes, m2, emitter);
+  emitHits(q, columns, i + 3 * lanes, m3, emitter);
 }
 
 /// How likely a vector is to have a hit.
@@ -107,8 +154,7 @@ HWY_INLINE void emitRow(const Query& q, const Tile& columns, std::size_t begin, 
   if constexpr (kDensity == Density::Sparse) {
     for (; i + 4 * lanes <= end; i += 4 * lanes) emitFour(q, columns, i, emitter);
   }
-  for (; i + lanes <= end; i += lanes)
-    emitter.emit(overlapping(q, columns.bound, i), hn::LoadU(IdTag(), &columns.id[i]));
+  for (; i + lanes <= end; i += lanes) emitHits(q, columns, i, overlapping(q, columns.bound, i), emitter);
   if (i < end) emitPart(q, columns, i, begin, end, emitter);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "input/BoxReader.h"
+#include "input/Origin.h"
 #include "kernels/Kernels.h"
 #include "search/PairSink.h"
 #include "search/PairTest.h"
@@ -27,6 +28,7 @@ class Receiver {
       : m_kernels(kernels), m_side(side), m_test(test), m_maxPairs(maxPairs), m_take(take) {
     m_hits.row = m_rows.data();
     m_hits.partner = m_partners.data();
+    if (test.leavesDoubts()) m_hits.doubt = m_doubts.data();
     m_hits.capacity = kHits;
     m_hits.receiver = this;
     m_hits.flush = [](void* self, Hits&) { static_cast<Receiver*>(self)->flush(); };
@@ -44,9 +46,12 @@ class Receiver {
   void flush() {
     if (m_hits.size == 0) return;
     m_kernels.writePairs(m_hits, m_side, m_pairs.data());
-    if (m_test.exactTestNeeded()) m_statistics.exactTests += m_hits.size;
-    const std::size_t kept = m_test.select({m_pairs.data(), m_hits.size});
+    const std::span<Pair> pairs(m_pairs.data(), m_hits.size);
+    const std::span<const std::uint32_t> doubts(m_doubts.data(), m_hits.doubts);
+    if (m_test.exactTestNeeded()) m_statistics.exactTests += m_hits.doubt != nullptr ? doubts.size() : pairs.size();
+    const std::size_t kept = m_hits.doubt != nullptr ? m_test.select(pairs, doubts) : m_test.select(pairs);
     m_hits.size = 0;
+    m_hits.doubts = 0;
     m_statistics.pairs += kept;
     checkLimit({.maxPairs = m_maxPairs}, m_statistics.pairs);
     m_take({m_pairs.data(), kept});
@@ -61,6 +66,7 @@ class Receiver {
   Hits m_hits;
   alignas(64) std::array<std::uint32_t, kHits + Hits::kSlack> m_rows;
   alignas(64) std::array<std::uint32_t, kHits + Hits::kSlack> m_partners;
+  std::array<std::uint32_t, kHits + Hits::kSlack> m_doubts;
   alignas(64) std::array<Pair, kHits + Hits::kSlack> m_pairs;
 };
 
@@ -145,9 +151,14 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options,
   FewTile rows;
   FewSearch search{&columns, &columns, rowSet.size(), columnSet.size(),
                    bySecond ? Columns::Preceding : Columns::Following};
-  bool exact = readFew(BoxReader(columnSet, options, kernels), columns);
+  const auto readInto = [&](const BoxView& set, FewTile& tile) {
+    BoxReader reader(set, options, kernels);
+    reader.setOrigin(originFor(sets.first, sets.second));
+    return readFew(reader, tile);
+  };
+  bool exact = readInto(columnSet, columns);
   if (!sets.one) {
-    exact &= readFew(BoxReader(rowSet, options, kernels), rows);
+    exact &= readInto(rowSet, rows);
     search.rows = &rows;
     search.tested = Columns::All;
   }

@@ -30,10 +30,12 @@ void checkLimit(const SinkOptions& options, std::uint64_t count) {
 void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_options = &options;
   m_worker = worker;
-  m_memory.require(kHitOffset + 2 * kHitStride);
+  const bool doubts = options.lanesAreBounds && options.test->leavesDoubts() && isWhole();
+  m_memory.require(kHitOffset + (doubts ? 3 : 2) * kHitStride);
   m_hits = {};
   m_hits.row = m_memory.data() + kHitOffset;
   m_hits.partner = m_hits.row + kHitStride;
+  if (doubts) m_hits.doubt = m_hits.partner + kHitStride;
   m_hits.capacity = kHitCapacity;
   m_hits.countOnly = options.countOnly && !isSelective();
   m_hits.receiver = this;
@@ -52,9 +54,10 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   if (options.emit) m_pairs.grow(kHitCapacity + Hits::kSlack);
 }
 
+bool PairSink::isWhole() const noexcept { return m_options->firstRow == 0 && !m_options->ascendingOnly; }
+
 bool PairSink::isSelective() const noexcept {
-  return m_options->firstRow != 0 || m_options->ascendingOnly ||
-         (m_options->test != nullptr && m_options->test->needed());
+  return !isWhole() || (m_options->test != nullptr && m_options->test->needed());
 }
 
 RoomForPairs PairSink::roomFor(Hits& hits, std::size_t most) {
@@ -75,8 +78,14 @@ void PairSink::receive(Hits& hits) {
   m_pairs.grow(std::max(m_options->likelyPairs, begin + hits.size + Hits::kSlack));
   m_options->kernels->writePairs(hits, m_options->side, m_pairs.data() + begin);
   m_size += hits.size;
+  if (hits.doubt != nullptr) {
+    m_exactTests += hits.doubts;
+    m_size = begin + m_options->test->select({m_pairs.data() + begin, hits.size}, {hits.doubt, hits.doubts});
+  } else if (isSelective()) {
+    selectTested(begin);
+  }
   hits.size = 0;
-  if (isSelective()) selectTested(begin);
+  hits.doubts = 0;
   m_count += m_size - begin;
   if (m_options->countOnly) m_size = begin;
   checkLimit(*m_options, m_count);

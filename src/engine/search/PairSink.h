@@ -24,6 +24,7 @@ struct SinkOptions {
   const Kernels* kernels = nullptr;
   const PairTest* test = nullptr;  ///< If null, all pairs are kept.
   PairSide side = PairSide::RowFirst;
+  bool lanesAreBounds = false;  ///< But for their rounding and the widening; those of a world may be larger.
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
   /// Space for this many pairs is reserved initially: address space, of which only the used part takes memory.
@@ -73,6 +74,7 @@ class PairSink {
   [[nodiscard]] std::uint64_t exactTests() const noexcept { return m_exactTests; }
 
  private:
+  [[nodiscard]] bool isWhole() const noexcept;
   [[nodiscard]] bool isSelective() const noexcept;
   RoomForPairs roomFor(Hits& hits, std::size_t most);
   void take(std::size_t count);

@@ -55,6 +55,11 @@ class PairTest {
   /// Set once the lanes are known.
   void requireExactTest(bool required) noexcept { m_exact = required; }
 
+  /// The kernels can tell which hits need the exact test, if lanes are the bounds but for their rounding.
+  [[nodiscard]] bool leavesDoubts() const noexcept {
+    return m_exact && m_distance == 0.0 && !m_first.boxes->hasMargins() && !m_second.boxes->hasMargins();
+  }
+
   [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
   [[nodiscard]] bool exactTestNeeded() const noexcept { return m_exact; }
 
@@ -63,6 +68,24 @@ class PairTest {
   /// Moves the pairs that it keeps to the front; returns their number.
   [[nodiscard]] std::size_t select(std::span<Pair> pairs) const {
     if (!needed()) return pairs.size();
+    return moveToFront(pairs, [this](Pair pair) { return keeps(pair); });
+  }
+
+  /// The same where only the pairs at some positions, in ascending order, need the exact test.
+  [[nodiscard]] std::size_t select(std::span<Pair> pairs, std::span<const std::uint32_t> doubts) const {
+    if (!m_filtered && doubts.empty()) return pairs.size();
+    std::size_t next = 0;
+    std::size_t doubt = 0;
+    return moveToFront(pairs, [&](Pair pair) {
+      const bool isDoubtful = doubt < doubts.size() && doubts[doubt] == next++;
+      doubt += isDoubtful ? 1U : 0U;
+      return (!isDoubtful || touches(pair)) && (!m_filtered || passes(pair));
+    });
+  }
+
+ private:
+  template <class Keeps>
+  static std::size_t moveToFront(std::span<Pair> pairs, const Keeps& keeps) {
     std::size_t kept = 0;
     for (const Pair pair : pairs) {
       if (keeps(pair)) pairs[kept++] = pair;
@@ -70,7 +93,6 @@ class PairTest {
     return kept;
   }
 
- private:
   [[nodiscard]] bool touches(Pair pair) const {
     const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
     return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "input/Options.h"
+#include "input/Origin.h"
 #include "input/Sampling.h"
 #include "search/FewBoxes.h"
 
@@ -106,8 +107,11 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
 void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
+  plan.sink.lanesAreBounds = true;
   plan.sink.maxPairs = options.maxPairs;
   Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
+  readers.first.setOrigin(originFor(sets.first, sets.second));
+  readers.second.setOrigin(originFor(sets.first, sets.second));
   if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;
   const bool flat = choosesFlat(readers, options, likelyPairs);

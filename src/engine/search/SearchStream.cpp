@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "allpairs/Error.h"
+#include "input/Origin.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
@@ -60,7 +61,9 @@ void Search::streamAll(Plan& plan, Batches& to) {
 void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Batches& to) {
   const bool bySecond = options.order == Order::BySecond;
   const BoxView& rows = bySecond ? sets.second : sets.first;
-  m_second.build(BoxReader(bySecond ? sets.first : sets.second, options, *m_kernels), *m_executor);
+  BoxReader columns(bySecond ? sets.first : sets.second, options, *m_kernels);
+  columns.setOrigin(originFor(sets.first, sets.second));
+  m_second.build(columns, *m_executor);
   OverlapStatistics total;
   std::size_t length = kFirstRange;
   for (std::size_t begin = 0; begin < rows.size();) {
@@ -83,7 +86,9 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Bat
 bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end) {
   const bool bySecond = options.order == Order::BySecond;
   const BoxView range = (bySecond ? sets.second : sets.first).slice(begin, end);
-  m_first.build(BoxReader(range, options, *m_kernels), *m_executor);
+  BoxReader reader(range, options, *m_kernels);
+  reader.setOrigin(originFor(sets.first, sets.second));
+  m_first.build(reader, *m_executor);
   Plan plan{PairTest::of(sets, options)};
   joinBoth(false, plan);
   plan.test.requireExactTest(!m_first.exact() || !m_second.exact());
