@@ -20,11 +20,13 @@ namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
 /// Measured (docs/decisions/0009): wide vectors that store selected lanes in one instruction test more pairs.
-constexpr std::size_t kFlatBoxes = HWY_TARGET <= HWY_AVX3 ? 384 : HWY_TARGET <= HWY_AVX2 ? 128 : 96;
+constexpr std::size_t kFlatOrdered = HWY_TARGET <= HWY_AVX3 ? 448 : HWY_TARGET <= HWY_AVX2 ? 128 : 96;
+constexpr std::size_t kFlatUnordered = HWY_TARGET <= HWY_AVX3 ? 256 : kFlatOrdered;
 
 const Kernels* kernelTable() {
   static const Kernels table{hwy::TargetName(HWY_TARGET),
-                             kFlatBoxes,
+                             kFlatOrdered,
+                             kFlatUnordered,
                              &searchFlat,
                              &searchFew,
                              &join,

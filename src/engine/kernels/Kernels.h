@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "kernels/BvhView.h"
 #include "kernels/CurveGrid.h"
@@ -95,8 +96,14 @@ struct BlockRead {
 struct Kernels {
   std::string_view name;
 
-  /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy (docs/decisions/0009).
-  std::size_t flatBoxes;
+  /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy: for pairs in order, which it
+  /// finds them in, and for others (docs/decisions/0009).
+  std::size_t flatOrdered;
+  std::size_t flatUnordered;
+
+  [[nodiscard]] std::size_t flatBoxes(Order order) const noexcept {
+    return order == Order::Unordered ? flatUnordered : flatOrdered;
+  }
 
   /// Tests rows of a list against a range of columns each, without any hierarchy.
   void (*searchFlat)(const FlatSearch& search, Hits& hits);

@@ -14,7 +14,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Up to this many boxes of one set, a plain loop over them takes less time than arranging them for vectors
-/// (allpairs_few_benchmark).
+/// (docs/decisions/0009).
 constexpr std::size_t kPlainBoxes = 8;
 
 /// Hits that are buffered: a few times those of one box.
@@ -174,7 +174,7 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   const std::size_t size = std::max(sets.first.size(), sets.second.size());
   if (size > FewTile::kCapacity || options.strategy == Strategy::Bvh) return false;
   const Kernels* const kernels = findKernels(options.instructionSet);
-  return kernels == nullptr || options.strategy == Strategy::Exhaustive || size <= kernels->flatBoxes;
+  return kernels == nullptr || options.strategy == Strategy::Exhaustive || size <= kernels->flatBoxes(options.order);
 }
 
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options,

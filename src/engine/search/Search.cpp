@@ -69,7 +69,8 @@ bool Search::choosesFlat(const Readers& readers, const OverlapOptions& options, 
   const std::size_t columns = readers.second.size();
   likelyPairs = std::min(kLikelyPairs * rows, kMostLikelyPairs);
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
-  if (rows * columns <= m_kernels->flatBoxes * m_kernels->flatBoxes || std::min(rows, columns) <= kFewRows) return true;
+  const std::size_t few = m_kernels->flatBoxes(options.order);
+  if (rows * columns <= few * few || std::min(rows, columns) <= kFewRows) return true;
   if (!readers.one || rows > kMostOverlapping) return false;
   const double share = shareOfOverlaps(readers.first);
   if (share <= (options.order == Order::Unordered ? kMuchUnordered : kMuchOrdered)) return false;
