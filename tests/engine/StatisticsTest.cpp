@@ -108,7 +108,7 @@ TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
       }
     }
   }
-  for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
     OverlapOptions options;
     options.strategy = strategy;
     OverlapSearch search(options);

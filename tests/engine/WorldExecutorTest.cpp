@@ -125,5 +125,22 @@ TEST(WorldQueries, AnswerSeveralThreadsAtOnceEvenTheFirstOnesAfterAMove) {
   }
 }
 
+TEST(WorldThreads, QueriesBetweenTwoWorldsAtOnceLeaveBothUsable) {
+  constexpr int kThreads = 3;
+  constexpr int kQueries = 200'000;
+  World first;
+  World second;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < kThreads; ++i) {
+    threads.emplace_back([&] {
+      for (int query = 0; query < kQueries; ++query) static_cast<void>(first.findBetween(second));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  // A world that counted its users wrongly would say that it is called by its own filter.
+  EXPECT_NO_THROW(static_cast<void>(first.step()));
+  EXPECT_NO_THROW(static_cast<void>(second.step()));
+}
+
 }  // namespace
 }  // namespace allpairs

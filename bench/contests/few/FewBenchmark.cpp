@@ -77,6 +77,8 @@ void compete(std::span<Contender> contenders, const std::vector<Rows>& sets, dou
 }
 
 void compareCalls(double seconds) {
+  constexpr std::array<std::size_t, 22> kCounts{2,  3,  4,  6,   8,   9,   12,  16,  17,  24,  32,
+                                                48, 64, 96, 128, 129, 192, 256, 257, 384, 385, 512};
   std::printf("Nanoseconds per search of uniform boxes, the least of all rounds; views of the boxes included.\n\n");
   std::printf(
       "| boxes | double loop | overlaps() | find(), ordered | find(), unordered |\n|---:|---:|---:|---:|---:|\n");

@@ -78,7 +78,9 @@ bool BoxCull::restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Execu
   std::size_t size = m_ends[0];
   for (std::size_t task = 1; task < tasks; ++task) {
     const std::uint32_t* const begin = ids.data() + task * kBoxesPerTask;
-    std::copy<const std::uint32_t*>(begin, ids.data() + m_ends[task], ids.data() + size);
+    if (begin != ids.data() + size) {
+      std::copy<const std::uint32_t*>(begin, ids.data() + m_ends[task], ids.data() + size);
+    }
     size += m_ends[task] - task * kBoxesPerTask;
   }
   reader.restrictTo({ids.data(), size});

@@ -32,7 +32,7 @@ namespace allpairs::engine {
       least = std::min(least, box.min[axis]);
       greatest = std::max(greatest, box.max[axis]);
     }
-    if (least <= greatest && std::abs(least) > kFar * (greatest - least)) origin[axis] = least;
+    if (least < greatest && std::abs(least) > kFar * (greatest - least)) origin[axis] = least;
   }
   return origin;
 }

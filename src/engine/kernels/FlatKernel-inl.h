@@ -52,7 +52,8 @@ HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t
     if (!hits.countOnly) hits.require(kTile);
     Emitter emitter = Emitter::ofRow(hits, id);
     emitRow<kDensity>(q, search.columns.tileOf(begin), begin - first, stop - first, emitter);
-    emitter.finish(hits);
+    emitter.finish(
+        hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q), search.columns.tileOf(first).bound, i); });
     begin = stop;
   }
 }
@@ -96,7 +97,7 @@ void countColumns(const FlatSearch& search, std::size_t row, Range columns, Hits
       emitRow<Density::Dense>(q, tile, begin - first, whole, counter);
       emitRow<Density::Dense>(q, tile, wholeEnd, stop - first, counter);
     }
-    counter.finish(hits);
+    hits.count += counter.size;
     hits.count += countVectors(queries, tile, whole, wholeEnd);
     begin = stop;
   }
@@ -179,8 +180,7 @@ struct PairWriter {
   bool rowSecond;
   std::size_t size = 0;
 
-  template <class Certain>
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> partners, const Certain& /*certain*/) {
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> partners, std::uint32_t /*test*/) {
     const IdTag d;
     if (!hn::AllTrue(FloatTag(), mask)) partners = hn::Compress(partners, hn::RebindMask(d, mask));
     if (rowSecond) {
@@ -260,8 +260,9 @@ void searchFewRows(const FewSearch& search, Hits& hits) {
     const Range columns = columnsOf(search.tested, row, search.columnCount);
     hits.require(FewTile::kCapacity);
     Emitter writer = Emitter::ofRow(hits, search.rows->id[row]);
-    emitRow<Density::Dense>(broadcast(search.rows->get(row)), *search.columns, columns.begin, columns.end, writer);
-    writer.finish(hits);
+    const Query q = broadcast(search.rows->get(row));
+    emitRow<Density::Dense>(q, *search.columns, columns.begin, columns.end, writer);
+    writer.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q), search.columns->bound, i); });
     hits.boxTests += columns.size();
   }
 }

@@ -32,7 +32,8 @@ struct Hits {
   std::size_t size = 0;
   std::size_t capacity = 0;  ///< Without the slack.
 
-  /// If set, receives the positions of the hits that lanes cannot decide, because they were rounded; as large as the others.
+  /// If set, receives the positions of the hits that lanes cannot decide, because they were rounded; as large as the
+  /// others.
   std::uint32_t* doubt = nullptr;
   std::size_t doubts = 0;
 

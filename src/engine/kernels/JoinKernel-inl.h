@@ -54,20 +54,23 @@ struct LeafVectors {
 /// The pairs within a leaf, each once: a box against those after it.
 template <class Emitter>
 HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hits) {
+  constexpr std::size_t kVectors = LeafVectors::kVectors;
   const FloatTag d;
   if (!hits.countOnly) hits.require(kFanOut * kFanOut);
   Emitter emitter = Emitter::ofLeaf(hits);
   for (std::size_t lane = 0; lane + 1 < leaf.fill; ++lane) {
-    emitter.sharedId = leaf.ids[lane];
+    emitter.share(leaf.ids[lane]);
     const Query q = broadcast(leaf.block.get(lane));
-    for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
       const std::size_t first = v * LeafVectors::kLanes;
       const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, LeafVectors::kLanes) : 0;
       const FloatMask mask = hn::AndNot(hn::FirstN(d, before), vectors.overlappingWith(q, v));
-      emitter.emit(mask, vectors.id[v], [&]() HWY_ATTR { return vectors.overlappingWith(inward(q), v); });
+      emitter.emit(mask, vectors.id[v], static_cast<std::uint32_t>(lane * kVectors + v));
     }
   }
-  emitter.finish(hits);
+  emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
+    return vectors.overlappingWith(inward(broadcast(leaf.block.get(test / kVectors))), test % kVectors);
+  });
 }
 
 /// The boxes of a leaf, which stay in registers, against the boxes at some positions of another hierarchy, one by one.
@@ -77,22 +80,25 @@ template <class Emitter>
 HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std::span<const std::uint32_t> places,
                           Hits& hits) {
   constexpr std::size_t kStretch = 64;
+  constexpr std::size_t kVectors = LeafVectors::kVectors;
   const LaneBlock* blocks = other.level[0].blocks;
-  const std::uint32_t* ids = other.ids;
-  for (std::size_t i = 0; i < places.size();) {
-    const std::size_t stop = std::min(places.size(), i + kStretch);
+  const auto queryAt = [&](std::size_t place)
+                           HWY_ATTR { return broadcast(blocks[place / kFanOut].get(place % kFanOut)); };
+  for (std::size_t begin = 0; begin < places.size(); begin += kStretch) {
+    const std::size_t size = std::min(places.size() - begin, kStretch);
     if (!hits.countOnly) hits.require(kStretch * kFanOut);
     Emitter emitter = Emitter::ofLeaf(hits);
-    for (; i < stop; ++i) {
-      const std::size_t place = places[i];
-      emitter.sharedId = ids[place];
-      const Query q = broadcast(blocks[place / kFanOut].get(place % kFanOut));
-      for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
-        emitter.emit(vectors.overlappingWith(q, v), vectors.id[v],
-                     [&]() HWY_ATTR { return vectors.overlappingWith(inward(q), v); });
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t place = places[begin + i];
+      emitter.share(other.ids[place]);
+      const Query q = queryAt(place);
+      for (std::size_t v = 0; v < kVectors; ++v) {
+        emitter.emit(vectors.overlappingWith(q, v), vectors.id[v], static_cast<std::uint32_t>(i * kVectors + v));
       }
     }
-    emitter.finish(hits);
+    emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
+      return vectors.overlappingWith(inward(queryAt(places[begin + test / kVectors])), test % kVectors);
+    });
   }
 }
 

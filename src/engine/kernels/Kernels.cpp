@@ -19,7 +19,9 @@
 #include <iterator>
 
 #if HWY_ARCH_X86 && __has_include(<sys/platform/x86.h>)
+#define _Bool bool  // NOLINT(bugprone-reserved-identifier): the header is for C, and takes it for granted in C++.
 #include <sys/platform/x86.h>
+#undef _Bool
 #endif
 #ifdef CPU_FEATURE_ACTIVE
 #define ALLPAIRS_LIBC_KNOWS_PROCESSOR 1

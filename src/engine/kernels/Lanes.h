@@ -111,7 +111,8 @@ struct LaneList {
 };
 
 /// Added to, or subtracted from, a result in float32 so that it bounds the result in double: much more than its four
-/// roundings can amount to, and than underflow can lose.
+/// roundings can amount to, and than underflow can lose. The exactness of results rests on it too: it is what the lanes that
+/// overlap for certain have to spare, at least eight units in the last place.
 inline constexpr float kQuerySlack = 0x1p-20F;
 inline constexpr float kQueryTiny = 1e-36F;
 

@@ -136,6 +136,15 @@ BlockRead readRun32(const float* rows, LaneBlock& block) {
   return result;
 }
 
+#if HWY_TARGET <= HWY_AVX3
+
+/// The greatest float32 that are not above: an instruction that AVX-512 has.
+HWY_INLINE hn::Vec<HalfFloatTag> demoteDown(hn::Vec<DoubleTag> value) {
+  return hn::Vec<HalfFloatTag>{_mm512_cvt_roundpd_ps(value.raw, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)};
+}
+
+#else
+
 /// The next float32 below where `further` says so. Zero never has to go down: see roundDown().
 HWY_INLINE hn::Vec<HalfFloatTag> stepDown(hn::Vec<HalfFloatTag> value, hn::Mask<HalfFloatTag> further) {
   const HalfFloatTag d;
@@ -147,16 +156,23 @@ HWY_INLINE hn::Vec<HalfFloatTag> stepDown(hn::Vec<HalfFloatTag> value, hn::Mask<
   return hn::IfThenElse(further, moved, value);
 }
 
+/// The greatest float32 that are not above.
+HWY_INLINE hn::Vec<HalfFloatTag> demoteDown(hn::Vec<DoubleTag> value) {
+  const DoubleTag d;
+  const HalfFloatTag df;
+  const auto nearest = hn::DemoteTo(df, value);
+  const auto above = hn::Gt(hn::PromoteTo(d, nearest), value);
+  const auto further = hn::Gt(hn::DemoteTo(df, hn::IfThenElseZero(above, hn::Set(d, 1.0))), hn::Zero(df));
+  return stepDown(nearest, further);
+}
+
+#endif
+
 /// float64 rounded down to float32 and kept within the finite ones; `same` stays true if that changed nothing.
 HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
   const DoubleTag d;
-  const HalfFloatTag df;
   const auto most = hn::Set(d, static_cast<double>(kLaneMax));
-  const auto inside = hn::Max(hn::Neg(most), hn::Min(value, most));
-  const auto nearest = hn::DemoteTo(df, inside);
-  const auto above = hn::Gt(hn::PromoteTo(d, nearest), inside);
-  const auto further = hn::Gt(hn::DemoteTo(df, hn::IfThenElseZero(above, hn::Set(d, 1.0))), hn::Zero(df));
-  const auto down = stepDown(nearest, further);
+  const auto down = demoteDown(hn::Max(hn::Neg(most), hn::Min(value, most)));
   same = same && hn::AllTrue(d, hn::Eq(hn::PromoteTo(d, down), value));
   return down;
 }

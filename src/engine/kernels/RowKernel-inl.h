@@ -8,7 +8,9 @@
 #define ALLPAIRS_ROW_KERNEL_INL_H
 #endif
 
+#include <array>
 #include <bit>
+#include <cstdint>
 
 #include "allpairs/Pair.h"
 #include "kernels/Hits.h"
@@ -18,12 +20,15 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
+/// The most vectors that an emitter is given: a tile of an exhaustive search in vectors of one lane.
+constexpr std::size_t kMostTests = LaneTile::kCapacity;
+
 /// Emits hits as two ids each: one that all hits of a vector share, and the partner's; writes whole vectors.
 struct HitWriter {
   std::uint32_t* HWY_RESTRICT shared;
   std::uint32_t* HWY_RESTRICT own;
   std::size_t size;
-  std::uint32_t sharedId = 0;
+  std::uint32_t commonId = 0;
 
   /// A row against its columns, or the boxes of a leaf against a partner.
   static HWY_INLINE HitWriter ofRow(const Hits& hits, std::uint32_t row) {
@@ -31,62 +36,84 @@ struct HitWriter {
   }
   static HWY_INLINE HitWriter ofLeaf(const Hits& hits) { return {hits.partner, hits.row, hits.size}; }
 
-  /// certain() has the lanes that overlap whatever the rounding was; called only where that matters.
-  template <class Certain>
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, const Certain& /*certain*/) {
+  HWY_INLINE void share(std::uint32_t id) { commonId = id; }
+
+  /// `test` identifies the vector among those since the emitter was made.
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, std::uint32_t /*test*/) {
     const IdTag d;
     const auto selected = hn::RebindMask(d, mask);
-    hn::StoreU(hn::Set(d, sharedId), d, shared + size);
+    hn::StoreU(hn::Set(d, commonId), d, shared + size);
     hn::StoreU(hn::Compress(ids, selected), d, own + size);
     size += hn::CountTrue(d, selected);
   }
-  HWY_INLINE void finish(Hits& hits) const { hits.size = size; }
+
+  /// certainOf(test) has the lanes that overlap whatever the rounding was.
+  template <class CertainOf>
+  HWY_INLINE void finish(Hits& hits, const CertainOf& /*certainOf*/) const {
+    hits.size = size;
+  }
 };
 
-/// Emits hits, and notes which of them need a test in double.
-struct DoubtWriter : HitWriter {
-  std::uint32_t* HWY_RESTRICT doubt;
-  std::size_t doubts;
+/// Emits hits, and then the positions of those that need a test in double. It keeps the vectors with hits until the end: a
+/// branch for each would be mispredicted too often.
+class DoubtWriter {
+ public:
+  static HWY_INLINE DoubtWriter ofRow(const Hits& hits, std::uint32_t row) { return {HitWriter::ofRow(hits, row)}; }
+  static HWY_INLINE DoubtWriter ofLeaf(const Hits& hits) { return {HitWriter::ofLeaf(hits)}; }
 
-  static HWY_INLINE DoubtWriter ofRow(const Hits& hits, std::uint32_t row) {
-    return {HitWriter::ofRow(hits, row), hits.doubt, hits.doubts};
-  }
-  static HWY_INLINE DoubtWriter ofLeaf(const Hits& hits) { return {HitWriter::ofLeaf(hits), hits.doubt, hits.doubts}; }
+  HWY_INLINE void share(std::uint32_t id) { m_writer.share(id); }
 
-  template <class Certain>
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, const Certain& certain) {
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, std::uint32_t test) {
     const FloatTag d;
-    if (hn::AllFalse(d, mask)) return;
-    const FloatMask doubtful = hn::AndNot(certain(), mask);
-    if (!hn::AllFalse(d, doubtful)) note(bitsOf(d, mask), bitsOf(d, doubtful));
-    HitWriter::emit(mask, ids, certain);
+    Touched& touched = m_touched[m_count];
+    touched = {test, static_cast<std::uint32_t>(m_writer.size), {}};
+    hn::StoreMaskBits(d, mask, touched.lanes.data());
+    m_count += hn::AllFalse(d, mask) ? 0U : 1U;
+    m_writer.emit(mask, ids, test);
   }
-  HWY_INLINE void finish(Hits& hits) const {
-    HitWriter::finish(hits);
-    hits.doubts = doubts;
+
+  template <class CertainOf>
+  HWY_INLINE void finish(Hits& hits, const CertainOf& certainOf) {
+    m_writer.finish(hits, certainOf);
+    for (std::size_t i = 0; i < m_count; ++i) {
+      const std::uint32_t lanes = m_touched[i].lanes[0] | static_cast<std::uint32_t>(m_touched[i].lanes[1]) << 8U;
+      std::uint32_t doubtful = lanes & ~bitsOf(FloatTag(), certainOf(m_touched[i].test));
+      for (; doubtful != 0; doubtful &= doubtful - 1) {
+        const std::uint32_t before = lanes & ((doubtful & (0U - doubtful)) - 1U);
+        hits.doubt[hits.doubts++] = m_touched[i].begin + static_cast<std::uint32_t>(std::popcount(before));
+      }
+    }
   }
 
  private:
-  void note(std::uint32_t lanes, std::uint32_t doubtful) {
-    for (; doubtful != 0; doubtful &= doubtful - 1) {
-      const std::uint32_t before = lanes & ((doubtful & (0U - doubtful)) - 1U);
-      doubt[doubts++] = static_cast<std::uint32_t>(size) + static_cast<std::uint32_t>(std::popcount(before));
-    }
-  }
+  /// A vector with hits: the position of the first of them, and their lanes as bits.
+  struct Touched {
+    std::uint32_t test;
+    std::uint32_t begin;
+    std::array<std::uint8_t, 8> lanes;
+  };
+
+  HWY_INLINE DoubtWriter(const HitWriter& writer) : m_writer(writer) {}
+
+  HitWriter m_writer;
+  std::size_t m_count = 0;
+  std::array<Touched, kMostTests + 1> m_touched;  // Not initialised: few are used.
 };
 
 /// Counts hits.
 struct HitCounter {
   std::size_t size = 0;
-  std::uint32_t sharedId = 0;
 
   static HWY_INLINE HitCounter ofRow(const Hits& /*hits*/, std::uint32_t /*row*/) { return {}; }
   static HWY_INLINE HitCounter ofLeaf(const Hits& /*hits*/) { return {}; }
-  template <class Certain>
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> /*ids*/, const Certain& /*certain*/) {
+  HWY_INLINE void share(std::uint32_t /*id*/) {}
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> /*ids*/, std::uint32_t /*test*/) {
     size += hn::CountTrue(FloatTag(), mask);
   }
-  HWY_INLINE void finish(Hits& hits) const { hits.count += size; }
+  template <class CertainOf>
+  HWY_INLINE void finish(Hits& hits, const CertainOf& /*certainOf*/) const {
+    hits.count += size;
+  }
 };
 
 /// Emits the partners only, into a list of its own.
@@ -94,21 +121,13 @@ struct PartnerWriter {
   std::uint32_t* partners;
   std::size_t size;
 
-  template <class Certain>
-  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, const Certain& /*certain*/) {
+  HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, std::uint32_t /*test*/) {
     const IdTag d;
     const auto selected = hn::RebindMask(d, mask);
     hn::StoreU(hn::Compress(ids, selected), d, partners + size);
     size += hn::CountTrue(d, selected);
   }
 };
-
-/// Emits the hits of a query in the vector at i.
-template <class Tile, class Emitter>
-HWY_INLINE void emitHits(const Query& q, const Tile& columns, std::size_t i, FloatMask mask, Emitter& emitter) {
-  emitter.emit(mask, hn::LoadU(IdTag(), &columns.id[i]),
-               [&]() HWY_ATTR { return overlapping(inward(q), columns.bound, i); });
-}
 
 /// The hits of a query in the vector at i, of which only the columns in [begin, end) count.
 template <class Tile, class Emitter>
@@ -119,7 +138,7 @@ HWY_INLINE void emitPart(const Query& q, const Tile& columns, std::size_t i, std
   FloatMask mask = overlapping(q, columns.bound, i);
   if (begin > i) mask = hn::AndNot(hn::FirstN(d, begin - i), mask);
   if (end < i + lanes) mask = hn::And(hn::FirstN(d, end - i), mask);
-  emitHits(q, columns, i, mask, emitter);
+  emitter.emit(mask, hn::LoadU(IdTag(), &columns.id[i]), static_cast<std::uint32_t>(i));
 }
 
 /// Four whole vectors from i on, with one branch for the four of them, since most often none has a hit.
@@ -132,10 +151,10 @@ HWY_INLINE void emitFour(const Query& q, const Tile& columns, std::size_t i, Emi
   const FloatMask m2 = overlapping(q, columns.bound, i + 2 * lanes);
   const FloatMask m3 = overlapping(q, columns.bound, i + 3 * lanes);
   if (hn::AllFalse(d, hn::Or(hn::Or(m0, m1), hn::Or(m2, m3)))) return;
-  emitHits(q, columns, i, m0, emitter);
-  emitHits(q, columns, i + lanes, m1, emitter);
-  emitHits(q, columns, i + 2 * lanes, m2, emitter);
-  emitHits(q, columns, i + 3 * lanes, m3, emitter);
+  emitter.emit(m0, hn::LoadU(IdTag(), &columns.id[i]), static_cast<std::uint32_t>(i));
+  emitter.emit(m1, hn::LoadU(IdTag(), &columns.id[i + lanes]), static_cast<std::uint32_t>(i + lanes));
+  emitter.emit(m2, hn::LoadU(IdTag(), &columns.id[i + 2 * lanes]), static_cast<std::uint32_t>(i + 2 * lanes));
+  emitter.emit(m3, hn::LoadU(IdTag(), &columns.id[i + 3 * lanes]), static_cast<std::uint32_t>(i + 3 * lanes));
 }
 
 /// How likely a vector is to have a hit.
@@ -154,7 +173,9 @@ HWY_INLINE void emitRow(const Query& q, const Tile& columns, std::size_t begin, 
   if constexpr (kDensity == Density::Sparse) {
     for (; i + 4 * lanes <= end; i += 4 * lanes) emitFour(q, columns, i, emitter);
   }
-  for (; i + lanes <= end; i += lanes) emitHits(q, columns, i, overlapping(q, columns.bound, i), emitter);
+  for (; i + lanes <= end; i += lanes) {
+    emitter.emit(overlapping(q, columns.bound, i), hn::LoadU(IdTag(), &columns.id[i]), static_cast<std::uint32_t>(i));
+  }
   if (i < end) emitPart(q, columns, i, begin, end, emitter);
 }
 

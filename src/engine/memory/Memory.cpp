@@ -29,7 +29,7 @@ class LargePageMemory final : public std::pmr::memory_resource {
  private:
   void* do_allocate(std::size_t bytes, std::size_t alignment) override {
     if (alignment <= kAligned) return ::operator new(bytes);
-    void* memory = ::operator new (bytes, std::align_val_t{alignment});
+    void* memory = ::operator new(bytes, std::align_val_t{alignment});
     adviseLargePages(memory, bytes);
     return memory;
   }
@@ -39,7 +39,7 @@ class LargePageMemory final : public std::pmr::memory_resource {
     if (alignment <= kAligned) {
       ::operator delete(memory);
     } else {
-      ::operator delete (memory, std::align_val_t{alignment});
+      ::operator delete(memory, std::align_val_t{alignment});
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "input/BoxReader.h"
 #include "input/Origin.h"

@@ -2,27 +2,32 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <string>
 
 #include "allpairs/Error.h"
 
 namespace allpairs::engine {
 
+/// How a mark is counted: const members of some objects run on several threads at once.
+enum class Users : std::uint8_t { One, Many };
+
 /// Marks an object as running. Calls from its own callbacks would then change the data that it works on.
 ///
 /// Threads: tasks of the running work may call check().
-class InUse {
+template <Users kUsers>
+class InUseBy {
  public:
   /// Marks the object as running while the scope exists.
   class Scope {
    public:
-    explicit Scope(InUse& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
+    explicit Scope(InUseBy& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
     ~Scope() { m_inUse.add(-1); }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
    private:
-    InUse& m_inUse;
+    InUseBy& m_inUse;
   };
 
   /// Throws InvalidArgument, which names the kind of object, if the object is running.
@@ -32,12 +37,18 @@ class InUse {
   }
 
  private:
-  /// Only the thread that uses the object changes the number; a locked addition would cost more than a small search.
+  /// A locked addition would cost more than a search of a few boxes.
   void add(int scopes) noexcept {
-    m_scopes.store(m_scopes.load(std::memory_order_relaxed) + scopes, std::memory_order_relaxed);
+    if constexpr (kUsers == Users::Many) {
+      m_scopes.fetch_add(scopes, std::memory_order_relaxed);
+    } else {
+      m_scopes.store(m_scopes.load(std::memory_order_relaxed) + scopes, std::memory_order_relaxed);
+    }
   }
 
   std::atomic<int> m_scopes = 0;
 };
+
+using InUse = InUseBy<Users::One>;
 
 }  // namespace allpairs::engine

@@ -30,7 +30,7 @@ void checkLimit(const SinkOptions& options, std::uint64_t count) {
 void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_options = &options;
   m_worker = worker;
-  const bool doubts = options.lanesAreBounds && options.test->leavesDoubts() && isWhole();
+  const bool doubts = options.lanesAreBounds && options.test->leavesDoubts();
   m_memory.require(kHitOffset + (doubts ? 3 : 2) * kHitStride);
   m_hits = {};
   m_hits.row = m_memory.data() + kHitOffset;
@@ -78,12 +78,7 @@ void PairSink::receive(Hits& hits) {
   m_pairs.grow(std::max(m_options->likelyPairs, begin + hits.size + Hits::kSlack));
   m_options->kernels->writePairs(hits, m_options->side, m_pairs.data() + begin);
   m_size += hits.size;
-  if (hits.doubt != nullptr) {
-    m_exactTests += hits.doubts;
-    m_size = begin + m_options->test->select({m_pairs.data() + begin, hits.size}, {hits.doubt, hits.doubts});
-  } else if (isSelective()) {
-    selectTested(begin);
-  }
+  if (isSelective()) selectTested(begin, hits);
   hits.size = 0;
   hits.doubts = 0;
   m_count += m_size - begin;
@@ -92,15 +87,24 @@ void PairSink::receive(Hits& hits) {
   if (m_options->emit) emit();
 }
 
-void PairSink::selectTested(std::size_t begin) {
+void PairSink::selectTested(std::size_t begin, const Hits& hits) {
+  const PairTest* const test = m_options->test;
+  const bool hasDoubts = hits.doubt != nullptr;
+  if (test->exactTestNeeded()) m_exactTests += hasDoubts ? hits.doubts : hits.size;
+  if (hasDoubts && isWhole()) {
+    m_size = begin + test->select({m_pairs.data() + begin, hits.size}, {hits.doubt, hits.doubts});
+    return;
+  }
   std::size_t kept = begin;
+  std::size_t doubt = 0;
   for (std::size_t i = begin; i < m_size; ++i) {
     Pair pair = m_pairs[i];
+    const bool isDoubtful = !hasDoubts || (doubt < hits.doubts && hits.doubt[doubt] == i - begin);
+    doubt += isDoubtful ? 1U : 0U;
     (m_options->side == PairSide::RowSecond ? pair.second : pair.first) += m_options->firstRow;
     if (m_options->ascendingOnly && pair.first >= pair.second) continue;
-    if (m_options->test->keeps(pair)) m_pairs[kept++] = pair;
+    if (test->keeps(pair, isDoubtful)) m_pairs[kept++] = pair;
   }
-  if (m_options->test->exactTestNeeded()) m_exactTests += m_size - begin;
   m_size = kept;
 }
 

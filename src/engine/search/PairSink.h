@@ -79,7 +79,7 @@ class PairSink {
   RoomForPairs roomFor(Hits& hits, std::size_t most);
   void take(std::size_t count);
   void receive(Hits& hits);
-  void selectTested(std::size_t begin);
+  void selectTested(std::size_t begin, const Hits& hits);
   void emit();
 
   const SinkOptions* m_options = nullptr;

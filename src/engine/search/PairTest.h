@@ -63,7 +63,10 @@ class PairTest {
   [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
   [[nodiscard]] bool exactTestNeeded() const noexcept { return m_exact; }
 
-  [[nodiscard]] bool keeps(Pair pair) const { return (!m_exact || touches(pair)) && (!m_filtered || passes(pair)); }
+  /// A pair that is certain to touch needs no exact test.
+  [[nodiscard]] bool keeps(Pair pair, bool isDoubtful = true) const {
+    return (!m_exact || !isDoubtful || touches(pair)) && (!m_filtered || passes(pair));
+  }
 
   /// Moves the pairs that it keeps to the front; returns their number.
   [[nodiscard]] std::size_t select(std::span<Pair> pairs) const {
@@ -79,7 +82,7 @@ class PairTest {
     return moveToFront(pairs, [&](Pair pair) {
       const bool isDoubtful = doubt < doubts.size() && doubts[doubt] == next++;
       doubt += isDoubtful ? 1U : 0U;
-      return (!isDoubtful || touches(pair)) && (!m_filtered || passes(pair));
+      return keeps(pair, isDoubtful);
     });
   }
 

@@ -105,14 +105,19 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_taken = nullptr;
 }
 
+Search::Readers Search::readersOf(const Sets& sets, const OverlapOptions& options) const {
+  Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
+  readers.first.setOrigin(originFor(sets.first, sets.second));
+  readers.second.setOrigin(originFor(sets.first, sets.second));
+  return readers;
+}
+
 void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.lanesAreBounds = true;
   plan.sink.maxPairs = options.maxPairs;
-  Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
-  readers.first.setOrigin(originFor(sets.first, sets.second));
-  readers.second.setOrigin(originFor(sets.first, sets.second));
+  Readers readers = readersOf(sets, options);
   if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;
   const bool flat = choosesFlat(readers, options, likelyPairs);

@@ -84,6 +84,8 @@ class Search {
     bool one;
   };
 
+  [[nodiscard]] Readers readersOf(const Sets& sets, const OverlapOptions& options) const;
+
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 

@@ -37,7 +37,7 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
   if (to.size() == 0) throw InvalidArgument("a batch size of 0 pairs");
   begin(sets, options);
   std::size_t likelyPairs = 0;
-  const Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
+  const Readers readers = readersOf(sets, options);
   if (options.order != Order::Unordered && !choosesFlat(readers, options, likelyPairs)) {
     streamInRanges(sets, options, to);
     return;
@@ -94,6 +94,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::siz
   plan.test.requireExactTest(!m_first.exact() || !m_second.exact());
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
+  plan.sink.lanesAreBounds = true;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.sink.maxPairs = end - begin == 1 ? SinkOptions().maxPairs : kRangePairs;
   plan.sink.limitIsCallers = false;

@@ -61,6 +61,8 @@ void checkPoint(const std::array<double, 3>& point, std::size_t index) {
 
 }  // namespace
 
+using InUseScope = engine::InUseBy<engine::Users::Many>::Scope;
+
 struct World::State {
   State(WorldOptions given, const engine::Kernels& chosen)
       : options(std::move(given)),
@@ -74,7 +76,7 @@ struct World::State {
   engine::BoxStore store;
   engine::WorldSearch search;
   std::pmr::vector<Box> swept;
-  engine::InUse inUse;
+  engine::InUseBy<engine::Users::Many> inUse;
 
   /// The data that const members read.
   static const engine::BoxStore& storeOf(const World& world) {
@@ -239,7 +241,7 @@ BoxProperties World::properties(BoxId id) const {
 
 StepResult World::step() {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const InUseScope scope(state.inUse);
   return state.search.step(state.store);
 }
 
@@ -254,8 +256,8 @@ std::vector<Pair> World::findBetween(const World& other) const {
   if (m_state == nullptr || other.m_state == nullptr) return {};
   m_state->settle();
   other.m_state->settle();
-  const engine::InUse::Scope myScope(m_state->inUse);
-  const engine::InUse::Scope theirScope(other.m_state->inUse);
+  const InUseScope myScope(m_state->inUse);
+  const InUseScope theirScope(other.m_state->inUse);
   return m_state->search.findBetween(m_state->store, other.m_state->search, other.m_state->store);
 }
 
