@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if __cplusplus < 202002L
+#error "allpairs::BulletBroadphase needs C++20: compile with -std=c++20, or link a CMake target with allpairs::bullet"
+#else
+
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
@@ -417,7 +421,7 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   template <class IsUnwanted>
   void removeEach(const IsUnwanted& isUnwanted, btDispatcher* dispatcher) {
-    std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*>> unwanted;
+    std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*> > unwanted;
     const btBroadphasePairArray& pairs = m_cache->getOverlappingPairArray();
     for (int i = 0; i < pairs.size(); ++i) {
       if (isUnwanted(pairs[i])) unwanted.emplace_back(pairs[i].m_pProxy0, pairs[i].m_pProxy1);
@@ -430,7 +434,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   ImmediatePairs m_immediatePairs;
   btScalar m_characterMargin;
   btOverlapFilterCallback* m_filter = nullptr;
-  std::vector<std::unique_ptr<Proxy>> m_proxies;  // by id; one that was destroyed waits for a box with its id
+  std::vector<std::unique_ptr<Proxy> > m_proxies;  // by id; one that was destroyed waits for a box with its id
   World m_world;
   btOverlappingPairCache* m_cache;
   bool m_keepsPairs = true;   // unlike a btNullPairCache
@@ -440,3 +444,5 @@ class BulletBroadphase : public btBroadphaseInterface {
 };
 
 }  // namespace allpairs
+
+#endif

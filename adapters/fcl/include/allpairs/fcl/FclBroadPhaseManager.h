@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if __cplusplus < 202002L
+#error "allpairs::FclBroadPhaseManager needs C++20: compile with -std=c++20, or link a CMake target with allpairs::fcl"
+#else
+
 #include <fcl/broadphase/broadphase_collision_manager.h>
 
 #include <algorithm>
@@ -409,3 +413,5 @@ using FclBroadPhaseManagerf = FclBroadPhaseManager<float>;
 using FclBroadPhaseManagerd = FclBroadPhaseManager<double>;
 
 }  // namespace allpairs
+
+#endif
