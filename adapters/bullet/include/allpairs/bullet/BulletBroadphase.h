@@ -28,7 +28,7 @@ namespace allpairs {
 enum class ImmediatePairs : std::uint8_t {
   None,    ///< Nobody's: all pairs are added in calculateOverlappingPairs().
   Ghosts,  ///< Those of ghost objects, which character controllers move and ask between steps.
-  All,     ///< Those of every proxy, as in a btDbvtBroadphase, and at such a cost: a query for each box that is set.
+  All,     ///< Those of every proxy, as in a btDbvtBroadphase, at more than its cost: a query for each box that is set.
 };
 
 /// Settings of BulletBroadphase; the defaults are right for most worlds.
@@ -39,7 +39,7 @@ struct BulletBroadphaseOptions {
   /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// With Ghosts, proxies that are created with a dispatcher must have null or a btCollisionObject as their client
+  /// Unless it is None, proxies that are created with a dispatcher must have null or a btCollisionObject as their client
   /// object, as in all of Bullet's worlds.
   ImmediatePairs immediatePairs = ImmediatePairs::Ghosts;
 
@@ -126,15 +126,11 @@ class BulletBroadphase : public btBroadphaseInterface {
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
     const BoxSweep sweep{.box = toBox(rayFrom + aabbMin, rayFrom + aabbMax), .motion = toArray(rayTo - rayFrom)};
-    const auto hits = m_world.findAll(sweep);
-    const std::vector<SweepHit> kept(hits.begin(), hits.end());  // the callback may ask the world something else
-    for (const SweepHit& hit : kept) rayCallback.process(m_proxies[hit.id].get());
+    for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
   }
 
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override {
-    const auto found = m_world.findOverlapping(toBox(aabbMin, aabbMax));
-    const std::vector<BoxId> kept(found.begin(), found.end());
-    for (const BoxId id : kept) {
+    for (const BoxId id : m_world.findOverlapping(toBox(aabbMin, aabbMax))) {
       if (overlaps(*m_proxies[id], aabbMin, aabbMax)) callback.process(m_proxies[id].get());  // not only its reach
     }
   }

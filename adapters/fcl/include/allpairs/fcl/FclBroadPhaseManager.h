@@ -42,8 +42,8 @@ struct FclBroadPhaseManagerOptions {
 /// the query.
 ///
 /// For distances, callbacks get each pair at most once, and near ones early: at least each pair whose boxes are no
-/// farther apart than the distance that the callback has set last, pairs whose boxes overlap always. A callback that
-/// sets a distance of its own in each call, a threshold or 0, gets all pairs within it.
+/// farther apart than the least distance that the callback has set so far, pairs whose boxes overlap always. A callback
+/// that sets the same distance in each call, a threshold or 0, gets all pairs within it.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(), as in FCL's managers; an
 /// octree counts with its box, like any other geometry. An object that is registered again, or that leaves without
@@ -357,16 +357,11 @@ class FclBroadPhaseManager : public FclTree<S> {
   /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
   template <class AnyQuestion>
   bool askByWorld(const World& world, const AnyQuestion& question, S& least) const {
-    std::vector<BoxId> asked;
-    if (least == std::numeric_limits<S>::max()) asked = nearest(world, question.bounds);
-    std::erase_if(asked, [&](BoxId id) { return !question.isWanted(id); });
-    if (std::any_of(asked.begin(), asked.end(), question.ask)) return true;
-    const auto isNew = [&](BoxId id) {
-      return question.isWanted(id) && std::find(asked.begin(), asked.end(), id) == asked.end();
-    };
+    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question.bounds) : kNoBox;
+    if (first != kNoBox && question.isWanted(first) && question.ask(first)) return true;
     std::vector<Candidate> found;
     for (const BoxId id : world.findOverlapping(widened(question.bounds, limitOf(least)))) {
-      if (isNew(id)) addCandidate(question.bounds, id, least, found);
+      if (id != first && question.isWanted(id)) addCandidate(question.bounds, id, least, found);
     }
     std::sort(found.begin(), found.end());
     for (const Candidate& candidate : found) {
@@ -381,14 +376,14 @@ class FclBroadPhaseManager : public FclTree<S> {
     if (distance <= limitOf(least)) candidates.push_back({distance, id});
   }
 
-  [[nodiscard]] static std::vector<BoxId> nearest(const World& world, const Bounds& bounds) {
+  /// An object near the middle of a box; kNoBox if there is none, or if the box has no middle.
+  [[nodiscard]] static BoxId nearest(const World& world, const Bounds& bounds) {
     std::array<double, 3> middle{};
     const Box box = toBox(bounds);
     for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = (box.min[axis] + box.max[axis]) / 2.0;
-    std::vector<BoxId> ids;
-    if (!std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); })) return ids;
-    for (const Neighbor& neighbor : world.findNearest(middle, 1)) ids.push_back(neighbor.id);
-    return ids;
+    if (!std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); })) return kNoBox;
+    const std::vector<Neighbor> found = world.findNearest(middle, 1);
+    return found.empty() ? kNoBox : found.front().id;
   }
 
   /// Holds all boxes that FCL finds within a distance, however it rounds.
