@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Self-collision of many objects in FCL: our manager beside DynamicAABBTreeCollisionManager and its _Array sister, on
-// the same objects in turns, step by step. What is timed is what a program does in a step, update() and collide(), with
-// a callback that counts and that no compiler can see into; which pairs it gets is compared outside of the time.
+// Self-collision of many objects in FCL, and queries with objects among few and many: our manager beside
+// DynamicAABBTreeCollisionManager and its _Array sister, on the same objects in turns, step by step. What is timed is what
+// a program does in a step, update() and collide() or distance(), with a callback that counts or measures boxes and that no
+// compiler can see into; which pairs it gets is compared outside of the time.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/box.h>
@@ -29,7 +30,7 @@ using Manager = fcl::BroadPhaseCollisionManagerd;
 /// Boxes that drift through a cube; `room` is how much of it there is for each, in volumes of about one box.
 class Swarm {
  public:
-  Swarm(std::size_t count, double room) {
+  Swarm(std::size_t count, double room, unsigned seed = 1) : m_random(seed) {
     const auto shape = std::make_shared<fcl::Boxd>(0.8, 1.0, 1.2);
     const double side = std::cbrt(static_cast<double>(count) * room);
     std::uniform_real_distribution<double> place(0.0, side);
@@ -55,7 +56,7 @@ class Swarm {
   [[nodiscard]] const std::vector<Object*>& objects() const { return m_objects; }
 
  private:
-  std::mt19937 m_random{1};
+  std::mt19937 m_random;
   std::vector<std::unique_ptr<Object>> m_owned;
   std::vector<Object*> m_objects;
 };
@@ -175,9 +176,92 @@ void compareFresh(const std::string& name, const Swarm& swarm) {
   report(name, steps, isSame);
 }
 
+bool measureBoxes(Object* a, Object* b, void* count, double& least) {
+  ++*static_cast<std::uint64_t*>(count);
+  least = std::min(least, a->getAABB().distance(b->getAABB()));
+  return least <= 0.0;
+}
+
+fcl::DistanceCallBack<double> volatile distanceCallback = measureBoxes;
+
+/// What one step of a program asks a manager.
+struct Questions {
+  std::string name;
+  int collisions = 0;   ///< Queries with an object each.
+  int distances = 0;    ///< The same.
+  bool itself = false;  ///< Self-collision.
+  bool moves = true;    ///< Whether all objects have moved before.
+};
+
+void askAll(Manager& manager, const Questions& questions, const std::vector<Object*>& probes, std::uint64_t& found) {
+  if (questions.moves) manager.update();
+  for (int i = 0; i < questions.collisions; ++i) {
+    manager.collide(probes[static_cast<std::size_t>(i) % probes.size()], &found, callback);
+  }
+  for (int i = 0; i < questions.distances; ++i) {
+    manager.distance(probes[static_cast<std::size_t>(i) % probes.size()], &found, distanceCallback);
+  }
+  if (questions.itself) manager.collide(&found, callback);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Steps of a scene, which take so little time that many managers of a kind take them in turns.
+void compareQuestions(std::size_t count, double room, const Questions& questions) {
+  constexpr int kSteps = 31;
+  const std::size_t copies = 4000 / count + 1;
+  Swarm swarm(count, room);
+  const std::size_t probeCount = std::min<std::size_t>(count, 64);
+  const Swarm probes(probeCount, room * static_cast<double>(count) / static_cast<double>(probeCount), 2);
+  std::vector<Managers> managers;
+  for (std::size_t i = 0; i < copies; ++i) {
+    managers.push_back(makeManagers());
+    for (const auto& manager : managers.back()) {
+      manager->registerObjects(swarm.objects());
+      manager->setup();
+    }
+  }
+  std::array<std::vector<double>, kNames.size()> times;
+  std::array<std::uint64_t, kNames.size()> found{};
+  for (int step = 0; step < kSteps; ++step) {
+    if (questions.moves) swarm.drift(1);
+    for (std::size_t kind = 0; kind < kNames.size(); ++kind) {
+      const double start = processorSeconds();
+      for (const Managers& copy : managers) askAll(*copy[kind], questions, probes.objects(), found[kind]);
+      times[kind].push_back((processorSeconds() - start) / static_cast<double>(copies));
+    }
+  }
+  const std::array<double, 3> medians{median(times[0]), median(times[1]), median(times[2])};
+  const bool isSame = found[0] == found[1] && found[0] == found[2];
+  fmt::print(
+      "{:>6} objects, {:<30} {:9.3f} us, array {:9.3f} us, ours {:9.3f} us; ratio {:.2f}, with the array {:.2f}{}\n",
+      count, questions.name, medians[0] * 1e6, medians[1] * 1e6, medians[2] * 1e6, medians[0] / medians[2],
+      medians[1] / medians[2], isSame || questions.distances != 0 ? "" : "; THE PAIRS DIFFER");
+}
+
+void compareQuestions(double room) {
+  for (const std::size_t count : {2U, 5U, 10U, 20U, 50U, 100U, 1000U, 10000U}) {
+    compareQuestions(count, room, {.name = "update, one query", .collisions = 1});
+    compareQuestions(count, room, {.name = "update, 20 queries", .collisions = 20});
+    compareQuestions(count, room, {.name = "update, 200 queries", .collisions = 200});
+    compareQuestions(count, room, {.name = "20 queries, none moves", .collisions = 20, .moves = false});
+    compareQuestions(count, room, {.name = "update, self-collision", .itself = true});
+    compareQuestions(count, room, {.name = "update, one distance", .distances = 1});
+    compareQuestions(count, room, {.name = "20 distances, none moves", .distances = 20, .moves = false});
+  }
+}
+
 }  // namespace
 
 int main(int argumentCount, char** arguments) {
+  for (const auto& [density, room] : {std::pair("dense", 8.0), std::pair("sparse", 200.0)}) {
+    fmt::print("{}\n", density);
+    compareQuestions(room);
+  }
   const std::size_t count = argumentCount > 1 ? static_cast<std::size_t>(std::atoi(arguments[1])) : 10000;
   for (const auto& [density, room] : {std::pair("sparse", 20.0), std::pair("denser", 4.0), std::pair("dense", 1.0)}) {
     Swarm swarm(count, room);

@@ -27,12 +27,16 @@ inline ProxyPairs pairsOf(btOverlappingPairCache& cache) {
   return sorted(std::move(pairs));
 }
 
-/// Whether two proxies must be a pair by their boxes, groups and masks.
-inline bool isDemanded(const btBroadphaseProxy& a, const btBroadphaseProxy& b) {
+inline bool doBoxesOverlap(const btBroadphaseProxy& a, const btBroadphaseProxy& b) {
   for (int axis = 0; axis < 3; ++axis) {
     if (a.m_aabbMin[axis] > b.m_aabbMax[axis] || b.m_aabbMin[axis] > a.m_aabbMax[axis]) return false;
   }
-  return (a.m_collisionFilterGroup & b.m_collisionFilterMask) != 0 &&
+  return true;
+}
+
+/// Whether two proxies must be a pair by their boxes, groups and masks.
+inline bool isDemanded(const btBroadphaseProxy& a, const btBroadphaseProxy& b) {
+  return doBoxesOverlap(a, b) && (a.m_collisionFilterGroup & b.m_collisionFilterMask) != 0 &&
          (b.m_collisionFilterGroup & a.m_collisionFilterMask) != 0;
 }
 

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if __cplusplus < 202002L
+#error "allpairs::BulletBroadphase needs C++20: compile with -std=c++20, or link a CMake target with allpairs::bullet"
+#else
+
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <LinearMath/btScalar.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -18,6 +24,13 @@
 
 namespace allpairs {
 
+/// Whose new pairs BulletBroadphase adds as soon as a proxy is created or its box is set.
+enum class ImmediatePairs : std::uint8_t {
+  None,    ///< Nobody's: all pairs are added in calculateOverlappingPairs().
+  Ghosts,  ///< Those of ghost objects, which character controllers move and ask between steps.
+  All,     ///< Those of every proxy, as in a btDbvtBroadphase, at more than its cost: a query for each box that is set.
+};
+
 /// Settings of BulletBroadphase; the defaults are right for most worlds.
 struct BulletBroadphaseOptions {
   /// Where Bullet keeps its pairs, not owned; null gives the broad phase a btHashedOverlappingPairCache of its own.
@@ -25,25 +38,40 @@ struct BulletBroadphaseOptions {
 
   /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
+
+  /// Unless it is None, proxies that are created with a dispatcher must have null or a btCollisionObject as their client
+  /// object, as in all of Bullet's worlds.
+  ImmediatePairs immediatePairs = ImmediatePairs::Ghosts;
+
+  /// How far around its box a ghost object with CF_CHARACTER_OBJECT has pairs, unless immediatePairs is None. A
+  /// btKinematicCharacterController looks only among the pairs of its ghost for what is in the way of a move; this is
+  /// how far it sees, in a btDbvtBroadphase too. With 0 its pairs are exact.
+  btScalar characterMargin = btScalar(0.05);
 };
 
 /// A broad phase for Bullet on allpairs::World: give it to a btDiscreteDynamicsWorld in place of a btDbvtBroadphase.
 ///
 /// After calculateOverlappingPairs() the pair cache holds the pairs whose boxes overlap and whose groups and masks, or
-/// the cache's filter callback, let them collide: exactly those, without the margin that a btDbvtBroadphase adds. Only
-/// pairs that begin or end change the cache. A box that grows or moves gets its new pairs in that call, not before;
-/// destroying a proxy removes its pairs at once.
+/// the cache's filter callback, let them collide: exactly those, without the margin that a btDbvtBroadphase adds, and
+/// whatever others added to the cache or removed from it. Only pairs that begin or end change the cache. A box that
+/// grows or moves gets its new pairs in that call, those of a ghost object at once (ImmediatePairs); destroying a proxy
+/// removes its pairs at once. A change of group or mask counts from that call on, a filter callback that decides
+/// differently when the box of one of the two next changes.
 ///
 /// Geometry:  boxes are closed, in the precision of btScalar. Rays, with the box that Bullet may give them, are tested
 ///            in double.
 /// Bad input: a box with a NaN throws InvalidBox.
-/// Cost:      a step of allpairs::World, and Bullet's own for each pair that begins or ends.
+/// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the cache.
 /// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
 ///            too, and must not add, move or remove proxies.
 class BulletBroadphase : public btBroadphaseInterface {
  public:
   explicit BulletBroadphase(const BulletBroadphaseOptions& options = {})
-      : m_executor(options.executor), m_world(makeWorld()), m_cache(options.pairCache) {
+      : m_executor(options.executor),
+        m_immediatePairs(options.immediatePairs),
+        m_characterMargin(options.characterMargin),
+        m_world(makeWorld()),
+        m_cache(options.pairCache) {
     if (m_cache != nullptr) return;
     m_ownCache = std::make_unique<btHashedOverlappingPairCache>();
     m_cache = m_ownCache.get();
@@ -57,33 +85,35 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int /*shapeType*/, void* userPtr,
-                                 int collisionFilterGroup, int collisionFilterMask,
-                                 btDispatcher* /*dispatcher*/) override {
-    const BoxId id = m_world.add(toBox(aabbMin, aabbMax), propertiesOf(collisionFilterGroup, collisionFilterMask));
-    auto proxy = std::make_unique<Proxy>(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
-    proxy->m_uniqueId = static_cast<int>(id) + 1;  // dense, which suits the hash of the pair cache; 0 is Bullet's own
-    proxy->knownGroup = collisionFilterGroup;
-    proxy->knownMask = collisionFilterMask;
-    if (m_proxies.size() <= id) m_proxies.resize(std::size_t{id} + 1);
-    m_proxies[id] = std::move(proxy);
+                                 int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override {
+    if (m_proxies.size() <= m_world.idBound()) m_proxies.push_back(std::make_unique<Proxy>());
+    Proxy made(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
+    made.knownGroup = collisionFilterGroup;
+    made.knownMask = collisionFilterMask;
+    made.isThere = true;
+    made.isGhost = isGhost(made, dispatcher);
+    const BoxId id =
+        m_world.add(reachOf(made, aabbMin, aabbMax), propertiesOf(collisionFilterGroup, collisionFilterMask));
+    made.m_uniqueId = static_cast<int>(id) + 1;  // dense, which suits the hash of the pair cache; 0 is Bullet's own
+    *m_proxies[id] = made;
+    if (isImmediate(made)) addPairsOf(*m_proxies[id]);
     return m_proxies[id].get();
   }
 
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override {
     m_cache->removeOverlappingPairsContainingProxy(proxy, dispatcher);
-    m_knownPairs = m_cache->getNumOverlappingPairs();
     const BoxId id = idOf(*proxy);
     m_world.remove(id);
-    m_proxies[id].reset();
+    m_proxies[id]->isThere = false;
   }
 
   void setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
                btDispatcher* /*dispatcher*/) override {
-    const BoxId id = idOf(*proxy);
-    m_world.move(id, toBox(aabbMin, aabbMax));
-    proxy->m_aabbMin = aabbMin;
-    proxy->m_aabbMax = aabbMax;
-    noteFilter(*m_proxies[id], id);
+    Proxy& own = *m_proxies[idOf(*proxy)];
+    m_world.move(idOf(own), reachOf(own, aabbMin, aabbMax));
+    own.m_aabbMin = aabbMin;
+    own.m_aabbMax = aabbMax;
+    if (isImmediate(own)) addPairsOf(own);
   }
 
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override {
@@ -96,32 +126,26 @@ class BulletBroadphase : public btBroadphaseInterface {
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
     const BoxSweep sweep{.box = toBox(rayFrom + aabbMin, rayFrom + aabbMax), .motion = toArray(rayTo - rayFrom)};
-    const auto hits = m_world.findAll(sweep);
-    const std::vector<SweepHit> kept(hits.begin(), hits.end());  // the callback may ask the world something else
-    for (const SweepHit& hit : kept) rayCallback.process(m_proxies[hit.id].get());
+    for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
   }
 
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override {
-    const auto found = m_world.findOverlapping(toBox(aabbMin, aabbMax));
-    const std::vector<BoxId> kept(found.begin(), found.end());
-    for (const BoxId id : kept) callback.process(m_proxies[id].get());
+    for (const BoxId id : m_world.findOverlapping(toBox(aabbMin, aabbMax))) {
+      if (overlaps(*m_proxies[id], aabbMin, aabbMax)) callback.process(m_proxies[id].get());  // not only its reach
+    }
   }
 
   void calculateOverlappingPairs(btDispatcher* dispatcher) override {
     noteFilterCallback();
-    const bool isChangedByOthers = m_cache->getNumOverlappingPairs() != m_knownPairs;
+    noteFilters();
     const StepResult step = m_world.step();
-    if (m_cache->hasDeferredRemoval()) {
-      removeAtOnce(step.ended, dispatcher);
-    } else {
-      for (const Pair& pair : step.ended) removePair(pair, dispatcher);
+    removePairs(step, dispatcher);
+    for (const Pair& pair : step.began) {
+      if (!contains(m_early, pair)) addPair(pair);
     }
-    if (isChangedByOthers) {
-      restorePairs(step.pairs);
-    } else {
-      for (const Pair& pair : step.began) addPair(pair);
-    }
-    m_knownPairs = m_cache->getNumOverlappingPairs();
+    m_early.clear();
+    noteChanges(step);
+    if (!isComplete()) restorePairs(step.pairs, dispatcher);
   }
 
   btOverlappingPairCache* getOverlappingPairCache() override { return m_cache; }
@@ -133,7 +157,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     aabbMax.setZero();
     bool isFirst = true;
     for (const auto& proxy : m_proxies) {
-      if (!proxy) continue;
+      if (!proxy->isThere) continue;
       aabbMin = isFirst ? proxy->m_aabbMin : minimum(aabbMin, proxy->m_aabbMin);
       aabbMax = isFirst ? proxy->m_aabbMax : maximum(aabbMax, proxy->m_aabbMax);
       isFirst = false;
@@ -145,6 +169,8 @@ class BulletBroadphase : public btBroadphaseInterface {
     if (m_world.size() != 0) return;
     m_world = makeWorld();
     m_proxies.clear();
+    m_wanted = {};
+    m_early.clear();
   }
 
   void printStats() override {}
@@ -153,15 +179,21 @@ class BulletBroadphase : public btBroadphaseInterface {
   /// boxes through this class only.
   [[nodiscard]] World& world() { return m_world; }
 
-  /// The proxy of a box of world().
+  /// The proxy of a box of world(), which has that box.
   [[nodiscard]] btBroadphaseProxy* proxyOf(BoxId id) const { return m_proxies[id].get(); }
 
  private:
   struct Proxy : btBroadphaseProxy {
     using btBroadphaseProxy::btBroadphaseProxy;
 
+    [[nodiscard]] bool hasKnownFilter() const {
+      return m_collisionFilterGroup == knownGroup && m_collisionFilterMask == knownMask;
+    }
+
     int knownGroup = 0;  ///< What the world was told.
     int knownMask = 0;
+    bool isThere = false;  ///< Not destroyed.
+    bool isGhost = false;
   };
 
   static std::array<double, 3> toArray(const btVector3& v) {
@@ -194,42 +226,118 @@ class BulletBroadphase : public btBroadphaseInterface {
     return {.category = static_cast<std::uint32_t>(group), .mask = static_cast<std::uint32_t>(mask)};
   }
 
+  static const btCollisionObject& objectOf(const btBroadphaseProxy& proxy) {
+    return *static_cast<const btCollisionObject*>(proxy.m_clientObject);
+  }
+
+  /// Bullet's worlds, which give a dispatcher, have collision objects as clients.
+  [[nodiscard]] bool isGhost(const btBroadphaseProxy& proxy, const btDispatcher* dispatcher) const {
+    if (m_immediatePairs == ImmediatePairs::None || proxy.m_clientObject == nullptr || dispatcher == nullptr) {
+      return false;
+    }
+    return objectOf(proxy).getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
+  }
+
+  /// Users set the flag before or after they add the object to a world.
+  static bool isCharacter(const Proxy& proxy) {
+    return proxy.isGhost && (objectOf(proxy).getCollisionFlags() & btCollisionObject::CF_CHARACTER_OBJECT) != 0;
+  }
+
+  [[nodiscard]] bool isImmediate(const Proxy& proxy) const {
+    return proxy.isGhost || m_immediatePairs == ImmediatePairs::All;
+  }
+
+  /// Where a proxy has pairs: around characters, else in its box.
+  [[nodiscard]] Box reachOf(const Proxy& proxy, const btVector3& min, const btVector3& max) const {
+    if (!isCharacter(proxy)) return toBox(min, max);
+    const btVector3 margin(m_characterMargin, m_characterMargin, m_characterMargin);
+    return toBox(min - margin, max + margin);
+  }
+
+  static bool overlaps(const btBroadphaseProxy& proxy, const btVector3& min, const btVector3& max) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (proxy.m_aabbMin[axis] > max[axis] || min[axis] > proxy.m_aabbMax[axis]) return false;
+    }
+    return true;
+  }
+
   /// Users change group and mask in the proxy itself.
-  void noteFilter(Proxy& proxy, BoxId id) {
-    if (proxy.m_collisionFilterGroup == proxy.knownGroup && proxy.m_collisionFilterMask == proxy.knownMask) return;
-    proxy.knownGroup = proxy.m_collisionFilterGroup;
-    proxy.knownMask = proxy.m_collisionFilterMask;
-    m_world.setProperties(id, propertiesOf(proxy.knownGroup, proxy.knownMask));
+  void noteFilters() {
+    for (const auto& proxy : m_proxies) {
+      if (!proxy->isThere || proxy->hasKnownFilter()) continue;
+      proxy->knownGroup = proxy->m_collisionFilterGroup;
+      proxy->knownMask = proxy->m_collisionFilterMask;
+      m_world.setProperties(idOf(*proxy), propertiesOf(proxy->knownGroup, proxy->knownMask));
+    }
   }
 
   void noteFilterCallback() {
     btOverlapFilterCallback* const filter = m_cache->getOverlapFilterCallback();
     if (filter == m_filter) return;
     m_filter = filter;
-    for (BoxId id = 0; id < m_proxies.size(); ++id) {
-      if (!m_proxies[id]) continue;
-      m_world.setProperties(id, propertiesOf(m_proxies[id]->knownGroup, m_proxies[id]->knownMask));
+    for (const auto& proxy : m_proxies) {
+      if (!proxy->isThere) continue;
+      const BoxId id = idOf(*proxy);
+      m_world.setProperties(id, propertiesOf(proxy->knownGroup, proxy->knownMask));
       m_world.invalidate(std::span<const BoxId>(&id, 1));
     }
   }
 
+  /// Adds the pairs that a box has now and that the cache lacks. Those that it no longer has stay until the next step.
+  void addPairsOf(Proxy& proxy) {
+    const BoxId id = idOf(proxy);
+    for (const BoxId other : m_world.findOverlapping(m_world.box(id))) {
+      if (other == id || m_cache->findPair(&proxy, m_proxies[other].get()) != nullptr) continue;
+      const Pair pair{std::min(id, other), std::max(id, other)};
+      if (m_cache->addOverlappingPair(m_proxies[pair.first].get(), m_proxies[pair.second].get()) != nullptr) {
+        m_early.push_back(pair);
+      }
+    }
+  }
+
+  /// A filter callback that refuses a pair now is asked again in the next step.
   void addPair(const Pair& pair) {
-    m_cache->addOverlappingPair(m_proxies[pair.first].get(), m_proxies[pair.second].get());
+    btBroadphaseProxy* const first = m_proxies[pair.first].get();
+    btBroadphaseProxy* const second = m_proxies[pair.second].get();
+    if (m_cache->addOverlappingPair(first, second) != nullptr) return;
+    if (m_cache->needsBroadphaseCollision(first, second)) {
+      m_keepsPairs = m_cache->getNumOverlappingPairs() != 0;
+    } else {
+      m_world.invalidate(std::span<const BoxId>(&pair.first, 1));
+    }
   }
 
   /// Those of a proxy that was destroyed are gone already.
   void removePair(const Pair& pair, btDispatcher* dispatcher) {
-    btBroadphaseProxy* const first = m_proxies[pair.first].get();
-    btBroadphaseProxy* const second = m_proxies[pair.second].get();
-    if (first != nullptr && second != nullptr) m_cache->removeOverlappingPair(first, second, dispatcher);
+    Proxy* const first = m_proxies[pair.first].get();
+    Proxy* const second = m_proxies[pair.second].get();
+    if (first->isThere && second->isThere) m_cache->removeOverlappingPair(first, second, dispatcher);
+  }
+
+  /// Removes the pairs that ended, and those that were added early and are none.
+  void removePairs(const StepResult& step, btDispatcher* dispatcher) {
+    std::sort(m_early.begin(), m_early.end());
+    m_early.erase(std::unique(m_early.begin(), m_early.end()), m_early.end());
+    m_ended.assign(step.ended.begin(), step.ended.end());
+    for (const Pair& pair : m_early) {
+      if (!contains(step.pairs, pair) && !contains(step.ended, pair)) m_ended.push_back(pair);
+    }
+    std::sort(m_ended.begin(), m_ended.end());
+    if (m_ended.empty()) return;
+    if (m_cache->hasDeferredRemoval()) {
+      removeIf([this](const btBroadphasePair& pair) { return contains(m_ended, idsOf(pair)); }, dispatcher);
+    } else {
+      for (const Pair& pair : m_ended) removePair(pair, dispatcher);
+    }
   }
 
   /// What a cache that leaves the removal of pairs to the broad phase wants: one pass over all of them.
-  void removeAtOnce(std::span<const Pair> ended, btDispatcher* dispatcher) {
+  template <class IsUnwanted>
+  void removeIf(const IsUnwanted& isUnwanted, btDispatcher* dispatcher) {
     btBroadphasePairArray& pairs = m_cache->getOverlappingPairArray();
     int kept = 0;
     for (int i = 0; i < pairs.size(); ++i) {
-      if (std::binary_search(ended.begin(), ended.end(), idsOf(pairs[i]))) {
+      if (isUnwanted(pairs[i])) {
         m_cache->cleanOverlappingPair(pairs[i], dispatcher);
       } else {
         pairs[kept++] = pairs[i];
@@ -238,26 +346,99 @@ class BulletBroadphase : public btBroadphaseInterface {
     pairs.resize(kept);
   }
 
+  static bool contains(std::span<const Pair> sorted, const Pair& pair) {
+    return std::binary_search(sorted.begin(), sorted.end(), pair);
+  }
+
   static Pair idsOf(const btBroadphasePair& pair) {
     const BoxId a = idOf(*pair.m_pProxy0);
     const BoxId b = idOf(*pair.m_pProxy1);
     return {std::min(a, b), std::max(a, b)};
   }
 
-  /// Pairs were removed from the cache, or added, from outside: adds missing pairs again, without contacts.
-  void restorePairs(std::span<const Pair> pairs) {
-    for (const Pair& pair : pairs) {
-      if (m_cache->findPair(m_proxies[pair.first].get(), m_proxies[pair.second].get()) == nullptr) addPair(pair);
+  /// A number for a set of pairs that others get only by a chance of 1 to 2^64, whatever their order is.
+  struct Digest {
+    std::size_t count = 0;
+    std::uint64_t sum = 0;
+
+    void add(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
+      ++count;
+      sum += valueOf(a, b);
     }
+    void remove(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
+      --count;
+      sum -= valueOf(a, b);
+    }
+    friend bool operator==(const Digest&, const Digest&) = default;
+
+   private:
+    static std::uint64_t valueOf(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
+      constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15U;
+      const std::hash<const btBroadphaseProxy*> hash;
+      const std::uint64_t product = (hash(a) + kOdd) * (hash(b) + kOdd);
+      return (product ^ (product >> 32U)) * kOdd;
+    }
+  };
+
+  /// The pairs that the cache has to hold are those of before and the changes of the step.
+  void noteChanges(const StepResult& step) {
+    for (const Pair& pair : step.began) m_wanted.add(m_proxies[pair.first].get(), m_proxies[pair.second].get());
+    for (const Pair& pair : step.ended) m_wanted.remove(m_proxies[pair.first].get(), m_proxies[pair.second].get());
+  }
+
+  /// Whether the cache holds the pairs that it has to.
+  [[nodiscard]] bool isComplete() const {
+    if (!m_keepsPairs) return true;
+    Digest held;
+    const btBroadphasePairArray& pairs = m_cache->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) held.add(pairs[i].m_pProxy0, pairs[i].m_pProxy1);
+    return held == m_wanted;
+  }
+
+  /// Undoes what others did to the cache: removes pairs that are none, adds missing ones, without contacts.
+  void restorePairs(std::span<const Pair> wanted, btDispatcher* dispatcher) {
+    std::vector<std::uint8_t> isHeld(wanted.size(), 0);
+    const auto isUnwanted = [&](const btBroadphasePair& pair) {
+      const auto at = std::lower_bound(wanted.begin(), wanted.end(), idsOf(pair));
+      if (at == wanted.end() || *at != idsOf(pair)) return true;
+      return std::exchange(isHeld[static_cast<std::size_t>(at - wanted.begin())], std::uint8_t{1}) != 0;
+    };
+    if (m_cache->hasDeferredRemoval()) {
+      removeIf(isUnwanted, dispatcher);
+    } else {
+      removeEach(isUnwanted, dispatcher);
+    }
+    m_wanted = {};
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      m_wanted.add(m_proxies[wanted[i].first].get(), m_proxies[wanted[i].second].get());
+      if (isHeld[i] == 0) addPair(wanted[i]);
+    }
+  }
+
+  template <class IsUnwanted>
+  void removeEach(const IsUnwanted& isUnwanted, btDispatcher* dispatcher) {
+    std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*> > unwanted;
+    const btBroadphasePairArray& pairs = m_cache->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) {
+      if (isUnwanted(pairs[i])) unwanted.emplace_back(pairs[i].m_pProxy0, pairs[i].m_pProxy1);
+    }
+    for (const auto& [first, second] : unwanted) m_cache->removeOverlappingPair(first, second, dispatcher);
   }
 
   std::unique_ptr<btOverlappingPairCache> m_ownCache;
   Executor* m_executor;
+  ImmediatePairs m_immediatePairs;
+  btScalar m_characterMargin;
   btOverlapFilterCallback* m_filter = nullptr;
-  std::vector<std::unique_ptr<Proxy>> m_proxies;  // by id; null where a proxy was destroyed
+  std::vector<std::unique_ptr<Proxy> > m_proxies;  // by id; one that was destroyed waits for a box with its id
   World m_world;
   btOverlappingPairCache* m_cache;
-  int m_knownPairs = 0;  // what the cache held when it was last looked at
+  bool m_keepsPairs = true;   // unlike a btNullPairCache
+  Digest m_wanted;            // of the pairs of the last step
+  std::vector<Pair> m_early;  // that were added to the cache since the last step
+  std::vector<Pair> m_ended;
 };
 
 }  // namespace allpairs
+
+#endif

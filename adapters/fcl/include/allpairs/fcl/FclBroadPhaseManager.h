@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if __cplusplus < 202002L
+#error "allpairs::FclBroadPhaseManager needs C++20: compile with -std=c++20, or link a CMake target with allpairs::fcl"
+#else
+
 #include <fcl/broadphase/broadphase_collision_manager.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "allpairs/Error.h"
 #include "allpairs/World.h"
 #include "allpairs/fcl/FclObjects.h"
+#include "allpairs/fcl/FclTree.h"
 #include "allpairs/fcl/RowSearch.h"
 
 namespace allpairs {
@@ -29,20 +38,28 @@ struct FclBroadPhaseManagerOptions {
 /// A broad phase for FCL: use it where you use an fcl::DynamicAABBTreeCollisionManager.
 ///
 /// Callbacks get the pairs whose boxes overlap, each once: first the object that was registered first, where an object
-/// takes the place of one that left. The order of the pairs is the same each time. For distances they get the pairs
-/// whose boxes are nearer than the least distance so far, near ones early. A callback that returns true ends the query.
+/// takes the place of one that left. The order of the pairs is the same each time. A callback that returns true ends
+/// the query.
+///
+/// For distances, callbacks get each pair at most once, and near ones early: at least each pair whose boxes are no
+/// farther apart than the least distance that the callback has set so far, pairs whose boxes overlap always. A callback
+/// that sets the same distance in each call, a threshold or 0, gets all pairs within it.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(), as in FCL's managers; an
 /// octree counts with its box, like any other geometry. An object that is registered again, or that leaves without
 /// having come, changes nothing else.
-/// Geometry:  boxes are closed, in the precision of S.
+/// Other managers: a query with another manager takes that one's objects, of whatever kind it is. The other way round,
+///            a DynamicAABBTreeCollisionManager takes this one as the other manager; size() keeps a tree for it. No other
+///            manager of FCL may get this one: each takes the other for one of its own kind without asking.
+/// Geometry:  boxes are closed, in the precision of S. An empty box has no pairs and no distance.
 /// Bad input: a box with a NaN throws InvalidBox.
-/// Cost:      the first collide() after a change finds the pairs, by a search of all boxes or, where few change, by a
-///            step of allpairs::World; each further one is a pass over them. Queries with an object: O(log n + found).
-/// Threads:   one call at a time per object, const ones included. A callback may query the manager, and must not
-///            register, update or unregister.
+/// Cost:      nothing is searched before it is asked for. The first collide() after a change finds the pairs, by a
+///            search of all boxes or, where few change, by a step of allpairs::World; each further one is a pass over
+///            them. The first queries with an object after a change scan all boxes; more, O(log n + found).
+/// Threads:   const members, queries, may be called concurrently while no other member runs. A callback may query the
+///            manager, and must not register, update or unregister.
 template <class S>
-class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
+class FclBroadPhaseManager : public FclTree<S> {
  public:
   using Object = ::fcl::CollisionObject<S>;
   using Base = ::fcl::BroadPhaseCollisionManager<S>;
@@ -61,15 +78,16 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   void unregisterObject(Object* object) override {
     const BoxId number = m_objects.remove(object);
-    if (number != kNoBox) m_search.note(number);
+    if (number == kNoBox) return;
+    this->leaveTree(number, object);
+    m_search.note(number);
   }
 
-  /// Finds the pairs in advance of the next collide().
-  void setup() override { static_cast<void>(pairs()); }
+  /// Nothing is left to do: each query finds what it needs.
+  void setup() override {}
 
   void update() override {
     for (BoxId number = 0; number < m_objects.bound(); ++number) refresh(number);
-    setup();
   }
 
   void update(Object* object) override {
@@ -84,6 +102,7 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void clear() override {
     m_objects.clear();
     m_search.clear();
+    this->clearTree();
   }
 
   /// The objects, in the order of their numbers.
@@ -95,9 +114,7 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   }
 
   void collide(Object* object, void* data, CollisionCallBack callback) const override {
-    for (const BoxId id : overlapping(object->getAABB(), S(0))) {
-      if (callback(object, m_objects[id], data)) return;
-    }
+    eachOverlapping(object->getAABB(), [&](BoxId id) { return callback(object, m_objects[id], data); });
   }
 
   void distance(Object* object, void* data, DistanceCallBack callback) const override {
@@ -114,28 +131,21 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void distance(void* data, DistanceCallBack callback) const override {
     S least = std::numeric_limits<S>::max();
     for (const Pair& pair : pairs()) {
-      if (!(least > S(0))) return;
       if (callback(m_objects[pair.first], m_objects[pair.second], data, least)) return;
     }
     for (BoxId id = 0; id < m_objects.bound(); ++id) {
-      if (m_objects[id] != nullptr && nearerApart(id, callback, data, least)) return;
+      if (m_objects.hasBox(id) && nearerApart(id, callback, data, least)) return;
     }
   }
 
   void collide(Base* otherManager, void* data, CollisionCallBack callback) const override {
     if (otherManager == this) return collide(data, callback);
     if (const auto* other = dynamic_cast<const FclBroadPhaseManager*>(otherManager)) {
-      const auto found = world().findBetween(other->world());
-      const std::vector<Pair> pairs(found.begin(), found.end());  // the callback may query
-      for (const Pair& pair : pairs) {
-        if (callback(m_objects[pair.first], other->m_objects[pair.second], data)) return;
-      }
-      return;
+      return collideWith(*other, data, callback);
     }
     for (Object* object : objectsOf(*otherManager)) {
-      for (const BoxId id : overlapping(object->getAABB(), S(0))) {
-        if (callback(m_objects[id], object, data)) return;
-      }
+      const auto ask = [&](BoxId id) { return callback(m_objects[id], object, data); };
+      if (eachOverlapping(object->getAABB(), ask)) return;
     }
   }
 
@@ -148,7 +158,12 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   }
 
   [[nodiscard]] bool empty() const override { return m_objects.size() == 0; }
-  [[nodiscard]] std::size_t size() const override { return m_objects.size(); }
+
+  /// The first call after a change brings FCL's tree up to date, which FCL's trees read after they have called this.
+  [[nodiscard]] std::size_t size() const override {
+    this->bringTree(m_objects);
+    return m_objects.size();
+  }
 
  private:
   using Bounds = ::fcl::AABB<S>;
@@ -165,8 +180,8 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// Whether an object that is asked about is the callback's first or its second.
   enum class Role { ObjectFirst, ObjectSecond };
 
-  /// So many of the nearest are asked first: enough that one of them usually gives a distance close to the least.
-  static constexpr std::size_t kFirstAsked = 4;
+  /// Up to so many objects, comparing batches of them costs more than it saves.
+  static constexpr BoxId kOneByOne = 8;
 
   static Box toBox(const Bounds& bounds) {
     Box box;
@@ -186,32 +201,81 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   /// Reads where the object with this number is now.
   void refresh(BoxId number) {
-    if (m_objects.read(number)) m_search.note(number);
+    if (!m_objects.read(number)) return;
+    m_search.note(number);
+    this->noteTree();
   }
 
   [[nodiscard]] std::span<const Pair> pairs() const { return m_search.pairs(m_objects.rows()); }
-  [[nodiscard]] World& world() const { return m_search.world(m_objects.rows()); }
+  [[nodiscard]] const World& world() const { return m_search.world(m_objects.rows()); }
 
-  /// The objects whose boxes are at most so far from a box on every axis, and maybe others a little further.
-  std::vector<BoxId> overlapping(const Bounds& bounds, S distance) const {
-    Box box = toBox(bounds);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.min[axis] -= static_cast<double>(distance);
-      box.max[axis] += static_cast<double>(distance);
+  /// Whether a box is one; empty ones have no pairs.
+  static bool isBox(const Bounds& bounds) {
+    const auto& min = bounds.min_;
+    const auto& max = bounds.max_;
+    if (min[0] <= max[0] && min[1] <= max[1] && min[2] <= max[2]) return true;
+    if (hasNan(toBox(bounds))) throw InvalidBox(0, "the box of the query has a NaN");
+    return false;
+  }
+
+  /// Calls visit(id) for the objects whose boxes overlap a box until it returns true, and says whether it did.
+  template <class Visit>
+  bool eachOverlapping(const Bounds& bounds, const Visit& visit) const {
+    if (!isBox(bounds)) return false;
+    const World* const world = m_search.worldForQuery(m_objects.rows());
+    if (world == nullptr) return scan(bounds, visit);
+    const std::vector<BoxId> found = world->findOverlapping(toBox(bounds));
+    return std::any_of(found.begin(), found.end(), visit);
+  }
+
+  template <class Visit>
+  bool scan(const Bounds& bounds, const Visit& visit) const {
+    if (m_objects.bound() <= kOneByOne) return scanOneByOne(bounds, visit);
+    constexpr std::size_t kBatch = RowSearch<S>::kBatch;
+    const typename RowSearch<S>::Row row{bounds.min_[0], bounds.min_[1], bounds.min_[2],
+                                         bounds.max_[0], bounds.max_[1], bounds.max_[2]};
+    for (std::size_t begin = 0; begin < m_objects.bound(); begin += kBatch) {
+      auto found = RowSearch<S>::overlapping(m_objects.rows().subspan(6 * begin), row);
+      for (; found != 0; found &= found - 1) {
+        const BoxId id = static_cast<BoxId>(begin) + static_cast<BoxId>(std::countr_zero(found));
+        if (m_objects.hasBox(id) && visit(id)) return true;
+      }
     }
-    const auto found = world().findOverlapping(box);
-    return {found.begin(), found.end()};
+    return false;
+  }
+
+  template <class Visit>
+  bool scanOneByOne(const Bounds& bounds, const Visit& visit) const {
+    for (BoxId id = 0; id < m_objects.bound(); ++id) {
+      if (m_objects.overlaps(id, bounds) && visit(id)) return true;
+    }
+    return false;
+  }
+
+  void collideWith(const FclBroadPhaseManager& other, void* data, CollisionCallBack callback) const {
+    if (m_search.isFasterByScans(m_objects.rows(), other.m_objects.bound())) return scanWith(other, data, callback);
+    for (const Pair& pair : world().findBetween(other.world())) {
+      if (callback(m_objects[pair.first], other.m_objects[pair.second], data)) return;
+    }
+  }
+
+  void scanWith(const FclBroadPhaseManager& other, void* data, CollisionCallBack callback) const {
+    for (BoxId id = 0; id < m_objects.bound(); ++id) {
+      const auto ask = [&](BoxId found) { return callback(m_objects[id], other.m_objects[found], data); };
+      if (m_objects.hasBox(id) && other.scan(m_objects.bounds(id), ask)) return;
+    }
   }
 
   /// Asks the callback about the objects of this manager that are nearer to one of another than the least distance.
   // NOLINTNEXTLINE(readability-function-size): the role, and what FCL hands on.
   bool nearer(Object* object, Role role, DistanceCallBack callback, void* data, S& least) const {
+    const Bounds& bounds = object->getAABB();
     const auto ask = [&](BoxId id) {
       Object* const own = m_objects[id];
       return role == Role::ObjectFirst ? callback(object, own, data, least) : callback(own, object, data, least);
     };
     const auto isWanted = [](BoxId) { return true; };
-    return askNear(object->getAABB(), isWanted, ask, least);
+    return isBox(bounds) && askNear(Question<decltype(isWanted), decltype(ask)>{bounds, isWanted, ask}, least);
   }
 
   /// Asks about the objects behind one of this manager that are apart from it and nearer than the least distance.
@@ -219,48 +283,121 @@ class FclBroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
     const Bounds bounds = m_objects.bounds(id);
     const auto ask = [&](BoxId other) { return callback(m_objects[id], m_objects[other], data, least); };
     const auto isWanted = [&](BoxId other) { return other > id && !bounds.overlap(m_objects.bounds(other)); };
-    return askNear(bounds, isWanted, ask, least);
+    return askNear(Question<decltype(isWanted), decltype(ask)>{bounds, isWanted, ask}, least);
   }
 
-  /// Asks about a few near objects, which makes the least distance small, and then about all that are nearer.
+  /// Which objects to ask about that are near a box, and how.
   template <class IsWanted, class Ask>
-  bool askNear(const Bounds& bounds, const IsWanted& isWanted, const Ask& ask, S& least) const {
-    std::vector<BoxId> asked;
-    if (least == std::numeric_limits<S>::max()) asked = nearest(bounds);
-    std::erase_if(asked, [&](BoxId id) { return !isWanted(id); });
-    for (const BoxId id : asked) {
-      if (ask(id)) return true;
+  struct Question {
+    const Bounds& bounds;
+    const IsWanted& isWanted;
+    const Ask& ask;
+  };
+
+  /// Boxes that overlap are asked about however small the least distance is.
+  static S limitOf(S least) { return std::max(least, S(0)); }
+
+  template <class AnyQuestion>
+  bool askNear(const AnyQuestion& question, S& least) const {
+    if (RowSearch<S>::areFew(m_objects.rows())) return askFew(question, least);
+    const World* const world = m_search.worldForQuery(m_objects.rows());
+    return world != nullptr ? askByWorld(*world, question, least) : askByScan(question, least);
+  }
+
+  /// Asks about the nearest that is left, while it is near enough.
+  template <class AnyQuestion>
+  bool askFew(const AnyQuestion& question, S& least) const {
+    std::array<S, RowSearch<S>::kBatch> squares;
+    std::uint64_t left = 0;
+    for (BoxId id = 0; id < m_objects.bound(); ++id) {
+      squares[id] = m_objects.squaredDistance(id, question.bounds);
+      left |= std::uint64_t{m_objects.hasBox(id)} << id;
     }
-    const auto isNew = [&](BoxId id) {
-      return isWanted(id) && std::find(asked.begin(), asked.end(), id) == asked.end();
-    };
-    for (const Candidate& candidate : candidates(bounds, least, isNew)) {
-      if (!(candidate.distance < least)) return false;
-      if (ask(candidate.id)) return true;
+    while (left != 0) {
+      const BoxId id = nearestOf(squares, left);
+      if (squares[id] > squaredLimit(least)) return false;
+      if (question.isWanted(id) && question.ask(id)) return true;
+      left &= ~(std::uint64_t{1} << id);
     }
     return false;
   }
 
-  [[nodiscard]] std::vector<BoxId> nearest(const Bounds& bounds) const {
+  static BoxId nearestOf(const std::array<S, RowSearch<S>::kBatch>& squares, std::uint64_t left) {
+    auto nearest = static_cast<BoxId>(std::countr_zero(left));
+    for (left &= left - 1; left != 0; left &= left - 1) {
+      const auto id = static_cast<BoxId>(std::countr_zero(left));
+      if (squares[id] < squares[nearest]) nearest = id;
+    }
+    return nearest;
+  }
+
+  /// The square of the distance up to which objects are asked about, and more than squares are off by rounding.
+  static S squaredLimit(S least) {
+    const S limit = limitOf(least);
+    return limit * limit * (1 + 16 * std::numeric_limits<S>::epsilon());
+  }
+
+  /// The same for more objects.
+  template <class AnyQuestion>
+  bool askByScan(const AnyQuestion& question, S& least) const {
+    const auto isFarther = [](const Candidate& a, const Candidate& b) { return b < a; };
+    std::vector<Candidate> left;
+    for (BoxId id = 0; id < m_objects.bound(); ++id) {
+      if (m_objects.hasBox(id) && question.isWanted(id)) addCandidate(question.bounds, id, least, left);
+    }
+    std::make_heap(left.begin(), left.end(), isFarther);
+    while (!left.empty() && left.front().distance <= limitOf(least)) {
+      if (question.ask(left.front().id)) return true;
+      std::pop_heap(left.begin(), left.end(), isFarther);
+      left.pop_back();
+    }
+    return false;
+  }
+
+  /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
+  template <class AnyQuestion>
+  bool askByWorld(const World& world, const AnyQuestion& question, S& least) const {
+    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question.bounds) : kNoBox;
+    if (first != kNoBox && question.isWanted(first) && question.ask(first)) return true;
+    std::vector<Candidate> found;
+    for (const BoxId id : world.findOverlapping(widened(question.bounds, limitOf(least)))) {
+      if (id != first && question.isWanted(id)) addCandidate(question.bounds, id, least, found);
+    }
+    std::sort(found.begin(), found.end());
+    for (const Candidate& candidate : found) {
+      if (candidate.distance > limitOf(least)) return false;
+      if (question.ask(candidate.id)) return true;
+    }
+    return false;
+  }
+
+  void addCandidate(const Bounds& bounds, BoxId id, S least, std::vector<Candidate>& candidates) const {
+    const S distance = bounds.distance(m_objects.bounds(id));
+    if (distance <= limitOf(least)) candidates.push_back({distance, id});
+  }
+
+  /// An object near the middle of a box; kNoBox if there is none, or if the box has no middle.
+  [[nodiscard]] static BoxId nearest(const World& world, const Bounds& bounds) {
     std::array<double, 3> middle{};
     const Box box = toBox(bounds);
     for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = (box.min[axis] + box.max[axis]) / 2.0;
-    std::vector<BoxId> ids;
-    for (const Neighbor& neighbor : world().findNearest(middle, kFirstAsked)) ids.push_back(neighbor.id);
-    return ids;
+    if (!std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); })) return kNoBox;
+    const std::vector<Neighbor> found = world.findNearest(middle, 1);
+    return found.empty() ? kNoBox : found.front().id;
   }
 
-  /// What is wanted and nearer than the least distance by its box, near ones first.
-  template <class IsWanted>
-  std::vector<Candidate> candidates(const Bounds& bounds, S least, const IsWanted& isWanted) const {
-    std::vector<Candidate> found;
-    for (const BoxId id : overlapping(bounds, least)) {
-      if (!isWanted(id)) continue;
-      const S distance = bounds.distance(m_objects.bounds(id));
-      if (distance < least) found.push_back({distance, id});
+  /// Holds all boxes that FCL finds within a distance, however it rounds.
+  [[nodiscard]] static Box widened(const Bounds& bounds, S distance) {
+    Box box = toBox(bounds);
+    const auto by = static_cast<double>(distance);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double most = std::max({std::abs(box.min[axis]), std::abs(box.max[axis]), by});
+      const double slack =
+          std::isfinite(most) ? 8.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most : 0;
+      box.min[axis] -= by + slack;
+      box.max[axis] += by + slack;
     }
-    std::sort(found.begin(), found.end());
-    return found;
+    return box;
   }
 
   FclObjects<S> m_objects;
@@ -271,3 +408,5 @@ using FclBroadPhaseManagerf = FclBroadPhaseManager<float>;
 using FclBroadPhaseManagerd = FclBroadPhaseManager<double>;
 
 }  // namespace allpairs
+
+#endif

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if __cplusplus < 202002L
+#error "allpairs::FclNarrowPhase needs C++20: compile with -std=c++20, or link a CMake target with allpairs::fcl"
+#else
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -99,3 +103,5 @@ class FclNarrowPhase : public collision::NarrowPhaseDetection {
 };
 
 }  // namespace allpairs
+
+#endif

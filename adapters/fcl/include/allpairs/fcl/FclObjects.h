@@ -103,6 +103,32 @@ class FclObjects {
     return bounds;
   }
 
+  /// Whether there is an object with this number whose box was not empty when it was last read.
+  [[nodiscard]] bool hasBox(BoxId number) const {
+    const S* const row = m_rows.data() + std::size_t{6} * number;
+    return row[0] <= row[3];
+  }
+
+  /// Whether the box of the object with this number, if there is one, overlaps another that is not empty.
+  [[nodiscard]] bool overlaps(BoxId number, const Bounds& other) const {
+    const S* const row = m_rows.data() + std::size_t{6} * number;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (row[axis] > other.max_[axis] || other.min_[axis] > row[3 + axis]) return false;
+    }
+    return hasBox(number);
+  }
+
+  /// The square of the distance of an object's box from another box.
+  [[nodiscard]] S squaredDistance(BoxId number, const Bounds& other) const {
+    const S* const row = m_rows.data() + std::size_t{6} * number;
+    S square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const S gap = std::max({S(0), row[axis] - other.max_[axis], other.min_[axis] - row[3 + axis]});
+      square += gap * gap;
+    }
+    return square;
+  }
+
   /// All boxes by number: minx miny minz maxx maxy maxz. Where an object has left it is an empty one.
   [[nodiscard]] std::span<const S> rows() const { return m_rows; }
 

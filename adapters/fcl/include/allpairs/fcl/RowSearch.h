@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -12,16 +15,26 @@
 
 namespace allpairs {
 
-/// The overlapping pairs of boxes that lie in rows of six and change between searches, in whichever of two ways is the
-/// faster: a world that knows the pairs of before, while few boxes change, else a search of all.
+/// Searches of boxes that lie in rows of six and change between searches. What a search needs is made when it is asked
+/// for: of few rows or a few times the rows are scanned, else a world is brought up to date.
 ///
 /// Geometry:  boxes are closed, in the precision of T. An empty box overlaps nothing; it has all minima at the greatest
 ///            finite number, all maxima at the least.
 /// Bad input: a NaN throws InvalidBox.
-/// Threads:   one call at a time per object; parallel inside when there is an executor.
+/// Threads:   const members may be called concurrently while no other member runs, with the same rows; all others one
+///            at a time. Parallel inside when there is an executor.
 template <class T>
 class RowSearch {
  public:
+  /// minx miny minz maxx maxy maxz
+  using Row = std::array<T, 6>;
+
+  /// So many rows are compared at once.
+  static constexpr std::size_t kBatch = 64;
+
+  /// Whether a scan of all rows is always as fast as a query of a world.
+  [[nodiscard]] static bool areFew(std::span<const T> rows) { return rows.size() <= 6 * kBatch; }
+
   /// Pairs come ordered by (first, second) if that is asked for, else in an order that is the same each time.
   explicit RowSearch(Executor* executor, bool isOrdered);
 
@@ -30,36 +43,63 @@ class RowSearch {
 
   /// Marks a row as new or changed; for an unmarked row, its previous contents may be used.
   void note(BoxId row) {
+    constexpr auto kRelaxed = std::memory_order_relaxed;
+    if (m_hasPairs.load(kRelaxed) || m_hasWorld.load(kRelaxed) || m_scanned.load(kRelaxed) != 0) beginChange();
     if (m_isPending.size() <= row) m_isPending.resize(std::size_t{row} + 1, 0);
+    if (m_isPending[row] == 0) m_pending.store(m_pending.load(kRelaxed) + 1, kRelaxed);
     m_isPending[row] = 1;
-    m_isBehind = true;
     ++m_changes;
   }
 
-  /// All pairs, in which the first is the smaller number; valid until the next call of this after a change.
-  [[nodiscard]] std::span<const Pair> pairs(std::span<const T> rows);
+  /// All pairs, in which the first is the smaller number; valid until the next note() or clear().
+  [[nodiscard]] std::span<const Pair> pairs(std::span<const T> rows) const;
 
   /// The same boxes as a world, for queries; the numbers of rows are its ids.
-  [[nodiscard]] World& world(std::span<const T> rows);
+  [[nodiscard]] const World& world(std::span<const T> rows) const;
+
+  /// The same for one query, or null where a scan of all rows is the faster: few of them, or few queries since many
+  /// have changed.
+  [[nodiscard]] const World* worldForQuery(std::span<const T> rows) const {
+    return areFew(rows) ? nullptr : worldForMany(rows);
+  }
+
+  /// Whether a comparison of each row with each of another search is faster than their worlds.
+  [[nodiscard]] bool isFasterByScans(std::span<const T> rows, std::size_t others) const;
+
+  /// Which of the first kBatch rows, as bits, overlap a box. Empty ones do where the box is infinite on all sides.
+  [[nodiscard]] static std::uint64_t overlapping(std::span<const T> rows, const Row& box);
 
  private:
-  [[nodiscard]] std::span<const Pair> searchAll(std::span<const T> rows);
-  void bringIn(std::span<const T> rows);
+  [[nodiscard]] const World* worldForMany(std::span<const T> rows) const;
+  void beginChange();
+  void find(std::span<const T> rows) const;
+  void step(std::span<const T> rows) const;
+  [[nodiscard]] std::span<const Pair> searchAll(std::span<const T> rows) const;
+  [[nodiscard]] std::span<const Pair> scanAll(std::span<const T> rows) const;
+  void bringIn(std::span<const T> rows) const;
+  [[nodiscard]] bool isCalmAgain(std::span<const T> rows) const;
 
   Executor* m_executor;
-  OverlapSearch m_search;
-  World m_world;
 
-  std::vector<std::uint8_t> m_isPending;  ///< By row: whether the world hasn't heard of it as it is now.
-  std::size_t m_changes = 0;              ///< How many there were since the last search.
-  bool m_isCalm = false;                  ///< Whether there were few before that.
-  bool m_isBehind = false;                ///< Whether the world may have something to hear.
+  // Const members make what they need under the lock, once after each change, and publish it by the two marks.
+  mutable std::mutex m_making;
+  mutable std::atomic<bool> m_hasPairs = false;    ///< m_pairs are those of the rows as they are.
+  mutable std::atomic<bool> m_hasWorld = false;    ///< The world has heard of all rows as they are.
+  mutable std::atomic<std::size_t> m_scanned = 0;  ///< Rows that queries have compared since the last change.
 
-  std::vector<float> m_rounded;
-  std::vector<BoxId> m_ids;
-  std::vector<T> m_moved;
-  std::vector<Pair> m_exact;
-  std::span<const Pair> m_pairs;
+  mutable OverlapSearch m_search;
+  mutable World m_world;
+  mutable std::vector<std::uint8_t> m_isPending;   ///< By row: whether the world hasn't heard of it as it is now.
+  mutable std::atomic<std::size_t> m_pending = 0;  ///< How many of them there are.
+  mutable std::size_t m_changes = 0;               ///< How many there were since the last search for pairs.
+  mutable bool m_isCalm = false;                   ///< Whether there were few before that.
+  bool m_wantsPairs = false;                       ///< Whether anybody asked for pairs before the last change.
+
+  mutable std::vector<float> m_rounded;
+  mutable std::vector<BoxId> m_ids;
+  mutable std::vector<T> m_moved;
+  mutable std::vector<Pair> m_exact;
+  mutable std::span<const Pair> m_pairs;
 };
 
 extern template class RowSearch<float>;

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Queries of few objects and of many, the first ones and later ones, which a manager answers in different ways.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "FclScene.h"
+#include "allpairs/Error.h"
+#include "allpairs/fcl/FclBroadPhaseManager.h"
+
+namespace allpairs::test {
+namespace {
+
+template <class S>
+class FclQueries : public FclScene<S> {};
+
+using FclQueriesPrecisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(FclQueries, FclQueriesPrecisions);
+
+/// Collects the pairs that a query for distances gives, and sets the same least distance in each call.
+template <class S>
+struct Threshold {
+  using Object = ::fcl::CollisionObject<S>;
+
+  S distance = S(0);
+  std::vector<std::pair<Object*, Object*>> given;
+
+  static bool call(Object* a, Object* b, void* data, S& least) {
+    auto& self = *static_cast<Threshold*>(data);
+    self.given.emplace_back(std::minmax(a, b));
+    least = self.distance;
+    return false;
+  }
+
+  /// Those of the given pairs whose boxes are near enough, in ascending order.
+  [[nodiscard]] auto within() const {
+    auto pairs = given;
+    std::erase_if(pairs, [&](const auto& pair) { return !isWithin(pair.first, pair.second); });
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  [[nodiscard]] bool isWithin(const Object* a, const Object* b) const {
+    return a->getAABB().distance(b->getAABB()) <= distance;
+  }
+};
+
+TYPED_TEST(FclQueries, GivesACallbackThatHoldsADistanceAllPairsWithinItOnce) {
+  using S = TypeParam;
+  for (const std::size_t count : {3U, 20U, 64U, 65U, 200U}) {
+    const auto objects = this->addObjects(count, S(9));
+    FclBroadPhaseManager<S> manager;
+    manager.registerObjects(objects);
+    for (const S distance : {S(0), S(0.25), S(2)}) {
+      Threshold<S> expected{distance, {}};
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < i; ++j) expected.given.emplace_back(std::minmax(objects[i], objects[j]));
+      }
+      Threshold<S> self{distance, {}};
+      manager.distance(&self, Threshold<S>::call);
+      EXPECT_EQ(self.within(), expected.within()) << count << " objects, distance " << distance;
+      EXPECT_EQ(std::set(self.given.begin(), self.given.end()).size(), self.given.size()) << "a pair came twice";
+    }
+  }
+}
+
+TYPED_TEST(FclQueries, GivesAllObjectsWithinADistanceInTheFirstQueryAndInTheHundredth) {
+  using S = TypeParam;
+  for (const std::size_t count : {3U, 64U, 65U, 300U}) {
+    const auto objects = this->addObjects(count, S(9));
+    FclBroadPhaseManager<S> manager;
+    manager.registerObjects(objects);
+    const auto probes = this->addObjects(100, S(9));
+    for (auto* probe : probes) {
+      Threshold<S> expected{S(0.5), {}};
+      for (auto* object : objects) expected.given.emplace_back(std::minmax(probe, object));
+      Threshold<S> found{S(0.5), {}};
+      manager.distance(probe, &found, Threshold<S>::call);
+      ASSERT_EQ(found.within(), expected.within()) << "of " << count << " objects";
+    }
+  }
+}
+
+TYPED_TEST(FclQueries, GivesTheSameCollisionsInTheFirstQueryAndInTheHundredth) {
+  using S = TypeParam;
+  for (const std::size_t count : {1U, 2U, 8U, 9U, 64U, 65U, 300U}) {
+    const auto objects = this->addObjects(count, S(9));
+    FclBroadPhaseManager<S> manager;
+    manager.registerObjects(objects);
+    manager.unregisterObject(objects[count / 2]);
+    const auto probes = this->addObjects(100, S(9));
+    for (auto* probe : probes) {
+      typename TestFixture::Pairs expected;
+      for (auto* object : objects) {
+        const bool isThere = object != objects[count / 2];
+        if (isThere && object->getAABB().overlap(probe->getAABB())) expected.emplace_back(probe, object);
+      }
+      typename TestFixture::Pairs found;
+      manager.collide(probe, &found, [](auto* a, auto* b, void* data) {
+        static_cast<typename TestFixture::Pairs*>(data)->emplace_back(a, b);
+        return false;
+      });
+      ASSERT_THAT(found, ::testing::UnorderedElementsAreArray(expected)) << "of " << count << " objects";
+    }
+  }
+}
+
+TYPED_TEST(FclQueries, AnInfiniteBoxMeetsAllBoxesAndNoEmptyOne) {
+  using S = TypeParam;
+  const S infinity = std::numeric_limits<S>::infinity();
+  for (const int count : {3, 20, 100}) {
+    FclBroadPhaseManager<S> manager;
+    std::vector<std::unique_ptr<BoxedObject<S>>> objects;
+    for (int i = 0; i < count; ++i) {
+      objects.push_back(std::make_unique<BoxedObject<S>>(S(3 * i), S(3 * i + (i % 3 == 0 ? -1 : 1))));
+      manager.registerObject(objects.back().get());
+    }
+    BoxedObject<S> everywhere(-infinity, infinity);
+    BoxedObject<S> empty(S(1), S(0));
+    for (int query = 0; query < 30; ++query) {
+      int met = 0;
+      const auto meet = [](auto*, auto*, void* data) { return ++*static_cast<int*>(data) < 0; };
+      const auto measure = [](auto*, auto*, void* data, S&) { return ++*static_cast<int*>(data) < 0; };
+      manager.collide(&everywhere, &met, meet);
+      EXPECT_EQ(met, count - (count + 2) / 3);
+      manager.distance(&everywhere, &met, measure);
+      EXPECT_EQ(met, 2 * (count - (count + 2) / 3));
+      manager.collide(&empty, &met, meet);
+      manager.distance(&empty, &met, measure);
+      EXPECT_EQ(met, 2 * (count - (count + 2) / 3));
+    }
+  }
+}
+
+TYPED_TEST(FclQueries, RefusesAQueryWithANan) {
+  using S = TypeParam;
+  BoxedObject<S> bad(std::numeric_limits<S>::quiet_NaN(), S(1));
+  for (const std::size_t count : {3U, 100U}) {
+    FclBroadPhaseManager<S> manager;
+    manager.registerObjects(this->addObjects(count, S(9)));
+    for (int query = 0; query < 30; ++query) {
+      EXPECT_THROW(manager.collide(&bad, nullptr, [](auto*, auto*, void*) { return false; }), InvalidBox);
+      EXPECT_THROW(manager.distance(&bad, nullptr, [](auto*, auto*, void*, S&) { return false; }), InvalidBox);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace allpairs::test
