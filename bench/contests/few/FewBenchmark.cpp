@@ -84,8 +84,7 @@ void compareCalls(double seconds) {
       "| boxes | double loop | overlaps() | find(), ordered | find(), unordered |\n|---:|---:|---:|---:|---:|\n");
   OverlapSearch ordered;
   OverlapSearch unordered({.order = Order::Unordered});
-  for (const std::size_t boxes :
-       {2, 3, 4, 6, 8, 9, 12, 16, 17, 24, 32, 48, 64, 96, 128, 129, 192, 256, 257, 384, 385, 512}) {
+  for (const std::size_t boxes : kCounts) {
     std::array<Contender, 4> contenders{
         Contender{"the double loop", [](const BoxView&, const Rows& rows) { return loop(rows).size(); }},
         Contender{"overlaps()", [](const BoxView& view, const Rows&) { return overlaps(view).size(); }},
