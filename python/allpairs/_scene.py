@@ -55,6 +55,8 @@ class Scene:
         Models outside it are excluded.
     remarks : list of Remark
         The parts of the input that were skipped.
+    warnings : list of Remark
+        Where the result may not be what is expected, though no part was skipped: a scene without a collision pipeline.
     """
 
     def __init__(self, core: _core.Scene) -> None:
@@ -65,6 +67,7 @@ class Scene:
         bounds = core.region()
         self.region = None if bounds is None else np.array(bounds).reshape(2, 3)
         self.remarks = [Remark(*fields) for fields in core.remarks()]
+        self.warnings = [Remark(*fields) for fields in core.warnings()]
 
     def __len__(self) -> int:
         return len(self._core)

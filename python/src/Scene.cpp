@@ -42,9 +42,9 @@ py::tuple modelOf(const LoadedScene& scene, std::size_t index) {
 }
 
 /// The fields of the package's Remark, in its order.
-py::list remarksOf(const LoadedScene& scene) {
+py::list remarkList(std::span<const scene::Remark> from) {
   py::list remarks;
-  for (const scene::Remark& remark : scene.remarks()) {
+  for (const scene::Remark& remark : from) {
     remarks.append(py::make_tuple(remark.file.string(), remark.line, remark.subject, remark.reason, remark.isPartial));
   }
   return remarks;
@@ -71,7 +71,8 @@ void bindScene(py::module_& module) {
   py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(module, "Scene", tableProtocol<LoadedScene>())
       .def("__len__", &LoadedScene::size)
       .def("model", &modelOf)
-      .def("remarks", &remarksOf)
+      .def("remarks", [](const LoadedScene& scene) { return remarkList(scene.remarks()); })
+      .def("warnings", [](const LoadedScene& scene) { return remarkList(scene.warnings()); })
       .def("method", &LoadedScene::method)
       .def("alarm_distance", &LoadedScene::alarmDistance)
       .def("region", &regionOf)

@@ -206,21 +206,22 @@ TEST_F(SofaModel, UnknownCollisionModelsAreNamed) {
 
 TEST_F(SofaModel, MethodsHaveTheirDefaults) {
   for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"}) {
-    const auto method = readIn(std::string{"<"} + name + "/>").method;
+    const auto method = readIn(std::string{"<"} + name + "/>").pipelines[0].method;
     EXPECT_EQ(method.name, name);
     EXPECT_TRUE(method.proximity);
     EXPECT_EQ(method.alarmDistance, 1.0);
     EXPECT_EQ(method.contactDistance, 0.5);
   }
-  const auto discrete = readIn("<DiscreteIntersection/>").method;
+  const auto discrete = readIn("<DiscreteIntersection/>").pipelines[0].method;
   EXPECT_FALSE(discrete.proximity);
   EXPECT_EQ(discrete.alarmDistance, 0);
-  EXPECT_THAT(readIn("").method.name, IsEmpty());
+  EXPECT_THAT(readIn("").pipelines[0].method.name, IsEmpty());
 }
 
 TEST_F(SofaModel, TheFirstMethodBelowThePipelineCounts) {
   const auto method = readIn(R"(<DiscreteIntersection/><Node><CollisionPipeline/>
     <Node><LocalMinDistance alarmDistance="0.3" contactDistance="0.1"/></Node></Node>)")
+                          .pipelines[0]
                           .method;
   EXPECT_EQ(method.name, "LocalMinDistance");
   EXPECT_EQ(method.alarmDistance, 0.3);
@@ -233,18 +234,18 @@ TEST_F(SofaModel, AnUnknownMethodIsNamed) {
 
 TEST_F(SofaModel, TheBroadPhaseMayHaveARegion) {
   for (const auto name : {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase"}) {
-    const auto region = readIn(std::string{"<"} + name + " box='-1 -2 -3 4 5 6'/>").region;
+    const auto region = readIn(std::string{"<"} + name + " box='-1 -2 -3 4 5 6'/>").pipelines[0].region;
     ASSERT_TRUE(region) << name;
     EXPECT_EQ(region->min, (Vec3{-1, -2, -3}));
     EXPECT_EQ(region->max, (Vec3{4, 5, 6}));
   }
-  EXPECT_FALSE(readIn("<BruteForceDetection/>").region);
-  EXPECT_FALSE(readIn("<BruteForceDetection box=''/>").region);
+  EXPECT_FALSE(readIn("<BruteForceDetection/>").pipelines[0].region);
+  EXPECT_FALSE(readIn("<BruteForceDetection box=''/>").pipelines[0].region);
   EXPECT_THAT(complaintIn("<BruteForceDetection box='1 2 3'/>"), HasSubstr("two corners"));
 }
 
 TEST_F(SofaModel, ARegionThatIsNoBoxIsNamedWithItsLine) {
-  EXPECT_FALSE(readIn("<BruteForceDetection box='0 0 0 0 0 0'/>").region) << "what SOFA writes for none";
+  EXPECT_FALSE(readIn("<BruteForceDetection box='0 0 0 0 0 0'/>").pipelines[0].region) << "what SOFA writes for none";
   const auto complaint = complaintIn("<BruteForceDetection box='0 0 1e-9 1 1 1e-10'/>");
   EXPECT_THAT(complaint, HasSubstr("in z they are 1e-09 and 1e-10"));
   EXPECT_THAT(complaint, HasSubstr(".scn:"));

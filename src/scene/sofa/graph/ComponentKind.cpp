@@ -40,10 +40,13 @@ void addModels(Table& table) {
 
 void addPipeline(Table& table) {
   for (const auto name : {"DefaultPipeline", "CollisionPipeline"}) table[name] = {Pipeline, "DefaultPipeline"};
+  table["CompositeCollisionPipeline"] = {CompositePipeline, "CompositeCollisionPipeline"};
+  table["SubCollisionPipeline"] = {SubPipeline, "SubCollisionPipeline"};
   for (const auto name :
-       {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase", "BruteForce", "DirectSAP",
-        "DirectSAPNarrowPhase", "IncrSAP", "IncrementalSAP", "RayTraceDetection", "RayTraceNarrowPhase"})
+       {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase", "AllpairsBroadPhase",
+        "BruteForce", "DirectSAP", "IncrSAP", "IncrementalSAP", "RayTraceDetection"})
     table[name] = {BroadPhase, name};
+  for (const auto name : {"DirectSAPNarrowPhase", "RayTraceNarrowPhase"}) table[name] = {Other, name};
   table["DiscreteIntersection"] = {DiscreteMethod, "DiscreteIntersection"};
   for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"})
     table[name] = {ProximityMethod, name};

@@ -10,6 +10,8 @@ namespace allpairs::scene::sofa {
 enum class ComponentKind {
   Other,  ///< Nothing that a collision model's position depends on, as far as its name tells.
   Pipeline,
+  CompositePipeline,
+  SubPipeline,
   BroadPhase,
   DiscreteMethod,
   ProximityMethod,

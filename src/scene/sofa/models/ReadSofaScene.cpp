@@ -88,16 +88,23 @@ Model makeModel(sofa::ModelDescription& description) {
   return model;
 }
 
-void addModels(sofa::SceneDescription& description, bool partial, Scene& scene) {
+using Kept = std::vector<std::optional<std::size_t>>;
+
+/// Where each described model is in the scene; nothing for those that were left out.
+Kept addModels(sofa::SceneDescription& description, bool partial, Scene& scene) {
+  Kept kept;
   for (auto& model : description.models) {
     try {
       scene.models.push_back(makeModel(model));
       scene.models.back()->setOwner(scene.owners[model.owner].get());
+      kept.emplace_back(scene.models.size() - 1);
     } catch (const Error& problem) {  // What only the model itself checks: a negative radius, say.
       if (!partial) throw FileError(model.file, problem.what(), model.line);
       scene.remarks.push_back({model.file, model.line, model.path, problem.what(), true});
+      kept.emplace_back();
     }
   }
+  return kept;
 }
 
 std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescription& method) {
@@ -115,19 +122,42 @@ std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescriptio
   return result;
 }
 
+std::optional<Box> regionOf(const sofa::PipelineDescription& pipeline) {
+  if (!pipeline.region) return std::nullopt;
+  return Box{pipeline.region->min, pipeline.region->max};
+}
+
+ScenePipeline makePipeline(sofa::PipelineDescription& description, const Kept& kept) {
+  ScenePipeline pipeline{.name = std::move(description.path),
+                         .intersection = makeMethod(description.method),
+                         .intersectionName = description.method.name,
+                         .region = regionOf(description)};
+  for (const std::size_t model : description.models)
+    if (kept[model]) pipeline.models.push_back(*kept[model]);
+  return pipeline;
+}
+
+void moveRemarks(std::vector<sofa::Ignored>& from, bool isPartial, std::vector<Remark>& to) {
+  for (auto& remark : from)
+    to.push_back({std::move(remark.file), remark.line, std::move(remark.subject), std::move(remark.reason), isPartial});
+}
+
 }  // namespace
 
 Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& options) {
   auto description = sofa::describeScene(path, options);
+  const auto& first = description.pipelines.front();
   Scene scene;
-  scene.intersection = makeMethod(description.method);
-  scene.intersectionName = description.method.name;
-  if (const auto& region = description.region) scene.region = Box{region->min, region->max};
+  scene.intersection = makeMethod(first.method);
+  scene.intersectionName = first.method.name;
+  scene.region = regionOf(first);
   for (auto& owner : description.owners) scene.owners.push_back(std::make_unique<Owner>(Owner{std::move(owner)}));
-  for (auto& ignored : description.ignored)
-    scene.remarks.push_back(
-        {std::move(ignored.file), ignored.line, std::move(ignored.subject), std::move(ignored.reason), true});
-  addModels(description, options.partial, scene);
+  moveRemarks(description.ignored, true, scene.remarks);
+  moveRemarks(description.outside, false, scene.remarks);
+  moveRemarks(description.warnings, false, scene.warnings);
+  const Kept kept = addModels(description, options.partial, scene);
+  if (description.pipelines.size() > 1)
+    for (auto& pipeline : description.pipelines) scene.pipelines.push_back(makePipeline(pipeline, kept));
   return scene;
 }
 
