@@ -29,6 +29,8 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   scene::ReadOptions options = readOptions(settings.limits);
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;
+  if (!settings.sofa.empty())
+    options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::V20_06 : scene::SofaVersion::V26_12;
   options.progress = [&line](const scene::Progress& progress) {
     const std::string count =
         progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " + std::to_string(progress.total);

@@ -19,11 +19,12 @@ using Bounds = std::array<double, 6>;
 
 // NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
 std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
-                                  bool partial, bool allowOutside, std::uint64_t maxMemory) {
+                                  bool partial, const std::string& sofa, bool allowOutside, std::uint64_t maxMemory) {
   const py::gil_scoped_release release;
   scene::ReadOptions options;
   options.searchRoots = std::move(searchRoots);
   options.partial = partial;
+  if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::V20_06 : scene::SofaVersion::V26_12;
   options.allowOutside = allowOutside;
   options.maxMemory = maxMemory;
   return std::make_shared<LoadedScene>(path, options);

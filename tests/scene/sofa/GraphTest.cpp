@@ -208,5 +208,20 @@ TEST_F(SofaGraph, IncludesThatDoubleWithEachLevelDoNotEatTheMemory) {
   EXPECT_THAT(complaintIn("<include href='f30.xml'/>"), HasSubstr("takes more than 2"));
 }
 
+TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewerSofa) {
+  const std::string models = "<MechanicalObject/><MeshTopology/><Triangle/><TriangleOctreeModel/><Triangle/>";
+  const auto text = "<Node name='A'>" + models + "</Node><Node name='B'>" + models + "</Node>";
+  const std::vector<std::string> names{"/A/TriangleCollisionModel1",       "/A/TriangleOctreeCollisionModel1",
+                                       "/A/TriangleCollisionModel2",       "/B/TriangleCollisionModel1",
+                                       "/B/TriangleOctreeCollisionModel1", "/B/TriangleCollisionModel2"};
+  EXPECT_EQ(pathsOf(readIn("<RequiredPlugin name='Sofa.Component.Mass'/>" + text)), names);
+  EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text)), names);
+  EXPECT_EQ(pathsOf(readIn("<CollisionPipeline/>" + text))[0], "/A/tTriangleModel1");
+  m_sofa = SofaVersion::V26_12;
+  EXPECT_EQ(pathsOf(readIn(text)), names);
+  m_sofa = SofaVersion::V20_06;
+  EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text))[0], "/A/tTriangleModel1");
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

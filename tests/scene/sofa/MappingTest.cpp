@@ -218,5 +218,42 @@ TEST_F(SofaMapping, DataOfAnUnknownEngineIsNamed) {
               HasSubstr("MagicLoader 'e'"));
 }
 
+constexpr auto kOnSparseGrid =
+    "<Node><MechanicalObject position='0 0 0 1 1 1'/><PointModel/><BarycentricMapping/></Node>";
+
+TEST_F(SofaMapping, PointsInASparseGridFollowAllThatMovesTheGridsPoints) {
+  const std::string grid = "<SparseGridTopology name='grid' fileTopology='a.obj'/>";
+  const std::string engine = "<TransformEngine name='e' translation='10 0 0' rotation='0 0 90' scale='0.5 1 2' ";
+  EXPECT_THAT(onlyBox(readIn(grid + engine +
+                             "input_position='@grid.position'/><MechanicalObject "
+                             "position='@e.output_position'/>" +
+                             kOnSparseGrid)),
+              IsBox(Corners{9, 0, 0, 10, 0.5, 2}));
+  EXPECT_THAT(onlyBox(readIn(grid + engine +
+                             "input_position='@grid.position' inverse='1'/><MechanicalObject "
+                             "position='@[-1].output_position' dz='1'/>" +
+                             kOnSparseGrid)),
+              IsBox(Corners{0, 9, 1, 2, 10, 1.5}));
+  EXPECT_THAT(
+      onlyBox(readIn(grid + "<TransformEngine name='f' translation='0 0 3' input_position='@grid.position'/>" + engine +
+                     "input_position='@f.output_position'/><MechanicalObject "
+                     "position='@e.output_position'/>" +
+                     kOnSparseGrid)),
+      IsBox(Corners{9, 0, 6, 10, 0.5, 8}));
+  EXPECT_THAT(onlyBox(readIn(grid + "<MechanicalObject src='@grid' dx='2'/>" + kOnSparseGrid)),
+              IsBox(Corners{2, 0, 0, 3, 1, 1}));
+}
+
+TEST_F(SofaMapping, PointsOfASparseGridAreNotTakenForNone) {
+  const std::string grid = "<SparseGridTopology name='grid' fileTopology='a.obj'/>";
+  EXPECT_THAT(complaintIn(grid + "<MergePoints name='m' position1='@grid.position'/><MechanicalObject "
+                                 "position='@m.points'/><PointModel/>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn(grid + "<TransformEngine name='a' input_position='@b.output_position'/><TransformEngine "
+                                 "name='b' input_position='@a.output_position'/><MechanicalObject "
+                                 "position='@a.output_position'/><PointModel/>"),
+              HasSubstr("depends on itself"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

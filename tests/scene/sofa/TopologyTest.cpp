@@ -110,6 +110,30 @@ TEST_F(SofaGrid, HasEdgesQuadsAndTheirTriangles) {
   EXPECT_EQ(counts("<RegularGrid n='3 3 1'/><MechanicalObject/>"), (Counts{9, 12, 16}));
 }
 
+TEST_F(SofaGrid, HasTheEdgesOfItsTrianglesInNewerSofa) {
+  m_sofa = SofaVersion::V26_12;
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2'/><MechanicalObject/>"), (Counts{8, 18, 24}));
+  EXPECT_EQ(counts("<RegularGrid n='3 3 1'/><MechanicalObject/>"), (Counts{9, 16, 16}));
+  EXPECT_EQ(counts("<RegularGrid n='3 1 1'/><MechanicalObject/>"), (Counts{3, 2, 0})) << "no triangles";
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2' computeTriangleList='0'/><MechanicalObject/>"), (Counts{8, 12, 12}));
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2' computeTriangleList='0' computeQuadList='0'/><MechanicalObject/>"),
+            (Counts{8, 12, 12}))
+      << "derived from the cubes";
+  const auto scene = readIn("<RegularGrid n='2 2 1'/><MechanicalObject/><LineModel/>");
+  EXPECT_EQ(scene.models[0].lines, (Elements<2>{{1, 3}, {3, 0}, {0, 1}, {3, 2}, {2, 0}}));
+}
+
+TEST_F(SofaGrid, TakesItsShapeFromAnotherThatIsItsSource) {
+  const auto scene = readIn(
+      "<Node name='a'><RegularGrid name='g' nx='4' ny='3' nz='1' xmin='0' xmax='3' ymin='0' ymax='2' zmin='0' "
+      "zmax='1'/></Node><Node name='b'><RegularGrid src='@/a/g'/><MechanicalObject/><TriangleModel/></Node>"
+      "<Node name='c'><RegularGrid src='@/a/g' n='2 2 2' p0='0 0 5'/><MechanicalObject/><PointModel/></Node>");
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_EQ(scene.models[0].triangles.size(), 24U);
+  EXPECT_THAT(boxOf(scene.models[0]), IsBox(Corners{0, 0, 0, 3, 2, 0}));
+  EXPECT_THAT(boxOf(scene.models[1]), IsBox(Corners{0, 0, 5, 3, 2, 6}));
+}
+
 TEST_F(SofaGrid, AResolutionBelowOneBecomesTwo) {
   EXPECT_EQ(counts("<RegularGrid n='0 5 5' max='3 3 3'/><MechanicalObject/>").points, 8U);
 }

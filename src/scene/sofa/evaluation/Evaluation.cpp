@@ -115,7 +115,10 @@ class Evaluation::Busy {
   std::vector<std::pair<const Component*, std::string>>& m_busy;
 };
 
-Evaluation::Evaluation(const Node& root, ReadScope& scope) : m_scope(scope) { indexMappings(root); }
+Evaluation::Evaluation(const Node& root, ReadScope& scope, Generation generation)
+    : m_scope(scope), m_generation(generation) {
+  indexMappings(root);
+}
 
 void Evaluation::indexMappings(const Node& node) {
   if (!node.active) return;
@@ -187,6 +190,11 @@ const State& Evaluation::knownState(const Component& component) {
   return result;
 }
 
+std::optional<AffineMap> Evaluation::motionOfUnknownPoints(const Component& component, std::string_view name) {
+  const Busy busy(*this, component, std::string{name} + " motion");
+  return sofa::motionOfUnknownPoints(*this, component, name);
+}
+
 std::optional<Numbers> Evaluation::written(const Component& component, std::string_view name, const std::string& text) {
   if (text.starts_with('@')) return linked(component, name, text);
   std::string bad;
@@ -236,8 +244,12 @@ std::optional<Numbers> Evaluation::output(const Component& component, std::strin
     if (const auto value = placementData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (kind == ComponentKind::MeshLoader || kind == ComponentKind::SphereLoader)
     if (auto value = loaderOutput(component, mesh(component), name)) return value;
+  if (const auto value = gridData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (isTopology(kind) && isMeshData(name)) {
     auto& from = topology(component);
+    if (from.sparse)
+      throw Unplaceable(component,
+                        "its " + std::string{name} + " are those of a sparse grid, which this reader does not compute");
     if (auto value = listOf(name, from.given.positions, from)) return value;
   }
   if (kind == ComponentKind::MechanicalState)

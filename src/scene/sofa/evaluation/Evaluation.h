@@ -12,6 +12,7 @@
 
 #include "input/ReadScope.h"
 #include "sofa/evaluation/State.h"
+#include "sofa/graph/Generation.h"
 #include "sofa/graph/SceneGraph.h"
 #include "sofa/graph/Values.h"
 #include "sofa/mesh/Mesh.h"
@@ -24,7 +25,7 @@ namespace allpairs::scene::sofa {
 /// Bad input: what cannot be computed throws Unplaceable, or FileError for a mesh file, and nothing is remembered.
 class Evaluation {
  public:
-  Evaluation(const Node& root, ReadScope& scope);
+  Evaluation(const Node& root, ReadScope& scope, Generation generation);
 
   /// What a loader has loaded and transformed.
   const Mesh& mesh(const Component& loader);
@@ -34,9 +35,14 @@ class Evaluation {
   /// The same, but throws if the points themselves are not known.
   const State& knownState(const Component& component);
 
+  /// How a data of a component moves the points of a sparse grid that it is made of, which are not known themselves;
+  /// nothing if it is made of others.
+  std::optional<AffineMap> motionOfUnknownPoints(const Component& component, std::string_view name);
+
   /// Counts points that a component is about to make, of which a scene may ask for more than it writes out.
   void takePoints(const Component& component, std::uint64_t count);
   [[nodiscard]] ReadScope& scope() { return m_scope; }
+  [[nodiscard]] Generation generation() const { return m_generation; }
 
   using Names = std::initializer_list<std::string_view>;
   /// As a width: all numbers in a row, whatever entries they make where they come from.
@@ -78,6 +84,7 @@ class Evaluation {
   void indexMappings(const Node& node);
 
   ReadScope& m_scope;
+  Generation m_generation;
   std::unordered_map<const Component*, Mesh> m_meshes;
   std::unordered_map<const Component*, Topology> m_topologies;
   std::unordered_map<const Component*, State> m_states;

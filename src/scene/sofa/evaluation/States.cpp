@@ -46,20 +46,6 @@ Placement placementOf(Evaluation& evaluation, const Component& c) {
   return placement;
 }
 
-AffineMap affine(const Quat& rotation, const Vec3& scale, const Vec3& translation) {
-  const auto column = [&](std::size_t axis) {
-    Vec3 unit{};
-    unit[axis] = scale[axis];
-    return rotate(rotation, unit);
-  };
-  return {{column(0), column(1), column(2)}, translation};
-}
-
-AffineMap compose(const AffineMap& after, const AffineMap& before) {
-  return {{after.linear * before.linear.x, after.linear * before.linear.y, after.linear * before.linear.z},
-          after(before.offset)};
-}
-
 void move(State& state, const Vec3& scale, const Vec3& rotation, const Vec3& translation) {
   const bool turned = rotation != Vec3{};
   const auto q = fromEulerDegrees(rotation);
@@ -147,6 +133,15 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
   return static_cast<std::size_t>(size);
 }
 
+/// Moves a state as its own data say, and takes its rest positions on the way.
+void place(Evaluation& evaluation, const Component& component, State& state) {
+  const auto placement = placementOf(evaluation, component);
+  move(state, placement.scale, placement.rotation, placement.translation);
+  state.rest = evaluation.points(component, {"rest_position"});
+  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
+  move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
+}
+
 }  // namespace
 
 std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component, std::string_view name) {
@@ -168,6 +163,14 @@ State initialState(Evaluation& evaluation, const Component& component) {
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
   const std::size_t width = state.kind == State::Kind::Rigid ? 7 : 3;
   state.resize(1);
+  if (const auto motion = evaluation.motionOfUnknownPoints(component, "position");
+      motion && state.kind == State::Kind::Points) {
+    state.resize(0);
+    state.fromTopology = motion;
+    state.pointsUnknown = true;
+    place(evaluation, component, state);
+    return state;
+  }
   if (const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1}))
     setPositions(state, *given);
   if (const auto size = declaredSize(component, state.positions.size());
@@ -182,11 +185,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   if (largest > std::max<std::size_t>(state.positions.size(), 1)) state.resize(largest);
   if (state.positions.size() <= 1) takePoints(evaluation, component, state);
 
-  const auto placement = placementOf(evaluation, component);
-  move(state, placement.scale, placement.rotation, placement.translation);
-  state.rest = evaluation.points(component, {"rest_position"});
-  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
-  move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
+  place(evaluation, component, state);
   return state;
 }
 

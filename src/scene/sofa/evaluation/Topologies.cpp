@@ -113,19 +113,42 @@ GridShape gridBetween(const Corners& corners, const Vec3& counts) {
   return shape;
 }
 
-Topology regularGrid(Evaluation& evaluation, const Component& component) {
-  auto counts = gridCounts(evaluation, component);
-  const auto corners = gridCorners(evaluation, component);
-  auto shape = gridBetween(corners, counts);
+/// A grid as it is written, and the number of its points along each axis.
+struct WrittenGrid {
+  Corners corners;
+  Vec3 counts;
+  GridShape shape;
+};
+
+WrittenGrid writtenGrid(Evaluation& evaluation, const Component& component) {
+  WrittenGrid grid;
+  grid.counts = gridCounts(evaluation, component);
+  grid.corners = gridCorners(evaluation, component);
+  grid.shape = gridBetween(grid.corners, grid.counts);
   if (const double width = evaluation.number(component, {"cellWidth"}, 0); width != 0)
     for (std::size_t axis = 0; axis < 3; ++axis)  // SOFA keeps the spacing of the resolution that was written.
-      counts[axis] = std::ceil((corners.max[axis] - corners.min[axis]) / width) + 1;
-  if (*std::ranges::min_element(counts) < 1) {
-    counts = {2, 2, 2};
-    shape = gridBetween(corners, counts);
+      grid.counts[axis] = std::ceil((grid.corners.max[axis] - grid.corners.min[axis]) / width) + 1;
+  if (*std::ranges::min_element(grid.counts) < 1) {
+    grid.counts = {2, 2, 2};
+    grid.shape = gridBetween(grid.corners, grid.counts);
   }
-  if (component.attributes.has("p0")) shape.origin = evaluation.vector(component, {"p0"}, {});
-  shape.points = toCounts(component, counts);
+  grid.shape.origin = evaluation.vector(component, {"p0"}, grid.shape.origin);
+  return grid;
+}
+
+GridLists gridLists(Evaluation& evaluation, const Component& component) {
+  if (evaluation.generation() == Generation::Sofa20) return {};
+  return {.cubes = evaluation.flag(component, "computeHexaList", true),
+          .quads = evaluation.flag(component, "computeQuadList", true),
+          .triangles = evaluation.flag(component, "computeTriangleList", true),
+          .edges = evaluation.flag(component, "computeEdgeList", true),
+          .diagonals = true};
+}
+
+Topology regularGrid(Evaluation& evaluation, const Component& component) {
+  const auto grid = writtenGrid(evaluation, component);
+  auto shape = grid.shape;
+  shape.points = toCounts(component, grid.counts);
   constexpr std::uint64_t kElements = 8;  // elements of a grid take this many times the memory of its points
   evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
 
@@ -134,7 +157,7 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   for (std::size_t z = 0; z < nz; ++z)
     for (std::size_t y = 0; y < ny; ++y)
       for (std::size_t x = 0; x < nx; ++x) topology.given.positions.push_back(shape.point(x, y, z));
-  fillGrid(topology, shape.points);
+  fillGrid(topology, shape.points, gridLists(evaluation, component));
   topology.pointCount = topology.given.positions.size();
   topology.hasPositions = true;
   topology.cells = {nx - 1, ny - 1, nz - 1};
@@ -150,6 +173,15 @@ Topology sparseGrid() {
 }
 
 }  // namespace
+
+std::optional<Vec3> gridData(Evaluation& evaluation, const Component& grid, std::string_view name) {
+  if (grid.kind() != RegularGrid) return std::nullopt;
+  if (name == "n") return gridCounts(evaluation, grid);
+  if (name == "min") return gridCorners(evaluation, grid).min;
+  if (name == "max") return gridCorners(evaluation, grid).max;
+  if (name == "p0") return writtenGrid(evaluation, grid).shape.origin;
+  return std::nullopt;
+}
 
 Topology buildTopology(Evaluation& evaluation, const Component& component) {
   switch (component.kind()) {

@@ -20,7 +20,7 @@ void addModels(Table& table) {
                           "TriangleSet", "TriangleMeshModel", "TriangleSetModel"})
     table[name] = {TriangleModel, "TTriangleModel"};
   for (const auto name : {"TriangleOctreeModel", "TriangleOctree", "TriangleOctreeCollisionModel"})
-    table[name] = {TriangleModel, "TriangleOctreeModel"};
+    table[name] = {TriangleModel, "TriangleOctreeCollisionModel"};
   for (const auto name : {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere"})
     table[name] = {SphereModel, "TSphereModel"};
   for (const auto name : {"CapsuleModel", "CapsuleCollisionModel", "TCapsuleModel", "Capsule", "RigidCapsule",

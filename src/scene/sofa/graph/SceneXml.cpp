@@ -27,6 +27,7 @@ struct Element {
   bool isNode = false;
   std::string type;
   std::string name;
+  bool isNamed = true;
   Attributes attributes;
   Attributes replacements;
   std::vector<Element> children;
@@ -133,7 +134,10 @@ class ElementReader {
     if (!element) return element;
     if (!element->isNode && classOf(element->type).kind == ComponentKind::Other)
       if (const auto file2 = replacementFor(element->type, *file.path)) return readInclude(file, xml, *file2);
-    if (element->name.empty()) element->name = numberedName(*element);
+    if (element->name.empty()) {
+      element->name = numberedName(*element);
+      element->isNamed = false;
+    }
     if (++m_depth > kMaxDepth) throw Unplaceable(element->place, "nodes are nested too deep");
     for (const auto& child : xml.children())
       if (child.type() == pugi::node_element)
@@ -210,6 +214,7 @@ void addComponent(Node& node, Element&& element) {
   component->what = classOf(element.type);
   component->type = std::move(element.type);
   component->name = std::move(element.name);
+  component->isNamed = element.isNamed;
   component->attributes = std::move(element.attributes);
   for (const auto& [name, value] : element.replacements)
     if (component->attributes.has(name)) component->attributes.set(name, value);

@@ -77,7 +77,16 @@ enum class SameWayRound { Once, Twice };
 /// Those of the edges that belong to exactly one of the triangles.
 [[nodiscard]] Elements<2> borderOf(const Elements<2>& edges, const Elements<3>& triangles);
 
-/// All edges, quads, triangles and hexahedra of a regular grid.
-void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points);
+/// What a regular grid lists; the rest is derived as for any mesh.
+struct GridLists {
+  bool cubes = true;
+  bool quads = true;
+  bool triangles = true;  ///< The halves of the quads, which are listed with them.
+  bool edges = true;
+  bool diagonals = false;  ///< Edges are those of the triangles, where there are any, in their order.
+};
+
+/// The elements of a regular grid.
+void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points, const GridLists& lists = {});
 
 }  // namespace allpairs::scene::sofa

@@ -30,6 +30,14 @@ class CylinderModel final : public collision::CapsuleModel {
   [[nodiscard]] std::string_view typeName() const override { return "TCylinderModel"; }
 };
 
+/// SOFA's octrees of triangles have the boxes of triangle models, under a name of their own.
+class TriangleOctreeModel final : public collision::TriangleModel {
+ public:
+  using TriangleModel::TriangleModel;
+
+  [[nodiscard]] std::string_view typeName() const override { return "TriangleOctreeCollisionModel"; }
+};
+
 Model makeOrientedBoxes(sofa::ModelDescription& model) {
   std::vector<collision::OrientedBox> boxes(model.positions.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -50,7 +58,10 @@ Model makeCapsules(sofa::ModelDescription& model) {
 
 Model makeTriangles(sofa::ModelDescription& model) {
   auto triangles =
-      std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions), std::move(model.triangles));
+      model.type == "TriangleOctreeCollisionModel"
+          ? std::make_unique<TriangleOctreeModel>(model.path, std::move(model.positions), std::move(model.triangles))
+          : std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions),
+                                                       std::move(model.triangles));
   triangles->setUseCurvature(model.useCurvature);
   return triangles;
 }

@@ -5,6 +5,7 @@
 
 #include "allpairs/scene/FileError.h"
 #include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Generation.h"
 #include "sofa/graph/Links.h"
 #include "sofa/graph/SceneXml.h"
 #include "sofa/models/ModelDescription.h"
@@ -122,7 +123,9 @@ PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts
 SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options) {
   ReadScope scope(path, options);
   const auto root = readSceneGraph(path, scope);
-  Evaluation evaluation(*root, scope);
+  const auto generation = generationOf(*root, options.sofa);
+  if (generation == Generation::Sofa26) nameByClass(*root);
+  Evaluation evaluation(*root, scope, generation);
   SceneDescription scene;
   ModelList models(evaluation, options.partial, scene);
   for (const auto& parts : findPipelines(*root)) {
