@@ -252,5 +252,14 @@ TEST_F(SofaModel, ARegionThatIsNoBoxIsNamedWithItsLine) {
   EXPECT_THAT(complaintIn("<BruteForceDetection box='0 2 0 1 2 1'/>"), HasSubstr("in y they are 2 and 2"));
 }
 
+TEST_F(SofaModel, AListOfRadiiThatLinksToNothingIsTheDefaultAndThatIsSaid) {
+  const auto scene = readIn(
+      "<CollisionPipeline/><MechanicalObject position='0 0 0'/><SphereModel name='s' radius='2' "
+      "listRadius='@loader.listRadius'/>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{-2, -2, -2, 2, 2, 2}));
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("listRadius links to nothing"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -199,8 +199,24 @@ std::optional<Numbers> Evaluation::written(const Component& component, std::stri
   if (text.starts_with('@')) return linked(component, name, text);
   std::string bad;
   auto values = isIndexList(name) ? parseIntegers(text, bad, m_scope) : parseNumbers(text, bad);
+  if (!values && !isIndexList(name)) {
+    const auto joined = bad;
+    if ((values = parseNumberStream(text, bad)))
+      warn(component, std::string{name} + ": '" + joined.substr(0, 40) + "' is read as several numbers, as SOFA does");
+  }
   if (!values) throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) + "' is not a finite number");
   return Numbers{std::move(*values), 1};
+}
+
+void Evaluation::warn(const Component& component, std::string text) {
+  const std::pair<const Component*, std::string> warning{&component, std::move(text)};
+  if (std::ranges::find(m_warnings, warning) == m_warnings.end()) m_warnings.push_back(warning);
+}
+
+bool Evaluation::isDeadLink(const Component& component, std::string_view name) const {
+  const auto* text = component.attributes.find(name);
+  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  return link && followPath(*component.node, &component, link->path).component == nullptr;
 }
 
 std::optional<Numbers> Evaluation::linked(const Component& component, std::string_view name, const std::string& text) {
@@ -273,6 +289,10 @@ std::optional<Numbers> Evaluation::numbers(const Component& component, Names nam
   if (width == kFlat) return Numbers{std::move(found->values), 1};
   if (found->width == 1) {
     found->width = width;  // Plain numbers are cut into entries; what is left over is dropped.
+    if (const auto left = found->values.size() % width; left != 0)
+      warn(component, std::string{*names.begin()} + ": the last " + std::to_string(left) + " of " +
+                          std::to_string(found->values.size()) + " numbers are dropped, as SOFA does: each entry has " +
+                          std::to_string(width));
     found->values.resize(found->size() * width);
     return found;
   }

@@ -67,6 +67,13 @@ class Evaluation {
   /// Whether a data's value comes from elsewhere.
   [[nodiscard]] bool isLinked(const Component& component, Names names) const;
   [[nodiscard]] bool isGiven(const Component& component, Names names) const;
+  /// Whether a data is a link to a component that is not there.
+  [[nodiscard]] bool isDeadLink(const Component& component, std::string_view name) const;
+
+  using Warnings = std::vector<std::pair<const Component*, std::string>>;
+  /// Notes, once, what was read otherwise than it is written.
+  void warn(const Component& component, std::string text);
+  [[nodiscard]] const Warnings& warnings() const { return m_warnings; }
 
   /// The mapping that moves a state; null if none does.
   [[nodiscard]] const Component* mappingOf(const Component& state) const;
@@ -91,6 +98,7 @@ class Evaluation {
   std::unordered_map<const Component*, const Component*> m_mappings;
   std::unordered_map<const Component*, const Component*> m_topologicalMappings;
   std::vector<std::pair<const Component*, std::string>> m_busy;
+  Warnings m_warnings;
 };
 
 [[nodiscard]] Numbers toNumbers(const std::vector<Vec3>& points);

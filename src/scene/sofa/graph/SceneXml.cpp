@@ -10,6 +10,7 @@
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/LineIndex.h"
+#include "input/Words.h"
 #include "sofa/graph/Values.h"
 
 namespace allpairs::scene::sofa {
@@ -35,6 +36,40 @@ struct Element {
   Place place;
 };
 
+/// Where the markup ends that begins here and holds no attributes, if it is of such a kind: a comment, say.
+std::size_t endOfOtherMarkup(std::string_view text, std::size_t at) {
+  static constexpr std::string_view kKinds[][2] = {
+      {"<!--", "-->"}, {"<?", "?>"}, {"<![CDATA[", "]]>"}, {"<!", ">"}, {"</", ">"}};
+  for (const auto& [start, end] : kKinds) {
+    if (!text.substr(at).starts_with(start)) continue;
+    const auto found = text.find(end, at + start.size());
+    return found == std::string_view::npos ? text.size() : found + end.size();
+  }
+  return at;
+}
+
+/// Puts a blank between attributes that follow one another without one, as TinyXML-2 lets them.
+std::string withAttributesApart(std::string text) {
+  std::string result;
+  std::size_t copied = 0;
+  for (auto at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    if (const auto end = endOfOtherMarkup(text, at); end != at) {
+      at = end;
+      continue;
+    }
+    for (++at; at < text.size() && text[at] != '>' && text[at] != '<'; ++at) {
+      if (text[at] != '"' && text[at] != '\'') continue;
+      at = text.find(text[at], at + 1);
+      if (at == std::string::npos || at + 1 == text.size()) break;
+      if (isBlankOrLineEnd(text[at + 1]) || text[at + 1] == '/' || text[at + 1] == '>') continue;
+      result.append(text, copied, at + 1 - copied).push_back(' ');
+      copied = at + 1;
+    }
+    if (at == std::string::npos) break;
+  }
+  return copied == 0 ? text : result.append(text, copied);
+}
+
 /// One scene file, or one file that it includes.
 struct SourceFile {
   std::shared_ptr<const std::filesystem::path> path;
@@ -43,7 +78,9 @@ struct SourceFile {
   pugi::xml_document document;
 
   explicit SourceFile(const std::filesystem::path& file)
-      : path(std::make_shared<const std::filesystem::path>(file)), text(readText(file)), lines(text) {
+      : path(std::make_shared<const std::filesystem::path>(file)),
+        text(withAttributesApart(readText(file))),
+        lines(text) {
     const auto result = document.load_buffer(text.data(), text.size());
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {

@@ -132,6 +132,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
     scene.pipelines.push_back(describePipeline(evaluation, parts, models));
     warnOf(parts, *root, scene);
   }
+  for (const auto& [component, text] : evaluation.warnings()) scene.warnings.push_back(remarkOn(*component, text));
   for (const auto* component : modelsBelow(*root))
     if (!models.has(*component))
       scene.outside.push_back(remarkOn(*component, "no collision pipeline of the scene takes this model"));
