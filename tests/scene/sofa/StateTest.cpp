@@ -136,6 +136,14 @@ TEST_F(SofaState, NumbersThatRunTogetherAreTakenApart) {
   EXPECT_THAT(complaintIn("<MechanicalObject position='0--1 2'/><PointModel/>"), HasSubstr("'0--1' is not a finite"));
 }
 
+TEST_F(SofaState, RestPositionsOfRigidFramesAreFrames) {
+  const auto scene = readIn("<MechanicalObject template='Rigid3' position='0 0 0 0 0 0 1' rest_position='1 2 3 0 0 0 1'/>"
+                            "<CollisionPipeline/>"
+                            "<Node><MechanicalObject name='m' position='@../mObject1.rest_position'/><PointModel/></Node>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 2, 3, 1, 2, 3}));
+  EXPECT_THAT(scene.warnings, testing::IsEmpty());
+}
+
 TEST_F(SofaState, ResultsThatOverflowAreNamed) {
   EXPECT_THAT(complaintIn("<MechanicalObject position='1e300 0 0' scale3d='1e300 1 1'/><PointModel/>"),
               HasSubstr("not finite"));

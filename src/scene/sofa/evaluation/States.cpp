@@ -133,11 +133,23 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
   return static_cast<std::size_t>(size);
 }
 
+std::size_t widthOf(const State& state) { return state.kind == State::Kind::Rigid ? 7 : 3; }
+
+std::vector<Vec3> restPositions(Evaluation& evaluation, const Component& component, const State& state) {
+  std::vector<Vec3> rest;
+  const auto given = evaluation.numbers(component, {"rest_position"}, widthOf(state));
+  for (std::size_t i = 0; given && i < given->size(); ++i) {
+    const auto* v = given->values.data() + i * given->width;
+    rest.push_back({v[0], v[1], v[2]});
+  }
+  return rest;
+}
+
 /// Moves a state as its own data say, and takes its rest positions on the way.
 void place(Evaluation& evaluation, const Component& component, State& state) {
   const auto placement = placementOf(evaluation, component);
   move(state, placement.scale, placement.rotation, placement.translation);
-  state.rest = evaluation.points(component, {"rest_position"});
+  state.rest = restPositions(evaluation, component, state);
   if (state.rest.size() != state.positions.size()) state.rest = state.positions;
   move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
 }
@@ -161,7 +173,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   state.kind = kindOf(component);
   if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
-  const std::size_t width = state.kind == State::Kind::Rigid ? 7 : 3;
+  const std::size_t width = widthOf(state);
   state.resize(1);
   if (const auto motion = evaluation.motionOfUnknownPoints(component, "position");
       motion && state.kind == State::Kind::Points) {
