@@ -255,5 +255,29 @@ TEST_F(SofaMapping, PointsOfASparseGridAreNotTakenForNone) {
               HasSubstr("depends on itself"));
 }
 
+TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
+  // Two beams along x, of lengths 2 and 4; the third frame is turned about x, so that its y is z.
+  const std::string beams =
+      "<MechanicalObject template='Rigid3' position='0 0 5 0 0 0 1  2 0 5 0 0 0 1  6 0 5 "
+      "0.70710678118654752 0 0 0.70710678118654752'/>";
+  const auto on = [&](const std::string& points, const std::string& data = "") {
+    return readIn(beams + "<Node><MechanicalObject position='" + points + "'/><PointModel/><BeamLinearMapping " + data +
+                  "/></Node>");
+  };
+  // By default coordinates are in beams: the length of a beam scales them.
+  EXPECT_THAT(onlyBox(on("0 0 0  2 0 0")), IsBox(Corners{0, 0, 5, 6, 0, 5}));
+  EXPECT_THAT(onlyBox(on("0.5 0.1 0")), IsBox(Corners{1, 0.2, 5, 1, 0.2, 5}));
+  EXPECT_THAT(onlyBox(on("2 0.5 0")), IsBox(Corners{6, 0, 7, 6, 0, 7}));
+  EXPECT_THAT(onlyBox(on("1.5 0.5 0")), IsBox(Corners{4, 1, 6, 4, 1, 6}));
+  EXPECT_THAT(onlyBox(on("-1 0 0")), IsBox(Corners{-2, 0, 5, -2, 0, 5}));
+  EXPECT_THAT(onlyBox(on("1 0.3 5.5  4 0 5", "localCoord='0'")), IsBox(Corners{1, 0, 5, 4, 0.3, 5.5}));
+  EXPECT_THAT(complaintIn(beams + "<Node><MechanicalObject position='99 0 0'/><PointModel/><BeamLinearMapping "
+                                  "localCoord='0'/></Node>"),
+              HasSubstr("far behind the last beam"));
+  EXPECT_THAT(complaintIn("<MechanicalObject template='Rigid3'/><Node><MechanicalObject position='0 0 0'/><PointModel/>"
+                          "<BeamLinearMapping/></Node>"),
+              HasSubstr("two frames or more"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

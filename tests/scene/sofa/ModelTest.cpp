@@ -261,5 +261,17 @@ TEST_F(SofaModel, AListOfRadiiThatLinksToNothingIsTheDefaultAndThatIsSaid) {
   EXPECT_THAT(scene.warnings[0].reason, HasSubstr("listRadius links to nothing"));
 }
 
+TEST_F(SofaModel, MethodsOfTheSameBoxesAreProximityMethods) {
+  for (const auto name : {"CCDTightInclusionIntersection", "CudaProximityIntersection"}) {
+    const auto scene = readIn(std::string{"<"} + name + " alarmDistance='0.5'/>");
+    EXPECT_TRUE(scene.pipelines[0].method.proximity) << name;
+    EXPECT_EQ(scene.pipelines[0].method.alarmDistance, 0.5) << name;
+    EXPECT_THAT(scene.warnings, testing::IsEmpty()) << name;
+  }
+  const auto scene = readIn("<CCDTightInclusionIntersection continuousCollisionType='Inertia'/>");
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("continuous"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -197,5 +197,41 @@ TEST_F(SofaTopology, UnknownTopologiesAndMappingsOfThemAreNamed) {
               HasSubstr("MagicTopologicalMapping 'm' (/1/m): this kind of topological mapping is not known"));
 }
 
+using SofaCube = SofaGrid;
+
+TEST_F(SofaCube, IsTheSurfaceOfABox) {
+  const std::string cube = "<CubeTopology nx='3' ny='4' nz='3' min='0 -1 -1' max='4 2 1' ";
+  EXPECT_EQ(counts(cube + "/><MechanicalObject/>"), (Counts{34, 64, 64}));
+  EXPECT_EQ(counts(cube + "internalPoints='1'/><MechanicalObject/>"), (Counts{36, 64, 64}));
+  EXPECT_EQ(counts("<CubeTopology nx='3' ny='2' nz='1'/><MechanicalObject/>"), (Counts{6, 7, 4}));
+  const auto scene = readIn(cube + "/><MechanicalObject/><PointModel/><TriangleModel/>");
+  EXPECT_THAT(boxOf(scene.models[0]), IsBox(Corners{0, -1, -1, 4, 2, 1}));
+  EXPECT_THAT(boxOf(scene.models[1]), IsBox(Corners{0, -1, -1, 4, 2, 1}));
+  // The last points are those of the sides half way up: along x in front and behind, then along y left and right.
+  const auto& points = scene.models[0].positions;
+  EXPECT_EQ(points[24], (Vec3{0, -1, 0}));
+  EXPECT_EQ(points[27], (Vec3{0, 2, 0}));
+  EXPECT_EQ(points[30], (Vec3{0, 0, 0}));
+  EXPECT_EQ(points[33], (Vec3{4, 1, 0}));
+  EXPECT_THAT(complaintIn("<CubeTopology name='c' splitNormals='1'/><MechanicalObject/><PointModel/>"),
+              HasSubstr("corners are split"));
+}
+
+TEST_F(SofaCube, ASquareMadeByACreatorIsCutByItsPattern) {
+  const auto square = [](const std::string& data) {
+    return "<GridMeshCreator name='l' resolution='3 2' " + data +
+           "/><MeshTopology src='@l'/><MechanicalObject src='@l'/>";
+  };
+  EXPECT_EQ(counts(square("")), (Counts{6, 9, 4}));
+  EXPECT_EQ(counts(square("trianglePattern='0'")), (Counts{6, 7, 4})) << "two quads, of two triangles each";
+  const auto scene = readIn(square("trianglePattern='1' scale3d='2 3 1' translation='1 0 0'") + "<TriangleModel/>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 0, 0, 3, 3, 0}));
+  EXPECT_EQ(scene.models[0].triangles, (Elements<3>{{0, 1, 4}, {0, 4, 3}, {1, 2, 4}, {2, 5, 4}}));
+  EXPECT_EQ(readIn(square("trianglePattern='3'") + "<TriangleModel/>").models[0].triangles[0],
+            (std::array<Index, 3>{0, 1, 3}));
+  EXPECT_THAT(complaintIn("<GridMeshCreator name='l' resolution='1 2'/><MechanicalObject src='@l'/><PointModel/>"),
+              HasSubstr("two points in each direction"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

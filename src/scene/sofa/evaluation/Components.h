@@ -28,6 +28,8 @@ class Evaluation;
 [[nodiscard]] State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child);
 /// The points of one state, carried by a rigid frame of another.
 [[nodiscard]] State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child);
+/// Points that follow beams: the frames of a rigid state, one after the other.
+[[nodiscard]] State mapOnBeams(Evaluation& evaluation, const Component& mapping, const Component& beams, State child);
 /// A skin on bones that are at rest: it stays where it is.
 [[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,

@@ -7,6 +7,7 @@
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
 #include "sofa/graph/Links.h"
+#include "sofa/mesh/CubeSurface.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -165,6 +166,27 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   return topology;
 }
 
+Topology cubeTopology(Evaluation& evaluation, const Component& component) {
+  if (evaluation.flag(component, "splitNormals", false))
+    throw Unplaceable(component, "a cube whose corners are split is not known to this reader");
+  Vec3 counts{evaluation.number(component, {"nx"}, 0), evaluation.number(component, {"ny"}, 0),
+              evaluation.number(component, {"nz"}, 0)};
+  for (auto& n : counts) n = std::max(0.0, std::trunc(n));
+  const auto corners = gridCorners(evaluation, component);
+  CubeSurface cube{.points = toCounts(component, counts),
+                   .origin = corners.min,
+                   .inner = evaluation.flag(component, "internalPoints", false)};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cube.spacing[axis] = counts[axis] > 1 ? (corners.max[axis] - corners.min[axis]) / (counts[axis] - 1) : 0.0;
+  constexpr std::uint64_t kElements = 4;  // elements take this many times the memory of the points
+  evaluation.takePoints(component, kElements * cube.points[0] * cube.points[1] * cube.points[2]);
+  Topology topology;
+  topology.given = meshOf(cube);
+  topology.pointCount = topology.given.positions.size();
+  topology.hasPositions = topology.pointCount > 0;
+  return topology;
+}
+
 Topology sparseGrid() {
   Topology topology;
   topology.sparse = true;
@@ -196,6 +218,8 @@ Topology buildTopology(Evaluation& evaluation, const Component& component) {
       return containerTopology(evaluation, component);
     case RegularGrid:
       return regularGrid(evaluation, component);
+    case CubeTopology:
+      return cubeTopology(evaluation, component);
     case SparseGrid:
       return sparseGrid();
     default:

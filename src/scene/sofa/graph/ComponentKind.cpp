@@ -48,7 +48,8 @@ void addPipeline(Table& table) {
     table[name] = {BroadPhase, name};
   for (const auto name : {"DirectSAPNarrowPhase", "RayTraceNarrowPhase"}) table[name] = {Other, name};
   table["DiscreteIntersection"] = {DiscreteMethod, "DiscreteIntersection"};
-  for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"})
+  for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance",
+                          "CCDTightInclusionIntersection", "CudaProximityIntersection"})
     table[name] = {ProximityMethod, name};
 }
 
@@ -82,6 +83,7 @@ void addMappings(Table& table) {
   table["Triangle2EdgeTopologicalMapping"] = {Triangle2Edge, {}};
   table["Edge2QuadTopologicalMapping"] = {Edge2Quad, {}};
   for (const auto name : {"RigidMapping", "RigidRigidMapping"}) table[name] = {RigidMapping, name};
+  for (const auto name : {"BeamLinearMapping", "BeamLinearMapping_mt"}) table[name] = {BeamLinearMapping, name};
   table["IdentityMapping"] = {IdentityMapping, "IdentityMapping"};
   table["SubsetMapping"] = {SubsetMapping, "SubsetMapping"};
   for (const auto name : {"BarycentricMapping", "TopologyBarycentricMapping"})
@@ -96,9 +98,9 @@ void addMappings(Table& table) {
 void addSources(Table& table) {
   table["MechanicalObject"] = {MechanicalState, "MechanicalObject"};
   for (const auto name : {"MeshObjLoader", "MeshOBJLoader", "MeshGmshLoader", "MeshVTKLoader", "MeshOffLoader",
-                          "MeshTrianLoader", "MeshSTLLoader"})
+                          "MeshTrianLoader", "MeshSTLLoader", "GridMeshCreator"})
     table[name] = {MeshLoader, name};
-  for (const auto name : {"MeshXspLoader", "GIDMeshLoader", "StringMeshCreator", "GridMeshCreator", "VoxelGridLoader",
+  for (const auto name : {"MeshXspLoader", "GIDMeshLoader", "StringMeshCreator", "VoxelGridLoader",
                           "MeshTetraStuffingLoader", "MeshLoader"})
     table[name] = {UnknownLoader, name};
   table["SphereLoader"] = {SphereLoader, "SphereLoader"};

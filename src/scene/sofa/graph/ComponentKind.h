@@ -42,6 +42,7 @@ enum class ComponentKind {
   Edge2Quad,
   UnknownTopologicalMapping,
   RigidMapping,
+  BeamLinearMapping,
   IdentityMapping,
   SubsetMapping,
   BarycentricMapping,

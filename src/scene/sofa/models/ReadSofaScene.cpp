@@ -118,12 +118,27 @@ Kept addModels(sofa::SceneDescription& description, bool partial, Scene& scene) 
   return kept;
 }
 
+/// Methods that differ from another in their narrow phase only, under names of their own.
+class CcdTightInclusionIntersection final : public collision::NewProximityIntersection {
+ public:
+  [[nodiscard]] std::string_view typeName() const override { return "CCDTightInclusionIntersection"; }
+};
+
+class CudaProximityIntersection final : public collision::NewProximityIntersection {
+ public:
+  [[nodiscard]] std::string_view typeName() const override { return "CudaProximityIntersection"; }
+};
+
 std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescription& method) {
   std::unique_ptr<collision::Intersection> result;
   if (method.name == "MinProximityIntersection")
     result = std::make_unique<collision::MinProximityIntersection>();
   else if (method.name == "NewProximityIntersection")
     result = std::make_unique<collision::NewProximityIntersection>();
+  else if (method.name == "CCDTightInclusionIntersection")
+    result = std::make_unique<CcdTightInclusionIntersection>();
+  else if (method.name == "CudaProximityIntersection")
+    result = std::make_unique<CudaProximityIntersection>();
   else if (method.name == "LocalMinDistance")
     result = std::make_unique<collision::LocalMinDistance>();
   else

@@ -15,12 +15,20 @@
 namespace allpairs::scene::sofa {
 namespace {
 
+void warnOfMotion(Evaluation& evaluation, const Component& method) {
+  const auto* type = method.attributes.find("continuousCollisionType");
+  if (type != nullptr && *type != "None" && *type != "0")
+    evaluation.warn(method,
+                    "the method is continuous; boxes here are those of the start, without the motion of a step");
+}
+
 MethodDescription describeMethod(Evaluation& evaluation, const Component* method) {
   if (method == nullptr) return {};
   if (method->kind() == ComponentKind::OtherMethod)
     throw Unplaceable(*method, "this intersection method is not known to this reader");
   MethodDescription result{.name = method->type, .proximity = method->kind() == ComponentKind::ProximityMethod};
   result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, result.proximity ? 1.0 : 0.0);
+  warnOfMotion(evaluation, *method);
   result.contactDistance = evaluation.number(*method, {"contactDistance"}, result.proximity ? 0.5 : 0.0);
   return result;
 }
