@@ -279,5 +279,50 @@ TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
               HasSubstr("two frames or more"));
 }
 
+/// A cube of length 1 as a Wavefront file.
+constexpr auto kCubeObj =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\n"
+    "f 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+TEST_F(SofaMapping, ASparseGridHasTheCellsThatASurfaceRunsThroughOrEncloses) {
+  write("cube.obj", kCubeObj);
+  write("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto points = [this](const std::string& file, const std::string& data) {
+    return readIn("<SparseGridTopology fileTopology='" + file + "' " + data + "/><MechanicalObject/><PointModel/>");
+  };
+  const auto whole = points("cube.obj", "n='4 4 4'");
+  EXPECT_EQ(whole.models[0].positions.size(), 64U) << "the cell in the middle is inside";
+  EXPECT_THAT(boxOf(whole.models[0]), IsBox(Corners{-0.01, -0.01, -0.01, 1.01, 1.01, 1.01}));
+  EXPECT_EQ(whole.models[0].positions[1], (Vec3{-0.01, -0.01, -0.01 + 1.02 / 3})) << "z runs first";
+  const auto corner = points("corner.obj", "n='4 4 4'");
+  EXPECT_EQ(corner.models[0].positions.size(), 51U) << "17 of 27 cells";
+  EXPECT_EQ(points("corner.obj", "n='4 4 4' min='0 0 0' max='2 2 2'").models[0].positions.size(), 20U);
+  EXPECT_EQ(points("cube.obj", "cellWidth='0.6'").models[0].positions.size(), 27U);
+  EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj' n='3 3 3' min='0.5 0 0' max='2 2 2'/>"
+                          "<MechanicalObject/><PointModel/>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj' nbVirtualFinerLevels='2'/><MechanicalObject/>"
+                          "<PointModel/>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj'/><MechanicalObject/><LineModel/>"),
+              HasSubstr("the edges and faces of its sparse grid"));
+}
+
+TEST_F(SofaMapping, PointsInASparseGridFollowAFrameThatCarriesIt) {
+  write("cube.obj", kCubeObj);
+  const std::string grid = "<SparseGridTopology filename='cube.obj' n='3 3 3'/>";
+  const auto carried = [&](const std::string& second) {
+    return "<Node name='a'><MechanicalObject name='frame' template='Rigid3' position='1 2 0 0 0 0.70710678118654752 "
+           "0.70710678118654752'/>" +
+           grid + "<MechanicalObject name='free' dx='1'/><Node name='b'>" + second +
+           "<MechanicalObject name='m'/><DeformableOnRigidFrameMapping input1='@../free' input2='@../frame' "
+           "output='@m'/>" +
+           kOnSparseGrid + "</Node></Node>";
+  };
+  EXPECT_THAT(onlyBox(readIn(carried(grid))), IsBox(Corners{0, 3, 0, 1, 4, 1}));
+  EXPECT_THAT(complaintIn(carried("<SparseGridTopology filename='cube.obj' n='4 4 4'/>")),
+              HasSubstr("its sparse grid moves in an unknown way"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

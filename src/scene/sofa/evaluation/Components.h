@@ -39,8 +39,8 @@ class Evaluation;
                                                 std::string_view name);
 /// The shape of a regular grid: the data n, min, max and p0, whatever attributes give them.
 [[nodiscard]] std::optional<Vec3> gridData(Evaluation& evaluation, const Component& grid, std::string_view name);
-[[nodiscard]] std::optional<AffineMap> motionOfUnknownPoints(Evaluation& evaluation, const Component& component,
-                                                             std::string_view name);
+[[nodiscard]] std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component,
+                                                   std::string_view name);
 /// The data of an engine, nothing if it has none of this name.
 [[nodiscard]] std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine,
                                                   std::string_view name);

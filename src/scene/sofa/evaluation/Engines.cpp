@@ -64,22 +64,24 @@ std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, s
 
 }  // namespace
 
-std::optional<AffineMap> motionOfUnknownPoints(Evaluation& evaluation, const Component& component,
-                                               std::string_view name) {
+std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component, std::string_view name) {
   const auto* text = component.attributes.find(component.attributes.has(name) ? name : "src");
   const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
   const auto* from = link ? followPath(*component.node, &component, link->path).component : nullptr;
   if (from == nullptr) return std::nullopt;
   const bool isNamed = component.attributes.has(name) && !link->data.empty();
   const std::string_view data = isNamed ? std::string_view{link->data} : name;
-  if (from->kind() == ComponentKind::SparseGrid && data == "position") return AffineMap{};
+  if (from->kind() == ComponentKind::SparseGrid && data == "position")
+    return GridMotion{.map = {}, .areUnknown = evaluation.topology(*from).unknown};
   if (from->kind() == ComponentKind::MechanicalState && data == "position") {
     const auto& state = evaluation.state(*from);
-    return state.pointsUnknown ? state.fromTopology : std::nullopt;
+    if (!state.pointsUnknown) return std::nullopt;
+    return GridMotion{.map = *state.fromTopology, .areUnknown = true};
   }
   if (from->kind() != ComponentKind::TransformEngine || data != "output_position") return std::nullopt;
-  const auto before = evaluation.motionOfUnknownPoints(*from, "input_position");
-  return before ? std::optional(compose(motionOf(evaluation, *from), *before)) : std::nullopt;
+  const auto before = evaluation.gridMotion(*from, "input_position");
+  if (!before) return before;
+  return GridMotion{.map = compose(motionOf(evaluation, *from), before->map), .areUnknown = before->areUnknown};
 }
 
 std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine, std::string_view name) {

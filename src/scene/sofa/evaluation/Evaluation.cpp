@@ -190,9 +190,9 @@ const State& Evaluation::knownState(const Component& component) {
   return result;
 }
 
-std::optional<AffineMap> Evaluation::motionOfUnknownPoints(const Component& component, std::string_view name) {
+std::optional<GridMotion> Evaluation::gridMotion(const Component& component, std::string_view name) {
   const Busy busy(*this, component, std::string{name} + " motion");
-  return sofa::motionOfUnknownPoints(*this, component, name);
+  return sofa::gridMotion(*this, component, name);
 }
 
 std::optional<Numbers> Evaluation::written(const Component& component, std::string_view name, const std::string& text) {
@@ -263,7 +263,8 @@ std::optional<Numbers> Evaluation::output(const Component& component, std::strin
   if (const auto value = gridData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (isTopology(kind) && isMeshData(name)) {
     auto& from = topology(component);
-    if (from.sparse)
+    const bool isKnown = name == "position" || name == "points" || name == "hexahedra" || name == "hexas";
+    if (from.unknown || (from.sparse && !isKnown))
       throw Unplaceable(component,
                         "its " + std::string{name} + " are those of a sparse grid, which this reader does not compute");
     if (auto value = listOf(name, from.given.positions, from)) return value;

@@ -35,9 +35,8 @@ class Evaluation {
   /// The same, but throws if the points themselves are not known.
   const State& knownState(const Component& component);
 
-  /// How a data of a component moves the points of a sparse grid that it is made of, which are not known themselves;
-  /// nothing if it is made of others.
-  std::optional<AffineMap> motionOfUnknownPoints(const Component& component, std::string_view name);
+  /// How a data of a component moves the points of a sparse grid that it is made of; nothing if it is made of others.
+  std::optional<GridMotion> gridMotion(const Component& component, std::string_view name);
 
   /// Counts points that a component is about to make, of which a scene may ask for more than it writes out.
   void takePoints(const Component& component, std::uint64_t count);

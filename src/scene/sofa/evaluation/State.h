@@ -28,6 +28,12 @@ struct AffineMap {
           after(before.offset)};
 }
 
+/// How the points of a sparse grid were moved that a data holds.
+struct GridMotion {
+  AffineMap map{};
+  bool areUnknown = false;  ///< The points themselves are not known, only how they were moved.
+};
+
 /// The degrees of freedom of a state component at the start of the simulation.
 struct State {
   enum class Kind { Points, Rigid, Other };

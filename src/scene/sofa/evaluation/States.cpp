@@ -116,7 +116,7 @@ void takePoints(Evaluation& evaluation, const Component& component, State& state
   state.resize(tooLate ? 0 : topology.pointCount);
   for (std::size_t i = 0; i < state.positions.size(); ++i) state.positions[i] = topology.position(i);
   state.fromTopology = AffineMap{};
-  state.pointsUnknown = topology.sparse && !tooLate;
+  state.pointsUnknown = topology.unknown && !tooLate;
 }
 
 /// How many entries the other vectors of a state have that were written out.
@@ -175,10 +175,10 @@ State initialState(Evaluation& evaluation, const Component& component) {
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
   const std::size_t width = widthOf(state);
   state.resize(1);
-  if (const auto motion = evaluation.motionOfUnknownPoints(component, "position");
-      motion && state.kind == State::Kind::Points) {
+  const auto motion = state.kind == State::Kind::Points ? evaluation.gridMotion(component, "position") : std::nullopt;
+  if (motion && motion->areUnknown) {
     state.resize(0);
-    state.fromTopology = motion;
+    state.fromTopology = motion->map;
     state.pointsUnknown = true;
     place(evaluation, component, state);
     return state;
@@ -197,6 +197,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   if (largest > std::max<std::size_t>(state.positions.size(), 1)) state.resize(largest);
   if (state.positions.size() <= 1) takePoints(evaluation, component, state);
 
+  if (motion) state.fromTopology = motion->map;
   place(evaluation, component, state);
   return state;
 }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
 #include "sofa/graph/Links.h"
 #include "sofa/mesh/CubeSurface.h"
+#include "sofa/mesh/SparseGrid.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -187,10 +190,85 @@ Topology cubeTopology(Evaluation& evaluation, const Component& component) {
   return topology;
 }
 
-Topology sparseGrid() {
+/// The surface that a sparse grid is made around: that of its Wavefront file or of its own lists; nothing of others.
+std::optional<Mesh> surfaceOf(Evaluation& evaluation, const Component& component) {
+  if (evaluation.isGiven(component, {"facets"})) return std::nullopt;
+  Mesh surface;
+  if (const auto file = evaluation.file(component, {"filename", "fileTopology"})) {
+    if (lowerExtension(*file) != ".obj") return std::nullopt;
+    surface = readObj(*file);
+    checkMesh(surface, *file);
+  } else {
+    surface = evaluation.elementLists(component);
+    surface.positions = evaluation.points(component, {"position", "points"});
+    if (indicesUsed(surface) > surface.positions.size()) return std::nullopt;
+  }
+  if (surface.positions.empty()) return std::nullopt;
+  return surface;
+}
+
+/// A surface that cannot be read is an error only to those that need the points of the grid around it.
+std::optional<Mesh> readableSurfaceOf(Evaluation& evaluation, const Component& component) {
+  try {
+    return surfaceOf(evaluation, component);
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+Corners cornersAround(const Mesh& surface) {
+  constexpr double kMargin = 0.01;  // Of the extent, to each side.
+  Corners corners{surface.positions[0], surface.positions[0]};
+  for (const auto& p : surface.positions)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      corners.min[axis] = std::min(corners.min[axis], p[axis]);
+      corners.max[axis] = std::max(corners.max[axis], p[axis]);
+    }
+  const auto margin = (corners.max - corners.min) * kMargin;
+  return {corners.min - margin, corners.max + margin};
+}
+
+/// The regular grid that a sparse grid is cut from; with a spacing of zero where the surface is flat.
+GridShape shapeAround(Evaluation& evaluation, const Component& component, const Mesh& surface) {
+  Corners corners{evaluation.vector(component, {"min"}, {}), evaluation.vector(component, {"max"}, {})};
+  if (corners.min == Vec3{} && corners.max == Vec3{}) corners = cornersAround(surface);
+  Vec3 counts = evaluation.vector(component, {"n"}, {2, 2, 2});
+  for (auto& n : counts) n = std::max(2.0, std::trunc(n));
+  if (const double width = evaluation.number(component, {"cellWidth"}, 0); width != 0)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      counts[axis] = std::ceil((corners.max[axis] - corners.min[axis]) / width) + 1;
+  auto shape = gridBetween(corners, counts);
+  shape.points = toCounts(component, counts);
+  return shape;
+}
+
+/// The points and cells of a sparse grid; nothing where this reader does not know how SOFA finds them.
+std::optional<Mesh> sparseMesh(Evaluation& evaluation, const Component& component) {
+  const bool isPlain = component.type == "SparseGridTopology" || component.type == "SparseGrid";
+  const auto* loader = inContext(*component.node, [](const Component& c) { return c.type == "VoxelGridLoader"; });
+  if (!isPlain || loader != nullptr || evaluation.number(component, {"nbVirtualFinerLevels"}, 0) != 0 ||
+      evaluation.flag(component, "onlyInsideCells", false) ||
+      evaluation.isGiven(component, {"nx", "ny", "nz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax"}))
+    return std::nullopt;
+  const auto surface = readableSurfaceOf(evaluation, component);
+  if (!surface) return std::nullopt;
+  const auto shape = shapeAround(evaluation, component, *surface);
+  if (!std::ranges::all_of(shape.spacing, [](double step) { return step > 0; })) return std::nullopt;
+  if (!shape.isVolume()) return std::nullopt;
+  constexpr std::uint64_t kElements = 8;  // cells take this many times the memory of the points
+  evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
+  return sparseGrid(shape, *surface);
+}
+
+Topology sparseGridTopology(Evaluation& evaluation, const Component& component) {
   Topology topology;
   topology.sparse = true;
   topology.hasPositions = true;
+  auto mesh = sparseMesh(evaluation, component);
+  topology.unknown = !mesh;
+  if (!mesh) return topology;
+  topology.given = std::move(*mesh);
+  topology.pointCount = topology.given.positions.size();
   return topology;
 }
 
@@ -221,7 +299,7 @@ Topology buildTopology(Evaluation& evaluation, const Component& component) {
     case CubeTopology:
       return cubeTopology(evaluation, component);
     case SparseGrid:
-      return sparseGrid();
+      return sparseGridTopology(evaluation, component);
     default:
       throw Unplaceable(component, "this kind of topology is not known to this reader");
   }

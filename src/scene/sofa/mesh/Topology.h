@@ -44,7 +44,8 @@ class Topology {
   Mesh given;                 ///< Positions may be fewer or more than pointCount.
   std::optional<GridShape> grid;
   std::array<std::size_t, 3> cells{2, 1, 1};  ///< Of grids along x, y and z, which some mappings ask for.
-  bool sparse = false;                        ///< A sparse grid: neither its points nor its cells are known.
+  bool sparse = false;                        ///< A sparse grid, of which edges and faces are not known.
+  bool unknown = false;                       ///< Neither are its points and its cells.
 
   [[nodiscard]] const Elements<2>& edges();
   [[nodiscard]] const Elements<3>& triangles();

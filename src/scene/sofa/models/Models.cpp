@@ -26,7 +26,7 @@ const Component& topologyComponentOf(const Component& model) {
 Topology& topologyOf(Evaluation& evaluation, const Component& model) {
   const auto* which = &topologyComponentOf(model);
   auto& topology = evaluation.topology(*which);
-  if (topology.sparse) throw Unplaceable(model, "the cells of its sparse grid are not known to this reader");
+  if (topology.sparse) throw Unplaceable(model, "the edges and faces of its sparse grid are not known to this reader");
   return topology;
 }
 
