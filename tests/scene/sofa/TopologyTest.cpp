@@ -233,5 +233,35 @@ TEST_F(SofaCube, ASquareMadeByACreatorIsCutByItsPattern) {
               HasSubstr("two points in each direction"));
 }
 
+TEST_F(SofaTopology, ASubsetIsWhatLiesInBoxesOrSpheres) {
+  // Three squares in a row along x, each of two triangles: points 0 to 3 below, 4 to 7 above.
+  const auto subset = [](const std::string& data, const std::string& part) {
+    return "<MeshTopology name='m' position='0 0 0 1 0 0 2 0 0 3 0 0 0 1 0 1 1 0 2 1 0 3 1 0' triangles='0 1 5 0 5 4 1 "
+           "2 "
+           "6 1 6 5 2 3 7 2 7 6'/><Node><SubsetTopology name='s' rest_position='@../m.position' "
+           "triangles='@../m.triangles' " +
+           data + "/><Node><MechanicalObject position='" +
+           (data.find("local") == std::string::npos ? "@../../m.position" : "@../s.points" + part) +
+           "'/><MeshTopology triangles='@../s.triangles" + part + "'/><PointModel/><TriangleModel/></Node></Node>";
+  };
+  const auto trianglesOf = [&](const std::string& data, const std::string& part) {
+    return readIn(subset(data, part)).models.at(1).triangles;
+  };
+  const std::string box = "box='2.5 2 1 0.5 -1 -1'";
+  EXPECT_EQ(trianglesOf(box, "InROI"), (Elements<3>{{1, 2, 6}, {1, 6, 5}}));
+  EXPECT_EQ(trianglesOf(box, "OutROI"), (Elements<3>{{0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6}}));
+  EXPECT_EQ(trianglesOf("centers='0.5 0.5 0 2.5 0.5 0' radii='0.8 0.6'", "InROI"), (Elements<3>{{0, 1, 5}, {0, 5, 4}}));
+  // All four points inside belong to triangles that are partly outside, and come first in both parts.
+  const auto in = readIn(subset(box + " localIndices='1'", "InROI"));
+  EXPECT_EQ(in.models[0].positions, (std::vector<Vec3>{{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 1, 0}}));
+  EXPECT_EQ(in.models[1].triangles, (Elements<3>{{0, 1, 3}, {0, 3, 2}}));
+  const auto out = readIn(subset(box + " localIndices='1'", "OutROI"));
+  EXPECT_EQ(out.models[0].positions.size(), 8U);
+  EXPECT_THAT(boxOf(out.models[1]), IsBox(Corners{0, 0, 0, 3, 1, 0}));
+  EXPECT_EQ(out.models[1].triangles[0], (std::array<Index, 3>{4, 0, 2}));
+  EXPECT_THAT(complaintIn(subset("centers='0 0 0'", "InROI")), HasSubstr("not one radius for each centre"));
+  EXPECT_THAT(complaintIn(subset(box + " tetrahedraInput='0'", "InROI")), HasSubstr("cannot compute"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

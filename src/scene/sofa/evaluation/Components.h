@@ -45,6 +45,10 @@ class Evaluation;
 [[nodiscard]] std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine,
                                                   std::string_view name);
 
+/// The data of an engine that parts a mesh in two: what lies in its boxes or spheres, and the rest.
+[[nodiscard]] std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& engine,
+                                                  std::string_view name);
+
 /// The state that a mapping reads or null, the state that it writes or null.
 [[nodiscard]] const Component* mappingInput(const Component& mapping);
 [[nodiscard]] const Component* mappingOutput(const Component& mapping);

@@ -90,6 +90,8 @@ std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& eng
       return transformed(evaluation, engine, name);
     case ComponentKind::MergePoints:
       return merged(evaluation, engine, name);
+    case ComponentKind::SubsetTopology:
+      return subsetOutput(evaluation, engine, name);
     default:
       return std::nullopt;
   }

@@ -24,24 +24,15 @@ bool isMeshData(std::string_view name) {
   return false;
 }
 
-template <std::size_t N>
-Numbers cornerNumbers(const Elements<N>& elements) {
-  Numbers result{.values = {}, .width = N};
-  result.values.reserve(elements.size() * N);
-  for (const auto& element : elements)
-    for (const auto corner : element) result.values.push_back(corner);
-  return result;
-}
-
 /// One of the lists that loaders and topologies have in common.
 template <class Source>
 std::optional<Numbers> listOf(std::string_view name, const std::vector<Vec3>& positions, Source&& source) {
   if (name == "position" || name == "points") return toNumbers(positions);
-  if (name == "edges" || name == "lines") return cornerNumbers(source.edges());
-  if (name == "triangles") return cornerNumbers(source.triangles());
-  if (name == "quads") return cornerNumbers(source.quads());
-  if (name == "tetrahedra" || name == "tetras") return cornerNumbers(source.tetrahedra());
-  if (name == "hexahedra" || name == "hexas") return cornerNumbers(source.hexahedra());
+  if (name == "edges" || name == "lines") return toNumbers(source.edges());
+  if (name == "triangles") return toNumbers(source.triangles());
+  if (name == "quads") return toNumbers(source.quads());
+  if (name == "tetrahedra" || name == "tetras") return toNumbers(source.tetrahedra());
+  if (name == "hexahedra" || name == "hexas") return toNumbers(source.hexahedra());
   return std::nullopt;
 }
 
@@ -90,7 +81,8 @@ std::uint64_t sizeOf(const Mesh& mesh) {
 }
 
 bool isEngine(ComponentKind kind) {
-  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints || kind == ComponentKind::BoxRoi;
+  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints ||
+         kind == ComponentKind::BoxRoi || kind == ComponentKind::SubsetTopology;
 }
 
 }  // namespace

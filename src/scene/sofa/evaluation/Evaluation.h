@@ -101,5 +101,13 @@ class Evaluation {
 };
 
 [[nodiscard]] Numbers toNumbers(const std::vector<Vec3>& points);
+template <std::size_t N>
+[[nodiscard]] Numbers toNumbers(const Elements<N>& elements) {
+  Numbers result{.values = {}, .width = N};
+  result.values.reserve(elements.size() * N);
+  for (const auto& element : elements)
+    for (const auto corner : element) result.values.push_back(corner);
+  return result;
+}
 
 }  // namespace allpairs::scene::sofa

@@ -106,6 +106,7 @@ void addSources(Table& table) {
   table["SphereLoader"] = {SphereLoader, "SphereLoader"};
   for (const auto name : {"TransformEngine"}) table[name] = {TransformEngine, name};
   table["MergePoints"] = {MergePoints, "MergePoints"};
+  table["SubsetTopology"] = {SubsetTopology, "SubsetTopology"};
   table["BoxROI"] = {BoxRoi, "BoxROI"};
 }
 

@@ -54,6 +54,7 @@ enum class ComponentKind {
   TransformEngine,
   MergePoints,
   BoxRoi,
+  SubsetTopology,
   PointModel,
   LineModel,
   TriangleModel,
