@@ -9,7 +9,7 @@
 #include "ModelMesh.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
-#include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "view/ViewBoxes.h"
