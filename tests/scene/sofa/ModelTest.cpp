@@ -273,5 +273,16 @@ TEST_F(SofaModel, MethodsOfTheSameBoxesAreProximityMethods) {
   EXPECT_THAT(scene.warnings[0].reason, HasSubstr("continuous"));
 }
 
+TEST_F(SofaModel, ModelsOfPluginsAreNotOverlooked) {
+  for (const auto name : {"TBulletSphereModel", "BulletTriangleModel", "TBulletConvexHullModel", "CudaPointModel"})
+    EXPECT_THAT(complaintIn(std::string{"<MechanicalObject/><"} + name + "/>"),
+                HasSubstr("this kind of collision model is not known"))
+        << name;
+  for (const auto name : {"OglModel", "OglCylinderModel", "CudaVisualModel", "PointSplatModel", "CylinderVisualModel"})
+    EXPECT_THAT(readIn(std::string{"<MechanicalObject/><"} + name + "/>").models, testing::IsEmpty()) << name;
+  EXPECT_THAT(onlyBox(readIn("<MechanicalObject template='CudaVec3f' position='1 0 0'/><CudaSphereModel radius='2'/>")),
+              IsBox(Corners{-1, -2, -2, 3, 2, 2}));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -21,7 +21,8 @@ void addModels(Table& table) {
     table[name] = {TriangleModel, "TTriangleModel"};
   for (const auto name : {"TriangleOctreeModel", "TriangleOctree", "TriangleOctreeCollisionModel"})
     table[name] = {TriangleModel, "TriangleOctreeCollisionModel"};
-  for (const auto name : {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere"})
+  for (const auto name :
+       {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere", "CudaSphereModel", "CudaSphereCollisionModel"})
     table[name] = {SphereModel, "TSphereModel"};
   for (const auto name : {"CapsuleModel", "CapsuleCollisionModel", "TCapsuleModel", "Capsule", "RigidCapsule",
                           "RigidCapsuleModel", "RigidCapsuleCollisionModel"})
@@ -123,6 +124,13 @@ const Table& knownClasses() {
   return table;
 }
 
+/// Collision models of plugins that do not say so in their names, such as TBulletSphereModel.
+bool isPluginModel(std::string_view type) {
+  const auto has = [type](std::string_view part) { return type.find(part) != std::string_view::npos; };
+  if (!type.ends_with("Model") || type.starts_with("Ogl") || has("Visual") || has("Splat")) return false;
+  return has("Sphere") || has("Point") || has("Line") || has("Triangle") || has("Capsule") || has("ConvexHull");
+}
+
 }  // namespace
 
 ComponentClass classOf(std::string_view type) {
@@ -130,7 +138,7 @@ ComponentClass classOf(std::string_view type) {
   if (const auto found = classes.find(type); found != classes.end()) return found->second;
   if (type.ends_with("TopologicalMapping")) return {UnknownTopologicalMapping, {}};
   if (type.ends_with("Mapping")) return {UnknownMapping, {}};
-  if (type.ends_with("CollisionModel")) return {UnknownModel, {}};
+  if (type.ends_with("CollisionModel") || isPluginModel(type)) return {UnknownModel, {}};
   if (type.ends_with("TopologyContainer") || type.ends_with("Topology")) return {UnknownTopology, {}};
   if (type.ends_with("Intersection")) return {OtherMethod, {}};
   return {};
