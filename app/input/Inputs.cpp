@@ -30,7 +30,7 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;
   if (!settings.sofa.empty())
-    options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::V20_06 : scene::SofaVersion::V26_12;
+    options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.progress = [&line](const scene::Progress& progress) {
     const std::string count =
         progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " + std::to_string(progress.total);

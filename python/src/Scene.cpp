@@ -24,7 +24,7 @@ std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector
   scene::ReadOptions options;
   options.searchRoots = std::move(searchRoots);
   options.partial = partial;
-  if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::V20_06 : scene::SofaVersion::V26_12;
+  if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.allowOutside = allowOutside;
   options.maxMemory = maxMemory;
   return std::make_shared<LoadedScene>(path, options);

@@ -18,9 +18,9 @@ struct Progress {
 
 /// Which SOFA a scene is read as: they differ in the edges of grids and in the names of components without one.
 enum class SofaVersion {
-  FromScene,  ///< By the components that the scene names: V26_12 where one is known to that alone.
-  V20_06,     ///< 20.06 and before.
-  V26_12,     ///< 22.06 to 26.12.
+  FromScene,  ///< By the components that the scene names: Sofa2612 where one is known to that alone.
+  Sofa2006,   ///< 20.06 and before.
+  Sofa2612,   ///< 22.06 to 26.12.
 };
 
 /// How input is read; the defaults suit files that name no others.

@@ -229,9 +229,9 @@ TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewer
   EXPECT_EQ(pathsOf(readIn("<RequiredPlugin name='Sofa.Component.Mass'/>" + text)), names);
   EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text)), names);
   EXPECT_EQ(pathsOf(readIn("<CollisionPipeline/>" + text))[0], "/A/tTriangleModel1");
-  m_sofa = SofaVersion::V26_12;
+  m_sofa = SofaVersion::Sofa2612;
   EXPECT_EQ(pathsOf(readIn(text)), names);
-  m_sofa = SofaVersion::V20_06;
+  m_sofa = SofaVersion::Sofa2006;
   EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text))[0], "/A/tTriangleModel1");
 }
 

@@ -111,7 +111,7 @@ TEST_F(SofaGrid, HasEdgesQuadsAndTheirTriangles) {
 }
 
 TEST_F(SofaGrid, HasTheEdgesOfItsTrianglesInNewerSofa) {
-  m_sofa = SofaVersion::V26_12;
+  m_sofa = SofaVersion::Sofa2612;
   EXPECT_EQ(counts("<RegularGrid n='2 2 2'/><MechanicalObject/>"), (Counts{8, 18, 24}));
   EXPECT_EQ(counts("<RegularGrid n='3 3 1'/><MechanicalObject/>"), (Counts{9, 16, 16}));
   EXPECT_EQ(counts("<RegularGrid n='3 1 1'/><MechanicalObject/>"), (Counts{3, 2, 0})) << "no triangles";

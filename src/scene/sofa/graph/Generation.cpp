@@ -31,7 +31,7 @@ bool anyIsNew(const Node& node) {
 
 Generation generationOf(const Node& root, SofaVersion asked) {
   if (asked == SofaVersion::FromScene) return anyIsNew(root) ? Generation::Sofa26 : Generation::Sofa20;
-  return asked == SofaVersion::V26_12 ? Generation::Sofa26 : Generation::Sofa20;
+  return asked == SofaVersion::Sofa2612 ? Generation::Sofa26 : Generation::Sofa20;
 }
 
 std::string newClassName(const Component& component) {

@@ -5,6 +5,7 @@ namespace allpairs::scene::sofa {
 namespace {
 
 using Place = std::array<std::size_t, 3>;
+constexpr std::size_t kX = 0, kY = 1, kZ = 2;
 
 bool isEnd(const CubeSurface& cube, const Place& p, std::size_t axis) {
   return p[axis] == 0 || p[axis] + 1 == cube.points[axis];
@@ -90,18 +91,17 @@ void addSide(const CubeSurface& cube, const Numbering& numbers, const Side& side
 }  // namespace
 
 Mesh meshOf(const CubeSurface& cube) {
-  constexpr std::size_t x = 0, y = 1, z = 2;
   const Numbering numbers(cube);
   const auto [nx, ny, nz] = cube.points;
   Mesh mesh;
   addPoints(cube, numbers, mesh);
   addEdges(cube, numbers, mesh);
-  addSide(cube, numbers, {z, 0, y, x, x, y}, mesh);
-  if (nz > 1) addSide(cube, numbers, {z, nz - 1, x, y, x, y}, mesh);
-  addSide(cube, numbers, {y, 0, x, z, x, z}, mesh);
-  if (ny > 1) addSide(cube, numbers, {y, ny - 1, z, x, x, z}, mesh);
-  addSide(cube, numbers, {x, 0, z, y, y, z}, mesh);
-  if (nx > 1) addSide(cube, numbers, {x, nx - 1, y, z, y, z}, mesh);
+  addSide(cube, numbers, {kZ, 0, kY, kX, kX, kY}, mesh);
+  if (nz > 1) addSide(cube, numbers, {kZ, nz - 1, kX, kY, kX, kY}, mesh);
+  addSide(cube, numbers, {kY, 0, kX, kZ, kX, kZ}, mesh);
+  if (ny > 1) addSide(cube, numbers, {kY, ny - 1, kZ, kX, kX, kZ}, mesh);
+  addSide(cube, numbers, {kX, 0, kZ, kY, kY, kZ}, mesh);
+  if (nx > 1) addSide(cube, numbers, {kX, nx - 1, kY, kZ, kY, kZ}, mesh);
   return mesh;
 }
 
