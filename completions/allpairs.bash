@@ -29,12 +29,12 @@ _allpairs() {
   if [[ $current == -* ]]; then
     case $command in
       detect)
-        words='--distance --box --strategy --threads --verify --exact --format -o --output --partial --data
+        words='--distance --box --strategy --threads --verify --exact --format -o --output --partial --data --sofa
           --allow-outside --max-memory -h --help'
         ;;
-      info) words='--partial --data --allow-outside --max-memory -h --help' ;;
-      view) words='--sequence --distance --box --partial --data --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
-      report) words='--distance --box --partial --data --allow-outside --max-memory -o --output --pictures --metres-per-unit -h --help' ;;
+      info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
+      view) words='--sequence --distance --box --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
+      report) words='--distance --box --partial --data --sofa --allow-outside --max-memory -o --output --pictures --metres-per-unit -h --help' ;;
       track) words='--distance --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
       elements) words='--distance --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
       generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "Target.h"
 #include "allpairs/Error.h"
@@ -39,15 +38,15 @@ inline void examine(const Error& error) {
 /// Finds the pairs of the models that were read, as the command does, and compares them with the double loop over all.
 inline void detect(scene::Scene& scene) {
   constexpr std::size_t kMostModels = 300;  // The double loop is quadratic.
-  std::vector<collision::CollisionModel*> models;
-  for (const auto& model : scene.models) models.push_back(model.get());
-  collision::BruteForceBroadPhase broadPhase;
-  if (scene.region) broadPhase.setBox(*scene.region);
-  collision::CollisionPipeline pipeline;
-  pipeline.setIntersectionMethod(scene.intersection.get());
-  pipeline.setBroadPhase(&broadPhase);
-  pipeline.step(models, scene.timeStep);
-  if (models.size() <= kMostModels) broadPhase.verify();
+  for (const scene::SceneSearch& search : scene::searchesOf(scene)) {
+    collision::BruteForceBroadPhase broadPhase;
+    if (search.region) broadPhase.setBox(*search.region);
+    collision::CollisionPipeline pipeline;
+    pipeline.setIntersectionMethod(search.intersection);
+    pipeline.setBroadPhase(&broadPhase);
+    pipeline.step(search.models, scene.timeStep);
+    if (search.models.size() <= kMostModels) broadPhase.verify();
+  }
 }
 
 /// Reads a file with the reader that its name asks for. An error of ours is an answer; anything else is a finding.

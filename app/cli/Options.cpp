@@ -27,6 +27,8 @@ void addInputs(CLI::App& command, InputSettings& settings) {
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
+  addChoice(command, "--sofa", settings.sofa, {"20.06", "26.12"})
+      ->description("Read scenes as this SOFA does; by default the one that knows their components");
   addReadLimits(command, settings.limits);
 }
 

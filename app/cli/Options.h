@@ -22,6 +22,7 @@ struct InputSettings {
   std::vector<std::string> paths;
   std::vector<std::string> searchRoots;
   bool partial = false;
+  std::string sofa{};  ///< The word of --sofa; empty for the default.
   ReadLimits limits{};
 };
 

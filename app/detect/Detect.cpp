@@ -147,6 +147,7 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   outcome.notes.remarkCount = scene.remarks.size();
   outcome.notes.isPartial = settings.input.partial;
   outcome.result.ignored = scene.remarks;
+  outcome.result.warnings = scene.warnings;
   for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
   outcome.result.model = [&models](std::size_t i) { return scene::modelRecord(*models[i]); };
@@ -170,6 +171,7 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   const double readSeconds = timer.seconds();
   Outcome outcome = std::visit([&](auto& input) { return detect(input, settings, options); }, inputs);
   outcome.result.pairs = outcome.detection.pairs;
+  outcome.result.pipelines = outcome.detection.pipelines;
   outcome.result.swapped = outcome.detection.swapped;
   outcome.result.statistics = outcome.detection.statistics;
   outcome.result.statistics.readSeconds = readSeconds;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <unordered_map>
 
 #include "allpairs/collision/BruteForceBroadPhase.h"
@@ -11,55 +12,69 @@ namespace {
 
 using collision::CollisionModel;
 
-/// Models by their last levels, since a pair may name them by any level.
-std::vector<Pair> indexed(const std::vector<collision::CollisionModelPair>& pairs,
-                          const std::vector<CollisionModel*>& models) {
+/// Appends pairs by the indices of their models, which a pair may name by any level.
+void append(const std::vector<collision::CollisionModelPair>& pairs, const scene::SceneSearch& search,
+            std::vector<Pair>& to) {
   std::unordered_map<const CollisionModel*, std::uint32_t> indices;
-  for (std::uint32_t i = 0; i < models.size(); ++i) indices.emplace(models[i]->getLast(), i);
-  std::vector<Pair> result;
-  result.reserve(pairs.size());
-  for (const auto& [first, second] : pairs) {
-    result.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
-  }
-  return result;
+  for (std::size_t i = 0; i < search.models.size(); ++i)
+    indices.emplace(search.models[i]->getLast(), static_cast<std::uint32_t>(search.indices[i]));
+  to.reserve(to.size() + pairs.size());
+  for (const auto& [first, second] : pairs) to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
 }
 
-void configure(collision::BruteForceBroadPhase& broadPhase, scene::Scene& scene, const DetectionOptions& options,
-               Executor* executor) {
+void applyTo(scene::Scene& scene, const DetectionOptions& options) {
   if (options.distance) scene.intersection->setAlarmDistance(*options.distance);
   if (options.region) scene.region = options.region;
-  if (scene.region) broadPhase.setBox(*scene.region);
+  for (scene::ScenePipeline& pipeline : scene.pipelines) {
+    if (options.distance) pipeline.intersection->setAlarmDistance(*options.distance);
+    if (options.region) pipeline.region = options.region;
+  }
+}
+
+/// Runs one search, adds its pairs to the detection and its work to the statistics.
+void run(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options, Detection& detection) {
+  const std::unique_ptr<Executor> executor = makeExecutor(options.threads, search.models.size());
+  collision::BruteForceBroadPhase broadPhase;
+  if (search.region) broadPhase.setBox(*search.region);
   broadPhase.setStrategy(options.strategy);
-  broadPhase.setExecutor(executor);
+  broadPhase.setExecutor(executor.get());
+  collision::CollisionPipeline pipeline;
+  pipeline.setIntersectionMethod(search.intersection);
+  pipeline.setBroadPhase(&broadPhase);
+  pipeline.init();
+
+  scene::DetectionStatistics& statistics = detection.statistics;
+  const Timer timer;
+  const auto& pairs = pipeline.step(search.models, timeStep);
+  statistics.detectSeconds += timer.seconds();
+  if (options.verify) broadPhase.verify();
+  append(pairs, search, detection.ownPairs);
+  statistics.threads = std::max<std::size_t>(statistics.threads, executor ? executor->concurrency() : 1);
+  statistics.testsOfAllPairs += broadPhase.statistics().testsOfAllPairs;
+  statistics.testsMade += broadPhase.statistics().testsMade;
+  statistics.candidates += broadPhase.statistics().candidates;
 }
 
 }  // namespace
 
 Detection detectScene(scene::Scene& scene, const DetectionOptions& options) {
-  const std::unique_ptr<Executor> executor = makeExecutor(options.threads, scene.models.size());
-  collision::BruteForceBroadPhase broadPhase;
-  configure(broadPhase, scene, options, executor.get());
-  collision::CollisionPipeline pipeline;
-  pipeline.setIntersectionMethod(scene.intersection.get());
-  pipeline.setBroadPhase(&broadPhase);
-  pipeline.init();
-  std::vector<CollisionModel*> models;
-  for (const auto& model : scene.models) models.push_back(model.get());
-
-  const Timer timer;
-  const auto& pairs = pipeline.step(models, scene.timeStep);
-  Detection detection{.statistics = {.detectSeconds = timer.seconds()}};
-  if (options.verify) broadPhase.verify();
-  detection.ownPairs = indexed(pairs, models);
+  applyTo(scene, options);
+  Detection detection;
+  const std::vector<scene::SceneSearch> searches = scene::searchesOf(scene);
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    const std::size_t before = detection.ownPairs.size();
+    run(searches[i], scene.timeStep, options, detection);
+    if (scene.pipelines.empty()) continue;
+    detection.pipelines.push_back({.name = scene.pipelines[i].name,
+                                   .method = std::string(searches[i].intersection->typeName()),
+                                   .distance = searches[i].intersection->getAlarmDistance(),
+                                   .models = searches[i].indices,
+                                   .pairs = detection.ownPairs.size() - before});
+  }
   detection.pairs = detection.ownPairs;
-  scene::DetectionStatistics& statistics = detection.statistics;
-  statistics.strategy = strategyName(options.strategy);
-  statistics.threads = executor ? executor->concurrency() : 1;
-  statistics.distance = scene.intersection->getAlarmDistance();
-  statistics.testsOfAllPairs = broadPhase.statistics().testsOfAllPairs;
-  statistics.testsMade = broadPhase.statistics().testsMade;
-  statistics.candidates = broadPhase.statistics().candidates;
-  statistics.verified = options.verify;
+  detection.statistics.strategy = strategyName(options.strategy);
+  detection.statistics.distance = scene.intersection->getAlarmDistance();
+  detection.statistics.verified = options.verify;
   return detection;
 }
 

@@ -32,6 +32,7 @@ struct Detection {
   std::span<const Pair> pairs{};
   bool swapped = false;  ///< The pairs are to be read second first: newest model first.
   scene::DetectionStatistics statistics{};
+  std::vector<scene::PipelineRecord> pipelines{};  ///< Of a scene that has several.
   std::unique_ptr<OverlapSearch> search{};
   std::vector<Pair> ownPairs{};
 };

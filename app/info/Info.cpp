@@ -110,6 +110,8 @@ std::string describe(scene::Scene& scene) {
   text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(*scene.models[i]); });
   text += scene.remarks.empty() ? "\nnothing was ignored\n" : "\nignored\n";
   for (const scene::Remark& remark : scene.remarks) text += remarkText(remark);
+  if (!scene.warnings.empty()) text += "\nwarnings\n";
+  for (const scene::Remark& warning : scene.warnings) text += remarkText(warning);
   return text;
 }
 

@@ -29,6 +29,8 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   scene::ReadOptions options = readOptions(settings.limits);
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;
+  if (!settings.sofa.empty())
+    options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.progress = [&line](const scene::Progress& progress) {
     const std::string count =
         progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " + std::to_string(progress.total);
@@ -49,6 +51,24 @@ scene::Scene readScenes(const std::vector<std::string>& paths, const scene::Read
   return scene;
 }
 
+std::string pipelineText(const scene::ScenePipeline& pipeline) {
+  std::string text =
+      fmt::format("{}: {}, {}, alarm distance {}", printable(pipeline.name), counted(pipeline.models.size(), "model"),
+                  pipeline.intersection->typeName(), pipeline.intersection->getAlarmDistance());
+  if (pipeline.region) text += fmt::format(", in the region {}", boxText(*pipeline.region));
+  return text;
+}
+
+/// Says on standard error, a line each, where the result may not be what is expected.
+void warn(const scene::Scene& scene, ProgressLine& line) {
+  line.clear();
+  for (const scene::Remark& warning : scene.warnings) {
+    const std::string subject = warning.subject.empty() ? "" : warning.subject + ": ";
+    fmt::print(stderr, "allpairs: warning: {}\n",
+               printable(fmt::format("{}:{}: {}{}", warning.file.string(), warning.line, subject, warning.reason)));
+  }
+}
+
 }  // namespace
 
 scene::ReadOptions readOptions(const ReadLimits& limits) {
@@ -64,7 +84,9 @@ Inputs readInputs(const InputSettings& settings) {
   const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
                                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
   if (areBoxes) return readBoxArrays(settings.paths, options);
-  return readScenes(settings.paths, options);
+  scene::Scene scene = readScenes(settings.paths, options);
+  warn(scene, line);
+  return scene;
 }
 
 scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {
@@ -72,6 +94,11 @@ scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {
 }
 
 std::string methodText(const scene::Scene& scene) {
+  if (!scene.pipelines.empty()) {
+    std::string text = fmt::format("{} pipelines, each of its own models", scene.pipelines.size());
+    for (const scene::ScenePipeline& pipeline : scene.pipelines) text += "\n         " + pipelineText(pipeline);
+    return text;
+  }
   const std::string method(scene.intersection->typeName());
   std::string text = fmt::format("{}, alarm distance {}", method, scene.intersection->getAlarmDistance());
   if (scene.intersection->isContinuous()) text += fmt::format(", continuous over {} s", scene.timeStep);

@@ -9,6 +9,7 @@
 #include "ModelMesh.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
+#include "cli/ExitStatus.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "view/ViewBoxes.h"
@@ -90,6 +91,10 @@ view::ViewFrame frameOf(const scene::Scene& scene, const Detection& detection) {
 }
 
 void fill(scene::Scene& from, const DetectionOptions& options, view::ViewScene& to) {
+  if (!from.pipelines.empty())
+    throw UsageError(
+        "this scene has several collision pipelines, of which a page would show one; 'allpairs detect' finds "
+        "the pairs of all");
   const Detection detection = detectScene(from, options);
   to.method = methodText(from);
   to.distance = from.intersection->getAlarmDistance();

@@ -55,6 +55,8 @@ class Scene:
         Models outside it are excluded.
     remarks : list of Remark
         The parts of the input that were skipped.
+    warnings : list of Remark
+        Where the result may not be what is expected, though no part was skipped: a scene without a collision pipeline.
     """
 
     def __init__(self, core: _core.Scene) -> None:
@@ -65,6 +67,7 @@ class Scene:
         bounds = core.region()
         self.region = None if bounds is None else np.array(bounds).reshape(2, 3)
         self.remarks = [Remark(*fields) for fields in core.remarks()]
+        self.warnings = [Remark(*fields) for fields in core.warnings()]
 
     def __len__(self) -> int:
         return len(self._core)
@@ -139,6 +142,7 @@ def load(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
+    sofa: str = "",
     allow_outside: bool = False,
     max_memory: int = 0,
 ) -> Scene:
@@ -151,6 +155,8 @@ def load(
         Folders to search for files that a scene names, after its own folder.
     partial : bool
         Skip models that cannot be placed, with a remark, instead of raising.
+    sofa : str
+        Read a scene as SOFA "20.06" or "26.12" does; by default the one that knows the scene's components.
     allow_outside : bool
         Read files that the input names in any folder, not only in its own folder and the search roots.
     max_memory : int
@@ -163,7 +169,9 @@ def load(
         With the file, line and column; it is a ValueError and an OSError.
     """
     roots = [os.fspath(root) for root in search_roots]
-    return Scene(_core.load(os.fspath(path), roots, partial, allow_outside, max_memory))
+    if sofa not in ("", "20.06", "26.12"):
+        raise ValueError(f'sofa is "20.06" or "26.12", not {sofa!r}')
+    return Scene(_core.load(os.fspath(path), roots, partial, sofa, allow_outside, max_memory))
 
 
 def detect(
@@ -171,6 +179,7 @@ def detect(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
+    sofa: str = "",
     allow_outside: bool = False,
     max_memory: int = 0,
     distance: float | None = None,
@@ -192,7 +201,12 @@ def detect(
            [2, 0]], dtype=uint32)
     """
     scene = load(
-        path, search_roots=search_roots, partial=partial, allow_outside=allow_outside, max_memory=max_memory
+        path,
+        search_roots=search_roots,
+        partial=partial,
+        sofa=sofa,
+        allow_outside=allow_outside,
+        max_memory=max_memory,
     )
     pairs = scene.detect(distance=distance, region=region, strategy=strategy, threads=threads, verify=verify)
     return Detection(scene, pairs)

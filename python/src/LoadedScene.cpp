@@ -19,19 +19,14 @@ namespace {
 using collision::CollisionModel;
 using Content = std::variant<scene::Scene, scene::BoxArray>;
 
-std::vector<CollisionModel*> modelsOf(const scene::Scene& scene) {
-  std::vector<CollisionModel*> models;
-  models.reserve(scene.models.size());
-  for (const auto& model : scene.models) models.push_back(model.get());
-  return models;
-}
-
 scene::Scene withRootBoxes(scene::Scene scene) {
-  collision::CollisionPipeline pipeline;
-  collision::BruteForceBroadPhase broadPhase;
-  pipeline.setIntersectionMethod(scene.intersection.get());
-  pipeline.setBroadPhase(&broadPhase);
-  pipeline.computeBoundingTrees(modelsOf(scene), scene.timeStep);
+  for (const scene::SceneSearch& search : scene::searchesOf(scene)) {
+    collision::CollisionPipeline pipeline;
+    collision::BruteForceBroadPhase broadPhase;
+    pipeline.setIntersectionMethod(search.intersection);
+    pipeline.setBroadPhase(&broadPhase);
+    pipeline.computeBoundingTrees(search.models, scene.timeStep);
+  }
   return scene;
 }
 
@@ -69,33 +64,13 @@ std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& opti
   return pairs;
 }
 
-/// Models by their last levels, since a pair may name them by any level.
-std::vector<Pair> indexed(const std::vector<collision::CollisionModelPair>& pairs,
-                          const std::vector<CollisionModel*>& models) {
+/// Appends pairs by the indices of their models, which a pair may name by any level.
+void append(const std::vector<collision::CollisionModelPair>& pairs, const scene::SceneSearch& search,
+            std::vector<Pair>& to) {
   std::unordered_map<const CollisionModel*, std::uint32_t> indices;
-  for (std::uint32_t i = 0; i < models.size(); ++i) indices.emplace(models[i]->getLast(), i);
-  std::vector<Pair> result;
-  result.reserve(pairs.size());
-  for (const auto& [first, second] : pairs) {
-    result.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
-  }
-  return result;
-}
-
-std::vector<Pair> runPipeline(const scene::Scene& scene, const DetectionOptions& options) {
-  const std::unique_ptr<Executor> executor = executorOf(options.threads);
-  collision::BruteForceBroadPhase broadPhase;
-  const std::optional<Box> region = options.region ? options.region : scene.region;
-  if (region) broadPhase.setBox(*region);
-  broadPhase.setStrategy(options.strategy);
-  broadPhase.setExecutor(executor.get());
-  collision::CollisionPipeline pipeline;
-  pipeline.setIntersectionMethod(scene.intersection.get());
-  pipeline.setBroadPhase(&broadPhase);
-  const std::vector<CollisionModel*> models = modelsOf(scene);
-  const auto& pairs = pipeline.step(models, scene.timeStep);
-  if (options.verify) broadPhase.verify();
-  return indexed(pairs, models);
+  for (std::size_t i = 0; i < search.models.size(); ++i)
+    indices.emplace(search.models[i]->getLast(), static_cast<std::uint32_t>(search.indices[i]));
+  for (const auto& [first, second] : pairs) to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
 }
 
 /// Gives the method another alarm distance, until the end of the scope.
@@ -115,6 +90,22 @@ class AlarmDistance {
   collision::Intersection& m_method;
   double m_before;
 };
+
+void run(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options, std::vector<Pair>& to) {
+  const AlarmDistance distance(*search.intersection, options.distance);
+  const std::unique_ptr<Executor> executor = executorOf(options.threads);
+  collision::BruteForceBroadPhase broadPhase;
+  const std::optional<Box> region = options.region ? options.region : search.region;
+  if (region) broadPhase.setBox(*region);
+  broadPhase.setStrategy(options.strategy);
+  broadPhase.setExecutor(executor.get());
+  collision::CollisionPipeline pipeline;
+  pipeline.setIntersectionMethod(search.intersection);
+  pipeline.setBroadPhase(&broadPhase);
+  const auto& pairs = pipeline.step(search.models, timeStep);
+  if (options.verify) broadPhase.verify();
+  append(pairs, search, to);
+}
 
 }  // namespace
 
@@ -149,6 +140,11 @@ std::span<const scene::Remark> LoadedScene::remarks() const {
   return scene != nullptr ? std::span<const scene::Remark>(scene->remarks) : std::span<const scene::Remark>();
 }
 
+std::span<const scene::Remark> LoadedScene::warnings() const {
+  const auto* scene = std::get_if<scene::Scene>(&m_content);
+  return scene != nullptr ? std::span<const scene::Remark>(scene->warnings) : std::span<const scene::Remark>();
+}
+
 std::string LoadedScene::method() const {
   const auto* scene = std::get_if<scene::Scene>(&m_content);
   return scene != nullptr ? std::string(scene->intersection->typeName()) : "DiscreteIntersection";
@@ -175,8 +171,9 @@ std::vector<Pair> LoadedScene::detect(const DetectionOptions& options) {
   const std::lock_guard lock(m_mutex);
   if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options);
   const auto& scene = std::get<scene::Scene>(m_content);
-  const AlarmDistance distance(*scene.intersection, options.distance);
-  return runPipeline(scene, options);
+  std::vector<Pair> pairs;
+  for (const scene::SceneSearch& search : scene::searchesOf(scene)) run(search, scene.timeStep, options, pairs);
+  return pairs;
 }
 
 }  // namespace allpairs::python

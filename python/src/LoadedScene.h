@@ -37,6 +37,7 @@ class LoadedScene {
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] scene::ModelRecord model(std::size_t index) const;
   [[nodiscard]] std::span<const scene::Remark> remarks() const;
+  [[nodiscard]] std::span<const scene::Remark> warnings() const;
 
   /// Where the scene names them: how its models are tested, how far apart they may be, and where.
   [[nodiscard]] std::string method() const;

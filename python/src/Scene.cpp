@@ -19,11 +19,12 @@ using Bounds = std::array<double, 6>;
 
 // NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
 std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
-                                  bool partial, bool allowOutside, std::uint64_t maxMemory) {
+                                  bool partial, const std::string& sofa, bool allowOutside, std::uint64_t maxMemory) {
   const py::gil_scoped_release release;
   scene::ReadOptions options;
   options.searchRoots = std::move(searchRoots);
   options.partial = partial;
+  if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.allowOutside = allowOutside;
   options.maxMemory = maxMemory;
   return std::make_shared<LoadedScene>(path, options);
@@ -42,9 +43,9 @@ py::tuple modelOf(const LoadedScene& scene, std::size_t index) {
 }
 
 /// The fields of the package's Remark, in its order.
-py::list remarksOf(const LoadedScene& scene) {
+py::list remarkList(std::span<const scene::Remark> from) {
   py::list remarks;
-  for (const scene::Remark& remark : scene.remarks()) {
+  for (const scene::Remark& remark : from) {
     remarks.append(py::make_tuple(remark.file.string(), remark.line, remark.subject, remark.reason, remark.isPartial));
   }
   return remarks;
@@ -71,7 +72,8 @@ void bindScene(py::module_& module) {
   py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(module, "Scene", tableProtocol<LoadedScene>())
       .def("__len__", &LoadedScene::size)
       .def("model", &modelOf)
-      .def("remarks", &remarksOf)
+      .def("remarks", [](const LoadedScene& scene) { return remarkList(scene.remarks()); })
+      .def("warnings", [](const LoadedScene& scene) { return remarkList(scene.warnings()); })
       .def("method", &LoadedScene::method)
       .def("alarm_distance", &LoadedScene::alarmDistance)
       .def("region", &regionOf)

@@ -47,6 +47,9 @@ Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string extension = lowerExtension(path);
   if (extension == ".scn" || extension == ".xml") return readSofaScene(path, options);
   if (extension == ".obj" || extension == ".ply" || isAssimpFile(path)) return readMesh(path, options);
+  if (extension == ".py" || extension == ".pyscn")
+    throw FileError(path,
+                    "is a SOFA scene in Python, which only SOFA can run; scenes that can be read are .scn and .xml");
   throw FileError(path, "is of no kind that is known: .scn or .xml for scenes, .npy or .csv for boxes, or a mesh");
 }
 

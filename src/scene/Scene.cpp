@@ -2,8 +2,10 @@
 #include "allpairs/scene/Scene.h"
 
 #include <iterator>
+#include <numeric>
 #include <utility>
 
+#include "allpairs/Error.h"
 #include "allpairs/collision/DiscreteIntersection.h"
 #include "input/UniqueNames.h"
 
@@ -46,6 +48,13 @@ void chooseRegion(Scene& scene, Scene& more) {
   }
 }
 
+SceneSearch searchOfAll(const Scene& scene) {
+  SceneSearch search{.intersection = scene.intersection.get(), .region = scene.region};
+  search.indices.resize(scene.models.size());
+  std::iota(search.indices.begin(), search.indices.end(), std::size_t{0});
+  return search;
+}
+
 }  // namespace
 
 Scene emptyScene() {
@@ -54,9 +63,23 @@ Scene emptyScene() {
   return scene;
 }
 
+std::vector<SceneSearch> searchesOf(const Scene& scene) {
+  std::vector<SceneSearch> searches;
+  for (const ScenePipeline& pipeline : scene.pipelines)
+    searches.push_back(
+        {.indices = pipeline.models, .intersection = pipeline.intersection.get(), .region = pipeline.region});
+  if (searches.empty()) searches.push_back(searchOfAll(scene));
+  for (SceneSearch& search : searches)
+    for (const std::size_t index : search.indices) search.models.push_back(scene.models[index].get());
+  return searches;
+}
+
 void append(Scene& scene, Scene more) {
+  if (!scene.pipelines.empty() || !more.pipelines.empty())
+    throw InvalidArgument("a scene with several collision pipelines cannot be taken together with other inputs");
   renameTaken(scene, more);
   moveBehind(scene.remarks, more.remarks);
+  moveBehind(scene.warnings, more.warnings);
   chooseMethod(scene, more);
   chooseRegion(scene, more);
   moveBehind(scene.models, more.models);

@@ -10,7 +10,8 @@ namespace allpairs::test {
 namespace {
 
 constexpr const char* kScene =
-    "<Node name='root'>\n<MeshTopology name='m' filename='../a.obj'/><MechanicalObject/><TriangleModel/></Node>";
+    "<Node name='root'><DefaultPipeline/>\n<MeshTopology name='m' "
+    "filename='../a.obj'/><MechanicalObject/><TriangleModel/></Node>";
 
 TEST(HostileInput, NamesFilesOutsideOnlyWhereTheUserAllowsIt) {
   const TempFolder folder;

@@ -15,6 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+const std::string kDemoScene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
+const std::string kDemoZones = ALLPAIRS_SOURCE_DIR "/examples/scenes/zones.csv";
+
 /// SOFA computes in float32; this is the tolerance at which its boxes are known.
 void expectSameBox(const Json& box, const Json& expected, const std::string& name) {
   for (std::size_t k = 0; k < 6; ++k) {
@@ -76,7 +79,7 @@ TEST(DetectScene, AMalformedSceneIsNamedWithItsLine) {
 
 TEST(DetectScene, APartialResultIsNotSilent) {
   const TempFolder folder;
-  const std::string scene = folder.write("two.scn", R"(<Node name="root">
+  const std::string scene = folder.write("two.scn", R"(<Node name="root"><CollisionPipeline/>
 <Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="-1"/></Node></Node>)");
   const std::string warning =
@@ -94,6 +97,54 @@ TEST(DetectScene, APartialResultIsNotSilent) {
   EXPECT_NE(table.out.find("'allpairs info --partial' lists them"), std::string::npos) << table.out;
 }
 
+/// Two spheres that touch, in two nodes with a pipeline each.
+const std::string kTwoPipelines = R"(<Node name="root">
+<Node name="A"><CollisionPipeline name="p"/><MinProximityIntersection alarmDistance="2"/>
+<Node name="1"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="2"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>
+<Node name="B"><CollisionPipeline name="p"/><DiscreteIntersection/>
+<Node name="1"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="2"><MechanicalObject position="1 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="3"><MechanicalObject position="4 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node></Node>)";
+
+TEST(DetectScene, EachPipelinePairsItsOwnModels) {
+  const TempFolder folder;
+  const std::string scene = folder.write("two.scn", kTwoPipelines);
+  const ProgramRun run = runProgram({"detect", scene, "--format", "json", "--verify"});
+  expectSuccess(run);
+  const Json result = Json::parse(run.out);
+  EXPECT_EQ(result["models"].size(), 5U);
+  EXPECT_EQ(result["pairs"], Json::parse("[[1, 0], [3, 2]]"));
+  EXPECT_EQ(result["pipelines"], Json::parse(R"([
+    {"name": "/A/p", "method": "MinProximityIntersection", "distance": 2.0, "models": [0, 1], "pairs": 1},
+    {"name": "/B/p", "method": "DiscreteIntersection", "distance": 0.0, "models": [2, 3, 4], "pairs": 1}])"));
+  EXPECT_EQ(Json::parse(runProgram({"detect", scene, "--format", "json", "--distance", "1"}).out)["pairs"],
+            Json::parse("[[1, 0], [3, 2], [4, 3]]"));
+}
+
+TEST(DetectScene, SeveralPipelinesAreNotTakenTogetherWithOtherInputs) {
+  const TempFolder folder;
+  const std::string scene = folder.write("two.scn", kTwoPipelines);
+  expectFailure(runProgram({"detect", scene, kDemoZones}), 3, "several collision pipelines");
+  expectFailure(runProgram({"view", scene, "-o", folder.path() / "page.html"}), 2, "several collision pipelines");
+}
+
+TEST(DetectScene, ASceneWithoutAPipelineIsTestedAndThatIsSaid) {
+  const TempFolder folder;
+  const std::string scene = folder.write("none.scn", R"(<Node name="root">
+<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
+<Node name="B"><MechanicalObject position="1 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)");
+  const ProgramRun run = runProgram({"detect", scene, "--format", "json"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "allpairs: warning: " + scene +
+                         ":1: the scene has no collision pipeline: SOFA detects nothing in it; "
+                         "all its models are tested against one another here\n");
+  const Json result = Json::parse(run.out);
+  EXPECT_EQ(result["pairs"], Json::parse("[[1, 0]]"));
+  ASSERT_EQ(result["warnings"].size(), 1U);
+  EXPECT_EQ(result["warnings"][0]["line"], 1);
+}
+
 TEST(DetectScene, AMeshThatIsLeftOutIsNamedOnce) {
   const TempFolder folder;
   folder.write("a.obj", "o wheel\x1b[31m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -104,9 +155,6 @@ TEST(DetectScene, AMeshThatIsLeftOutIsNamedOnce) {
   EXPECT_EQ(run.out.find("bad.obj"), run.out.rfind("bad.obj")) << run.out;
   EXPECT_NE(run.out.find("wheel\\x1b[31m"), std::string::npos) << run.out;
 }
-
-const std::string kDemoScene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
-const std::string kDemoZones = ALLPAIRS_SOURCE_DIR "/examples/scenes/zones.csv";
 
 TEST(Demo, ShowsATableOfEveryPairWithoutAComplaint) {
   const ProgramRun run = runProgram({"detect", kDemoScene, kDemoZones, "--verify"});

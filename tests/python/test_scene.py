@@ -111,3 +111,32 @@ def test_box_arrays_give_the_pairs_of_the_double_loop():
         np.testing.assert_array_equal(allpairs.overlaps(boxes), np.load(answer))
         checked += 1
     assert checked
+
+
+def spheres(node, *places):
+    return f"<Node name='{node}'><CollisionPipeline/>" + "".join(
+        f"<Node><MechanicalObject position='{x} 0 0'/><SphereCollisionModel name='s'/></Node>" for x in places
+    ) + "</Node>"
+
+
+def test_each_pipeline_of_a_scene_pairs_its_own_models(tmp_path):
+    path = tmp_path / "two.scn"
+    path.write_text(f"<Node name='root'>{spheres('a', 0, 1)}{spheres('b', 0, 1, 2)}</Node>")
+    scene = allpairs.load(path)
+    assert scene.warnings == []
+    assert scene.boxes.shape == (5, 6)
+    assert np.isfinite(scene.boxes).all()
+    assert scene.detect(verify=True).tolist() == [[1, 0], [3, 2], [4, 2], [4, 3]]
+    assert scene.detect(distance=-0.5).tolist() == [[1, 0], [3, 2], [4, 3]]
+
+
+def test_a_scene_without_a_pipeline_warns(tmp_path):
+    path = tmp_path / "none.scn"
+    path.write_text("<Node name='root'><MechanicalObject/><Point/></Node>")
+    scene = allpairs.load(path)
+    assert [(warning.file, warning.line) for warning in scene.warnings] == [(str(path), 1)]
+    assert scene.remarks == []
+    assert scene.names == ["/tPointModel1"]
+    assert allpairs.load(path, sofa="26.12").names == ["/PointCollisionModel1"]
+    with pytest.raises(ValueError, match="26.12"):
+        allpairs.load(path, sofa="27")

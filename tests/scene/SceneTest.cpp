@@ -8,6 +8,7 @@
 #include "SceneText.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/MinProximityIntersection.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "support/TempFolder.h"
 
@@ -31,6 +32,19 @@ TEST(Scene, BoxesBecomeBodiesOfTheirOwn) {
   EXPECT_EQ(boxOf(*scene.models[1]), cube(1, 1, 1));
   EXPECT_NE(scene.models[0]->getOwner(), scene.models[1]->getOwner());
   EXPECT_NE(scene.models[0]->getOwner(), nullptr);
+}
+
+TEST(Scene, AScriptOfSofaIsNamedAsSuch) {
+  const TempFolder folder;
+  for (const char* name : {"scene.py", "scene.pyscn"}) {
+    const auto path = folder.write(name, "def createScene(root): pass\n");
+    try {
+      (void)scene::readInput(path);
+      ADD_FAILURE() << name;
+    } catch (const FileError& problem) {
+      EXPECT_NE(problem.problem().find("a SOFA scene in Python"), std::string::npos) << problem.what();
+    }
+  }
 }
 
 TEST(Scene, AppendingKeepsTheOrderAndTellsNamesApart) {

@@ -16,6 +16,13 @@ struct Progress {
   std::filesystem::path file;
 };
 
+/// Which SOFA a scene is read as: they differ in the edges of grids and in the names of components without one.
+enum class SofaVersion {
+  FromScene,  ///< By the components that the scene names: Sofa2612 where one is known to that alone.
+  Sofa2006,   ///< 20.06 and before.
+  Sofa2612,   ///< 22.06 to 26.12.
+};
+
 /// How input is read; the defaults suit files that name no others.
 struct ReadOptions {
   /// Folders that are searched, in order, for the files that a scene names, after the scene's own folder.
@@ -31,6 +38,8 @@ struct ReadOptions {
   /// The maximum memory, in bytes, for reading an input. The default, 0, means half of the machine's memory, and at
   /// most 256 MiB plus 256 bytes for each byte of the files that are read.
   std::uint64_t maxMemory = 0;
+
+  SofaVersion sofa = SofaVersion::FromScene;
 
   /// Called now and then with the progress; may be empty.
   std::function<void(const Progress&)> progress{};

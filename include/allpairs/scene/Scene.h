@@ -28,6 +28,15 @@ struct Owner {
   std::string path;
 };
 
+/// One of several collision pipelines of a scene: it tests its own models against one another, in its own way.
+struct ScenePipeline {
+  std::string name{};                 ///< As in the file: "/Node/Name".
+  std::vector<std::size_t> models{};  ///< Indices into Scene::models, in the order in which the pipeline takes them.
+  std::unique_ptr<collision::Intersection> intersection{};  ///< Never null.
+  std::string intersectionName{};                           ///< As in the file; empty if it names none.
+  std::optional<Box> region{};
+};
+
 /// The result of a reader: collision models in the order of traversal, and the intersection method.
 struct Scene {
   std::vector<std::unique_ptr<collision::CollisionModel>> models;
@@ -37,7 +46,23 @@ struct Scene {
   std::optional<Box> region;
   double timeStep = 0.0;  ///< The step of a continuous method.
   std::vector<Remark> remarks;
+  std::vector<Remark> warnings{};  ///< Where the result may not be what is expected, though no part was skipped.
+  /// Where a scene has several: searchesOf() gives each its models, and the method and region above are the first's.
+  std::vector<ScenePipeline> pipelines{};
 };
+
+/// One search of a scene: models that are tested against one another, and how.
+struct SceneSearch {
+  std::vector<std::size_t> indices{};                ///< Of the models in Scene::models.
+  std::vector<collision::CollisionModel*> models{};  ///< In the order in which they are to be added.
+  collision::Intersection* intersection = nullptr;   ///< Never null.
+  std::optional<Box> region{};
+};
+
+/// The searches that give a scene's pairs: one for each of its pipelines, or one of all models.
+///
+/// The result refers to the scene. Two pipelines may share models: a pair that both find is a pair of both.
+[[nodiscard]] std::vector<SceneSearch> searchesOf(const Scene& scene);
 
 /// An empty scene, with the default method: discrete, alarm distance 0.
 [[nodiscard]] Scene emptyScene();
@@ -46,6 +71,9 @@ struct Scene {
 ///
 /// A model whose name exists in `scene` gets a number: "wheel#2". The first method and the first region
 /// that a file names apply to all; others give a remark.
+///
+/// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method, and
+///            nothing says which of them would take the others.
 void append(Scene& scene, Scene more);
 
 }  // namespace allpairs::scene

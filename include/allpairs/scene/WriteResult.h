@@ -48,20 +48,32 @@ struct DetectionStatistics {
   bool verified = false;  ///< Whether the exhaustive strategy was run too, and agreed.
 };
 
-/// Models, pairs of them by index, and statistics. Pairs and remarks are not owned.
+/// The record of one of several pipelines in a result.
+struct PipelineRecord {
+  std::string name{};
+  std::string method{};
+  double distance = 0.0;              ///< The alarm distance.
+  std::vector<std::size_t> models{};  ///< Indices, in the order in which the pipeline takes them.
+  std::size_t pairs = 0;              ///< The number of its pairs; those of the first pipeline come first.
+};
+
+/// Models, pairs of them by index, and statistics. Pairs, remarks and pipelines are not owned.
 struct ResultView {
   std::size_t modelCount = 0;
   std::function<ModelRecord(std::size_t)> model{};
   std::span<const Pair> pairs{};
   std::span<const Remark> ignored{};  ///< The parts of the input that were skipped.
-  bool swapped = false;               ///< Write each pair's second before its first.
+  std::span<const Remark> warnings{};
+  std::span<const PipelineRecord> pipelines{};  ///< Where the input has several.
+  bool swapped = false;                         ///< Write each pair's second before its first.
   DetectionStatistics statistics{};
 };
 
 /// Receives a result's bytes, in chunks.
 using ByteSink = FunctionRef<void(std::string_view)>;
 
-/// Writes {"models": [...], "pairs": [[i, j], ...], "ignored": [...], "statistics": {...}}.
+/// Writes {"models": [...], "pairs": [[i, j], ...], "ignored": [...], "warnings": [...], "statistics": {...}}, and
+/// "pipelines": [...] before the statistics where there are several.
 ///
 /// A number is written with enough digits to read the same number again. JSON has no infinities: they are
 /// the strings "inf" and "-inf".

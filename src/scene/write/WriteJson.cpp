@@ -52,13 +52,26 @@ void writePairs(const ResultView& result, TextBuffer& out) {
   out.append("],\n");
 }
 
-void writeIgnored(const ResultView& result, TextBuffer& out) {
-  out.append("\"ignored\": [");
-  for (std::size_t i = 0; i < result.ignored.size(); ++i) {
-    const Remark& remark = result.ignored[i];
+void writeRemarks(std::string_view name, std::span<const Remark> remarks, TextBuffer& out) {
+  out.format("\"{}\": [", name);
+  for (std::size_t i = 0; i < remarks.size(); ++i) {
+    const Remark& remark = remarks[i];
     out.append(i == 0 ? "\n  " : ",\n  ");
     out.format(R"({{"file": {}, "line": {}, )", quoted(remark.file.string()), remark.line);
     out.format(R"("subject": {}, "reason": {}}})", quoted(remark.subject), quoted(remark.reason));
+  }
+  out.append("],\n");
+}
+
+void writePipelines(const ResultView& result, TextBuffer& out) {
+  if (result.pipelines.empty()) return;
+  out.append("\"pipelines\": [");
+  for (std::size_t i = 0; i < result.pipelines.size(); ++i) {
+    const PipelineRecord& pipeline = result.pipelines[i];
+    out.append(i == 0 ? "\n  " : ",\n  ");
+    out.format(R"({{"name": {}, "method": {}, "distance": {}, )", quoted(pipeline.name), quoted(pipeline.method),
+               number(pipeline.distance));
+    out.format(R"("models": [{}], "pairs": {}}})", fmt::join(pipeline.models, ", "), pipeline.pairs);
   }
   out.append("],\n");
 }
@@ -81,7 +94,9 @@ void writeJson(const ResultView& result, ByteSink sink) {
   TextBuffer out(sink);
   writeModels(result, out);
   writePairs(result, out);
-  writeIgnored(result, out);
+  writeRemarks("ignored", result.ignored, out);
+  writeRemarks("warnings", result.warnings, out);
+  writePipelines(result, out);
   writeStatistics(result, out);
   out.flush();
 }

@@ -32,7 +32,7 @@ void compare(const std::filesystem::path& scenes, const std::filesystem::path& f
   const auto known = nlohmann::json::parse(std::ifstream(file));
   const auto scene = describeScene(scenes / known.at("scene").get<std::string>(),
                                    {.searchRoots = {scenes, scenes / "examples"}, .partial = false});
-  EXPECT_DOUBLE_EQ(scene.method.alarmDistance, known.at("alarmDistance"));
+  EXPECT_DOUBLE_EQ(scene.pipelines[0].method.alarmDistance, known.at("alarmDistance"));
   ASSERT_EQ(scene.models.size(), known.at("models").size());
   for (std::size_t i = 0; i < scene.models.size(); ++i) {
     const auto expected = toKnown(known.at("models")[i]);
@@ -63,7 +63,7 @@ TEST(SofaDataScenes, TheWorkedExamplesHaveTheWorkedNumbers) {
   ASSERT_EQ(spheres.models.size(), 2U);
   EXPECT_THAT(boxOf(spheres.models[0]), IsBox(Corners{-1.1, -1.1, -1.1, 1.1, 1.1, 1.1}));
   EXPECT_THAT(boxOf(spheres.models[1]), IsBox(Corners{1.9, -1.1, -1.1, 4.1, 1.1, 1.1}));
-  EXPECT_EQ(spheres.method.alarmDistance, 0.85);
+  EXPECT_EQ(spheres.pipelines[0].method.alarmDistance, 0.85);
   const auto euler = describeScene(scenes / "worked/ex2_euler_rigid.scn", {});
   ASSERT_EQ(euler.models.size(), 3U);
   EXPECT_THAT(boxOf(euler.models[0]), IsBox(Corners{5, 0, 1, 5, 1, 2}));

@@ -208,5 +208,32 @@ TEST_F(SofaGraph, IncludesThatDoubleWithEachLevelDoNotEatTheMemory) {
   EXPECT_THAT(complaintIn("<include href='f30.xml'/>"), HasSubstr("takes more than 2"));
 }
 
+TEST_F(SofaGraph, AttributesNeedNoBlankBetweenThem) {
+  const auto scene = read(
+      "<?xml version='1.0'encoding='utf-8'?><!-- a='1'b='2' <Node> --><Node name=\"r\"dt='0.1'>\n<MechanicalObject "
+      "name='>'position=\"1 2 3\"dx='1'/><PointModel name='a\"b'group='1'/></Node>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{2, 2, 3, 2, 2, 3}));
+  EXPECT_EQ(scene.models[0].path, "/a\"b");
+  EXPECT_THAT(scene.models[0].groups, testing::ElementsAre(1));
+  EXPECT_EQ(scene.models[0].line, 2U);
+  for (const auto bad : {"<Node name='a", "<Node name='a'b", "<Node name='a'<b", "<", "<!--", "<Node a='1'"})
+    EXPECT_THAT(complaint(bad), HasSubstr("XML")) << bad;
+}
+
+TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewerSofa) {
+  const std::string models = "<MechanicalObject/><MeshTopology/><Triangle/><TriangleOctreeModel/><Triangle/>";
+  const auto text = "<Node name='A'>" + models + "</Node><Node name='B'>" + models + "</Node>";
+  const std::vector<std::string> names{"/A/TriangleCollisionModel1",       "/A/TriangleOctreeCollisionModel1",
+                                       "/A/TriangleCollisionModel2",       "/B/TriangleCollisionModel1",
+                                       "/B/TriangleOctreeCollisionModel1", "/B/TriangleCollisionModel2"};
+  EXPECT_EQ(pathsOf(readIn("<RequiredPlugin name='Sofa.Component.Mass'/>" + text)), names);
+  EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text)), names);
+  EXPECT_EQ(pathsOf(readIn("<CollisionPipeline/>" + text))[0], "/A/tTriangleModel1");
+  m_sofa = SofaVersion::Sofa2612;
+  EXPECT_EQ(pathsOf(readIn(text)), names);
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text))[0], "/A/tTriangleModel1");
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -218,5 +218,111 @@ TEST_F(SofaMapping, DataOfAnUnknownEngineIsNamed) {
               HasSubstr("MagicLoader 'e'"));
 }
 
+constexpr auto kOnSparseGrid =
+    "<Node><MechanicalObject position='0 0 0 1 1 1'/><PointModel/><BarycentricMapping/></Node>";
+
+TEST_F(SofaMapping, PointsInASparseGridFollowAllThatMovesTheGridsPoints) {
+  const std::string grid = "<SparseGridTopology name='grid' fileTopology='a.obj'/>";
+  const std::string engine = "<TransformEngine name='e' translation='10 0 0' rotation='0 0 90' scale='0.5 1 2' ";
+  EXPECT_THAT(onlyBox(readIn(grid + engine +
+                             "input_position='@grid.position'/><MechanicalObject "
+                             "position='@e.output_position'/>" +
+                             kOnSparseGrid)),
+              IsBox(Corners{9, 0, 0, 10, 0.5, 2}));
+  EXPECT_THAT(onlyBox(readIn(grid + engine +
+                             "input_position='@grid.position' inverse='1'/><MechanicalObject "
+                             "position='@[-1].output_position' dz='1'/>" +
+                             kOnSparseGrid)),
+              IsBox(Corners{0, 9, 1, 2, 10, 1.5}));
+  EXPECT_THAT(
+      onlyBox(readIn(grid + "<TransformEngine name='f' translation='0 0 3' input_position='@grid.position'/>" + engine +
+                     "input_position='@f.output_position'/><MechanicalObject "
+                     "position='@e.output_position'/>" +
+                     kOnSparseGrid)),
+      IsBox(Corners{9, 0, 6, 10, 0.5, 8}));
+  EXPECT_THAT(onlyBox(readIn(grid + "<MechanicalObject src='@grid' dx='2'/>" + kOnSparseGrid)),
+              IsBox(Corners{2, 0, 0, 3, 1, 1}));
+}
+
+TEST_F(SofaMapping, PointsOfASparseGridAreNotTakenForNone) {
+  const std::string grid = "<SparseGridTopology name='grid' fileTopology='a.obj'/>";
+  EXPECT_THAT(complaintIn(grid + "<MergePoints name='m' position1='@grid.position'/><MechanicalObject "
+                                 "position='@m.points'/><PointModel/>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn(grid + "<TransformEngine name='a' input_position='@b.output_position'/><TransformEngine "
+                                 "name='b' input_position='@a.output_position'/><MechanicalObject "
+                                 "position='@a.output_position'/><PointModel/>"),
+              HasSubstr("depends on itself"));
+}
+
+TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
+  // Two beams along x, of lengths 2 and 4; the third frame is turned about x, so that its y is z.
+  const std::string beams =
+      "<MechanicalObject template='Rigid3' position='0 0 5 0 0 0 1  2 0 5 0 0 0 1  6 0 5 "
+      "0.70710678118654752 0 0 0.70710678118654752'/>";
+  const auto on = [&](const std::string& points, const std::string& data = "") {
+    return readIn(beams + "<Node><MechanicalObject position='" + points + "'/><PointModel/><BeamLinearMapping " + data +
+                  "/></Node>");
+  };
+  // By default coordinates are in beams: the length of a beam scales them.
+  EXPECT_THAT(onlyBox(on("0 0 0  2 0 0")), IsBox(Corners{0, 0, 5, 6, 0, 5}));
+  EXPECT_THAT(onlyBox(on("0.5 0.1 0")), IsBox(Corners{1, 0.2, 5, 1, 0.2, 5}));
+  EXPECT_THAT(onlyBox(on("2 0.5 0")), IsBox(Corners{6, 0, 7, 6, 0, 7}));
+  EXPECT_THAT(onlyBox(on("1.5 0.5 0")), IsBox(Corners{4, 1, 6, 4, 1, 6}));
+  EXPECT_THAT(onlyBox(on("-1 0 0")), IsBox(Corners{-2, 0, 5, -2, 0, 5}));
+  EXPECT_THAT(onlyBox(on("1 0.3 5.5  4 0 5", "localCoord='0'")), IsBox(Corners{1, 0, 5, 4, 0.3, 5.5}));
+  EXPECT_THAT(complaintIn(beams + "<Node><MechanicalObject position='99 0 0'/><PointModel/><BeamLinearMapping "
+                                  "localCoord='0'/></Node>"),
+              HasSubstr("far behind the last beam"));
+  EXPECT_THAT(complaintIn("<MechanicalObject template='Rigid3'/><Node><MechanicalObject position='0 0 0'/><PointModel/>"
+                          "<BeamLinearMapping/></Node>"),
+              HasSubstr("two frames or more"));
+}
+
+/// A cube of length 1 as a Wavefront file.
+constexpr auto kCubeObj =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\n"
+    "f 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+TEST_F(SofaMapping, ASparseGridHasTheCellsThatASurfaceRunsThroughOrEncloses) {
+  write("cube.obj", kCubeObj);
+  write("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto points = [this](const std::string& file, const std::string& data) {
+    return readIn("<SparseGridTopology fileTopology='" + file + "' " + data + "/><MechanicalObject/><PointModel/>");
+  };
+  const auto whole = points("cube.obj", "n='4 4 4'");
+  EXPECT_EQ(whole.models[0].positions.size(), 64U) << "the cell in the middle is inside";
+  EXPECT_THAT(boxOf(whole.models[0]), IsBox(Corners{-0.01, -0.01, -0.01, 1.01, 1.01, 1.01}));
+  EXPECT_EQ(whole.models[0].positions[1], (Vec3{-0.01, -0.01, -0.01 + 1.02 / 3})) << "z runs first";
+  const auto corner = points("corner.obj", "n='4 4 4'");
+  EXPECT_EQ(corner.models[0].positions.size(), 51U) << "17 of 27 cells";
+  EXPECT_EQ(points("corner.obj", "n='4 4 4' min='0 0 0' max='2 2 2'").models[0].positions.size(), 20U);
+  EXPECT_EQ(points("cube.obj", "cellWidth='0.6'").models[0].positions.size(), 27U);
+  EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj' n='3 3 3' min='0.5 0 0' max='2 2 2'/>"
+                          "<MechanicalObject/><PointModel/>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj' nbVirtualFinerLevels='2'/><MechanicalObject/>"
+                          "<PointModel/>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj'/><MechanicalObject/><LineModel/>"),
+              HasSubstr("the edges and faces of its sparse grid"));
+}
+
+TEST_F(SofaMapping, PointsInASparseGridFollowAFrameThatCarriesIt) {
+  write("cube.obj", kCubeObj);
+  const std::string grid = "<SparseGridTopology filename='cube.obj' n='3 3 3'/>";
+  const auto carried = [&](const std::string& second) {
+    return "<Node name='a'><MechanicalObject name='frame' template='Rigid3' position='1 2 0 0 0 0.70710678118654752 "
+           "0.70710678118654752'/>" +
+           grid + "<MechanicalObject name='free' dx='1'/><Node name='b'>" + second +
+           "<MechanicalObject name='m'/><DeformableOnRigidFrameMapping input1='@../free' input2='@../frame' "
+           "output='@m'/>" +
+           kOnSparseGrid + "</Node></Node>";
+  };
+  EXPECT_THAT(onlyBox(readIn(carried(grid))), IsBox(Corners{0, 3, 0, 1, 4, 1}));
+  EXPECT_THAT(complaintIn(carried("<SparseGridTopology filename='cube.obj' n='4 4 4'/>")),
+              HasSubstr("its sparse grid moves in an unknown way"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

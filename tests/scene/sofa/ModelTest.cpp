@@ -206,21 +206,22 @@ TEST_F(SofaModel, UnknownCollisionModelsAreNamed) {
 
 TEST_F(SofaModel, MethodsHaveTheirDefaults) {
   for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"}) {
-    const auto method = readIn(std::string{"<"} + name + "/>").method;
+    const auto method = readIn(std::string{"<"} + name + "/>").pipelines[0].method;
     EXPECT_EQ(method.name, name);
     EXPECT_TRUE(method.proximity);
     EXPECT_EQ(method.alarmDistance, 1.0);
     EXPECT_EQ(method.contactDistance, 0.5);
   }
-  const auto discrete = readIn("<DiscreteIntersection/>").method;
+  const auto discrete = readIn("<DiscreteIntersection/>").pipelines[0].method;
   EXPECT_FALSE(discrete.proximity);
   EXPECT_EQ(discrete.alarmDistance, 0);
-  EXPECT_THAT(readIn("").method.name, IsEmpty());
+  EXPECT_THAT(readIn("").pipelines[0].method.name, IsEmpty());
 }
 
 TEST_F(SofaModel, TheFirstMethodBelowThePipelineCounts) {
   const auto method = readIn(R"(<DiscreteIntersection/><Node><CollisionPipeline/>
     <Node><LocalMinDistance alarmDistance="0.3" contactDistance="0.1"/></Node></Node>)")
+                          .pipelines[0]
                           .method;
   EXPECT_EQ(method.name, "LocalMinDistance");
   EXPECT_EQ(method.alarmDistance, 0.3);
@@ -233,22 +234,54 @@ TEST_F(SofaModel, AnUnknownMethodIsNamed) {
 
 TEST_F(SofaModel, TheBroadPhaseMayHaveARegion) {
   for (const auto name : {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase"}) {
-    const auto region = readIn(std::string{"<"} + name + " box='-1 -2 -3 4 5 6'/>").region;
+    const auto region = readIn(std::string{"<"} + name + " box='-1 -2 -3 4 5 6'/>").pipelines[0].region;
     ASSERT_TRUE(region) << name;
     EXPECT_EQ(region->min, (Vec3{-1, -2, -3}));
     EXPECT_EQ(region->max, (Vec3{4, 5, 6}));
   }
-  EXPECT_FALSE(readIn("<BruteForceDetection/>").region);
-  EXPECT_FALSE(readIn("<BruteForceDetection box=''/>").region);
+  EXPECT_FALSE(readIn("<BruteForceDetection/>").pipelines[0].region);
+  EXPECT_FALSE(readIn("<BruteForceDetection box=''/>").pipelines[0].region);
   EXPECT_THAT(complaintIn("<BruteForceDetection box='1 2 3'/>"), HasSubstr("two corners"));
 }
 
 TEST_F(SofaModel, ARegionThatIsNoBoxIsNamedWithItsLine) {
-  EXPECT_FALSE(readIn("<BruteForceDetection box='0 0 0 0 0 0'/>").region) << "what SOFA writes for none";
+  EXPECT_FALSE(readIn("<BruteForceDetection box='0 0 0 0 0 0'/>").pipelines[0].region) << "what SOFA writes for none";
   const auto complaint = complaintIn("<BruteForceDetection box='0 0 1e-9 1 1 1e-10'/>");
   EXPECT_THAT(complaint, HasSubstr("in z they are 1e-09 and 1e-10"));
   EXPECT_THAT(complaint, HasSubstr(".scn:"));
   EXPECT_THAT(complaintIn("<BruteForceDetection box='0 2 0 1 2 1'/>"), HasSubstr("in y they are 2 and 2"));
+}
+
+TEST_F(SofaModel, AListOfRadiiThatLinksToNothingIsTheDefaultAndThatIsSaid) {
+  const auto scene = readIn(
+      "<CollisionPipeline/><MechanicalObject position='0 0 0'/><SphereModel name='s' radius='2' "
+      "listRadius='@loader.listRadius'/>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{-2, -2, -2, 2, 2, 2}));
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("listRadius links to nothing"));
+}
+
+TEST_F(SofaModel, MethodsOfTheSameBoxesAreProximityMethods) {
+  for (const auto name : {"CCDTightInclusionIntersection", "CudaProximityIntersection"}) {
+    const auto scene = readIn(std::string{"<"} + name + " alarmDistance='0.5'/>");
+    EXPECT_TRUE(scene.pipelines[0].method.proximity) << name;
+    EXPECT_EQ(scene.pipelines[0].method.alarmDistance, 0.5) << name;
+    EXPECT_THAT(scene.warnings, testing::IsEmpty()) << name;
+  }
+  const auto scene = readIn("<CCDTightInclusionIntersection continuousCollisionType='Inertia'/>");
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("continuous"));
+}
+
+TEST_F(SofaModel, ModelsOfPluginsAreNotOverlooked) {
+  for (const auto name : {"TBulletSphereModel", "BulletTriangleModel", "TBulletConvexHullModel", "CudaPointModel"})
+    EXPECT_THAT(complaintIn(std::string{"<MechanicalObject/><"} + name + "/>"),
+                HasSubstr("this kind of collision model is not known"))
+        << name;
+  for (const auto name : {"OglModel", "OglCylinderModel", "CudaVisualModel", "PointSplatModel", "CylinderVisualModel"})
+    EXPECT_THAT(readIn(std::string{"<MechanicalObject/><"} + name + "/>").models, testing::IsEmpty()) << name;
+  EXPECT_THAT(onlyBox(readIn("<MechanicalObject template='CudaVec3f' position='1 0 0'/><CudaSphereModel radius='2'/>")),
+              IsBox(Corners{-1, -2, -2, 3, 2, 2}));
 }
 
 }  // namespace

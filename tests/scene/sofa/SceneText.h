@@ -55,7 +55,7 @@ class SceneTest : public testing::Test {
  protected:
   [[nodiscard]] SceneDescription read(const std::string& text, bool partial = false) const {
     const auto file = m_folder.write("scene.scn", text);
-    return describeScene(file, {.searchRoots = m_roots, .partial = partial});
+    return describeScene(file, {.searchRoots = m_roots, .partial = partial, .sofa = m_sofa});
   }
 
   /// The same with an outermost node around the text.
@@ -81,6 +81,7 @@ class SceneTest : public testing::Test {
 
   Folder m_folder;
   std::vector<std::filesystem::path> m_roots;
+  SofaVersion m_sofa = SofaVersion::FromScene;
 };
 
 /// Six numbers: the corners of a root box.

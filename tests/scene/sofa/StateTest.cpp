@@ -124,6 +124,26 @@ TEST_F(SofaState, WhatIsNoFiniteNumberIsNamed) {
                 testing::AllOf(HasSubstr("scene.scn:2: MechanicalObject 'm'"), HasSubstr(word)));
 }
 
+TEST_F(SofaState, NumbersThatRunTogetherAreTakenApart) {
+  const auto scene = readIn("<MechanicalObject name='m' position='0-1+2 1.5.25-3e-1-4e1'/><PointModel/>");
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models[0].positions, (std::vector<Vec3>{{0, -1, 2}, {1.5, 0.25, -0.3}}));
+  ASSERT_EQ(scene.warnings.size(), 3U);
+  EXPECT_EQ(scene.warnings[1].subject, "/m");
+  EXPECT_THAT(scene.warnings[1].reason, HasSubstr("'0-1+2' is read as several numbers"));
+  EXPECT_THAT(scene.warnings[2].reason, HasSubstr("the last 1 of 7 numbers are dropped"));
+  EXPECT_THAT(complaintIn("<MechanicalObject position='0-1e 2'/><PointModel/>"), HasSubstr("'0-1e' is not a finite"));
+  EXPECT_THAT(complaintIn("<MechanicalObject position='0--1 2'/><PointModel/>"), HasSubstr("'0--1' is not a finite"));
+}
+
+TEST_F(SofaState, RestPositionsOfRigidFramesAreFrames) {
+  const auto scene = readIn("<MechanicalObject template='Rigid3' position='0 0 0 0 0 0 1' rest_position='1 2 3 0 0 0 1'/>"
+                            "<CollisionPipeline/>"
+                            "<Node><MechanicalObject name='m' position='@../mObject1.rest_position'/><PointModel/></Node>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 2, 3, 1, 2, 3}));
+  EXPECT_THAT(scene.warnings, testing::IsEmpty());
+}
+
 TEST_F(SofaState, ResultsThatOverflowAreNamed) {
   EXPECT_THAT(complaintIn("<MechanicalObject position='1e300 0 0' scale3d='1e300 1 1'/><PointModel/>"),
               HasSubstr("not finite"));

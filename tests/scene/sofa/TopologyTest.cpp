@@ -110,6 +110,30 @@ TEST_F(SofaGrid, HasEdgesQuadsAndTheirTriangles) {
   EXPECT_EQ(counts("<RegularGrid n='3 3 1'/><MechanicalObject/>"), (Counts{9, 12, 16}));
 }
 
+TEST_F(SofaGrid, HasTheEdgesOfItsTrianglesInNewerSofa) {
+  m_sofa = SofaVersion::Sofa2612;
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2'/><MechanicalObject/>"), (Counts{8, 18, 24}));
+  EXPECT_EQ(counts("<RegularGrid n='3 3 1'/><MechanicalObject/>"), (Counts{9, 16, 16}));
+  EXPECT_EQ(counts("<RegularGrid n='3 1 1'/><MechanicalObject/>"), (Counts{3, 2, 0})) << "no triangles";
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2' computeTriangleList='0'/><MechanicalObject/>"), (Counts{8, 12, 12}));
+  EXPECT_EQ(counts("<RegularGrid n='2 2 2' computeTriangleList='0' computeQuadList='0'/><MechanicalObject/>"),
+            (Counts{8, 12, 12}))
+      << "derived from the cubes";
+  const auto scene = readIn("<RegularGrid n='2 2 1'/><MechanicalObject/><LineModel/>");
+  EXPECT_EQ(scene.models[0].lines, (Elements<2>{{1, 3}, {3, 0}, {0, 1}, {3, 2}, {2, 0}}));
+}
+
+TEST_F(SofaGrid, TakesItsShapeFromAnotherThatIsItsSource) {
+  const auto scene = readIn(
+      "<Node name='a'><RegularGrid name='g' nx='4' ny='3' nz='1' xmin='0' xmax='3' ymin='0' ymax='2' zmin='0' "
+      "zmax='1'/></Node><Node name='b'><RegularGrid src='@/a/g'/><MechanicalObject/><TriangleModel/></Node>"
+      "<Node name='c'><RegularGrid src='@/a/g' n='2 2 2' p0='0 0 5'/><MechanicalObject/><PointModel/></Node>");
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_EQ(scene.models[0].triangles.size(), 24U);
+  EXPECT_THAT(boxOf(scene.models[0]), IsBox(Corners{0, 0, 0, 3, 2, 0}));
+  EXPECT_THAT(boxOf(scene.models[1]), IsBox(Corners{0, 0, 5, 3, 2, 6}));
+}
+
 TEST_F(SofaGrid, AResolutionBelowOneBecomesTwo) {
   EXPECT_EQ(counts("<RegularGrid n='0 5 5' max='3 3 3'/><MechanicalObject/>").points, 8U);
 }
@@ -171,6 +195,72 @@ TEST_F(SofaTopology, UnknownTopologiesAndMappingsOfThemAreNamed) {
   EXPECT_THAT(complaintIn(std::string{kCube} +
                           "<Node><EdgeSetTopologyContainer/><MagicTopologicalMapping name='m'/><LineModel/></Node>"),
               HasSubstr("MagicTopologicalMapping 'm' (/1/m): this kind of topological mapping is not known"));
+}
+
+using SofaCube = SofaGrid;
+
+TEST_F(SofaCube, IsTheSurfaceOfABox) {
+  const std::string cube = "<CubeTopology nx='3' ny='4' nz='3' min='0 -1 -1' max='4 2 1' ";
+  EXPECT_EQ(counts(cube + "/><MechanicalObject/>"), (Counts{34, 64, 64}));
+  EXPECT_EQ(counts(cube + "internalPoints='1'/><MechanicalObject/>"), (Counts{36, 64, 64}));
+  EXPECT_EQ(counts("<CubeTopology nx='3' ny='2' nz='1'/><MechanicalObject/>"), (Counts{6, 7, 4}));
+  const auto scene = readIn(cube + "/><MechanicalObject/><PointModel/><TriangleModel/>");
+  EXPECT_THAT(boxOf(scene.models[0]), IsBox(Corners{0, -1, -1, 4, 2, 1}));
+  EXPECT_THAT(boxOf(scene.models[1]), IsBox(Corners{0, -1, -1, 4, 2, 1}));
+  // The last points are those of the sides half way up: along x in front and behind, then along y left and right.
+  const auto& points = scene.models[0].positions;
+  EXPECT_EQ(points[24], (Vec3{0, -1, 0}));
+  EXPECT_EQ(points[27], (Vec3{0, 2, 0}));
+  EXPECT_EQ(points[30], (Vec3{0, 0, 0}));
+  EXPECT_EQ(points[33], (Vec3{4, 1, 0}));
+  EXPECT_THAT(complaintIn("<CubeTopology name='c' splitNormals='1'/><MechanicalObject/><PointModel/>"),
+              HasSubstr("corners are split"));
+}
+
+TEST_F(SofaCube, ASquareMadeByACreatorIsCutByItsPattern) {
+  const auto square = [](const std::string& data) {
+    return "<GridMeshCreator name='l' resolution='3 2' " + data +
+           "/><MeshTopology src='@l'/><MechanicalObject src='@l'/>";
+  };
+  EXPECT_EQ(counts(square("")), (Counts{6, 9, 4}));
+  EXPECT_EQ(counts(square("trianglePattern='0'")), (Counts{6, 7, 4})) << "two quads, of two triangles each";
+  const auto scene = readIn(square("trianglePattern='1' scale3d='2 3 1' translation='1 0 0'") + "<TriangleModel/>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 0, 0, 3, 3, 0}));
+  EXPECT_EQ(scene.models[0].triangles, (Elements<3>{{0, 1, 4}, {0, 4, 3}, {1, 2, 4}, {2, 5, 4}}));
+  EXPECT_EQ(readIn(square("trianglePattern='3'") + "<TriangleModel/>").models[0].triangles[0],
+            (std::array<Index, 3>{0, 1, 3}));
+  EXPECT_THAT(complaintIn("<GridMeshCreator name='l' resolution='1 2'/><MechanicalObject src='@l'/><PointModel/>"),
+              HasSubstr("two points in each direction"));
+}
+
+TEST_F(SofaTopology, ASubsetIsWhatLiesInBoxesOrSpheres) {
+  // Three squares in a row along x, each of two triangles: points 0 to 3 below, 4 to 7 above.
+  const auto subset = [](const std::string& data, const std::string& part) {
+    return "<MeshTopology name='m' position='0 0 0 1 0 0 2 0 0 3 0 0 0 1 0 1 1 0 2 1 0 3 1 0' triangles='0 1 5 0 5 4 1 "
+           "2 "
+           "6 1 6 5 2 3 7 2 7 6'/><Node><SubsetTopology name='s' rest_position='@../m.position' "
+           "triangles='@../m.triangles' " +
+           data + "/><Node><MechanicalObject position='" +
+           (data.find("local") == std::string::npos ? "@../../m.position" : "@../s.points" + part) +
+           "'/><MeshTopology triangles='@../s.triangles" + part + "'/><PointModel/><TriangleModel/></Node></Node>";
+  };
+  const auto trianglesOf = [&](const std::string& data, const std::string& part) {
+    return readIn(subset(data, part)).models.at(1).triangles;
+  };
+  const std::string box = "box='2.5 2 1 0.5 -1 -1'";
+  EXPECT_EQ(trianglesOf(box, "InROI"), (Elements<3>{{1, 2, 6}, {1, 6, 5}}));
+  EXPECT_EQ(trianglesOf(box, "OutROI"), (Elements<3>{{0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6}}));
+  EXPECT_EQ(trianglesOf("centers='0.5 0.5 0 2.5 0.5 0' radii='0.8 0.6'", "InROI"), (Elements<3>{{0, 1, 5}, {0, 5, 4}}));
+  // All four points inside belong to triangles that are partly outside, and come first in both parts.
+  const auto in = readIn(subset(box + " localIndices='1'", "InROI"));
+  EXPECT_EQ(in.models[0].positions, (std::vector<Vec3>{{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 1, 0}}));
+  EXPECT_EQ(in.models[1].triangles, (Elements<3>{{0, 1, 3}, {0, 3, 2}}));
+  const auto out = readIn(subset(box + " localIndices='1'", "OutROI"));
+  EXPECT_EQ(out.models[0].positions.size(), 8U);
+  EXPECT_THAT(boxOf(out.models[1]), IsBox(Corners{0, 0, 0, 3, 1, 0}));
+  EXPECT_EQ(out.models[1].triangles[0], (std::array<Index, 3>{4, 0, 2}));
+  EXPECT_THAT(complaintIn(subset("centers='0 0 0'", "InROI")), HasSubstr("not one radius for each centre"));
+  EXPECT_THAT(complaintIn(subset(box + " tetrahedraInput='0'", "InROI")), HasSubstr("cannot compute"));
 }
 
 }  // namespace

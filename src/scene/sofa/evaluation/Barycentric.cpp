@@ -184,6 +184,23 @@ std::vector<Vec3> throughCells(const Cells& cells, const State& in, const State&
   return result;
 }
 
+/// Whether a state has the points of a sparse grid, all moved as it says.
+bool areOf(const Topology& grid, const State& state) {
+  if (!state.fromTopology) return false;
+  if (grid.unknown || state.pointsUnknown) return grid.unknown && state.pointsUnknown;
+  constexpr double kTolerance = 1e-9;  // of coordinates, which were computed in two ways
+  const auto& points = grid.given.positions;
+  if (points.size() != state.positions.size()) return false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto expected = (*state.fromTopology)(points[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double difference = std::abs(expected[axis] - state.positions[i][axis]);
+      if (!(difference <= kTolerance * std::max(1.0, std::abs(expected[axis])))) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,
@@ -193,7 +210,7 @@ std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& ma
   auto& topology = evaluation.topology(*which);
   const auto& in = evaluation.state(parent);
   if (topology.sparse) {
-    if (!in.pointsUnknown || !in.fromTopology) throw Unplaceable(mapping, "its sparse grid moves in an unknown way");
+    if (!areOf(topology, in)) throw Unplaceable(mapping, "its sparse grid moves in an unknown way");
     std::vector<Vec3> moved;
     for (const auto& p : child.positions) moved.push_back((*in.fromTopology)(p));
     return moved;

@@ -28,6 +28,8 @@ class Evaluation;
 [[nodiscard]] State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child);
 /// The points of one state, carried by a rigid frame of another.
 [[nodiscard]] State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child);
+/// Points that follow beams: the frames of a rigid state, one after the other.
+[[nodiscard]] State mapOnBeams(Evaluation& evaluation, const Component& mapping, const Component& beams, State child);
 /// A skin on bones that are at rest: it stays where it is.
 [[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
@@ -35,8 +37,16 @@ class Evaluation;
 /// How a state or a mesh loader moves its points: the data scale3d, rotation, translation, rotation2 and translation2.
 [[nodiscard]] std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component,
                                                 std::string_view name);
+/// The shape of a regular grid: the data n, min, max and p0, whatever attributes give them.
+[[nodiscard]] std::optional<Vec3> gridData(Evaluation& evaluation, const Component& grid, std::string_view name);
+[[nodiscard]] std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component,
+                                                   std::string_view name);
 /// The data of an engine, nothing if it has none of this name.
 [[nodiscard]] std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine,
+                                                  std::string_view name);
+
+/// The data of an engine that parts a mesh in two: what lies in its boxes or spheres, and the rest.
+[[nodiscard]] std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& engine,
                                                   std::string_view name);
 
 /// The state that a mapping reads or null, the state that it writes or null.

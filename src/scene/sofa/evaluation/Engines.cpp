@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -21,19 +22,35 @@ Vec3 backwards(const Steps& steps, const Vec3& p) {
   return scaled(rotate(conjugate(steps.rotation), rotate(conjugate(steps.quaternion), p - steps.translation)), inverse);
 }
 
-std::optional<Numbers> transformed(Evaluation& evaluation, const Component& engine, std::string_view name) {
-  if (name != "output_position") return std::nullopt;
+Steps stepsOf(Evaluation& evaluation, const Component& engine) {
   const auto given = evaluation.numbers(engine, {"quaternion"}, Evaluation::kFlat);
   const bool whole = given && given->values.size() == 4;
-  const Steps steps{
-      .scale = evaluation.vector(engine, {"scale"}, {1, 1, 1}),
-      .rotation = fromEulerDegrees(evaluation.vector(engine, {"rotation"}, {})),
-      .quaternion = whole ? Quat{given->values[0], given->values[1], given->values[2], given->values[3]} : Quat{},
-      .translation = evaluation.vector(engine, {"translation"}, {})};
+  return {.scale = evaluation.vector(engine, {"scale"}, {1, 1, 1}),
+          .rotation = fromEulerDegrees(evaluation.vector(engine, {"rotation"}, {})),
+          .quaternion = whole ? Quat{given->values[0], given->values[1], given->values[2], given->values[3]} : Quat{},
+          .translation = evaluation.vector(engine, {"translation"}, {})};
+}
+
+std::optional<Numbers> transformed(Evaluation& evaluation, const Component& engine, std::string_view name) {
+  if (name != "output_position") return std::nullopt;
+  const auto steps = stepsOf(evaluation, engine);
   const bool inverse = evaluation.flag(engine, "inverse", false);
   auto points = evaluation.points(engine, {"input_position"});
   for (auto& point : points) point = inverse ? backwards(steps, point) : forwards(steps, point);
   return toNumbers(points);
+}
+
+/// A map by where it takes the origin and the three axes.
+template <class Move>
+AffineMap affineOf(const Move& move) {
+  const Vec3 origin = move({});
+  return {{move({1, 0, 0}) - origin, move({0, 1, 0}) - origin, move({0, 0, 1}) - origin}, origin};
+}
+
+AffineMap motionOf(Evaluation& evaluation, const Component& engine) {
+  const auto steps = stepsOf(evaluation, engine);
+  const bool inverse = evaluation.flag(engine, "inverse", false);
+  return affineOf([&](const Vec3& p) { return inverse ? backwards(steps, p) : forwards(steps, p); });
 }
 
 std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, std::string_view name) {
@@ -47,12 +64,34 @@ std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, s
 
 }  // namespace
 
+std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component, std::string_view name) {
+  const auto* text = component.attributes.find(component.attributes.has(name) ? name : "src");
+  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  const auto* from = link ? followPath(*component.node, &component, link->path).component : nullptr;
+  if (from == nullptr) return std::nullopt;
+  const bool isNamed = component.attributes.has(name) && !link->data.empty();
+  const std::string_view data = isNamed ? std::string_view{link->data} : name;
+  if (from->kind() == ComponentKind::SparseGrid && data == "position")
+    return GridMotion{.map = {}, .areUnknown = evaluation.topology(*from).unknown};
+  if (from->kind() == ComponentKind::MechanicalState && data == "position") {
+    const auto& state = evaluation.state(*from);
+    if (!state.pointsUnknown) return std::nullopt;
+    return GridMotion{.map = *state.fromTopology, .areUnknown = true};
+  }
+  if (from->kind() != ComponentKind::TransformEngine || data != "output_position") return std::nullopt;
+  const auto before = evaluation.gridMotion(*from, "input_position");
+  if (!before) return before;
+  return GridMotion{.map = compose(motionOf(evaluation, *from), before->map), .areUnknown = before->areUnknown};
+}
+
 std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& engine, std::string_view name) {
   switch (engine.kind()) {
     case ComponentKind::TransformEngine:
       return transformed(evaluation, engine, name);
     case ComponentKind::MergePoints:
       return merged(evaluation, engine, name);
+    case ComponentKind::SubsetTopology:
+      return subsetOutput(evaluation, engine, name);
     default:
       return std::nullopt;
   }

@@ -24,24 +24,15 @@ bool isMeshData(std::string_view name) {
   return false;
 }
 
-template <std::size_t N>
-Numbers cornerNumbers(const Elements<N>& elements) {
-  Numbers result{.values = {}, .width = N};
-  result.values.reserve(elements.size() * N);
-  for (const auto& element : elements)
-    for (const auto corner : element) result.values.push_back(corner);
-  return result;
-}
-
 /// One of the lists that loaders and topologies have in common.
 template <class Source>
 std::optional<Numbers> listOf(std::string_view name, const std::vector<Vec3>& positions, Source&& source) {
   if (name == "position" || name == "points") return toNumbers(positions);
-  if (name == "edges" || name == "lines") return cornerNumbers(source.edges());
-  if (name == "triangles") return cornerNumbers(source.triangles());
-  if (name == "quads") return cornerNumbers(source.quads());
-  if (name == "tetrahedra" || name == "tetras") return cornerNumbers(source.tetrahedra());
-  if (name == "hexahedra" || name == "hexas") return cornerNumbers(source.hexahedra());
+  if (name == "edges" || name == "lines") return toNumbers(source.edges());
+  if (name == "triangles") return toNumbers(source.triangles());
+  if (name == "quads") return toNumbers(source.quads());
+  if (name == "tetrahedra" || name == "tetras") return toNumbers(source.tetrahedra());
+  if (name == "hexahedra" || name == "hexas") return toNumbers(source.hexahedra());
   return std::nullopt;
 }
 
@@ -90,7 +81,8 @@ std::uint64_t sizeOf(const Mesh& mesh) {
 }
 
 bool isEngine(ComponentKind kind) {
-  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints || kind == ComponentKind::BoxRoi;
+  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints ||
+         kind == ComponentKind::BoxRoi || kind == ComponentKind::SubsetTopology;
 }
 
 }  // namespace
@@ -115,7 +107,10 @@ class Evaluation::Busy {
   std::vector<std::pair<const Component*, std::string>>& m_busy;
 };
 
-Evaluation::Evaluation(const Node& root, ReadScope& scope) : m_scope(scope) { indexMappings(root); }
+Evaluation::Evaluation(const Node& root, ReadScope& scope, Generation generation)
+    : m_scope(scope), m_generation(generation) {
+  indexMappings(root);
+}
 
 void Evaluation::indexMappings(const Node& node) {
   if (!node.active) return;
@@ -187,12 +182,33 @@ const State& Evaluation::knownState(const Component& component) {
   return result;
 }
 
+std::optional<GridMotion> Evaluation::gridMotion(const Component& component, std::string_view name) {
+  const Busy busy(*this, component, std::string{name} + " motion");
+  return sofa::gridMotion(*this, component, name);
+}
+
 std::optional<Numbers> Evaluation::written(const Component& component, std::string_view name, const std::string& text) {
   if (text.starts_with('@')) return linked(component, name, text);
   std::string bad;
   auto values = isIndexList(name) ? parseIntegers(text, bad, m_scope) : parseNumbers(text, bad);
+  if (!values && !isIndexList(name)) {
+    const auto joined = bad;
+    if ((values = parseNumberStream(text, bad)))
+      warn(component, std::string{name} + ": '" + joined.substr(0, 40) + "' is read as several numbers, as SOFA does");
+  }
   if (!values) throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) + "' is not a finite number");
   return Numbers{std::move(*values), 1};
+}
+
+void Evaluation::warn(const Component& component, std::string text) {
+  const std::pair<const Component*, std::string> warning{&component, std::move(text)};
+  if (std::ranges::find(m_warnings, warning) == m_warnings.end()) m_warnings.push_back(warning);
+}
+
+bool Evaluation::isDeadLink(const Component& component, std::string_view name) const {
+  const auto* text = component.attributes.find(name);
+  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  return link && followPath(*component.node, &component, link->path).component == nullptr;
 }
 
 std::optional<Numbers> Evaluation::linked(const Component& component, std::string_view name, const std::string& text) {
@@ -236,8 +252,13 @@ std::optional<Numbers> Evaluation::output(const Component& component, std::strin
     if (const auto value = placementData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (kind == ComponentKind::MeshLoader || kind == ComponentKind::SphereLoader)
     if (auto value = loaderOutput(component, mesh(component), name)) return value;
+  if (const auto value = gridData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (isTopology(kind) && isMeshData(name)) {
     auto& from = topology(component);
+    const bool isKnown = name == "position" || name == "points" || name == "hexahedra" || name == "hexas";
+    if (from.unknown || (from.sparse && !isKnown))
+      throw Unplaceable(component,
+                        "its " + std::string{name} + " are those of a sparse grid, which this reader does not compute");
     if (auto value = listOf(name, from.given.positions, from)) return value;
   }
   if (kind == ComponentKind::MechanicalState)
@@ -261,6 +282,10 @@ std::optional<Numbers> Evaluation::numbers(const Component& component, Names nam
   if (width == kFlat) return Numbers{std::move(found->values), 1};
   if (found->width == 1) {
     found->width = width;  // Plain numbers are cut into entries; what is left over is dropped.
+    if (const auto left = found->values.size() % width; left != 0)
+      warn(component, std::string{*names.begin()} + ": the last " + std::to_string(left) + " of " +
+                          std::to_string(found->values.size()) + " numbers are dropped, as SOFA does: each entry has " +
+                          std::to_string(width));
     found->values.resize(found->size() * width);
     return found;
   }

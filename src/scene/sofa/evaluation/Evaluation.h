@@ -12,6 +12,7 @@
 
 #include "input/ReadScope.h"
 #include "sofa/evaluation/State.h"
+#include "sofa/graph/Generation.h"
 #include "sofa/graph/SceneGraph.h"
 #include "sofa/graph/Values.h"
 #include "sofa/mesh/Mesh.h"
@@ -24,7 +25,7 @@ namespace allpairs::scene::sofa {
 /// Bad input: what cannot be computed throws Unplaceable, or FileError for a mesh file, and nothing is remembered.
 class Evaluation {
  public:
-  Evaluation(const Node& root, ReadScope& scope);
+  Evaluation(const Node& root, ReadScope& scope, Generation generation);
 
   /// What a loader has loaded and transformed.
   const Mesh& mesh(const Component& loader);
@@ -34,9 +35,13 @@ class Evaluation {
   /// The same, but throws if the points themselves are not known.
   const State& knownState(const Component& component);
 
+  /// How a data of a component moves the points of a sparse grid that it is made of; nothing if it is made of others.
+  std::optional<GridMotion> gridMotion(const Component& component, std::string_view name);
+
   /// Counts points that a component is about to make, of which a scene may ask for more than it writes out.
   void takePoints(const Component& component, std::uint64_t count);
   [[nodiscard]] ReadScope& scope() { return m_scope; }
+  [[nodiscard]] Generation generation() const { return m_generation; }
 
   using Names = std::initializer_list<std::string_view>;
   /// As a width: all numbers in a row, whatever entries they make where they come from.
@@ -61,6 +66,13 @@ class Evaluation {
   /// Whether a data's value comes from elsewhere.
   [[nodiscard]] bool isLinked(const Component& component, Names names) const;
   [[nodiscard]] bool isGiven(const Component& component, Names names) const;
+  /// Whether a data is a link to a component that is not there.
+  [[nodiscard]] bool isDeadLink(const Component& component, std::string_view name) const;
+
+  using Warnings = std::vector<std::pair<const Component*, std::string>>;
+  /// Notes, once, what was read otherwise than it is written.
+  void warn(const Component& component, std::string text);
+  [[nodiscard]] const Warnings& warnings() const { return m_warnings; }
 
   /// The mapping that moves a state; null if none does.
   [[nodiscard]] const Component* mappingOf(const Component& state) const;
@@ -78,14 +90,24 @@ class Evaluation {
   void indexMappings(const Node& node);
 
   ReadScope& m_scope;
+  Generation m_generation;
   std::unordered_map<const Component*, Mesh> m_meshes;
   std::unordered_map<const Component*, Topology> m_topologies;
   std::unordered_map<const Component*, State> m_states;
   std::unordered_map<const Component*, const Component*> m_mappings;
   std::unordered_map<const Component*, const Component*> m_topologicalMappings;
   std::vector<std::pair<const Component*, std::string>> m_busy;
+  Warnings m_warnings;
 };
 
 [[nodiscard]] Numbers toNumbers(const std::vector<Vec3>& points);
+template <std::size_t N>
+[[nodiscard]] Numbers toNumbers(const Elements<N>& elements) {
+  Numbers result{.values = {}, .width = N};
+  result.values.reserve(elements.size() * N);
+  for (const auto& element : elements)
+    for (const auto corner : element) result.values.push_back(corner);
+  return result;
+}
 
 }  // namespace allpairs::scene::sofa

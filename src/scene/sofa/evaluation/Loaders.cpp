@@ -109,6 +109,61 @@ void transformSpheres(Evaluation& evaluation, const Component& loader, Mesh& mes
   for (auto& p : mesh.positions) p = p + translation;
 }
 
+/// The numbers of the corners of one square of a grid.
+struct Square {
+  Index a, b, c, d;
+};
+
+void cut(const Square& s, bool downward, Elements<3>& triangles) {
+  if (downward)
+    triangles.insert(triangles.end(), {{s.a, s.b, s.d}, {s.b, s.c, s.d}});
+  else
+    triangles.insert(triangles.end(), {{s.a, s.b, s.c}, {s.a, s.c, s.d}});
+}
+
+/// Each edge once, the way round in which it comes first, in ascending order.
+template <std::size_t N>
+void addEdgesInOrder(const Elements<N>& elements, Elements<2>& edges) {
+  std::set<std::array<Index, 2>> unique;
+  for (const auto& e : elements)
+    for (std::size_t j = 0; j < N; ++j)
+      if (!unique.contains({e[(j + 1) % N], e[j]})) unique.insert({e[j], e[(j + 1) % N]});
+  edges.insert(edges.end(), unique.begin(), unique.end());
+}
+
+/// Whether a square of a grid is cut from its second corner, by the number of SOFA's pattern.
+bool isDownward(int pattern, std::size_t x, std::size_t y) {
+  constexpr int kAlternate = 1, kDownward = 3;
+  return pattern == kDownward || (pattern == kAlternate && (x + y) % 2 == 1);
+}
+
+/// A square of one by one, of so many points in each direction.
+Mesh gridMesh(Evaluation& evaluation, const Component& creator) {
+  const auto counts = evaluation.vector(creator, {"resolution"}, {2, 2, 0});
+  if (!(counts[0] >= 2) || !(counts[1] >= 2))
+    throw Unplaceable(creator, "a grid has two points in each direction or more");
+  if (!(counts[0] * counts[1] <= kMaxPoints)) throw Unplaceable(creator, "its resolution is out of all reason");
+  const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
+  const auto pattern = static_cast<int>(std::clamp(evaluation.number(creator, {"trianglePattern"}, 2), -1.0, 9.0));
+  constexpr std::uint64_t kElements = 8;  // which take this many times the memory of the points
+  evaluation.takePoints(creator, kElements * nx * ny);
+  Mesh mesh;
+  for (std::size_t y = 0; y < ny; ++y)
+    for (std::size_t x = 0; x < nx; ++x)
+      mesh.positions.push_back({static_cast<double>(x) / static_cast<double>(nx - 1),
+                                static_cast<double>(y) / static_cast<double>(ny - 1), 0});
+  const auto at = [nx](std::size_t x, std::size_t y) { return static_cast<Index>(x + nx * y); };
+  for (std::size_t y = 0; y + 1 < ny; ++y)
+    for (std::size_t x = 0; x + 1 < nx; ++x) {
+      const Square s{at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)};
+      if (pattern == 0) mesh.quads.push_back({s.a, s.b, s.c, s.d});
+      if (pattern >= 1 && pattern <= 3) cut(s, isDownward(pattern, x, y), mesh.triangles);
+    }
+  addEdgesInOrder(mesh.quads, mesh.edges);
+  addEdgesInOrder(mesh.triangles, mesh.edges);
+  return mesh;
+}
+
 Mesh readBy(Evaluation& evaluation, const Component& loader, const std::filesystem::path& path) {
   if (loader.kind() == ComponentKind::SphereLoader) return readSpheres(path);
   if (loader.type == "MeshGmshLoader") return readGmsh(path);
@@ -123,10 +178,11 @@ Mesh readBy(Evaluation& evaluation, const Component& loader, const std::filesyst
 }  // namespace
 
 Mesh loadMesh(Evaluation& evaluation, const Component& loader) {
-  const auto path = evaluation.file(loader, {"filename"});
-  if (!path) throw Unplaceable(loader, "it names no file");
-  auto mesh = readBy(evaluation, loader, *path);
-  checkMesh(mesh, *path);
+  const bool isMade = loader.type == "GridMeshCreator";
+  const auto path = isMade ? std::nullopt : evaluation.file(loader, {"filename"});
+  if (!path && !isMade) throw Unplaceable(loader, "it names no file");
+  auto mesh = isMade ? gridMesh(evaluation, loader) : readBy(evaluation, loader, *path);
+  if (path) checkMesh(mesh, *path);
   if (loader.kind() == ComponentKind::SphereLoader) {
     transformSpheres(evaluation, loader, mesh);
     return mesh;

@@ -183,6 +183,8 @@ State mapState(Evaluation& evaluation, const Component& mapping, State child) {
   switch (mapping.kind()) {
     case SkinningMapping:
       return mapSkin(evaluation, mapping, *input, std::move(child));
+    case BeamLinearMapping:
+      return mapOnBeams(evaluation, mapping, *input, std::move(child));
     case RigidMapping:
       return mapRigidly(evaluation, mapping, evaluation.knownState(*input), child);
     case IdentityMapping:

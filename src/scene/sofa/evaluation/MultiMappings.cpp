@@ -61,7 +61,7 @@ State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child) 
   };
   const auto& deformed = stateAt(evaluation, mapping, link("input1"));
   child.positions = deformed.positions;
-  child.fromTopology.reset();
+  child.fromTopology = deformed.fromTopology;
   if (link("input2").empty()) return child;
   const auto& frames = stateAt(evaluation, mapping, link("input2"));
   const auto index = evaluation.number(mapping, {"index"}, 0);
@@ -69,7 +69,9 @@ State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child) 
       evaluation.isGiven(mapping, {"repartition", "indexFromEnd"}))
     throw Unplaceable(mapping, "how its rigid frames carry its points is not known to this reader");
   const auto frame = static_cast<std::size_t>(index);
-  for (auto& p : child.positions) p = rotate(frames.orientations[frame], p) + frames.positions[frame];
+  const auto carried = affine(frames.orientations[frame], {1, 1, 1}, frames.positions[frame]);
+  for (auto& p : child.positions) p = carried(p);
+  if (child.fromTopology) child.fromTopology = compose(carried, *child.fromTopology);
   return child;
 }
 

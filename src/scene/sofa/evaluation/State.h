@@ -17,6 +17,23 @@ struct AffineMap {
   [[nodiscard]] Vec3 operator()(const Vec3& p) const { return linear * p + offset; }
 };
 
+/// First scaled, then turned, then moved.
+[[nodiscard]] inline AffineMap affine(const Quat& rotation, const Vec3& scale, const Vec3& translation) {
+  return {{rotate(rotation, {scale[0], 0, 0}), rotate(rotation, {0, scale[1], 0}), rotate(rotation, {0, 0, scale[2]})},
+          translation};
+}
+
+[[nodiscard]] inline AffineMap compose(const AffineMap& after, const AffineMap& before) {
+  return {{after.linear * before.linear.x, after.linear * before.linear.y, after.linear * before.linear.z},
+          after(before.offset)};
+}
+
+/// How the points of a sparse grid were moved that a data holds.
+struct GridMotion {
+  AffineMap map{};
+  bool areUnknown = false;  ///< The points themselves are not known, only how they were moved.
+};
+
 /// The degrees of freedom of a state component at the start of the simulation.
 struct State {
   enum class Kind { Points, Rigid, Other };

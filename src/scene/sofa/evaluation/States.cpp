@@ -46,20 +46,6 @@ Placement placementOf(Evaluation& evaluation, const Component& c) {
   return placement;
 }
 
-AffineMap affine(const Quat& rotation, const Vec3& scale, const Vec3& translation) {
-  const auto column = [&](std::size_t axis) {
-    Vec3 unit{};
-    unit[axis] = scale[axis];
-    return rotate(rotation, unit);
-  };
-  return {{column(0), column(1), column(2)}, translation};
-}
-
-AffineMap compose(const AffineMap& after, const AffineMap& before) {
-  return {{after.linear * before.linear.x, after.linear * before.linear.y, after.linear * before.linear.z},
-          after(before.offset)};
-}
-
 void move(State& state, const Vec3& scale, const Vec3& rotation, const Vec3& translation) {
   const bool turned = rotation != Vec3{};
   const auto q = fromEulerDegrees(rotation);
@@ -130,7 +116,7 @@ void takePoints(Evaluation& evaluation, const Component& component, State& state
   state.resize(tooLate ? 0 : topology.pointCount);
   for (std::size_t i = 0; i < state.positions.size(); ++i) state.positions[i] = topology.position(i);
   state.fromTopology = AffineMap{};
-  state.pointsUnknown = topology.sparse && !tooLate;
+  state.pointsUnknown = topology.unknown && !tooLate;
 }
 
 /// How many entries the other vectors of a state have that were written out.
@@ -145,6 +131,27 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
   if (size < 0) return standard;
   if (size > kMaxPoints) throw Unplaceable(component, "size=\"" + *text + "\" is out of all reason");
   return static_cast<std::size_t>(size);
+}
+
+std::size_t widthOf(const State& state) { return state.kind == State::Kind::Rigid ? 7 : 3; }
+
+std::vector<Vec3> restPositions(Evaluation& evaluation, const Component& component, const State& state) {
+  std::vector<Vec3> rest;
+  const auto given = evaluation.numbers(component, {"rest_position"}, widthOf(state));
+  for (std::size_t i = 0; given && i < given->size(); ++i) {
+    const auto* v = given->values.data() + i * given->width;
+    rest.push_back({v[0], v[1], v[2]});
+  }
+  return rest;
+}
+
+/// Moves a state as its own data say, and takes its rest positions on the way.
+void place(Evaluation& evaluation, const Component& component, State& state) {
+  const auto placement = placementOf(evaluation, component);
+  move(state, placement.scale, placement.rotation, placement.translation);
+  state.rest = restPositions(evaluation, component, state);
+  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
+  move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
 }
 
 }  // namespace
@@ -166,8 +173,16 @@ State initialState(Evaluation& evaluation, const Component& component) {
   state.kind = kindOf(component);
   if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
-  const std::size_t width = state.kind == State::Kind::Rigid ? 7 : 3;
+  const std::size_t width = widthOf(state);
   state.resize(1);
+  const auto motion = state.kind == State::Kind::Points ? evaluation.gridMotion(component, "position") : std::nullopt;
+  if (motion && motion->areUnknown) {
+    state.resize(0);
+    state.fromTopology = motion->map;
+    state.pointsUnknown = true;
+    place(evaluation, component, state);
+    return state;
+  }
   if (const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1}))
     setPositions(state, *given);
   if (const auto size = declaredSize(component, state.positions.size());
@@ -182,11 +197,8 @@ State initialState(Evaluation& evaluation, const Component& component) {
   if (largest > std::max<std::size_t>(state.positions.size(), 1)) state.resize(largest);
   if (state.positions.size() <= 1) takePoints(evaluation, component, state);
 
-  const auto placement = placementOf(evaluation, component);
-  move(state, placement.scale, placement.rotation, placement.translation);
-  state.rest = evaluation.points(component, {"rest_position"});
-  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
-  move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
+  if (motion) state.fromTopology = motion->map;
+  place(evaluation, component, state);
   return state;
 }
 

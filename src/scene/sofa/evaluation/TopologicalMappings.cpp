@@ -100,7 +100,8 @@ Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Com
   if (input == nullptr) throw Unplaceable(mapping, "the topology that it reads is nowhere to be found");
   if (input == &target) throw Unplaceable(mapping, "it reads the topology that it writes");
   auto& from = evaluation.topology(*input);
-  if (from.sparse) throw Unplaceable(mapping, "the cells of a sparse grid are not known to this reader");
+  if (from.unknown || (from.sparse && (mapping.kind() != Hexa2Tetra || evaluation.flag(mapping, "swapping", false))))
+    throw Unplaceable(mapping, "the cells of a sparse grid are not known to this reader");
   Topology to;
   to.family = target.kind() == MeshTopology ? Topology::Family::Mesh : Topology::Family::Container;
   to.pointCount = from.pointCount;

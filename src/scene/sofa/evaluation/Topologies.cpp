@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "allpairs/scene/FileError.h"
+#include "input/FileBytes.h"
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
 #include "sofa/graph/Links.h"
+#include "sofa/mesh/CubeSurface.h"
+#include "sofa/mesh/SparseGrid.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -113,19 +117,42 @@ GridShape gridBetween(const Corners& corners, const Vec3& counts) {
   return shape;
 }
 
-Topology regularGrid(Evaluation& evaluation, const Component& component) {
-  auto counts = gridCounts(evaluation, component);
-  const auto corners = gridCorners(evaluation, component);
-  auto shape = gridBetween(corners, counts);
+/// A grid as it is written, and the number of its points along each axis.
+struct WrittenGrid {
+  Corners corners;
+  Vec3 counts;
+  GridShape shape;
+};
+
+WrittenGrid writtenGrid(Evaluation& evaluation, const Component& component) {
+  WrittenGrid grid;
+  grid.counts = gridCounts(evaluation, component);
+  grid.corners = gridCorners(evaluation, component);
+  grid.shape = gridBetween(grid.corners, grid.counts);
   if (const double width = evaluation.number(component, {"cellWidth"}, 0); width != 0)
     for (std::size_t axis = 0; axis < 3; ++axis)  // SOFA keeps the spacing of the resolution that was written.
-      counts[axis] = std::ceil((corners.max[axis] - corners.min[axis]) / width) + 1;
-  if (*std::ranges::min_element(counts) < 1) {
-    counts = {2, 2, 2};
-    shape = gridBetween(corners, counts);
+      grid.counts[axis] = std::ceil((grid.corners.max[axis] - grid.corners.min[axis]) / width) + 1;
+  if (*std::ranges::min_element(grid.counts) < 1) {
+    grid.counts = {2, 2, 2};
+    grid.shape = gridBetween(grid.corners, grid.counts);
   }
-  if (component.attributes.has("p0")) shape.origin = evaluation.vector(component, {"p0"}, {});
-  shape.points = toCounts(component, counts);
+  grid.shape.origin = evaluation.vector(component, {"p0"}, grid.shape.origin);
+  return grid;
+}
+
+GridLists gridLists(Evaluation& evaluation, const Component& component) {
+  if (evaluation.generation() == Generation::Sofa20) return {};
+  return {.cubes = evaluation.flag(component, "computeHexaList", true),
+          .quads = evaluation.flag(component, "computeQuadList", true),
+          .triangles = evaluation.flag(component, "computeTriangleList", true),
+          .edges = evaluation.flag(component, "computeEdgeList", true),
+          .diagonals = true};
+}
+
+Topology regularGrid(Evaluation& evaluation, const Component& component) {
+  const auto grid = writtenGrid(evaluation, component);
+  auto shape = grid.shape;
+  shape.points = toCounts(component, grid.counts);
   constexpr std::uint64_t kElements = 8;  // elements of a grid take this many times the memory of its points
   evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
 
@@ -134,7 +161,7 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   for (std::size_t z = 0; z < nz; ++z)
     for (std::size_t y = 0; y < ny; ++y)
       for (std::size_t x = 0; x < nx; ++x) topology.given.positions.push_back(shape.point(x, y, z));
-  fillGrid(topology, shape.points);
+  fillGrid(topology, shape.points, gridLists(evaluation, component));
   topology.pointCount = topology.given.positions.size();
   topology.hasPositions = true;
   topology.cells = {nx - 1, ny - 1, nz - 1};
@@ -142,14 +169,119 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   return topology;
 }
 
-Topology sparseGrid() {
+Topology cubeTopology(Evaluation& evaluation, const Component& component) {
+  if (evaluation.flag(component, "splitNormals", false))
+    throw Unplaceable(component, "a cube whose corners are split is not known to this reader");
+  Vec3 counts{evaluation.number(component, {"nx"}, 0), evaluation.number(component, {"ny"}, 0),
+              evaluation.number(component, {"nz"}, 0)};
+  for (auto& n : counts) n = std::max(0.0, std::trunc(n));
+  const auto corners = gridCorners(evaluation, component);
+  CubeSurface cube{.points = toCounts(component, counts),
+                   .origin = corners.min,
+                   .inner = evaluation.flag(component, "internalPoints", false)};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cube.spacing[axis] = counts[axis] > 1 ? (corners.max[axis] - corners.min[axis]) / (counts[axis] - 1) : 0.0;
+  constexpr std::uint64_t kElements = 4;  // elements take this many times the memory of the points
+  evaluation.takePoints(component, kElements * cube.points[0] * cube.points[1] * cube.points[2]);
+  Topology topology;
+  topology.given = meshOf(cube);
+  topology.pointCount = topology.given.positions.size();
+  topology.hasPositions = topology.pointCount > 0;
+  return topology;
+}
+
+/// The surface that a sparse grid is made around: that of its Wavefront file or of its own lists; nothing of others.
+std::optional<Mesh> surfaceOf(Evaluation& evaluation, const Component& component) {
+  if (evaluation.isGiven(component, {"facets"})) return std::nullopt;
+  Mesh surface;
+  if (const auto file = evaluation.file(component, {"filename", "fileTopology"})) {
+    if (lowerExtension(*file) != ".obj") return std::nullopt;
+    surface = readObj(*file);
+    checkMesh(surface, *file);
+  } else {
+    surface = evaluation.elementLists(component);
+    surface.positions = evaluation.points(component, {"position", "points"});
+    if (indicesUsed(surface) > surface.positions.size()) return std::nullopt;
+  }
+  if (surface.positions.empty()) return std::nullopt;
+  return surface;
+}
+
+/// A surface that cannot be read is an error only to those that need the points of the grid around it.
+std::optional<Mesh> readableSurfaceOf(Evaluation& evaluation, const Component& component) {
+  try {
+    return surfaceOf(evaluation, component);
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+Corners cornersAround(const Mesh& surface) {
+  constexpr double kMargin = 0.01;  // Of the extent, to each side.
+  Corners corners{surface.positions[0], surface.positions[0]};
+  for (const auto& p : surface.positions)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      corners.min[axis] = std::min(corners.min[axis], p[axis]);
+      corners.max[axis] = std::max(corners.max[axis], p[axis]);
+    }
+  const auto margin = (corners.max - corners.min) * kMargin;
+  return {corners.min - margin, corners.max + margin};
+}
+
+/// The regular grid that a sparse grid is cut from; with a spacing of zero where the surface is flat.
+GridShape shapeAround(Evaluation& evaluation, const Component& component, const Mesh& surface) {
+  Corners corners{evaluation.vector(component, {"min"}, {}), evaluation.vector(component, {"max"}, {})};
+  if (corners.min == Vec3{} && corners.max == Vec3{}) corners = cornersAround(surface);
+  Vec3 counts = evaluation.vector(component, {"n"}, {2, 2, 2});
+  for (auto& n : counts) n = std::max(2.0, std::trunc(n));
+  if (const double width = evaluation.number(component, {"cellWidth"}, 0); width != 0)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      counts[axis] = std::ceil((corners.max[axis] - corners.min[axis]) / width) + 1;
+  auto shape = gridBetween(corners, counts);
+  shape.points = toCounts(component, counts);
+  return shape;
+}
+
+/// The points and cells of a sparse grid; nothing where this reader does not know how SOFA finds them.
+std::optional<Mesh> sparseMesh(Evaluation& evaluation, const Component& component) {
+  const bool isPlain = component.type == "SparseGridTopology" || component.type == "SparseGrid";
+  const auto* loader = inContext(*component.node, [](const Component& c) { return c.type == "VoxelGridLoader"; });
+  if (!isPlain || loader != nullptr || evaluation.number(component, {"nbVirtualFinerLevels"}, 0) != 0 ||
+      evaluation.flag(component, "onlyInsideCells", false) ||
+      evaluation.isGiven(component, {"nx", "ny", "nz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax"}))
+    return std::nullopt;
+  const auto surface = readableSurfaceOf(evaluation, component);
+  if (!surface) return std::nullopt;
+  const auto shape = shapeAround(evaluation, component, *surface);
+  if (!std::ranges::all_of(shape.spacing, [](double step) { return step > 0; })) return std::nullopt;
+  if (!shape.isVolume()) return std::nullopt;
+  constexpr std::uint64_t kElements = 8;  // cells take this many times the memory of the points
+  evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
+  return sparseGrid(shape, *surface);
+}
+
+Topology sparseGridTopology(Evaluation& evaluation, const Component& component) {
   Topology topology;
   topology.sparse = true;
   topology.hasPositions = true;
+  auto mesh = sparseMesh(evaluation, component);
+  topology.unknown = !mesh;
+  if (!mesh) return topology;
+  topology.given = std::move(*mesh);
+  topology.pointCount = topology.given.positions.size();
   return topology;
 }
 
 }  // namespace
+
+std::optional<Vec3> gridData(Evaluation& evaluation, const Component& grid, std::string_view name) {
+  if (grid.kind() != RegularGrid) return std::nullopt;
+  if (name == "n") return gridCounts(evaluation, grid);
+  if (name == "min") return gridCorners(evaluation, grid).min;
+  if (name == "max") return gridCorners(evaluation, grid).max;
+  if (name == "p0") return writtenGrid(evaluation, grid).shape.origin;
+  return std::nullopt;
+}
 
 Topology buildTopology(Evaluation& evaluation, const Component& component) {
   switch (component.kind()) {
@@ -164,8 +296,10 @@ Topology buildTopology(Evaluation& evaluation, const Component& component) {
       return containerTopology(evaluation, component);
     case RegularGrid:
       return regularGrid(evaluation, component);
+    case CubeTopology:
+      return cubeTopology(evaluation, component);
     case SparseGrid:
-      return sparseGrid();
+      return sparseGridTopology(evaluation, component);
     default:
       throw Unplaceable(component, "this kind of topology is not known to this reader");
   }

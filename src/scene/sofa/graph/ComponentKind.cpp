@@ -20,8 +20,9 @@ void addModels(Table& table) {
                           "TriangleSet", "TriangleMeshModel", "TriangleSetModel"})
     table[name] = {TriangleModel, "TTriangleModel"};
   for (const auto name : {"TriangleOctreeModel", "TriangleOctree", "TriangleOctreeCollisionModel"})
-    table[name] = {TriangleModel, "TriangleOctreeModel"};
-  for (const auto name : {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere"})
+    table[name] = {TriangleModel, "TriangleOctreeCollisionModel"};
+  for (const auto name :
+       {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere", "CudaSphereModel", "CudaSphereCollisionModel"})
     table[name] = {SphereModel, "TSphereModel"};
   for (const auto name : {"CapsuleModel", "CapsuleCollisionModel", "TCapsuleModel", "Capsule", "RigidCapsule",
                           "RigidCapsuleModel", "RigidCapsuleCollisionModel"})
@@ -40,12 +41,16 @@ void addModels(Table& table) {
 
 void addPipeline(Table& table) {
   for (const auto name : {"DefaultPipeline", "CollisionPipeline"}) table[name] = {Pipeline, "DefaultPipeline"};
+  table["CompositeCollisionPipeline"] = {CompositePipeline, "CompositeCollisionPipeline"};
+  table["SubCollisionPipeline"] = {SubPipeline, "SubCollisionPipeline"};
   for (const auto name :
-       {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase", "BruteForce", "DirectSAP",
-        "DirectSAPNarrowPhase", "IncrSAP", "IncrementalSAP", "RayTraceDetection", "RayTraceNarrowPhase"})
+       {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase", "AllpairsBroadPhase",
+        "BruteForce", "DirectSAP", "IncrSAP", "IncrementalSAP", "RayTraceDetection"})
     table[name] = {BroadPhase, name};
+  for (const auto name : {"DirectSAPNarrowPhase", "RayTraceNarrowPhase"}) table[name] = {Other, name};
   table["DiscreteIntersection"] = {DiscreteMethod, "DiscreteIntersection"};
-  for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"})
+  for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance",
+                          "CCDTightInclusionIntersection", "CudaProximityIntersection"})
     table[name] = {ProximityMethod, name};
 }
 
@@ -79,6 +84,7 @@ void addMappings(Table& table) {
   table["Triangle2EdgeTopologicalMapping"] = {Triangle2Edge, {}};
   table["Edge2QuadTopologicalMapping"] = {Edge2Quad, {}};
   for (const auto name : {"RigidMapping", "RigidRigidMapping"}) table[name] = {RigidMapping, name};
+  for (const auto name : {"BeamLinearMapping", "BeamLinearMapping_mt"}) table[name] = {BeamLinearMapping, name};
   table["IdentityMapping"] = {IdentityMapping, "IdentityMapping"};
   table["SubsetMapping"] = {SubsetMapping, "SubsetMapping"};
   for (const auto name : {"BarycentricMapping", "TopologyBarycentricMapping"})
@@ -93,14 +99,15 @@ void addMappings(Table& table) {
 void addSources(Table& table) {
   table["MechanicalObject"] = {MechanicalState, "MechanicalObject"};
   for (const auto name : {"MeshObjLoader", "MeshOBJLoader", "MeshGmshLoader", "MeshVTKLoader", "MeshOffLoader",
-                          "MeshTrianLoader", "MeshSTLLoader"})
+                          "MeshTrianLoader", "MeshSTLLoader", "GridMeshCreator"})
     table[name] = {MeshLoader, name};
-  for (const auto name : {"MeshXspLoader", "GIDMeshLoader", "StringMeshCreator", "GridMeshCreator", "VoxelGridLoader",
+  for (const auto name : {"MeshXspLoader", "GIDMeshLoader", "StringMeshCreator", "VoxelGridLoader",
                           "MeshTetraStuffingLoader", "MeshLoader"})
     table[name] = {UnknownLoader, name};
   table["SphereLoader"] = {SphereLoader, "SphereLoader"};
   for (const auto name : {"TransformEngine"}) table[name] = {TransformEngine, name};
   table["MergePoints"] = {MergePoints, "MergePoints"};
+  table["SubsetTopology"] = {SubsetTopology, "SubsetTopology"};
   table["BoxROI"] = {BoxRoi, "BoxROI"};
 }
 
@@ -117,6 +124,13 @@ const Table& knownClasses() {
   return table;
 }
 
+/// Collision models of plugins that do not say so in their names, such as TBulletSphereModel.
+bool isPluginModel(std::string_view type) {
+  const auto has = [type](std::string_view part) { return type.find(part) != std::string_view::npos; };
+  if (!type.ends_with("Model") || type.starts_with("Ogl") || has("Visual") || has("Splat")) return false;
+  return has("Sphere") || has("Point") || has("Line") || has("Triangle") || has("Capsule") || has("ConvexHull");
+}
+
 }  // namespace
 
 ComponentClass classOf(std::string_view type) {
@@ -124,7 +138,7 @@ ComponentClass classOf(std::string_view type) {
   if (const auto found = classes.find(type); found != classes.end()) return found->second;
   if (type.ends_with("TopologicalMapping")) return {UnknownTopologicalMapping, {}};
   if (type.ends_with("Mapping")) return {UnknownMapping, {}};
-  if (type.ends_with("CollisionModel")) return {UnknownModel, {}};
+  if (type.ends_with("CollisionModel") || isPluginModel(type)) return {UnknownModel, {}};
   if (type.ends_with("TopologyContainer") || type.ends_with("Topology")) return {UnknownTopology, {}};
   if (type.ends_with("Intersection")) return {OtherMethod, {}};
   return {};

@@ -10,6 +10,8 @@ namespace allpairs::scene::sofa {
 enum class ComponentKind {
   Other,  ///< Nothing that a collision model's position depends on, as far as its name tells.
   Pipeline,
+  CompositePipeline,
+  SubPipeline,
   BroadPhase,
   DiscreteMethod,
   ProximityMethod,
@@ -40,6 +42,7 @@ enum class ComponentKind {
   Edge2Quad,
   UnknownTopologicalMapping,
   RigidMapping,
+  BeamLinearMapping,
   IdentityMapping,
   SubsetMapping,
   BarycentricMapping,
@@ -51,6 +54,7 @@ enum class ComponentKind {
   TransformEngine,
   MergePoints,
   BoxRoi,
+  SubsetTopology,
   PointModel,
   LineModel,
   TriangleModel,

@@ -45,6 +45,7 @@ struct Node;
 struct Component {
   std::string type;  ///< The class, as the file calls it.
   std::string name;  ///< As given, or as SOFA would number it.
+  bool isNamed = false;
   Attributes attributes;
   Place place;
   Node* node = nullptr;

@@ -10,6 +10,7 @@
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/LineIndex.h"
+#include "input/Words.h"
 #include "sofa/graph/Values.h"
 
 namespace allpairs::scene::sofa {
@@ -27,12 +28,47 @@ struct Element {
   bool isNode = false;
   std::string type;
   std::string name;
+  bool isNamed = true;
   Attributes attributes;
   Attributes replacements;
   std::vector<Element> children;
   Splice splice = Splice::Keep;
   Place place;
 };
+
+/// Where the markup ends that begins here and holds no attributes, if it is of such a kind: a comment, say.
+std::size_t endOfOtherMarkup(std::string_view text, std::size_t at) {
+  static constexpr std::string_view kKinds[][2] = {
+      {"<!--", "-->"}, {"<?", "?>"}, {"<![CDATA[", "]]>"}, {"<!", ">"}, {"</", ">"}};
+  for (const auto& [start, end] : kKinds) {
+    if (!text.substr(at).starts_with(start)) continue;
+    const auto found = text.find(end, at + start.size());
+    return found == std::string_view::npos ? text.size() : found + end.size();
+  }
+  return at;
+}
+
+/// Puts a blank between attributes that follow one another without one, as TinyXML-2 lets them.
+std::string withAttributesApart(std::string text) {
+  std::string result;
+  std::size_t copied = 0;
+  for (auto at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    if (const auto end = endOfOtherMarkup(text, at); end != at) {
+      at = end;
+      continue;
+    }
+    for (++at; at < text.size() && text[at] != '>' && text[at] != '<'; ++at) {
+      if (text[at] != '"' && text[at] != '\'') continue;
+      at = text.find(text[at], at + 1);
+      if (at == std::string::npos || at + 1 == text.size()) break;
+      if (isBlankOrLineEnd(text[at + 1]) || text[at + 1] == '/' || text[at + 1] == '>') continue;
+      result.append(text, copied, at + 1 - copied).push_back(' ');
+      copied = at + 1;
+    }
+    if (at == std::string::npos) break;
+  }
+  return copied == 0 ? text : result.append(text, copied);
+}
 
 /// One scene file, or one file that it includes.
 struct SourceFile {
@@ -42,7 +78,9 @@ struct SourceFile {
   pugi::xml_document document;
 
   explicit SourceFile(const std::filesystem::path& file)
-      : path(std::make_shared<const std::filesystem::path>(file)), text(readText(file)), lines(text) {
+      : path(std::make_shared<const std::filesystem::path>(file)),
+        text(withAttributesApart(readText(file))),
+        lines(text) {
     const auto result = document.load_buffer(text.data(), text.size());
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
@@ -133,7 +171,10 @@ class ElementReader {
     if (!element) return element;
     if (!element->isNode && classOf(element->type).kind == ComponentKind::Other)
       if (const auto file2 = replacementFor(element->type, *file.path)) return readInclude(file, xml, *file2);
-    if (element->name.empty()) element->name = numberedName(*element);
+    if (element->name.empty()) {
+      element->name = numberedName(*element);
+      element->isNamed = false;
+    }
     if (++m_depth > kMaxDepth) throw Unplaceable(element->place, "nodes are nested too deep");
     for (const auto& child : xml.children())
       if (child.type() == pugi::node_element)
@@ -210,6 +251,7 @@ void addComponent(Node& node, Element&& element) {
   component->what = classOf(element.type);
   component->type = std::move(element.type);
   component->name = std::move(element.name);
+  component->isNamed = element.isNamed;
   component->attributes = std::move(element.attributes);
   for (const auto& [name, value] : element.replacements)
     if (component->attributes.has(name)) component->attributes.set(name, value);

@@ -31,6 +31,27 @@ std::optional<double> parseFinite(std::string_view word) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isSign(char c) { return c == '+' || c == '-'; }
+
+/// How much of a word a stream takes for one number.
+std::size_t numberLength(std::string_view word) {
+  std::size_t i = isSign(word.front()) ? 1 : 0;
+  bool hasDot = false, hasExponent = false;
+  for (; i < word.size(); ++i) {
+    if (isDigit(word[i])) continue;
+    if (word[i] == '.' && !hasDot && !hasExponent) {
+      hasDot = true;
+    } else if ((word[i] == 'e' || word[i] == 'E') && !hasExponent && i > 0) {
+      hasExponent = true;
+      if (i + 1 < word.size() && isSign(word[i + 1])) ++i;
+    } else {
+      break;
+    }
+  }
+  return i;
+}
+
 bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& scope) {
   const auto dash = word.find('-', 1);
   if (dash == std::string_view::npos) return false;
@@ -66,6 +87,23 @@ std::optional<std::vector<double>> parseNumbers(std::string_view text, std::stri
       return std::nullopt;
     }
     values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<std::vector<double>> parseNumberStream(std::string_view text, std::string& bad) {
+  std::vector<double> values;
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
+    for (auto rest = word; !rest.empty();) {
+      const auto length = numberLength(rest);
+      const auto value = parseFinite(rest.substr(0, length));
+      if (!value) {
+        bad = word;
+        return std::nullopt;
+      }
+      values.push_back(*value);
+      rest.remove_prefix(length);
+    }
   }
   return values;
 }

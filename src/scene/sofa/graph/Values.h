@@ -25,6 +25,10 @@ struct Numbers {
 /// All numbers in a text; nothing, and the word at fault in `bad`, if there is one that is no finite number.
 [[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad);
 
+/// As a stream of C++ reads them, which needs no blank before what cannot go on the number before: "0-1" are 0 and -1,
+/// "1.5.2" are 1.5 and 0.2. Nothing, and the word at fault in `bad`, as above.
+[[nodiscard]] std::optional<std::vector<double>> parseNumberStream(std::string_view text, std::string& bad);
+
 /// As the integers of an index list, where "3-7" means 3 4 5 6 7.
 /// A range that is larger than may be read is no list.
 [[nodiscard]] std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad,

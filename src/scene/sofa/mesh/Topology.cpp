@@ -181,38 +181,78 @@ Vec3 Topology::position(std::size_t index) const {
   return index < given.positions.size() ? given.positions[index] : Vec3{};
 }
 
-void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points) {
-  const auto at = [&points](std::size_t x, std::size_t y, std::size_t z) {
-    return static_cast<Index>(points[0] * (points[1] * z + y) + x);
-  };
-  auto& mesh = topology.given;
-  const std::array<std::size_t, 3> steps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const auto forAll = [&](const std::array<std::size_t, 3>& less, auto&& visit) {
-    for (std::size_t z = 0; z + less[2] < points[2]; ++z)
-      for (std::size_t y = 0; y + less[1] < points[1]; ++y)
-        for (std::size_t x = 0; x + less[0] < points[0]; ++x) visit(x, y, z);
-  };
-  const auto addQuads = [&](const auto& u, const auto& v) {
-    forAll({u[0] + v[0], u[1] + v[1], u[2] + v[2]}, [&](std::size_t x, std::size_t y, std::size_t z) {
-      mesh.quads.push_back({at(x, y, z), at(x + u[0], y + u[1], z + u[2]),
-                            at(x + u[0] + v[0], y + u[1] + v[1], z + u[2] + v[2]), at(x + v[0], y + v[1], z + v[2])});
-    });
-  };
-  for (const auto& s : steps)
-    forAll(s, [&](std::size_t x, std::size_t y, std::size_t z) {
-      mesh.edges.push_back({at(x, y, z), at(x + s[0], y + s[1], z + s[2])});
-    });
-  addQuads(steps[0], steps[1]);
-  addQuads(steps[0], steps[2]);
-  addQuads(steps[1], steps[2]);
-  for (const auto& q : mesh.quads) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
+namespace {
+
+using GridPlace = std::array<std::size_t, 3>;
+constexpr GridPlace kSteps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/// The points of a grid, and the visits to all from which so many steps are left on each axis.
+struct GridPoints {
+  GridPlace count;
+
+  [[nodiscard]] Index at(std::size_t x, std::size_t y, std::size_t z) const {
+    return static_cast<Index>(count[0] * (count[1] * z + y) + x);
   }
-  forAll({1, 1, 1}, [&](std::size_t x, std::size_t y, std::size_t z) {
-    mesh.hexahedra.push_back({at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),
-                              at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)});
+
+  template <class Visit>
+  void forAll(const GridPlace& steps, const Visit& visit) const {
+    for (std::size_t z = 0; z + steps[2] < count[2]; ++z)
+      for (std::size_t y = 0; y + steps[1] < count[1]; ++y)
+        for (std::size_t x = 0; x + steps[0] < count[0]; ++x) visit(x, y, z);
+  }
+};
+
+void addQuads(const GridPoints& grid, const GridPlace& u, const GridPlace& v, Elements<4>& quads) {
+  grid.forAll({u[0] + v[0], u[1] + v[1], u[2] + v[2]}, [&](std::size_t x, std::size_t y, std::size_t z) {
+    quads.push_back({grid.at(x, y, z), grid.at(x + u[0], y + u[1], z + u[2]),
+                     grid.at(x + u[0] + v[0], y + u[1] + v[1], z + u[2] + v[2]),
+                     grid.at(x + v[0], y + v[1], z + v[2])});
   });
+}
+
+Elements<2> edgesAlongAxes(const GridPoints& grid) {
+  Elements<2> edges;
+  for (const auto& s : kSteps)
+    grid.forAll(s, [&](std::size_t x, std::size_t y, std::size_t z) {
+      edges.push_back({grid.at(x, y, z), grid.at(x + s[0], y + s[1], z + s[2])});
+    });
+  return edges;
+}
+
+Elements<2> edgesOf(const Elements<3>& triangles) {
+  EdgeCollector collector;
+  collect(collector, triangles);
+  return std::move(collector.edges);
+}
+
+Elements<8> cubesOf(const GridPoints& grid) {
+  Elements<8> cubes;
+  grid.forAll({1, 1, 1}, [&](std::size_t x, std::size_t y, std::size_t z) {
+    cubes.push_back({grid.at(x, y, z), grid.at(x + 1, y, z), grid.at(x + 1, y + 1, z), grid.at(x, y + 1, z),
+                     grid.at(x, y, z + 1), grid.at(x + 1, y, z + 1), grid.at(x + 1, y + 1, z + 1),
+                     grid.at(x, y + 1, z + 1)});
+  });
+  return cubes;
+}
+
+}  // namespace
+
+void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points, const GridLists& lists) {
+  const GridPoints grid{points};
+  auto& mesh = topology.given;
+  if (lists.quads || lists.triangles) {
+    addQuads(grid, kSteps[0], kSteps[1], mesh.quads);
+    addQuads(grid, kSteps[0], kSteps[2], mesh.quads);
+    addQuads(grid, kSteps[1], kSteps[2], mesh.quads);
+  }
+  if (lists.triangles)
+    for (const auto& q : mesh.quads) {
+      mesh.triangles.push_back({q[0], q[1], q[2]});
+      mesh.triangles.push_back({q[0], q[2], q[3]});
+    }
+  if (lists.cubes) mesh.hexahedra = cubesOf(grid);
+  if (lists.edges)
+    mesh.edges = lists.diagonals && !mesh.triangles.empty() ? edgesOf(mesh.triangles) : edgesAlongAxes(grid);
 }
 
 }  // namespace allpairs::scene::sofa

@@ -44,7 +44,8 @@ class Topology {
   Mesh given;                 ///< Positions may be fewer or more than pointCount.
   std::optional<GridShape> grid;
   std::array<std::size_t, 3> cells{2, 1, 1};  ///< Of grids along x, y and z, which some mappings ask for.
-  bool sparse = false;                        ///< A sparse grid: neither its points nor its cells are known.
+  bool sparse = false;                        ///< A sparse grid, of which edges and faces are not known.
+  bool unknown = false;                       ///< Neither are its points and its cells.
 
   [[nodiscard]] const Elements<2>& edges();
   [[nodiscard]] const Elements<3>& triangles();
@@ -77,7 +78,16 @@ enum class SameWayRound { Once, Twice };
 /// Those of the edges that belong to exactly one of the triangles.
 [[nodiscard]] Elements<2> borderOf(const Elements<2>& edges, const Elements<3>& triangles);
 
-/// All edges, quads, triangles and hexahedra of a regular grid.
-void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points);
+/// What a regular grid lists; the rest is derived as for any mesh.
+struct GridLists {
+  bool cubes = true;
+  bool quads = true;
+  bool triangles = true;  ///< The halves of the quads, which are listed with them.
+  bool edges = true;
+  bool diagonals = false;  ///< Edges are those of the triangles, where there are any, in their order.
+};
+
+/// The elements of a regular grid.
+void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points, const GridLists& lists = {});
 
 }  // namespace allpairs::scene::sofa

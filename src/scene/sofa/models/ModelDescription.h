@@ -67,13 +67,22 @@ struct RegionDescription {
   Vec3 max{};
 };
 
-/// What a scene holds for collision detection.
-struct SceneDescription {
-  std::vector<ModelDescription> models;  ///< In the order of traversal.
-  std::vector<std::string> owners;       ///< The paths of the nodes that models belong to.
+/// One collision pipeline of a scene: it tests its own models against one another, in its own way.
+struct PipelineDescription {
+  std::string path;                 ///< "/Node/Name"; empty where the scene has none.
+  std::vector<std::size_t> models;  ///< Indices, in the order in which the pipeline takes its models.
   MethodDescription method;
   std::optional<RegionDescription> region;
-  std::vector<Ignored> ignored;
+};
+
+/// What a scene holds for collision detection.
+struct SceneDescription {
+  std::vector<ModelDescription> models;        ///< In the order in which the pipelines take them.
+  std::vector<std::string> owners;             ///< The paths of the nodes that models belong to.
+  std::vector<PipelineDescription> pipelines;  ///< In the order in which SOFA runs them; at least one.
+  std::vector<Ignored> ignored;                ///< Models that are missing.
+  std::vector<Ignored> outside;                ///< Models that no pipeline takes.
+  std::vector<Ignored> warnings;               ///< Where the result may not be what is expected; nothing is missing.
 };
 
 /// Reads a .scn or .xml scene of SOFA.

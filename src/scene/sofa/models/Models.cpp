@@ -26,7 +26,7 @@ const Component& topologyComponentOf(const Component& model) {
 Topology& topologyOf(Evaluation& evaluation, const Component& model) {
   const auto* which = &topologyComponentOf(model);
   auto& topology = evaluation.topology(*which);
-  if (topology.sparse) throw Unplaceable(model, "the cells of its sparse grid are not known to this reader");
+  if (topology.sparse) throw Unplaceable(model, "the edges and faces of its sparse grid are not known to this reader");
   return topology;
 }
 
@@ -60,7 +60,11 @@ struct Padding {
 std::vector<double> padded(Evaluation& evaluation, const Component& model, std::string_view list,
                            const Padding& padding) {
   std::vector<double> values;
-  if (auto given = evaluation.numbers(model, {list}, 1)) values = std::move(given->values);
+  if (evaluation.isDeadLink(model, list)) {
+    evaluation.warn(model, std::string{list} + " links to nothing; all elements have the default, as in SOFA");
+  } else if (auto given = evaluation.numbers(model, {list}, 1)) {
+    values = std::move(given->values);
+  }
   values.resize(padding.count, padding.value);
   return values;
 }

@@ -30,6 +30,14 @@ class CylinderModel final : public collision::CapsuleModel {
   [[nodiscard]] std::string_view typeName() const override { return "TCylinderModel"; }
 };
 
+/// SOFA's octrees of triangles have the boxes of triangle models, under a name of their own.
+class TriangleOctreeModel final : public collision::TriangleModel {
+ public:
+  using TriangleModel::TriangleModel;
+
+  [[nodiscard]] std::string_view typeName() const override { return "TriangleOctreeCollisionModel"; }
+};
+
 Model makeOrientedBoxes(sofa::ModelDescription& model) {
   std::vector<collision::OrientedBox> boxes(model.positions.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -50,7 +58,10 @@ Model makeCapsules(sofa::ModelDescription& model) {
 
 Model makeTriangles(sofa::ModelDescription& model) {
   auto triangles =
-      std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions), std::move(model.triangles));
+      model.type == "TriangleOctreeCollisionModel"
+          ? std::make_unique<TriangleOctreeModel>(model.path, std::move(model.positions), std::move(model.triangles))
+          : std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions),
+                                                       std::move(model.triangles));
   triangles->setUseCurvature(model.useCurvature);
   return triangles;
 }
@@ -88,17 +99,35 @@ Model makeModel(sofa::ModelDescription& description) {
   return model;
 }
 
-void addModels(sofa::SceneDescription& description, bool partial, Scene& scene) {
+using Kept = std::vector<std::optional<std::size_t>>;
+
+/// Where each described model is in the scene; nothing for those that were left out.
+Kept addModels(sofa::SceneDescription& description, bool partial, Scene& scene) {
+  Kept kept;
   for (auto& model : description.models) {
     try {
       scene.models.push_back(makeModel(model));
       scene.models.back()->setOwner(scene.owners[model.owner].get());
+      kept.emplace_back(scene.models.size() - 1);
     } catch (const Error& problem) {  // What only the model itself checks: a negative radius, say.
       if (!partial) throw FileError(model.file, problem.what(), model.line);
       scene.remarks.push_back({model.file, model.line, model.path, problem.what(), true});
+      kept.emplace_back();
     }
   }
+  return kept;
 }
+
+/// Methods that differ from another in their narrow phase only, under names of their own.
+class CcdTightInclusionIntersection final : public collision::NewProximityIntersection {
+ public:
+  [[nodiscard]] std::string_view typeName() const override { return "CCDTightInclusionIntersection"; }
+};
+
+class CudaProximityIntersection final : public collision::NewProximityIntersection {
+ public:
+  [[nodiscard]] std::string_view typeName() const override { return "CudaProximityIntersection"; }
+};
 
 std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescription& method) {
   std::unique_ptr<collision::Intersection> result;
@@ -106,6 +135,10 @@ std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescriptio
     result = std::make_unique<collision::MinProximityIntersection>();
   else if (method.name == "NewProximityIntersection")
     result = std::make_unique<collision::NewProximityIntersection>();
+  else if (method.name == "CCDTightInclusionIntersection")
+    result = std::make_unique<CcdTightInclusionIntersection>();
+  else if (method.name == "CudaProximityIntersection")
+    result = std::make_unique<CudaProximityIntersection>();
   else if (method.name == "LocalMinDistance")
     result = std::make_unique<collision::LocalMinDistance>();
   else
@@ -115,19 +148,42 @@ std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescriptio
   return result;
 }
 
+std::optional<Box> regionOf(const sofa::PipelineDescription& pipeline) {
+  if (!pipeline.region) return std::nullopt;
+  return Box{pipeline.region->min, pipeline.region->max};
+}
+
+ScenePipeline makePipeline(sofa::PipelineDescription& description, const Kept& kept) {
+  ScenePipeline pipeline{.name = std::move(description.path),
+                         .intersection = makeMethod(description.method),
+                         .intersectionName = description.method.name,
+                         .region = regionOf(description)};
+  for (const std::size_t model : description.models)
+    if (kept[model]) pipeline.models.push_back(*kept[model]);
+  return pipeline;
+}
+
+void moveRemarks(std::vector<sofa::Ignored>& from, bool isPartial, std::vector<Remark>& to) {
+  for (auto& remark : from)
+    to.push_back({std::move(remark.file), remark.line, std::move(remark.subject), std::move(remark.reason), isPartial});
+}
+
 }  // namespace
 
 Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& options) {
   auto description = sofa::describeScene(path, options);
+  const auto& first = description.pipelines.front();
   Scene scene;
-  scene.intersection = makeMethod(description.method);
-  scene.intersectionName = description.method.name;
-  if (const auto& region = description.region) scene.region = Box{region->min, region->max};
+  scene.intersection = makeMethod(first.method);
+  scene.intersectionName = first.method.name;
+  scene.region = regionOf(first);
   for (auto& owner : description.owners) scene.owners.push_back(std::make_unique<Owner>(Owner{std::move(owner)}));
-  for (auto& ignored : description.ignored)
-    scene.remarks.push_back(
-        {std::move(ignored.file), ignored.line, std::move(ignored.subject), std::move(ignored.reason), true});
-  addModels(description, options.partial, scene);
+  moveRemarks(description.ignored, true, scene.remarks);
+  moveRemarks(description.outside, false, scene.remarks);
+  moveRemarks(description.warnings, false, scene.warnings);
+  const Kept kept = addModels(description, options.partial, scene);
+  if (description.pipelines.size() > 1)
+    for (auto& pipeline : description.pipelines) scene.pipelines.push_back(makePipeline(pipeline, kept));
   return scene;
 }
 

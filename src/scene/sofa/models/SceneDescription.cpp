@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 
 #include "allpairs/scene/FileError.h"
 #include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Generation.h"
 #include "sofa/graph/Links.h"
 #include "sofa/graph/SceneXml.h"
 #include "sofa/models/ModelDescription.h"
 #include "sofa/models/Models.h"
+#include "sofa/models/Pipelines.h"
 
 namespace allpairs::scene::sofa {
 namespace {
 
-/// The first wanted component below a node, in the order of traversal; inactive nodes do not count.
-const Component* firstBelow(const Node& node, const Wanted& wanted) {
-  if (!node.active) return nullptr;
-  const auto found = std::ranges::find_if(node.components, [&](const auto& c) { return wanted(*c); });
-  if (found != node.components.end()) return found->get();
-  for (const auto& child : node.children)
-    if (const auto* below = firstBelow(*child, wanted)) return below;
-  return nullptr;
-}
-
-Wanted ofKind(ComponentKind kind) {
-  return [kind](const Component& component) { return component.kind() == kind; };
+void warnOfMotion(Evaluation& evaluation, const Component& method) {
+  const auto* type = method.attributes.find("continuousCollisionType");
+  if (type != nullptr && *type != "None" && *type != "0")
+    evaluation.warn(method,
+                    "the method is continuous; boxes here are those of the start, without the motion of a step");
 }
 
 MethodDescription describeMethod(Evaluation& evaluation, const Component* method) {
@@ -33,6 +28,7 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
     throw Unplaceable(*method, "this intersection method is not known to this reader");
   MethodDescription result{.name = method->type, .proximity = method->kind() == ComponentKind::ProximityMethod};
   result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, result.proximity ? 1.0 : 0.0);
+  warnOfMotion(evaluation, *method);
   result.contactDistance = evaluation.number(*method, {"contactDistance"}, result.proximity ? 0.5 : 0.0);
   return result;
 }
@@ -54,24 +50,28 @@ std::optional<RegionDescription> describeRegion(Evaluation& evaluation, const Co
   return RegionDescription{corners[0], corners[1]};
 }
 
-class Traversal {
+/// Describes each model once, however many pipelines take it.
+class ModelList {
  public:
-  Traversal(Evaluation& evaluation, bool partial, SceneDescription& scene)
+  ModelList(Evaluation& evaluation, bool partial, SceneDescription& scene)
       : m_evaluation(evaluation), m_partial(partial), m_scene(scene) {}
 
-  void visit(const Node& node) {
-    if (!node.active) return;
-    for (const auto& component : node.components)
-      if (isModel(component->kind())) add(*component);
-    for (const auto& child : node.children) visit(*child);
+  /// The index of a model, nothing if it was left out.
+  std::optional<std::size_t> indexOf(const Component& component) {
+    const auto [place, isNew] = m_indices.emplace(&component, std::nullopt);
+    if (isNew && add(component)) place->second = m_scene.models.size() - 1;
+    return place->second;
   }
 
+  [[nodiscard]] bool has(const Component& component) const { return m_indices.contains(&component); }
+
  private:
-  void add(const Component& component) {
+  bool add(const Component& component) {
     try {
       auto model = describeModel(m_evaluation, component);
       model.owner = ownerOf(component);
       m_scene.models.push_back(std::move(model));
+      return true;
     } catch (const Unplaceable& problem) {
       const auto needed = problem.reason().starts_with(component.describe())
                               ? std::string{}
@@ -80,6 +80,7 @@ class Traversal {
     } catch (const FileError& problem) {
       leaveOut(component, problem, problem.problem() + "; " + component.describe() + " depends on it");
     }
+    return false;
   }
 
   void leaveOut(const Component& component, const FileError& problem, const std::string& reason) {
@@ -88,29 +89,61 @@ class Traversal {
   }
 
   std::size_t ownerOf(const Component& component) {
-    if (component.node != m_owner) m_scene.owners.push_back(component.node->path());
-    m_owner = component.node;
-    return m_scene.owners.size() - 1;
+    const auto [place, isNew] = m_owners.emplace(component.node, m_scene.owners.size());
+    if (isNew) m_scene.owners.push_back(component.node->path());
+    return place->second;
   }
 
   Evaluation& m_evaluation;
   bool m_partial;
   SceneDescription& m_scene;
-  const Node* m_owner = nullptr;
+  std::map<const Component*, std::optional<std::size_t>> m_indices;
+  std::map<const Node*, std::size_t> m_owners;
 };
+
+Ignored remarkOn(const Component& component, std::string reason) {
+  return {*component.place.file, component.place.line, component.path(), std::move(reason)};
+}
+
+/// Says where SOFA would detect nothing at all.
+void warnOf(const PipelineParts& parts, const Node& root, SceneDescription& scene) {
+  if (parts.component == nullptr && !parts.models.empty())
+    scene.warnings.push_back({*root.place.file, root.place.line, root.path(),
+                              "the scene has no collision pipeline: SOFA detects nothing in it; all its models are "
+                              "tested against one another here"});
+  if (!parts.missing.empty())
+    scene.warnings.push_back(
+        remarkOn(*parts.component, "the pipeline lacks " + parts.missing + ": SOFA detects nothing with it"));
+}
+
+PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts& parts, ModelList& models) {
+  PipelineDescription pipeline;
+  if (parts.component != nullptr) pipeline.path = parts.component->path();
+  pipeline.method = describeMethod(evaluation, parts.method);
+  pipeline.region = describeRegion(evaluation, parts.broadPhase);
+  for (const auto* component : parts.models)
+    if (const auto index = models.indexOf(*component)) pipeline.models.push_back(*index);
+  return pipeline;
+}
 
 }  // namespace
 
 SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options) {
   ReadScope scope(path, options);
   const auto root = readSceneGraph(path, scope);
-  Evaluation evaluation(*root, scope);
+  const auto generation = generationOf(*root, options.sofa);
+  if (generation == Generation::Sofa26) nameByClass(*root);
+  Evaluation evaluation(*root, scope, generation);
   SceneDescription scene;
-  const auto* pipeline = firstBelow(*root, ofKind(ComponentKind::Pipeline));
-  const Node& top = pipeline != nullptr ? *pipeline->node : *root;
-  scene.method = describeMethod(evaluation, firstBelow(top, [](const Component& c) { return isMethod(c.kind()); }));
-  scene.region = describeRegion(evaluation, firstBelow(top, ofKind(ComponentKind::BroadPhase)));
-  Traversal(evaluation, options.partial, scene).visit(top);
+  ModelList models(evaluation, options.partial, scene);
+  for (const auto& parts : findPipelines(*root)) {
+    scene.pipelines.push_back(describePipeline(evaluation, parts, models));
+    warnOf(parts, *root, scene);
+  }
+  for (const auto& [component, text] : evaluation.warnings()) scene.warnings.push_back(remarkOn(*component, text));
+  for (const auto* component : modelsBelow(*root))
+    if (!models.has(*component))
+      scene.outside.push_back(remarkOn(*component, "no collision pipeline of the scene takes this model"));
   return scene;
 }
 

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "sofa/evaluation/Components.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+/// Boxes or spheres, each by a test of its own.
+using Regions = std::vector<std::function<bool(const Vec3&)>>;
+
+Regions boxesOf(Evaluation& evaluation, const Component& engine) {
+  Regions regions;
+  const auto given = evaluation.numbers(engine, {"box"}, 6);
+  for (std::size_t i = 0; given && i < given->size(); ++i) {
+    const auto* v = given->values.data() + 6 * i;
+    const Vec3 a{v[0], v[1], v[2]}, b{v[3], v[4], v[5]};
+    regions.emplace_back([a, b](const Vec3& p) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (p[axis] < std::min(a[axis], b[axis]) || p[axis] > std::max(a[axis], b[axis])) return false;
+      return true;
+    });
+  }
+  return regions;
+}
+
+Regions spheresOf(Evaluation& evaluation, const Component& engine) {
+  Regions regions;
+  const auto centres = evaluation.points(engine, {"centers"});
+  const auto radii = evaluation.numbers(engine, {"radii"}, 1);
+  if (!radii || radii->size() != centres.size()) throw Unplaceable(engine, "it has not one radius for each centre");
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    regions.emplace_back([centre = centres[i], radius = radii->values[i]](const Vec3& p) {
+      return !(std::sqrt(dot(p - centre, p - centre)) > radius);
+    });
+  return regions;
+}
+
+/// The lists that the engine was given; of edges, triangles and tetrahedra else those of the topology that it sees.
+Mesh inputOf(Evaluation& evaluation, const Component& engine) {
+  Mesh mesh = evaluation.elementLists(engine);
+  if (!evaluation.isGiven(engine, {"rest_position"})) throw Unplaceable(engine, "it is given no rest_position");
+  mesh.positions = evaluation.points(engine, {"rest_position"});
+  if (!evaluation.isGiven(engine, {"src"})) {
+    const auto* which = inContext(*engine.node, [](const Component& c) { return isTopology(c.kind()); });
+    auto* topology = which != nullptr ? &evaluation.topology(*which) : nullptr;
+    if (topology != nullptr && topology->sparse) throw Unplaceable(engine, "it reads a sparse grid");
+    if (topology != nullptr && !evaluation.isGiven(engine, {"edges"})) mesh.edges = topology->edges();
+    if (topology != nullptr && !evaluation.isGiven(engine, {"triangles"})) mesh.triangles = topology->triangles();
+    if (topology != nullptr && !evaluation.isGiven(engine, {"tetrahedra"})) mesh.tetrahedra = topology->tetrahedra();
+  }
+  if (indicesUsed(mesh) > mesh.positions.size())
+    throw Unplaceable(engine, "its elements name points that are not there");
+  return mesh;
+}
+
+/// A mesh in two parts. Where corners are numbered anew in each part, points that both have come first in either.
+class Parting {
+ public:
+  Parting(const Mesh& mesh, const Regions& regions, bool renumber)
+      : m_mesh(mesh), m_regions(regions), m_renumber(renumber) {
+    if (renumber) m_mesh.tetrahedra.empty() ? addBorder(m_mesh.triangles) : addBorder(m_mesh.tetrahedra);
+    partPoints();
+    part(m_mesh.edges, &Mesh::edges);
+    part(m_mesh.triangles, &Mesh::triangles);
+    part(m_mesh.quads, &Mesh::quads);
+    part(m_mesh.tetrahedra, &Mesh::tetrahedra);
+    part(m_mesh.hexahedra, &Mesh::hexahedra);
+  }
+
+  Mesh in{};
+  Mesh out{};
+  std::vector<Index> indices{};  ///< Of the points inside.
+
+ private:
+  [[nodiscard]] bool isIn(Index point, std::size_t region) const { return m_regions[region](m_mesh.positions[point]); }
+
+  /// The points inside of elements that are partly inside of the first region.
+  template <std::size_t N>
+  void addBorder(const Elements<N>& elements) {
+    m_isBorder.resize(m_mesh.positions.size());
+    for (const auto& corners : elements) {
+      const auto inside = std::ranges::count_if(corners, [&](Index c) { return isIn(c, 0); });
+      if (inside == 0 || inside == static_cast<std::ptrdiff_t>(N)) continue;
+      for (const auto corner : corners)
+        if (isIn(corner, 0)) m_isBorder[corner] = true;
+    }
+  }
+
+  void partPoints() {
+    const auto count = static_cast<Index>(m_mesh.positions.size());
+    m_numbers.resize(count);
+    const auto isBorder = [&](Index i) { return m_renumber && m_isBorder[i]; };
+    const auto add = [&](Index i, Mesh& part) {
+      m_numbers[i] = static_cast<Index>(part.positions.size());
+      part.positions.push_back(m_mesh.positions[i]);
+    };
+    for (Index i = 0; i < count; ++i)
+      if (isBorder(i)) add(i, in), out.positions.push_back(m_mesh.positions[i]), indices.push_back(i);
+    for (Index i = 0; i < count; ++i) {
+      if (isBorder(i)) continue;
+      const bool inside =
+          std::ranges::any_of(m_regions, [&](const auto& region) { return region(m_mesh.positions[i]); });
+      add(i, inside ? in : out);
+      if (inside) indices.push_back(i);
+    }
+  }
+
+  template <std::size_t N>
+  void part(const Elements<N>& elements, Elements<N> Mesh::*list) {
+    for (auto corners : elements) {
+      bool inside = false;
+      for (std::size_t r = 0; r < m_regions.size() && !inside; ++r)
+        inside = std::ranges::all_of(corners, [&](Index c) { return isIn(c, r); });
+      if (m_renumber)
+        for (auto& corner : corners) corner = m_numbers[corner];
+      ((inside ? in : out).*list).push_back(corners);
+    }
+  }
+
+  const Mesh& m_mesh;
+  const Regions& m_regions;
+  bool m_renumber;
+  std::vector<bool> m_isBorder;
+  std::vector<Index> m_numbers;
+};
+
+std::optional<Numbers> listOf(const Mesh& mesh, std::string_view kind) {
+  if (kind == "points") return toNumbers(mesh.positions);
+  if (kind == "edges") return toNumbers(mesh.edges);
+  if (kind == "triangles") return toNumbers(mesh.triangles);
+  if (kind == "quads") return toNumbers(mesh.quads);
+  if (kind == "tetrahedra") return toNumbers(mesh.tetrahedra);
+  if (kind == "hexahedra") return toNumbers(mesh.hexahedra);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& engine, std::string_view name) {
+  const bool isOut = name.ends_with("OutROI"), isIn = name.ends_with("InROI");
+  if ((!isIn && !isOut && name != "indices") || evaluation.isGiven(engine, {"tetrahedraInput"})) return std::nullopt;
+  const auto regions =
+      evaluation.isGiven(engine, {"centers"}) ? spheresOf(evaluation, engine) : boxesOf(evaluation, engine);
+  const bool renumber = evaluation.flag(engine, "localIndices", false);
+  if (renumber && regions.empty()) return std::nullopt;
+  const auto mesh = inputOf(evaluation, engine);
+  evaluation.takePoints(engine, 2 * mesh.positions.size());
+  const Parting parting(mesh, regions, renumber);
+  if (name == "indices") return Numbers{{parting.indices.begin(), parting.indices.end()}, 1};
+  name.remove_suffix(isOut ? std::string_view{"OutROI"}.size() : std::string_view{"InROI"}.size());
+  return listOf(isOut ? parting.out : parting.in, name);
+}
+
+}  // namespace allpairs::scene::sofa

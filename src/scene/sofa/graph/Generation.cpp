@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/graph/Generation.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+
+namespace allpairs::scene::sofa {
+namespace {
+
+bool isNew(const Component& component) {
+  static constexpr std::array<std::string_view, 10> kNewNames{
+      "BruteForceBroadPhase",        "BVHNarrowPhase",       "ParallelBruteForceBroadPhase",
+      "ParallelBVHNarrowPhase",      "RayTraceNarrowPhase",  "CompositeCollisionPipeline",
+      "FixedProjectiveConstraint",   "SubCollisionPipeline", "MeshOBJLoader",
+      "TriangleOctreeCollisionModel"};
+  if (std::ranges::find(kNewNames, component.type) != kNewNames.end()) return true;
+  if (component.type != "RequiredPlugin") return false;
+  const auto* plugin = component.attributes.find("pluginName");
+  return (plugin != nullptr ? *plugin : component.name).starts_with("Sofa.");
+}
+
+bool anyIsNew(const Node& node) {
+  return std::ranges::any_of(node.components, [](const auto& component) { return isNew(*component); }) ||
+         std::ranges::any_of(node.children, [](const auto& child) { return anyIsNew(*child); });
+}
+
+}  // namespace
+
+Generation generationOf(const Node& root, SofaVersion asked) {
+  if (asked == SofaVersion::FromScene) return anyIsNew(root) ? Generation::Sofa26 : Generation::Sofa20;
+  return asked == SofaVersion::Sofa2612 ? Generation::Sofa26 : Generation::Sofa20;
+}
+
+std::string newClassName(const Component& component) {
+  static const std::unordered_map<std::string_view, std::string_view> kRenamed{
+      {"DefaultPipeline", "CollisionPipeline"},     {"MeshObjLoader", "MeshOBJLoader"},
+      {"TPointModel", "PointCollisionModel"},       {"TLineModel", "LineCollisionModel"},
+      {"TTriangleModel", "TriangleCollisionModel"}, {"TSphereModel", "SphereCollisionModel"},
+      {"TCapsuleModel", "CapsuleCollisionModel"},   {"TCylinderModel", "CylinderCollisionModel"},
+      {"TOBBModel", "OBBCollisionModel"},           {"TetrahedronModel", "TetrahedronCollisionModel"}};
+  const std::string_view name = component.what.name.empty() ? component.type : component.what.name;
+  const auto renamed = kRenamed.find(name);
+  return std::string{renamed == kRenamed.end() ? name : renamed->second};
+}
+
+void nameByClass(Node& node) {
+  std::map<std::string, std::size_t> counters;
+  for (const auto& component : node.components) {
+    if (component->isNamed) continue;
+    const auto name = newClassName(*component);
+    component->name = name + std::to_string(++counters[name]);
+  }
+  for (const auto& child : node.children) nameByClass(*child);
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "sofa/models/Pipelines.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "sofa/graph/Links.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using enum ComponentKind;
+
+/// The first wanted component below a node, in the order of traversal; inactive nodes do not count.
+const Component* firstBelow(const Node& node, const Wanted& wanted) {
+  if (!node.active) return nullptr;
+  const auto found = std::ranges::find_if(node.components, [&](const auto& c) { return wanted(*c); });
+  if (found != node.components.end()) return found->get();
+  for (const auto& child : node.children)
+    if (const auto* below = firstBelow(*child, wanted)) return below;
+  return nullptr;
+}
+
+bool isMethodComponent(const Component& component) { return isMethod(component.kind()); }
+bool isBroadPhase(const Component& component) { return component.kind() == BroadPhase; }
+bool isSubPipeline(const Component& component) { return component.kind() == SubPipeline; }
+bool isModelComponent(const Component& component) { return isModel(component.kind()); }
+
+void addModelsBelow(const Node& node, std::vector<const Component*>& models) {
+  if (!node.active) return;
+  for (const auto& component : node.components)
+    if (isModelComponent(*component)) models.push_back(component.get());
+  for (const auto& child : node.children) addModelsBelow(*child, models);
+}
+
+/// A pipeline of everything in a node and below.
+PipelineParts pipelineOver(const Node& node, const Component* component) {
+  return {.component = component,
+          .models = modelsBelow(node),
+          .method = firstBelow(node, isMethodComponent),
+          .broadPhase = firstBelow(node, isBroadPhase),
+          .missing = {}};
+}
+
+/// The components that a link of a pipeline names, each once.
+std::vector<const Component*> linked(const Component& pipeline, std::string_view name, const Wanted& wanted) {
+  std::vector<const Component*> components;
+  std::set<const Component*> seen;
+  const auto* text = pipeline.attributes.find(name);
+  std::istringstream links(text != nullptr ? *text : std::string{});
+  for (std::string link; links >> link;) {
+    const auto* component = followTo(pipeline, link, wanted);
+    if (component == nullptr)
+      throw Unplaceable(pipeline, std::string{name} + ": '" + link.substr(0, 80) + "' leads to no such component");
+    if (seen.insert(component).second) components.push_back(component);
+  }
+  return components;
+}
+
+const Component* lastOf(const std::vector<const Component*>& components) {
+  return components.empty() ? nullptr : components.back();
+}
+
+/// Whether the simulation sees a component: that of an inactive node is there, but is not asked.
+bool isInActiveNode(const Component* component) {
+  for (const auto* node = component->node; node != nullptr; node = node->parent)
+    if (!node->active) return false;
+  return true;
+}
+
+std::string missingOf(const PipelineParts& pipeline) {
+  const auto& attributes = pipeline.component->attributes;
+  if (pipeline.models.empty()) return "collision models";
+  if (pipeline.method == nullptr) return "an intersection method";
+  if (!attributes.has("broadPhaseDetection")) return "a broad phase";
+  if (!attributes.has("narrowPhaseDetection")) return "a narrow phase";
+  return attributes.has("contactManager") ? std::string{} : "a contact manager";
+}
+
+PipelineParts subPipeline(const Component& component) {
+  PipelineParts pipeline{
+      .component = &component,
+      .models = linked(component, "collisionModels", isModelComponent),
+      .method = lastOf(linked(component, "intersectionMethod", isMethodComponent)),
+      .broadPhase = lastOf(linked(component, "broadPhaseDetection", [](const Component&) { return true; })),
+      .missing = {}};
+  pipeline.missing = missingOf(pipeline);
+  std::erase_if(pipeline.models, [](const Component* model) { return !isInActiveNode(model); });
+  return pipeline;
+}
+
+/// A node runs one pipeline: the last that it has been given.
+const Component* pipelineOf(const Node& node) {
+  const auto last = std::find_if(node.components.rbegin(), node.components.rend(), [](const auto& component) {
+    return component->kind() == Pipeline || component->kind() == CompositePipeline;
+  });
+  return last == node.components.rend() ? nullptr : last->get();
+}
+
+void addPipelinesBelow(const Node& node, std::vector<PipelineParts>& pipelines) {
+  if (!node.active) return;
+  if (const auto* component = pipelineOf(node)) {
+    if (component->kind() == CompositePipeline)
+      for (const auto* sub : linked(*component, "subCollisionPipelines", isSubPipeline))
+        pipelines.push_back(subPipeline(*sub));
+    else
+      pipelines.push_back(pipelineOver(node, component));
+  }
+  for (const auto& child : node.children) addPipelinesBelow(*child, pipelines);
+}
+
+}  // namespace
+
+std::vector<const Component*> modelsBelow(const Node& node) {
+  std::vector<const Component*> models;
+  addModelsBelow(node, models);
+  return models;
+}
+
+std::vector<PipelineParts> findPipelines(const Node& root) {
+  std::vector<PipelineParts> pipelines;
+  addPipelinesBelow(root, pipelines);
+  if (pipelines.empty()) pipelines.push_back(pipelineOver(root, nullptr));
+  return pipelines;
+}
+
+}  // namespace allpairs::scene::sofa

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sofa/SceneText.h"
+
+namespace allpairs::scene::sofa {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Pipelines : public SceneTest {};
+
+std::string sphere(const std::string& node) {
+  return "<Node name='" + node + "'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='s'/></Node>\n";
+}
+
+const std::string kSubPipelineLinks =
+    "intersectionMethod='@method' broadPhaseDetection='@broad' narrowPhaseDetection='@narrow' "
+    "contactManager='@manager'";
+const std::string kSubPipelineParts =
+    "<NewProximityIntersection name='method' alarmDistance='3'/><BruteForceBroadPhase name='broad' box='0 0 0 1 1 1'/>"
+    "<BVHNarrowPhase name='narrow'/><CollisionResponse name='manager'/>\n";
+
+TEST_F(Pipelines, OfDifferentNodesTakeTheModelsBelowThem) {
+  const auto scene = readIn("<Node name='A'><CollisionPipeline name='p'/><LocalMinDistance alarmDistance='2'/>" +
+                            sphere("1") + sphere("2") + "</Node><Node name='B'><CollisionPipeline name='p'/>" +
+                            sphere("1") + "</Node>" + sphere("C"));
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/A/1/s", "/A/2/s", "/B/1/s"));
+  ASSERT_EQ(scene.pipelines.size(), 2U);
+  EXPECT_EQ(scene.pipelines[0].path, "/A/p");
+  EXPECT_THAT(scene.pipelines[0].models, ElementsAre(0, 1));
+  EXPECT_EQ(scene.pipelines[0].method.alarmDistance, 2);
+  EXPECT_THAT(scene.pipelines[1].models, ElementsAre(2));
+  EXPECT_THAT(scene.pipelines[1].method.name, IsEmpty());
+  ASSERT_EQ(scene.outside.size(), 1U);
+  EXPECT_EQ(scene.outside[0].subject, "/C/s");
+}
+
+TEST_F(Pipelines, OfANodeInsideAnotherShareModels) {
+  const auto scene =
+      readIn("<CollisionPipeline/>" + sphere("A") + "<Node name='B'><CollisionPipeline/>" + sphere("1") + "</Node>");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/A/s", "/B/1/s"));
+  ASSERT_EQ(scene.pipelines.size(), 2U);
+  EXPECT_THAT(scene.pipelines[0].models, ElementsAre(0, 1));
+  EXPECT_THAT(scene.pipelines[1].models, ElementsAre(1));
+}
+
+TEST_F(Pipelines, OfInactiveNodesAndAllButTheLastOfANodeDoNotRun) {
+  const auto scene = readIn(
+      "<CollisionPipeline name='first'/><DefaultPipeline name='last'/><Node activated='0'>"
+      "<CollisionPipeline/>" +
+      sphere("A") + "</Node>" + sphere("B"));
+  ASSERT_EQ(scene.pipelines.size(), 1U);
+  EXPECT_EQ(scene.pipelines[0].path, "/last");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/B/s"));
+  EXPECT_THAT(scene.outside, IsEmpty());
+}
+
+TEST_F(Pipelines, OfACompositeTakeWhatTheyLink) {
+  const auto scene = readIn(sphere("A") + sphere("B") + sphere("C") + kSubPipelineParts +
+                            "<SubCollisionPipeline name='one' collisionModels='@/B/s @A/s @B/s' " + kSubPipelineLinks +
+                            "/><SubCollisionPipeline name='two' collisionModels='@A/s' " + kSubPipelineLinks +
+                            "/><SubCollisionPipeline name='unused' collisionModels='@C/s' " + kSubPipelineLinks +
+                            "/><CompositeCollisionPipeline subCollisionPipelines='@two @one'/>");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/A/s", "/B/s"));
+  ASSERT_EQ(scene.pipelines.size(), 2U);
+  EXPECT_EQ(scene.pipelines[0].path, "/two");
+  EXPECT_THAT(scene.pipelines[0].models, ElementsAre(0));
+  EXPECT_EQ(scene.pipelines[1].path, "/one");
+  EXPECT_THAT(scene.pipelines[1].models, ElementsAre(1, 0));
+  EXPECT_EQ(scene.pipelines[1].method.alarmDistance, 3);
+  EXPECT_TRUE(scene.pipelines[1].region);
+  ASSERT_EQ(scene.outside.size(), 1U);
+  EXPECT_EQ(scene.outside[0].subject, "/C/s");
+  EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST_F(Pipelines, ThatLackAPartAreWarnedOf) {
+  const auto scene = readIn(sphere("A") + kSubPipelineParts +
+                            "<SubCollisionPipeline name='p' collisionModels='@A/s' intersectionMethod='@method' "
+                            "broadPhaseDetection='@broad' contactManager='@manager'/>"
+                            "<CompositeCollisionPipeline subCollisionPipelines='@p'/>");
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("lacks a narrow phase"));
+  EXPECT_EQ(scene.warnings[0].subject, "/p");
+}
+
+TEST_F(Pipelines, ThatLinkToNothingAreRefused) {
+  EXPECT_THAT(complaintIn("<SubCollisionPipeline name='p' collisionModels='@A/s'/>"
+                          "<CompositeCollisionPipeline subCollisionPipelines='@p'/>"),
+              HasSubstr("collisionModels: '@A/s' leads to no such component"));
+}
+
+TEST_F(Pipelines, NoneAtAllIsWarnedOf) {
+  const auto scene = readIn(sphere("A"));
+  ASSERT_EQ(scene.pipelines.size(), 1U);
+  EXPECT_THAT(scene.pipelines[0].models, ElementsAre(0));
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("no collision pipeline"));
+  EXPECT_THAT(readIn("").warnings, IsEmpty()) << "nor models";
+}
+
+}  // namespace
+}  // namespace allpairs::scene::sofa
