@@ -193,7 +193,8 @@ std::optional<Numbers> Evaluation::written(const Component& component, std::stri
   auto values = isIndexList(name) ? parseIntegers(text, bad, m_scope) : parseNumbers(text, bad);
   if (!values && !isIndexList(name)) {
     const auto joined = bad;
-    if ((values = parseNumberStream(text, bad)))
+    values = parseNumberStream(text, bad);
+    if (values)
       warn(component, std::string{name} + ": '" + joined.substr(0, 40) + "' is read as several numbers, as SOFA does");
   }
   if (!values) throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) + "' is not a finite number");

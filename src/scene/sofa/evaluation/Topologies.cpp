@@ -120,7 +120,7 @@ GridShape gridBetween(const Corners& corners, const Vec3& counts) {
 /// A grid as it is written, and the number of its points along each axis.
 struct WrittenGrid {
   Corners corners;
-  Vec3 counts;
+  Vec3 counts{};
   GridShape shape;
 };
 
