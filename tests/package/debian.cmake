@@ -27,7 +27,7 @@ endforeach()
 
 # The bill of materials names what the command and the libraries are linked with.
 if(APP)
-  run(${CMAKE_CURRENT_LIST_DIR}/check-sbom ${root}/usr/share/doc/allpairs/sbom.spdx.json allpairs libc6 libhwy1 libtbb12 libpugixml1v5)
+  run(${CMAKE_CURRENT_LIST_DIR}/check-sbom ${root}/usr/share/doc/allpairs/sbom.spdx.json allpairs libc6 libtbb12 libpugixml1v5)
 endif()
 
 # Nothing is in two packages, and nothing of the build is in one.
