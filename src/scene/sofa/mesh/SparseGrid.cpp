@@ -138,7 +138,7 @@ class Voxels {
     Corners scaled{};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        scaled[i][axis] = static_cast<float>((triangle[i][axis] - centre[axis]) / diagonal[axis]);
+        scaled[i][axis] = static_cast<double>(static_cast<float>((triangle[i][axis] - centre[axis]) / diagonal[axis]));
     return meetsUnitCube(scaled);
   }
 
