@@ -92,7 +92,7 @@ void BoxCull::apply(BoxReader& first, BoxReader& second, Executor& executor) {
   BoxReader& small = firstIsSmall ? first : second;
   BoxReader& large = firstIsSmall ? second : first;
   if (large.size() < kLeastBoxes) return;
-  if (restrict(large, boundsOf(small), m_ids[0], executor)) restrict(small, boundsOf(large), m_ids[1], executor);
+  if (restrict(large, boundsOf(small), m_largeIds, executor)) restrict(small, boundsOf(large), m_smallIds, executor);
 }
 
 }  // namespace allpairs::engine

@@ -19,7 +19,7 @@ namespace allpairs::engine {
 ///       such a set.
 class BoxCull {
  public:
-  explicit BoxCull(std::pmr::memory_resource* memory) : m_ids{Ids(memory), Ids(memory)}, m_ends(memory) {}
+  explicit BoxCull(std::pmr::memory_resource* memory) : m_largeIds(memory), m_smallIds(memory), m_ends(memory) {}
 
   /// Restricts the readers to boxes that may overlap one of the other's.
   void apply(BoxReader& first, BoxReader& second, Executor& executor);
@@ -29,7 +29,8 @@ class BoxCull {
 
   bool restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Executor& executor);
 
-  Ids m_ids[2];
+  Ids m_largeIds;
+  Ids m_smallIds;
   std::pmr::vector<std::size_t> m_ends;  ///< Of the chosen boxes of each task.
 };
 

@@ -19,7 +19,7 @@
 #include <iterator>
 
 #if HWY_ARCH_X86 && __has_include(<sys/platform/x86.h>)
-#define _Bool bool  // NOLINT(bugprone-reserved-identifier): the header is for C, and takes it for granted in C++.
+#define _Bool bool  // NOLINT(bugprone-reserved-identifier, readability-identifier-naming): the header is C.
 #include <sys/platform/x86.h>
 #undef _Bool
 #endif

@@ -307,6 +307,7 @@ class FclBroadPhaseManager : public FclTree<S> {
   /// Asks about the nearest that is left, while it is near enough.
   template <class AnyQuestion>
   bool askFew(const AnyQuestion& question, S& least) const {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): read only where it has been written
     std::array<S, RowSearch<S>::kBatch> squares;
     std::uint64_t left = 0;
     for (BoxId id = 0; id < m_objects.bound(); ++id) {
