@@ -26,8 +26,7 @@ namespace {
 template <class S>
 class FclManager : public FclScene<S> {};
 
-using Precisions = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(FclManager, Precisions);
+TYPED_TEST_SUITE(FclManager, FclPrecisions);
 
 TYPED_TEST(FclManager, FindsTheCollisionsOfTheNaiveManager) {
   for (const int size : {3, 8, 20}) {

@@ -20,8 +20,7 @@ namespace {
 template <class S>
 class FclQueries : public FclScene<S> {};
 
-using FclQueriesPrecisions = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(FclQueries, FclQueriesPrecisions);
+TYPED_TEST_SUITE(FclQueries, FclPrecisions);
 
 /// Collects the pairs that a query for distances gives, and sets the same least distance in each call.
 template <class S>

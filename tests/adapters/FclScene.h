@@ -19,6 +19,9 @@
 
 namespace allpairs::test {
 
+/// The precisions that FCL comes in.
+using FclPrecisions = ::testing::Types<float, double>;
+
 inline constexpr unsigned kSceneSeed = 5;
 
 /// Objects, and a manager of ours beside a naive one.

@@ -101,7 +101,7 @@ class Spheres {
     move(1);
   }
 
-  /// Places one in so many anew.
+  /// Moves every n-th object to a random place.
   void move(std::size_t stride) {
     std::uniform_real_distribution<double> place(0.0, 12.0);
     for (std::size_t i = 0; i < m_objects.size(); i += stride) {

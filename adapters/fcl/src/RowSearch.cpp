@@ -42,17 +42,19 @@ void roundRows(std::span<const double> rows, std::vector<float>& results) {
   for (std::size_t i = 0; i < rows.size(); ++i) results[i] = static_cast<float>(rows[i]);
 }
 
+/// Numbers that follow each other, wherever they are.
+template <class Vector, class S>
+Vector load(const S* numbers) {
+  Vector vector;
+  std::memcpy(&vector, numbers, sizeof(vector));
+  return vector;
+}
+
 /// Two numbers that are compared at once, which every 64-bit processor can: pairs are many, and lie anywhere.
 using Two [[gnu::vector_size(16)]] = double;
 
-Two load(const double* numbers) {
-  Two two;
-  std::memcpy(&two, numbers, sizeof(two));
-  return two;
-}
-
 bool overlap(const double* a, const double* b) {
-  const auto xy = (load(a) <= load(b + 3)) & (load(b) <= load(a + 3));
+  const auto xy = (load<Two>(a) <= load<Two>(b + 3)) & (load<Two>(b) <= load<Two>(a + 3));
   const auto z = Two{a[2], b[2]} <= Two{b[5], a[5]};
   const auto both = xy & z;
   return (both[0] & both[1]) != 0;
@@ -61,16 +63,10 @@ bool overlap(const double* a, const double* b) {
 /// Three of the four are compared: a row has no fourth number to load behind its last three.
 using Four [[gnu::vector_size(16)]] = float;
 
-Four load(const float* numbers) {
-  Four four;
-  std::memcpy(&four, numbers, sizeof(four));
-  return four;
-}
-
 bool overlap(const float* a, const float* b) {
   const Four upperA{a[3], a[4], a[5], 0.0F};
   const Four upperB{b[3], b[4], b[5], 0.0F};
-  const auto all = (load(a) <= upperB) & (load(b) <= upperA);
+  const auto all = (load<Four>(a) <= upperB) & (load<Four>(b) <= upperA);
   return (all[0] & all[1] & all[2]) != 0;
 }
 

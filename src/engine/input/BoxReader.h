@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -50,6 +51,8 @@ class BoxReader {
   /// Boxes that are compared need the same one. Rounded lanes keep the order of what they were rounded from.
   void setOrigin(const std::array<double, 3>& origin) noexcept;
 
+  [[nodiscard]] const std::array<double, 3>& origin() const noexcept { return m_origin; }
+
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {
     return m_ids != nullptr ? m_ids[i] : static_cast<std::uint32_t>(i);
@@ -58,6 +61,21 @@ class BoxReader {
 
   /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.
   BlockRead read(const BoxList& boxes, LaneBlock& block) const;
+
+  /// Reads up to sixteen boxes into a tile, from a place on, with their ids; boxes that can overlap nothing become lanes
+  /// that never overlap. Returns whether the lanes are exactly the boxes.
+  template <std::size_t kBoxes>
+  bool read(const BoxList& boxes, LaneTileOf<kBoxes>& tile, std::size_t place) const {
+    LaneBlock block;
+    const BlockRead result = read(boxes, block);
+    for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), boxes.size, &tile.bound[row][place]);
+    for (std::size_t lane = 0; lane < boxes.size; ++lane) tile.id[place + lane] = idOf(boxes[lane]);
+    for (std::uint32_t empty = result.emptyLanes; empty != 0; empty &= empty - 1) {
+      const std::size_t lane = place + static_cast<std::size_t>(std::countr_zero(empty));
+      tile.set(lane, kNeverLanes, tile.id[lane]);
+    }
+    return result.exact;
+  }
 
   /// Prefetches the memory of box i.
   void prefetch(std::size_t i) const noexcept {

@@ -16,8 +16,6 @@ void checkSpan(std::span<const std::uint32_t> values, std::size_t size, const st
                         std::to_string(size) + " boxes");
 }
 
-bool isEmpty(const FilterBits& bits) { return bits.categories.empty() && bits.masks.empty() && bits.groups.empty(); }
-
 void checkBits(const FilterBits& bits, std::size_t size) {
   checkSpan(bits.categories, size, "categories");
   checkSpan(bits.masks, size, "masks");

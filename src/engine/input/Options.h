@@ -14,6 +14,11 @@ struct Sets {
   bool one = true;
 };
 
+/// Whether no box has categories, masks or a group.
+[[nodiscard]] inline bool isEmpty(const FilterBits& bits) noexcept {
+  return bits.categories.empty() && bits.masks.empty() && bits.groups.empty();
+}
+
 /// Throws InvalidArgument, with a message that names the setting, if options are invalid for these sets.
 void checkOptions(const Sets& sets, const OverlapOptions& options);
 

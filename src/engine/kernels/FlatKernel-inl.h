@@ -40,6 +40,14 @@ HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
   return columnsOf(search.tested, row, search.columns.size);
 }
 
+/// One row against the columns [begin, end) of a tile.
+template <Density kDensity, class Emitter, class Tile>
+HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const Tile& tile, Range columns, Hits& hits) {
+  Emitter emitter = Emitter::ofRow(hits, id);
+  emitRow<kDensity>(q, tile, columns.begin, columns.end, emitter);
+  emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q), tile.bound, i); });
+}
+
 /// One row against the columns [begin, end), tile by tile.
 template <Density kDensity, class Emitter>
 HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end, Hits& hits) {
@@ -50,10 +58,7 @@ HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t
     const std::size_t first = begin / kTile * kTile;
     const std::size_t stop = std::min(end, first + kTile);
     if (!hits.countOnly) hits.require(kTile);
-    Emitter emitter = Emitter::ofRow(hits, id);
-    emitRow<kDensity>(q, search.columns.tileOf(begin), begin - first, stop - first, emitter);
-    emitter.finish(
-        hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q), search.columns.tileOf(first).bound, i); });
+    searchTile<kDensity, Emitter>(q, id, search.columns.tileOf(begin), {begin - first, stop - first}, hits);
     begin = stop;
   }
 }
@@ -259,10 +264,8 @@ void searchFewRows(const FewSearch& search, Hits& hits) {
   for (std::size_t row = 0; row < search.rowCount; ++row) {
     const Range columns = columnsOf(search.tested, row, search.columnCount);
     hits.require(FewTile::kCapacity);
-    Emitter writer = Emitter::ofRow(hits, search.rows->id[row]);
-    const Query q = broadcast(search.rows->get(row));
-    emitRow<Density::Dense>(q, *search.columns, columns.begin, columns.end, writer);
-    writer.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q), search.columns->bound, i); });
+    searchTile<Density::Dense, Emitter>(broadcast(search.rows->get(row)), search.rows->id[row], *search.columns,
+                                        columns, hits);
     hits.boxTests += columns.size();
   }
 }

@@ -54,22 +54,22 @@ struct LeafVectors {
 /// The pairs within a leaf, each once: a box against those after it.
 template <class Emitter>
 HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hits) {
-  constexpr std::size_t kVectors = LeafVectors::kVectors;
   const FloatTag d;
   if (!hits.countOnly) hits.require(kFanOut * kFanOut);
   Emitter emitter = Emitter::ofLeaf(hits);
   for (std::size_t lane = 0; lane + 1 < leaf.fill; ++lane) {
     emitter.share(leaf.ids[lane]);
     const Query q = broadcast(leaf.block.get(lane));
-    for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
       const std::size_t first = v * LeafVectors::kLanes;
       const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, LeafVectors::kLanes) : 0;
       const FloatMask mask = hn::AndNot(hn::FirstN(d, before), vectors.overlappingWith(q, v));
-      emitter.emit(mask, vectors.id[v], static_cast<std::uint32_t>(lane * kVectors + v));
+      emitter.emit(mask, vectors.id[v], static_cast<std::uint32_t>(lane * LeafVectors::kVectors + v));
     }
   }
   emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-    return vectors.overlappingWith(inward(broadcast(leaf.block.get(test / kVectors))), test % kVectors);
+    return vectors.overlappingWith(inward(broadcast(leaf.block.get(test / LeafVectors::kVectors))),
+                                   test % LeafVectors::kVectors);
   });
 }
 
@@ -80,7 +80,6 @@ template <class Emitter>
 HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std::span<const std::uint32_t> places,
                           Hits& hits) {
   constexpr std::size_t kStretch = 64;
-  constexpr std::size_t kVectors = LeafVectors::kVectors;
   const LaneBlock* blocks = other.level[0].blocks;
   const auto queryAt = [&](std::size_t place)
                            HWY_ATTR { return broadcast(blocks[place / kFanOut].get(place % kFanOut)); };
@@ -92,12 +91,14 @@ HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std:
       const std::size_t place = places[begin + i];
       emitter.share(other.ids[place]);
       const Query q = queryAt(place);
-      for (std::size_t v = 0; v < kVectors; ++v) {
-        emitter.emit(vectors.overlappingWith(q, v), vectors.id[v], static_cast<std::uint32_t>(i * kVectors + v));
+      for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
+        emitter.emit(vectors.overlappingWith(q, v), vectors.id[v],
+                     static_cast<std::uint32_t>(i * LeafVectors::kVectors + v));
       }
     }
     emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-      return vectors.overlappingWith(inward(queryAt(places[begin + test / kVectors])), test % kVectors);
+      return vectors.overlappingWith(inward(queryAt(places[begin + test / LeafVectors::kVectors])),
+                                     test % LeafVectors::kVectors);
     });
   }
 }

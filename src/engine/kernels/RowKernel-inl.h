@@ -20,9 +20,6 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// The most vectors that an emitter is given: a tile of an exhaustive search in vectors of one lane.
-constexpr std::size_t kMostTests = LaneTile::kCapacity;
-
 /// Emits hits as two ids each: one that all hits of a vector share, and the partner's; writes whole vectors.
 struct HitWriter {
   std::uint32_t* HWY_RESTRICT shared;
@@ -97,7 +94,8 @@ class DoubtWriter {
 
   HitWriter m_writer;
   std::size_t m_count = 0;
-  std::array<Touched, kMostTests + 1> m_touched;  // Not initialised: few are used.
+  /// Not initialised: few are used. At most a tile of an exhaustive search, in vectors of one lane.
+  std::array<Touched, LaneTile::kCapacity + 1> m_touched;
 };
 
 /// Counts hits.

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
-#include "input/BoxReader.h"
-#include "input/Origin.h"
+#include "input/Readers.h"
 #include "kernels/Kernels.h"
 #include "search/PairSink.h"
 #include "search/PairTest.h"
@@ -48,9 +46,8 @@ class Receiver {
     if (m_hits.size == 0) return;
     m_kernels.writePairs(m_hits, m_side, m_pairs.data());
     const std::span<Pair> pairs(m_pairs.data(), m_hits.size);
-    const std::span<const std::uint32_t> doubts(m_doubts.data(), m_hits.doubts);
-    if (m_test.exactTestNeeded()) m_statistics.exactTests += m_hits.doubt != nullptr ? doubts.size() : pairs.size();
-    const std::size_t kept = m_hits.doubt != nullptr ? m_test.select(pairs, doubts) : m_test.select(pairs);
+    m_statistics.exactTests += m_test.exactTestsOf(m_hits);
+    const std::size_t kept = m_test.select(pairs, m_hits);
     m_hits.size = 0;
     m_hits.doubts = 0;
     m_statistics.pairs += kept;
@@ -75,17 +72,8 @@ class Receiver {
 bool readFew(const BoxReader& reader, FewTile& tile) {
   bool exact = true;
   const BoxList all{nullptr, 0, reader.size()};
-  LaneBlock block;
   for (std::size_t begin = 0; begin < all.size; begin += kFanOut) {
-    const BoxList boxes = all.part(begin, kFanOut);
-    const BlockRead read = reader.read(boxes, block);
-    exact &= read.exact;
-    for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), boxes.size, &tile.bound[row][begin]);
-    for (std::size_t lane = 0; lane < boxes.size; ++lane) tile.id[begin + lane] = boxes[lane];
-    for (std::uint32_t bits = read.emptyLanes; bits != 0; bits &= bits - 1) {
-      const std::size_t place = begin + static_cast<std::size_t>(std::countr_zero(bits));
-      tile.set(place, kNeverLanes, tile.id[place]);
-    }
+    exact &= reader.read(all.part(begin, kFanOut), tile, begin);
   }
   return exact;
 }
@@ -118,9 +106,6 @@ std::size_t testAll(const T* rows, std::size_t size, bool bySecond, Pair* pairs)
 /// Whether testAll() takes these boxes: only their bounds matter, which are rows, and no option can be invalid.
 bool arePlain(const Sets& sets, const OverlapOptions& options) {
   const BoxView& boxes = sets.first;
-  const auto isEmpty = [](const FilterBits& bits) {
-    return bits.categories.empty() && bits.masks.empty() && bits.groups.empty();
-  };
   return sets.one && boxes.size() <= kPlainBoxes && options.distance == 0.0 && !options.region &&
          isEmpty(options.filter.first) && isEmpty(options.filter.second) && !options.filter.accept &&
          options.instructionSet.empty() && !boxes.hasMargins() &&
@@ -146,20 +131,16 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options,
   const Kernels& kernels = chooseKernels(options);
   PairTest test = PairTest::of(sets, options);
   const bool bySecond = options.order == Order::BySecond;
-  const BoxView& rowSet = bySecond ? sets.second : sets.first;
-  const BoxView& columnSet = bySecond ? sets.first : sets.second;
+  const Readers readers = Readers::of(sets, options, kernels);
+  const BoxReader& rowSet = bySecond ? readers.second : readers.first;
+  const BoxReader& columnSet = bySecond ? readers.first : readers.second;
   FewTile columns;
   FewTile rows;
   FewSearch search{&columns, &columns, rowSet.size(), columnSet.size(),
                    bySecond ? Columns::Preceding : Columns::Following};
-  const auto readInto = [&](const BoxView& set, FewTile& tile) {
-    BoxReader reader(set, options, kernels);
-    reader.setOrigin(originFor(sets.first, sets.second));
-    return readFew(reader, tile);
-  };
-  bool exact = readInto(columnSet, columns);
+  bool exact = readFew(columnSet, columns);
   if (!sets.one) {
-    exact &= readInto(rowSet, rows);
+    exact &= readFew(rowSet, rows);
     search.rows = &rows;
     search.tested = Columns::All;
   }

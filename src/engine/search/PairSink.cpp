@@ -88,24 +88,17 @@ void PairSink::receive(Hits& hits) {
 }
 
 void PairSink::selectTested(std::size_t begin, const Hits& hits) {
-  const PairTest* const test = m_options->test;
-  const bool hasDoubts = hits.doubt != nullptr;
-  if (test->exactTestNeeded()) m_exactTests += hasDoubts ? hits.doubts : hits.size;
-  if (hasDoubts && isWhole()) {
-    m_size = begin + test->select({m_pairs.data() + begin, hits.size}, {hits.doubt, hits.doubts});
+  const PairTest& test = *m_options->test;
+  const std::span<Pair> pairs(m_pairs.data() + begin, hits.size);
+  m_exactTests += test.exactTestsOf(hits);
+  if (isWhole()) {
+    m_size = begin + test.select(pairs, hits);
     return;
   }
-  std::size_t kept = begin;
-  std::size_t doubt = 0;
-  for (std::size_t i = begin; i < m_size; ++i) {
-    Pair pair = m_pairs[i];
-    const bool isDoubtful = !hasDoubts || (doubt < hits.doubts && hits.doubt[doubt] == i - begin);
-    doubt += isDoubtful ? 1U : 0U;
+  m_size = begin + test.select(pairs, hits, [this](Pair& pair) {
     (m_options->side == PairSide::RowSecond ? pair.second : pair.first) += m_options->firstRow;
-    if (m_options->ascendingOnly && pair.first >= pair.second) continue;
-    if (test->keeps(pair, isDoubtful)) m_pairs[kept++] = pair;
-  }
-  m_size = kept;
+    return !m_options->ascendingOnly || pair.first < pair.second;
+  });
 }
 
 void PairSink::emit() {

@@ -9,6 +9,7 @@
 #include "allpairs/Filter.h"
 #include "allpairs/Pair.h"
 #include "input/Options.h"
+#include "kernels/Hits.h"
 
 namespace allpairs::engine {
 
@@ -71,24 +72,6 @@ class PairTest {
   /// Moves the pairs that it keeps to the front; returns their number.
   [[nodiscard]] std::size_t select(std::span<Pair> pairs) const {
     if (!needed()) return pairs.size();
-    return moveToFront(pairs, [this](Pair pair) { return keeps(pair); });
-  }
-
-  /// The same where only the pairs at some positions, in ascending order, need the exact test.
-  [[nodiscard]] std::size_t select(std::span<Pair> pairs, std::span<const std::uint32_t> doubts) const {
-    if (!m_filtered && doubts.empty()) return pairs.size();
-    std::size_t next = 0;
-    std::size_t doubt = 0;
-    return moveToFront(pairs, [&](Pair pair) {
-      const bool isDoubtful = doubt < doubts.size() && doubts[doubt] == next++;
-      doubt += isDoubtful ? 1U : 0U;
-      return keeps(pair, isDoubtful);
-    });
-  }
-
- private:
-  template <class Keeps>
-  static std::size_t moveToFront(std::span<Pair> pairs, const Keeps& keeps) {
     std::size_t kept = 0;
     for (const Pair pair : pairs) {
       if (keeps(pair)) pairs[kept++] = pair;
@@ -96,6 +79,33 @@ class PairTest {
     return kept;
   }
 
+  /// The same for the pairs of some hits, of which only those in doubt need the exact test, if the kernels noted them.
+  [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits& hits) const {
+    if (!m_filtered && exactTestsOf(hits) == 0) return pairs.size();
+    return select(pairs, hits, [](Pair&) { return true; });
+  }
+
+  /// The same; isWanted(pair) may change a pair before it is tested.
+  template <class IsWanted>
+  [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits& hits, const IsWanted& isWanted) const {
+    std::size_t kept = 0;
+    std::size_t doubt = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      Pair pair = pairs[i];
+      const bool isDoubtful = hits.doubt == nullptr || (doubt < hits.doubts && hits.doubt[doubt] == i);
+      doubt += isDoubtful ? 1U : 0U;
+      if (isWanted(pair) && keeps(pair, isDoubtful)) pairs[kept++] = pair;
+    }
+    return kept;
+  }
+
+  /// How many of some hits need the exact test.
+  [[nodiscard]] std::size_t exactTestsOf(const Hits& hits) const noexcept {
+    if (!m_exact) return 0;
+    return hits.doubt != nullptr ? hits.doubts : hits.size;
+  }
+
+ private:
   [[nodiscard]] bool touches(Pair pair) const {
     const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
     return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);

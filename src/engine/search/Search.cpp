@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "input/Options.h"
-#include "input/Origin.h"
 #include "input/Sampling.h"
 #include "search/FewBoxes.h"
 
@@ -41,23 +40,14 @@ double shareOfOverlaps(const BoxReader& reader) {
   return static_cast<double>(hits) / (0.5 * static_cast<double>(kSample * (kSample - 1)));
 }
 
-/// Reads all boxes of a set, in their order, as lanes; boxes that can overlap nothing become lanes that never overlap.
+/// Reads all boxes of a set, in their order, as lanes; returns whether they are exactly the boxes.
 bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
   buffer.require(LaneList::tilesFor(reader.size()));
   list = {buffer.data(), reader.size()};
   bool exact = true;
-  LaneBlock block;
-  for (std::size_t begin = 0; begin < reader.size(); begin += kFanOut) {
-    LaneTile& tile = list.tileOf(begin);
-    const std::size_t place = begin % LaneTile::kCapacity;
-    const BoxList boxes = BoxList{nullptr, 0, reader.size()}.part(begin, kFanOut);
-    const BlockRead read = reader.read(boxes, block);
-    exact &= read.exact;
-    for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), boxes.size, &tile.bound[row][place]);
-    for (std::size_t lane = 0; lane < boxes.size; ++lane) {
-      tile.id[place + lane] = reader.idOf(boxes[lane]);
-      if ((read.emptyLanes >> lane & 1U) != 0) tile.set(place + lane, kNeverLanes, tile.id[place + lane]);
-    }
+  const BoxList all{nullptr, 0, reader.size()};
+  for (std::size_t begin = 0; begin < all.size; begin += kFanOut) {
+    exact &= reader.read(all.part(begin, kFanOut), list.tileOf(begin), begin % LaneTile::kCapacity);
   }
   return exact;
 }
@@ -105,19 +95,12 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_taken = nullptr;
 }
 
-Search::Readers Search::readersOf(const Sets& sets, const OverlapOptions& options) const {
-  Readers readers{{sets.first, options, *m_kernels}, {sets.second, options, *m_kernels}, sets.one};
-  readers.first.setOrigin(originFor(sets.first, sets.second));
-  readers.second.setOrigin(originFor(sets.first, sets.second));
-  return readers;
-}
-
 void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.lanesAreBounds = true;
   plan.sink.maxPairs = options.maxPairs;
-  Readers readers = readersOf(sets, options);
+  Readers readers = Readers::of(sets, options, *m_kernels);
   if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;
   const bool flat = choosesFlat(readers, options, likelyPairs);

@@ -14,6 +14,7 @@
 #include "bvh/BvhBuilder.h"
 #include "input/BoxCull.h"
 #include "input/Options.h"
+#include "input/Readers.h"
 #include "order/PairBuckets.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
@@ -77,15 +78,6 @@ class Search {
     SinkOptions sink = {};
   };
 
-  /// What to search: two sets, or one twice.
-  struct Readers {
-    BoxReader first;
-    BoxReader second;
-    bool one;
-  };
-
-  [[nodiscard]] Readers readersOf(const Sets& sets, const OverlapOptions& options) const;
-
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
@@ -107,8 +99,9 @@ class Search {
   void sortBuckets(const BucketRule& rule);
 
   void streamAll(Plan& plan, Batches& to);
-  void streamInRanges(const Sets& sets, const OverlapOptions& options, Batches& to);
-  bool findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end);
+  void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers, Batches& to);
+  bool findRange(const Sets& sets, const OverlapOptions& options, const std::array<double, 3>& origin,
+                 std::size_t begin, std::size_t end);
 
   OverlapStatistics m_statistics;
   const Kernels* m_kernels = nullptr;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "allpairs/Error.h"
-#include "input/Origin.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
@@ -37,9 +36,9 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
   if (to.size() == 0) throw InvalidArgument("a batch size of 0 pairs");
   begin(sets, options);
   std::size_t likelyPairs = 0;
-  const Readers readers = readersOf(sets, options);
+  const Readers readers = Readers::of(sets, options, *m_kernels);
   if (options.order != Order::Unordered && !choosesFlat(readers, options, likelyPairs)) {
-    streamInRanges(sets, options, to);
+    streamInRanges(sets, options, readers, to);
     return;
   }
   Plan plan{PairTest::of(sets, options)};
@@ -58,17 +57,16 @@ void Search::streamAll(Plan& plan, Batches& to) {
 }
 
 /// Searches the boxes that pairs are ordered by, range by range, each range against all boxes of the other side.
-void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Batches& to) {
+void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers, Batches& to) {
   const bool bySecond = options.order == Order::BySecond;
   const BoxView& rows = bySecond ? sets.second : sets.first;
-  BoxReader columns(bySecond ? sets.first : sets.second, options, *m_kernels);
-  columns.setOrigin(originFor(sets.first, sets.second));
+  const BoxReader& columns = bySecond ? readers.first : readers.second;
   m_second.build(columns, *m_executor);
   OverlapStatistics total;
   std::size_t length = kFirstRange;
   for (std::size_t begin = 0; begin < rows.size();) {
     const std::size_t end = std::min(rows.size(), begin + length);
-    if (!findRange(sets, options, begin, end)) {
+    if (!findRange(sets, options, columns.origin(), begin, end)) {
       length = (end - begin + 1) / 2;
       continue;
     }
@@ -83,11 +81,12 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, Bat
   m_statistics = total;
 }
 
-bool Search::findRange(const Sets& sets, const OverlapOptions& options, std::size_t begin, std::size_t end) {
+bool Search::findRange(const Sets& sets, const OverlapOptions& options, const std::array<double, 3>& origin,
+                       std::size_t begin, std::size_t end) {
   const bool bySecond = options.order == Order::BySecond;
   const BoxView range = (bySecond ? sets.second : sets.first).slice(begin, end);
   BoxReader reader(range, options, *m_kernels);
-  reader.setOrigin(originFor(sets.first, sets.second));
+  reader.setOrigin(origin);
   m_first.build(reader, *m_executor);
   Plan plan{PairTest::of(sets, options)};
   joinBoth(false, plan);

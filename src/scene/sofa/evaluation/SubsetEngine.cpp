@@ -58,7 +58,7 @@ Mesh inputOf(Evaluation& evaluation, const Component& engine) {
   return mesh;
 }
 
-/// A mesh in two parts. Where corners are numbered anew in each part, points that both have come first in either.
+/// A mesh in two parts. If each part numbers its points from 0, the points that both parts share have the lowest numbers.
 class Parting {
  public:
   Parting(const Mesh& mesh, const Regions& regions, bool renumber)

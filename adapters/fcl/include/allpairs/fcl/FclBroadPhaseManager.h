@@ -41,9 +41,9 @@ struct FclBroadPhaseManagerOptions {
 /// takes the place of one that left. The order of the pairs is the same each time. A callback that returns true ends
 /// the query.
 ///
-/// For distances, callbacks get each pair at most once, and near ones early: at least each pair whose boxes are no
-/// farther apart than the least distance that the callback has set so far, pairs whose boxes overlap always. A callback
-/// that sets the same distance in each call, a threshold or 0, gets all pairs within it.
+/// For distances, a callback gets no pair twice, and near pairs early. It gets every pair whose boxes overlap, and every
+/// pair whose boxes are no farther apart than the smallest distance that it has set so far. So a callback that always
+/// sets the same distance, a threshold or 0, gets all pairs within it.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(), as in FCL's managers; an
 /// octree counts with its box, like any other geometry. An object that is registered again, or that leaves without
@@ -304,7 +304,7 @@ class FclBroadPhaseManager : public FclTree<S> {
     return world != nullptr ? askByWorld(*world, question, least) : askByScan(question, least);
   }
 
-  /// Asks about the nearest that is left, while it is near enough.
+  /// Asks about objects from the nearest on, as long as they are near enough.
   template <class AnyQuestion>
   bool askFew(const AnyQuestion& question, S& least) const {
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): read only where it has been written

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "allpairs/BoxView.h"
+#include "allpairs/OverlapOptions.h"
+#include "input/BoxReader.h"
+#include "input/Options.h"
+#include "input/Sampling.h"
+
+namespace allpairs::engine {
+
+/// The point that the lanes of two sets are relative to: near the boxes if they are float64 and so far from the origin
+/// that float32 would tell few of them apart, else the origin. Any point gives the same pairs.
+///
+/// Float64 boxes that are far only because of a few outliers in the sample keep the origin.
+[[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
+  /// Boxes farther from the origin than this many times the extent of the sample lose more bits than this has.
+  constexpr double kFar = 16.0;
+  constexpr std::size_t kMostSamples = 32;
+  std::array<double, 3> origin{};
+  const BoxView& set = first.size() < second.size() ? second : first;
+  if (set.empty() || !(first.isFloat64() || second.isFloat64())) return origin;
+  const std::size_t samples = std::min(kMostSamples, set.size());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box bounds{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (std::size_t part = 0; part < samples; ++part) {
+    const Box box = set[sampleIndex(part, samples, set.size())];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(box.min[axis]) || !std::isfinite(box.max[axis])) continue;
+      bounds.min[axis] = std::min(bounds.min[axis], box.min[axis]);
+      bounds.max[axis] = std::max(bounds.max[axis], box.max[axis]);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double extent = bounds.max[axis] - bounds.min[axis];
+    if (extent > 0.0 && std::abs(bounds.min[axis]) > kFar * extent) origin[axis] = bounds.min[axis];
+  }
+  return origin;
+}
+
+/// The readers of two sets that are compared, or of one set twice: their lanes are relative to the same point.
+struct Readers {
+  BoxReader first;
+  BoxReader second;
+  bool one;
+
+  static Readers of(const Sets& sets, const OverlapOptions& options, const Kernels& kernels) {
+    Readers readers{{sets.first, options, kernels}, {sets.second, options, kernels}, sets.one};
+    readers.first.setOrigin(originFor(sets.first, sets.second));
+    readers.second.setOrigin(readers.first.origin());
+    return readers;
+  }
+};
+
+}  // namespace allpairs::engine
