@@ -187,7 +187,7 @@ struct PairWriter {
 
   HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> partners, std::uint32_t /*test*/) {
     const IdTag d;
-    if (!hn::AllTrue(FloatTag(), mask)) partners = hn::Compress(partners, hn::RebindMask(d, mask));
+    if (!hn::AllTrue(FloatTag(), mask)) partners = selectedLanes(d, partners, hn::RebindMask(d, mask));
     if (rowSecond) {
       hn::StoreInterleaved2(partners, rowIds, d, stream.next());
     } else {

@@ -123,10 +123,10 @@ struct TileFiller {
     const FloatTag d;
     const IdTag di;
     for (std::size_t row = 0; row < 6; ++row) {
-      hn::StoreU(hn::Compress(hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
+      hn::StoreU(selectedLanes(d, hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
     }
     const auto nodes = numbersFrom(firstNode + lane);
-    hn::StoreU(hn::Compress(nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
+    hn::StoreU(selectedLanes(di, nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
     size += hn::CountTrue(d, mask);
   }
 
@@ -245,7 +245,7 @@ class JoinRun {
       for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
         const auto touching = hn::RebindMask(d, overlapping(q, source[blocks[i]].bound, lane));
         const auto place = numbersFrom(first + lane);
-        hn::StoreU(hn::Compress(place, touching), d, places + size);
+        hn::StoreU(selectedLanes(d, place, touching), d, places + size);
         size += hn::CountTrue(d, touching);
       }
     }

@@ -20,7 +20,10 @@ namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
 /// Measured (docs/decisions/0009): wide vectors that store selected lanes in one instruction test more pairs.
-constexpr std::size_t kFlatOrdered = HWY_TARGET <= HWY_AVX3 ? 448 : HWY_TARGET <= HWY_AVX2 ? 128 : 96;
+constexpr std::size_t kFlatOrdered = HWY_TARGET <= HWY_AVX3   ? 384
+                                     : HWY_TARGET <= HWY_AVX2 ? 256
+                                     : HWY_TARGET <= HWY_SSE4 ? 176
+                                                              : 96;
 constexpr std::size_t kFlatUnordered = HWY_TARGET <= HWY_AVX3 ? 256 : kFlatOrdered;
 
 const Kernels* kernelTable() {

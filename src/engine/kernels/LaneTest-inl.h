@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
+#include "kernels/LaneSelection.h"
 #include "kernels/Lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -87,11 +88,42 @@ HWY_INLINE Query inward(const Query& q) {
 
 /// The lanes of a mask as bits.
 template <class D, class M>
-HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
-  if (hn::AllFalse(d, mask)) return 0;
+HWY_INLINE std::uint32_t allBitsOf(D d, M mask) {
+#if HWY_TARGET <= HWY_AVX3
+  static_cast<void>(d);
+  return mask.raw;
+#else
   std::array<std::uint8_t, 8> bytes{};
   hn::StoreMaskBits(d, mask, bytes.data());
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+#endif
+}
+
+/// The same where most often there are none.
+template <class D, class M>
+HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
+  return hn::AllFalse(d, mask) ? 0 : allBitsOf(d, mask);
+}
+
+/// The lanes that the mask selects, first; what follows them is unspecified.
+///
+/// Not hn::Compress for vectors of 4 and 8 lanes: GCC 12 copies its table to the stack for each call, which took AVX2 half of
+/// the time of a search (docs/decisions/0024).
+template <class D, class M>
+HWY_INLINE hn::Vec<D> selectedLanes(D d, hn::Vec<D> values, M mask) {
+  constexpr std::size_t kLanes = hn::MaxLanes(D());
+  if constexpr (kLanes == 8) {
+    const hn::Rebind<std::uint8_t, D> bytes;
+    const hn::RebindToUnsigned<D> lanes;
+    const auto order = hn::PromoteTo(lanes, hn::LoadU(bytes, kSelectionsOf8[allBitsOf(d, mask)].data()));
+    return hn::TableLookupLanes(values, hn::IndicesFromVec(d, order));
+  } else if constexpr (kLanes == 4) {
+    const hn::Repartition<std::uint8_t, D> bytes;
+    const auto order = hn::Load(bytes, kSelectionsOf4[allBitsOf(d, mask)].data());
+    return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(bytes, values), order));
+  } else {
+    return hn::Compress(values, mask);
+  }
 }
 
 alignas(64) inline constexpr std::array<std::uint32_t, kFanOut> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,

@@ -40,7 +40,7 @@ struct HitWriter {
     const IdTag d;
     const auto selected = hn::RebindMask(d, mask);
     hn::StoreU(hn::Set(d, commonId), d, shared + size);
-    hn::StoreU(hn::Compress(ids, selected), d, own + size);
+    hn::StoreU(selectedLanes(d, ids, selected), d, own + size);
     size += hn::CountTrue(d, selected);
   }
 
@@ -122,7 +122,7 @@ struct PartnerWriter {
   HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, std::uint32_t /*test*/) {
     const IdTag d;
     const auto selected = hn::RebindMask(d, mask);
-    hn::StoreU(hn::Compress(ids, selected), d, partners + size);
+    hn::StoreU(selectedLanes(d, ids, selected), d, partners + size);
     size += hn::CountTrue(d, selected);
   }
 };
