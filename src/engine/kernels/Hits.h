@@ -15,6 +15,13 @@ enum class PairSide : std::uint8_t {
   SmallerFirst,  ///< (min, max): one set in the order of the hierarchy.
 };
 
+/// Which columns each row is tested against.
+enum class Columns : std::uint8_t {
+  All,        ///< Two sets.
+  Following,  ///< One set, each pair at its smaller index.
+  Preceding,  ///< One set, each pair at its larger index.
+};
+
 /// A destination for pairs: `before` pairs precede it, of which the first begins a cache line.
 struct RoomForPairs {
   Pair* pairs;

@@ -10,7 +10,10 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <numeric>
 #include <span>
 
 #include "kernels/Kernels.h"
@@ -174,6 +177,10 @@ class JoinRun {
       return;
     }
     gather(level, bounds, partners, count);
+    if (level == 1 && m_task.lists != nullptr) {
+      listNeighbors(node, bounds);
+      return;
+    }
     const std::size_t span = std::size_t{1} << (4 * (level - 1));
     const Level& children = m_task.first->level[level];
     const std::size_t begin = std::max(node * kFanOut, m_task.leafBegin / span);
@@ -250,6 +257,149 @@ class JoinRun {
       }
     }
     return size;
+  }
+
+  /// The partners of the boxes of a node on level 1, box by box.
+  ///
+  /// The boxes near the node are put in the order of their ids once, so that every list is in order.
+  void listNeighbors(std::size_t node, const LaneBox& bounds) {
+    JoinScratch& scratch = *m_task.scratch;
+    const std::span<const std::uint32_t> blocks = gatheredBlocks(scratch.level[1]);
+    std::uint32_t* const places = scratch.level[0].roomFor((blocks.size() + 1) * kFanOut + Hits::kSlack);
+    readInOrder({places, listTouching(bounds, blocks, places)});
+    m_hits.groupTests += blocks.size() * kFanOut;
+    const Level& leaves = m_task.first->level[1];
+    const std::size_t begin = std::max(node * kFanOut, m_task.leafBegin);
+    const std::size_t end = std::min(node * kFanOut + leaves.fill(node), m_task.leafEnd);
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      const LaneBox leafBounds = leaves.blocks[node].get(leaf - node * kFanOut);
+      m_task.lists->kept == Columns::All         ? listLeaf<Columns::All>(leaf, leafBounds)
+      : m_task.lists->kept == Columns::Following ? listLeaf<Columns::Following>(leaf, leafBounds)
+                                                 : listLeaf<Columns::Preceding>(leaf, leafBounds);
+    }
+  }
+
+  /// The numbers of the blocks in all tiles of a level.
+  static std::span<const std::uint32_t> gatheredBlocks(JoinScratch::PerLevel& level) {
+    const std::size_t size = std::accumulate(
+        level.sizes.begin(), level.sizes.begin() + static_cast<std::ptrdiff_t>(level.tileCount), std::size_t{0});
+    std::uint32_t* const blocks = level.roomFor(size);
+    std::uint32_t* to = blocks;
+    for (std::size_t t = 0; t < level.tileCount; ++t) to = std::copy_n(level.tiles[t][0].id.data(), level.sizes[t], to);
+    return {blocks, size};
+  }
+
+  /// Reads the boxes at some positions of the second hierarchy, in the order of their ids.
+  void readInOrder(std::span<const std::uint32_t> places) {
+    const BvhView& second = *m_task.second;
+    NeighborScratch& near = m_task.scratch->neighbors;
+    const std::size_t size = places.size();
+    if (2 * size > near.keys.capacity()) near.keys.require(4 * size);
+    near.require(size);
+    std::uint64_t* keys = near.keys.data();
+    for (std::size_t i = 0; i < size; ++i) keys[i] = std::uint64_t{second.ids[places[i]]} << 32U | places[i];
+    keys = m_task.lists->sort(keys, keys + size, size, 32, 32 + m_task.lists->idBits);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto place = static_cast<std::uint32_t>(keys[i]);
+      const LaneBlock& block = second.level[0].blocks[place / kFanOut];
+      for (std::size_t row = 0; row < 6; ++row) near.bound[row][i] = block.bound[row][place % kFanOut];
+      near.id[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
+    }
+  }
+
+  /// The boxes near the node that overlap the bounds of a leaf; returns their number.
+  static std::size_t listNear(const LaneBox& bounds, const NeighborScratch& near) {
+    const FloatTag d;
+    const IdTag di;
+    const std::size_t lanes = hn::Lanes(d);
+    const Query q = broadcast(bounds);
+    std::uint32_t* const to = near.near.data();
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < near.size; i += lanes) {
+      FloatMask mask = overlapping(q, near.bound, i);
+      if (near.size < i + lanes) mask = hn::And(hn::FirstN(d, near.size - i), mask);
+      hn::StoreU(selectedLanes(di, numbersFrom(i), hn::RebindMask(di, mask)), di, to + size);
+      size += hn::CountTrue(d, mask);
+    }
+    return size;
+  }
+
+  /// The partners of each box of a leaf. First come the hits, a bit for each box of the leaf, of one box near it after the
+  /// other; then the lists, since now their lengths are known.
+  template <Columns kKept>
+  void listLeaf(std::size_t number, const LaneBox& bounds) {
+    const IdTag d;
+    constexpr std::size_t kLanes = LeafVectors::kLanes;
+    constexpr std::size_t kVectors = LeafVectors::kVectors;
+    NeighborScratch& near = m_task.scratch->neighbors;
+    const Leaf leaf{m_task.first->level[0].blocks[number], m_task.first->ids + number * kFanOut,
+                    m_task.first->level[0].fill(number)};
+    const LeafVectors vectors(leaf);
+    const std::size_t size = listNear(bounds, near);
+    const std::uint32_t* const places = near.near.data();
+    std::uint32_t* HWY_RESTRICT const hitBits = near.hitBits.data();
+    std::uint32_t* HWY_RESTRICT const hitIds = near.hitIds.data();
+    const bool notesDoubts = m_task.lists->tested == NeighborLists::Tested::InDoubt;
+    hn::Vec<IdTag> lengths[kVectors];
+    for (auto& length : lengths) length = hn::Zero(d);
+    std::uint32_t doubtful = 0;
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::uint32_t id = near.id[places[i]];
+      const Query q = broadcast(near.get(places[i]));
+      std::uint32_t bits = 0;
+      for (std::size_t v = 0; v < kVectors; ++v) {
+        auto mask = hn::RebindMask(d, vectors.overlappingWith(q, v));
+        if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(vectors.id[v], hn::Set(d, id)));
+        if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(vectors.id[v], hn::Set(d, id)));
+        lengths[v] = hn::Sub(lengths[v], hn::VecFromMask(d, mask));
+        bits |= allBitsOf(d, mask) << (v * kLanes);
+      }
+      hitBits[hits] = bits;
+      hitIds[hits] = id;
+      hits += bits != 0 ? 1U : 0U;
+      if (notesDoubts) doubtful |= bits & ~certainBits(vectors, q);
+    }
+    hn::StoreU(hn::Zero(d), d, hitBits + hits);  // The last vector of bits ends behind them.
+    m_hits.groupTests += near.size;
+    m_hits.boxTests += size * leaf.fill;
+    std::array<std::uint32_t, kFanOut> lengthOf;
+    for (std::size_t v = 0; v < kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * kLanes]);
+    writeLists(leaf, lengthOf, m_task.lists->tested == NeighborLists::Tested::All ? ~0U : doubtful);
+  }
+
+  /// Which boxes of a leaf overlap the query whatever the rounding was.
+  static std::uint32_t certainBits(const LeafVectors& vectors, const Query& q) {
+    const Query certain = inward(q);
+    std::uint32_t bits = 0;
+    for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
+      bits |= allBitsOf(FloatTag(), vectors.overlappingWith(certain, v)) << (v * LeafVectors::kLanes);
+    }
+    return bits;
+  }
+
+  /// Collects the list of each box of a leaf from the hits; select() sees those of the bits in `tested`.
+  void writeLists(const Leaf& leaf, const std::array<std::uint32_t, kFanOut>& lengthOf, std::uint32_t tested) {
+    const IdTag d;
+    NeighborLists& lists = *m_task.lists;
+    const std::uint32_t* const hitBits = m_task.scratch->neighbors.hitBits.data();
+    const std::uint32_t* const hitIds = m_task.scratch->neighbors.hitIds.data();
+    lists.require(std::accumulate(lengthOf.begin(), lengthOf.end(), std::size_t{0}) + Hits::kSlack);
+    for (std::size_t row = 0; row < leaf.fill; ++row) {
+      const std::uint32_t id = leaf.ids[row];
+      std::uint32_t* const to = lists.partners + lists.size;
+      const auto bit = hn::Set(d, 1U << row);
+      std::size_t size = 0;
+      for (std::size_t i = 0; size < lengthOf[row]; i += hn::Lanes(d)) {
+        const auto mask = hn::TestBit(hn::LoadU(d, hitBits + i), bit);
+        hn::StoreU(selectedLanes(d, hn::LoadU(d, hitIds + i), mask), d, to + size);
+        size += hn::CountTrue(d, mask);
+      }
+      if ((tested >> row & 1U) != 0 && size != 0) size = lists.select(lists, id, to, size);
+      lists.begin[id] = lists.base + lists.size;
+      lists.length[id] = static_cast<std::uint32_t>(size);
+      lists.size += size;
+    }
   }
 
   const JoinTask& m_task;

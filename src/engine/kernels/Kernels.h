@@ -15,16 +15,10 @@
 #include "kernels/CurveGrid.h"
 #include "kernels/Hits.h"
 #include "kernels/Lanes.h"
+#include "kernels/NeighborLists.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {
-
-/// Which columns each row is tested against.
-enum class Columns : std::uint8_t {
-  All,        ///< Two sets.
-  Following,  ///< One set, each pair at its smaller index.
-  Preceding,  ///< One set, each pair at its larger index.
-};
 
 /// Every row against its columns, row after row: the exhaustive search, or a part of it.
 struct FlatSearch {
@@ -46,7 +40,8 @@ struct FewSearch {
 
 /// Working memory of a join, one per running task: at each level the candidates of the current node.
 struct JoinScratch {
-  explicit JoinScratch(std::pmr::memory_resource* memory) : level(makeArray<PerLevel, kMaxLevels>(memory)) {}
+  explicit JoinScratch(std::pmr::memory_resource* memory)
+      : level(makeArray<PerLevel, kMaxLevels>(memory)), neighbors(memory) {}
 
   struct PerLevel {
     explicit PerLevel(std::pmr::memory_resource* memory) : tiles(memory), sizes(memory), partners(memory) {}
@@ -71,6 +66,7 @@ struct JoinScratch {
     }
   };
   std::array<PerLevel, kMaxLevels> level;
+  NeighborScratch neighbors;
 };
 
 /// The part of a join that starts from some leaf blocks of `first`.
@@ -84,6 +80,9 @@ struct JoinTask {
   std::size_t leafBegin = 0;
   std::size_t leafEnd = 0;
   JoinScratch* scratch = nullptr;
+
+  /// If set, the partners are listed here, box by box, and not as hits. The hierarchies have more than one level then.
+  NeighborLists* lists = nullptr;
 };
 
 /// Properties of sixteen boxes that were read from rows of six.

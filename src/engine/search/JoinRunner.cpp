@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "search/JoinRunner.h"
 
+#include <algorithm>
 #include <memory>
 #include <thread>
 
@@ -33,22 +34,44 @@ std::size_t JoinRunner::claimWorker() {
   }
 }
 
+double JoinRunner::partnersPerBox(const Job& job) {
+  constexpr std::size_t kLeavesPerSample = 256;  // So that samples take about a hundredth of the time of the search.
+  constexpr std::size_t kMostSamples = 16;
+  const std::size_t samples = std::clamp<std::size_t>(job.units / kLeavesPerSample, 1, kMostSamples);
+  Hits hits;
+  hits.countOnly = true;
+  std::size_t boxes = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const std::size_t leaf = job.units * (2 * i + 1) / (2 * samples);
+    m_kernels->join({job.first, job.second, false, leaf, leaf + 1, &m_workers[0]->scratch}, hits);
+    boxes += job.first->level[0].fill(leaf);
+  }
+  return static_cast<double>(hits.count) / static_cast<double>(boxes);
+}
+
 void JoinRunner::run(const Job& job, Executor& executor) {
   const std::size_t threads = executor.concurrency();
   const TaskCut cut = job.isFlat ? TaskCut::ofRows(job.units, job.flat.columns.size, threads)
                                  : TaskCut::ofLeaves(job.units, job.firstLarge, threads);
   m_segments.resize(cut.tasks());
+  // Lists are made for all leaf blocks of a node at once.
+  const std::size_t whole = job.lists.empty() ? 1 : kFanOut;
+  const auto beginOf = [&](std::size_t task) {
+    return task == cut.tasks() ? job.units : cut.begin(task) / whole * whole;
+  };
   executor.run(cut.tasks(), [&](std::size_t task) {
     withWorker([&](std::size_t index, Worker& worker) {
       const std::size_t begin = worker.sink.size();
-      runPart(job, cut.begin(task), cut.begin(task + 1), worker);
+      NeighborLists* const lists = job.lists.empty() ? nullptr : &job.lists[index];
+      runPart(job, beginOf(task), beginOf(task + 1), worker, lists);
       worker.sink.finish();
       m_segments[task] = {index, begin, worker.sink.size()};
     });
   });
 }
 
-void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
+void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker,
+                         NeighborLists* lists) const {
   if (begin == end) return;
   if (job.isFlat) {
     FlatSearch part = job.flat;
@@ -56,7 +79,8 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
     part.rowEnd = end;
     m_kernels->searchFlat(part, worker.sink.hits());
   } else {
-    m_kernels->join({job.first, job.second, job.first == job.second, begin, end, &worker.scratch}, worker.sink.hits());
+    const bool withItself = job.first == job.second && lists == nullptr;
+    m_kernels->join({job.first, job.second, withItself, begin, end, &worker.scratch, lists}, worker.sink.hits());
   }
 }
 

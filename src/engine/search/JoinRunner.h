@@ -30,6 +30,9 @@ class JoinRunner {
     std::size_t units = 0;
     std::size_t firstLarge = 0;  ///< Leaf blocks from here on hold boxes larger than most.
 
+    /// If set, by worker: where a join lists the partners of each box, instead of giving hits to the sink.
+    std::span<NeighborLists> lists = {};
+
     bool isFlat = false;  ///< Whether to run `flat` instead of a join.
     FlatSearch flat;
 
@@ -45,6 +48,9 @@ class JoinRunner {
 
   /// Resets, with one worker per thread of the executor; returns their number. The options must outlive the runs.
   std::size_t start(const SinkOptions& options, const Executor& executor);
+
+  /// An estimate of how many boxes of the second hierarchy overlap a box of the first, from a few of its leaf blocks.
+  [[nodiscard]] double partnersPerBox(const Job& job);
 
   /// Runs all tasks of a job. Sinks keep what they have.
   void run(const Job& job, Executor& executor);
@@ -83,7 +89,7 @@ class JoinRunner {
     use(index, *m_workers[index]);
   }
 
-  void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
+  void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker, NeighborLists* lists) const;
 
   const Kernels* m_kernels = nullptr;
   std::pmr::vector<Owned<Worker>> m_workers;

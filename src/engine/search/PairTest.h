@@ -62,6 +62,7 @@ class PairTest {
   }
 
   [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
+  [[nodiscard]] bool isFiltered() const noexcept { return m_filtered; }
   [[nodiscard]] bool exactTestNeeded() const noexcept { return m_exact; }
 
   /// A pair that is certain to touch needs no exact test.

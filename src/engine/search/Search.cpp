@@ -27,6 +27,44 @@ constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
+/// From so many partners a box on, ordered pairs come from a list for each box and not from buckets; in one set, where each pair
+/// is then found from both sides, from so many of both (docs/decisions/0025).
+constexpr double kDense = 6.0;
+constexpr double kDenseBothWays = 16.0;
+
+/// What the lists of partners of a search have in common: where they get memory, and the tests of a pair.
+struct ListReceiver {
+  PairLists& memory;
+  const PairTest& test;
+  const SinkOptions& sink;
+  bool bySecond;
+
+  void attach(NeighborLists& lists) {
+    lists.receiver = this;
+    if (test.needed()) {
+      const bool onlyDoubts = test.leavesDoubts() && !test.isFiltered();
+      lists.tested = onlyDoubts ? NeighborLists::Tested::InDoubt : NeighborLists::Tested::All;
+    }
+    lists.select = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
+      return static_cast<const ListReceiver*>(of.receiver)->select(of, row, {partners, size});
+    };
+    lists.grow = [](NeighborLists& of, std::size_t more) {
+      const auto& self = *static_cast<const ListReceiver*>(of.receiver);
+      checkLimit(self.sink, of.size);
+      self.memory.grow(of, more);
+    };
+  }
+
+  std::size_t select(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const {
+    if (test.exactTestNeeded()) lists.exactTests += partners.size();
+    std::size_t kept = 0;
+    for (const std::uint32_t partner : partners) {
+      if (test.keeps(bySecond ? Pair{partner, row} : Pair{row, partner})) partners[kept++] = partner;
+    }
+    return kept;
+  }
+};
+
 /// Estimates the share of all pairs that overlap from a sample.
 double shareOfOverlaps(const BoxReader& reader) {
   constexpr std::size_t kSample = 24;
@@ -83,6 +121,7 @@ void Search::shrink() noexcept {
   m_runner = JoinRunner(memory);
   m_buckets = std::pmr::vector<PairBuckets>(memory);
   m_places = std::pmr::vector<std::size_t>(memory);
+  m_lists = PairLists(memory);
   m_sort = PairSort(memory);
 }
 
@@ -187,7 +226,7 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
   m_taken = into;
   Plan plan{PairTest::of(sets, options)};
   makePlan(sets, options, plan);
-  if (!plan.job.isFlat && findInBuckets(sets, options, plan)) return m_pairs;
+  if (!plan.job.isFlat && (findInLists(sets, options, plan) || findInBuckets(sets, options, plan))) return m_pairs;
   run(plan, *m_executor);
   concatenate();
   if (!plan.job.isFlat) sortPairs(sets, options.order);
@@ -245,6 +284,34 @@ void Search::sortBuckets(const BucketRule& rule) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
     m_runner.withScratch([&](std::span<std::uint32_t> scratch) { sortBucket(rule, b, m_buckets, place, scratch); });
   });
+}
+
+bool Search::findInLists(const Sets& sets, const OverlapOptions& options, Plan& plan) {
+  if (options.order == Order::Unordered || plan.job.units == 0 || plan.job.first->depth < 2) return false;
+  const std::size_t workers = m_runner.start(plan.sink, *m_executor);
+  const bool bySecond = options.order == Order::BySecond;
+  JoinRunner::Job job = plan.job;
+  if (bySecond && !sets.one) {
+    job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
+    job.firstLarge = m_second.firstLarge() / kFanOut;
+  }
+  if (m_runner.partnersPerBox(job) < (sets.one ? kDenseBothWays : kDense)) return false;
+  ListReceiver receiver{m_lists, plan.test, plan.sink, bySecond};
+  const BoxView& rows = bySecond ? sets.second : sets.first;
+  m_lists.start(rows.size(), (bySecond ? sets.first : sets.second).size(), workers);
+  for (NeighborLists& lists : m_lists.ofWorkers()) {
+    lists.kept = !sets.one ? Columns::All : bySecond ? Columns::Preceding : Columns::Following;
+    receiver.attach(lists);
+  }
+  job.lists = m_lists.ofWorkers();
+  m_runner.run(job, *m_executor);
+  m_statistics = m_runner.totals();
+  m_statistics.pairs = m_lists.size();
+  for (const NeighborLists& lists : m_lists.ofWorkers()) m_statistics.exactTests += lists.exactTests;
+  checkLimit(plan.sink, m_statistics.pairs);
+  m_pairs = roomForPairs();
+  m_lists.expand(m_pairs, bySecond, *m_executor);
+  return true;
 }
 
 void Search::sortPairs(const Sets& sets, Order order) {

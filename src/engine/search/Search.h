@@ -16,6 +16,7 @@
 #include "input/Options.h"
 #include "input/Readers.h"
 #include "order/PairBuckets.h"
+#include "order/PairLists.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
 
@@ -52,6 +53,7 @@ class Search {
         m_second(memory),
         m_runner(memory),
         m_buckets(memory),
+        m_lists(memory),
         m_joined(memory),
         m_places(memory),
         m_sort(memory) {}
@@ -98,6 +100,9 @@ class Search {
   bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
   void sortBuckets(const BucketRule& rule);
 
+  /// Lists the partners of each box, in order, if that pays off; else does nothing and returns false.
+  bool findInLists(const Sets& sets, const OverlapOptions& options, Plan& plan);
+
   void streamAll(Plan& plan, Batches& to);
   void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers, Batches& to);
   bool findRange(const Sets& sets, const OverlapOptions& options, const std::array<double, 3>& origin,
@@ -116,6 +121,7 @@ class Search {
   std::optional<BvhPair> m_both;
   JoinRunner m_runner;
   std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
+  PairLists m_lists;
   Buffer<Pair> m_joined;
   std::vector<Pair>* m_taken = nullptr;  ///< Where given, what is used instead of m_joined.
   std::pmr::vector<std::size_t> m_places;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// What order costs: the calls that a user makes, ordered and not, in turns, on equal cubes at random places that are others
+// for each repetition. Medians of processor time.
+//
+//   dense_benchmark [--instruction-set NAME] [--most-pairs N]
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "Stopwatch.h"
+#include "allpairs/Overlaps.h"
+
+namespace {
+
+using namespace allpairs;
+
+/// One set, or two.
+struct Scene {
+  std::vector<BoxF> first;
+  std::vector<BoxF> second;
+  bool one = true;
+};
+
+std::vector<BoxF> makeCubes(std::size_t boxes, double side, std::mt19937_64& random) {
+  std::uniform_real_distribution<float> place(0.0F, 1.0F);
+  std::vector<BoxF> cubes(boxes);
+  for (BoxF& cube : cubes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cube.min[axis] = place(random);
+      cube.max[axis] = cube.min[axis] + static_cast<float>(side);
+    }
+  }
+  return cubes;
+}
+
+/// So many boxes in each set with so many pairs each, fewer where cubes reach beyond the unit cube.
+Scene makeScene(std::size_t boxes, double pairs, bool one, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const double side = 0.5 * std::cbrt((one ? 2.0 : 1.0) * pairs / static_cast<double>(boxes));
+  return {makeCubes(boxes, side, random), one ? std::vector<BoxF>() : makeCubes(boxes, side, random), one};
+}
+
+struct Call {
+  std::function<std::size_t(const Scene&)> search;
+  std::vector<double> ms = {};
+
+  double median() {
+    std::sort(ms.begin(), ms.end());
+    return ms[ms.size() / 2];
+  }
+};
+
+void compare(std::size_t boxes, double pairs, bool one, const std::string& instructionSet) {
+  constexpr std::uint64_t kRepetitions = 7;
+  const OverlapOptions inOrder{.instructionSet = instructionSet};
+  const OverlapOptions inAnyOrder{.order = Order::Unordered, .instructionSet = instructionSet};
+  OverlapSearch ordered(inOrder);
+  OverlapSearch unordered(inAnyOrder);
+  const auto reused = [](OverlapSearch& search) {
+    return [&search](const Scene& s) {
+      return s.one ? search.find(s.first).size() : search.find(s.first, s.second).size();
+    };
+  };
+  const auto anew = [](const OverlapOptions& options) {
+    return [&options](const Scene& s) {
+      return s.one ? overlaps(s.first, options).size() : overlaps(s.first, s.second, options).size();
+    };
+  };
+  std::array<Call, 4> calls{Call{reused(unordered)}, Call{reused(ordered)}, Call{anew(inAnyOrder)},
+                            Call{anew(inOrder)}};
+  std::size_t found = 0;
+  for (std::uint64_t repetition = 0; repetition <= kRepetitions; ++repetition) {
+    const Scene scene = makeScene(boxes, pairs, one, 1000 * boxes + repetition);
+    for (Call& call : calls) {
+      const measure::Stopwatch watch;
+      const std::size_t size = call.search(scene);
+      const double ms = watch.elapsed().cpuMs;
+      if (repetition != 0) call.ms.push_back(ms);  // The first gets memory.
+      if (&call != calls.data() && size != found) throw std::runtime_error("two calls found other numbers of pairs");
+      found = size;
+    }
+  }
+  const double ms[] = {calls[0].median(), calls[1].median(), calls[2].median(), calls[3].median()};
+  std::printf("| %s | %zu | %.1f | %.2f | %.2f (%.1f) | %.2f | %.2f (%.1f) |\n", one ? "one" : "two", boxes,
+              static_cast<double>(found) / static_cast<double>(boxes), ms[0], ms[1], ms[1] / ms[0], ms[2], ms[3],
+              ms[3] / ms[2]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    std::string instructionSet;
+    double mostPairs = 3e7;
+    CLI::App app("Compares ordered and unordered searches of boxes with many pairs each.");
+    app.add_option("--instruction-set", instructionSet, "Default: the processor's best");
+    app.add_option("--most-pairs", mostPairs, "In a scene; others are left out")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    std::printf("Milliseconds; in brackets ordered divided by unordered.\n\n");
+    std::printf("| sets | boxes | pairs a box | find(), unordered | find() | overlaps(), unordered | overlaps() |\n");
+    std::printf("|---|---:|---:|---:|---:|---:|---:|\n");
+    for (const bool one : {true, false}) {
+      for (const std::size_t boxes : {std::size_t{10000}, std::size_t{100000}, std::size_t{1000000}}) {
+        for (const double pairs : {2.0, 4.0, 8.0, 16.0, 30.0, 100.0}) {
+          if (pairs * static_cast<double>(boxes) <= mostPairs) compare(boxes, pairs, one, instructionSet);
+        }
+      }
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "dense_benchmark: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "order/PairLists.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "bvh/RadixSort.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Where a list begins: its worker above the place.
+constexpr unsigned kPlaceBits = 48;
+
+/// Rows that a task expands.
+constexpr std::size_t kRowsPerTask = 4096;
+
+/// Lists follow each other in the order of the hierarchy, not of the rows: they are fetched so many rows ahead.
+constexpr std::size_t kPrefetchDistance = 8;
+
+template <bool kBySecond>
+void expandRow(std::uint32_t row, const std::uint32_t* partners, std::size_t size, Pair* to) noexcept {
+  for (std::size_t i = 0; i < size; ++i) to[i] = kBySecond ? Pair{partners[i], row} : Pair{row, partners[i]};
+}
+
+}  // namespace
+
+void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers) {
+  m_rows = rows;
+  m_begin.require(rows);
+  m_length.require(rows);
+  std::fill_n(m_length.data(), rows, 0U);
+  while (m_partners.size() < workers) m_partners.emplace_back(m_ofWorkers.get_allocator().resource());
+  m_ofWorkers.assign(workers, {});
+  for (std::size_t w = 0; w < workers; ++w) {
+    NeighborLists& lists = m_ofWorkers[w];
+    lists.partners = m_partners[w].data();
+    lists.capacity = m_partners[w].capacity();
+    lists.begin = m_begin.data();
+    lists.length = m_length.data();
+    lists.base = std::uint64_t{w} << kPlaceBits;
+    lists.idBits = static_cast<unsigned>(std::bit_width(columns - 1));
+    lists.sort = &radixSort<std::uint64_t>;
+  }
+}
+
+void PairLists::grow(NeighborLists& lists, std::size_t more) {
+  Buffer<std::uint32_t>& partners = m_partners[lists.base >> kPlaceBits];
+  partners.grow(lists.size + more);
+  lists.partners = partners.data();
+  lists.capacity = partners.capacity();
+}
+
+std::size_t PairLists::size() const noexcept {
+  std::size_t size = 0;
+  for (const NeighborLists& lists : m_ofWorkers) size += lists.size;
+  return size;
+}
+
+void PairLists::expand(std::span<Pair> to, bool bySecond, Executor& executor) {
+  const std::size_t tasks = (m_rows + kRowsPerTask - 1) / kRowsPerTask;
+  m_places.resize(tasks);
+  std::size_t place = 0;
+  for (std::size_t task = 0; task < tasks; ++task) {
+    m_places[task] = place;
+    const std::uint32_t* const length = m_length.data();
+    place = std::accumulate(length + task * kRowsPerTask, length + std::min(m_rows, (task + 1) * kRowsPerTask), place);
+  }
+  executor.run(tasks, [&](std::size_t task) {
+    Pair* at = to.data() + m_places[task];
+    const std::size_t end = std::min(m_rows, (task + 1) * kRowsPerTask);
+    const auto listOf = [this](std::size_t row) {
+      const std::uint64_t begin = m_begin[row];
+      return m_ofWorkers[begin >> kPlaceBits].partners + (begin & ((std::uint64_t{1} << kPlaceBits) - 1));
+    };
+    for (std::size_t row = task * kRowsPerTask; row < end; ++row) {
+      if (row + kPrefetchDistance < end && m_length[row + kPrefetchDistance] != 0) {
+        __builtin_prefetch(listOf(row + kPrefetchDistance));
+      }
+      const std::size_t size = m_length[row];
+      if (size == 0) continue;
+      bySecond ? expandRow<true>(static_cast<std::uint32_t>(row), listOf(row), size, at)
+               : expandRow<false>(static_cast<std::uint32_t>(row), listOf(row), size, at);
+      at += size;
+    }
+  });
+}
+
+}  // namespace allpairs::engine

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Boxes with many partners each: pairs in order come from a list for each box.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "support/Boxes.h"
+#include "support/Numbers.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+/// Some thousand pairs of a few dozen for each box, among them boxes that are empty, infinite, giant and alike.
+std::vector<Box> denseBoxes(std::size_t n, unsigned seed) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(n, seed, 2.5F));
+  std::swap(boxes[3].min[1], boxes[3].max[1]);
+  boxes[n / 2] = kEmptyBox;
+  boxes[n / 3] = {{-test::kInfinity, 0, 0}, {test::kInfinity, 2, 2}};
+  boxes[n / 4] = {{-1e30, -1e30, -1e30}, {1e30, 1e30, 1e30}};
+  for (std::size_t i = 0; i < 40; ++i) boxes[n - 1 - 7 * i] = boxes[n / 5];
+  return boxes;
+}
+
+constexpr std::size_t kDenseBoxes = 1500;
+
+/// The pairs as they come by (second, first).
+std::vector<Pair> bySecond(std::vector<Pair> pairs) {
+  std::sort(pairs.begin(), pairs.end(),
+            [](Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; });
+  return pairs;
+}
+
+std::vector<OverlapOptions> waysToSearch() {
+  static parallel::TbbExecutor threads(3);
+  std::vector<OverlapOptions> all;
+  for (const std::string_view name : instructionSets()) {
+    OverlapOptions options;
+    options.strategy = Strategy::Bvh;
+    options.instructionSet = name;
+    all.push_back(options);
+  }
+  all.push_back(all.front());
+  all.back().executor = &threads;
+  return all;
+}
+
+template <class Boxes>
+void expectPairs(const Boxes& boxes, const OverlapOptions& given, const std::vector<Pair>& expected) {
+  ASSERT_GT(expected.size(), 8 * boxes.size()) << "too few for lists";
+  for (OverlapOptions options : waysToSearch()) {
+    options.filter = given.filter;
+    options.distance = given.distance;
+    ASSERT_EQ(overlaps(boxes, options), expected) << options.instructionSet;
+    options.order = Order::BySecond;
+    ASSERT_EQ(overlaps(boxes, options), bySecond(expected)) << options.instructionSet;
+  }
+}
+
+TEST(NeighborLists, OfOneSetGiveTheOraclesPairs) {
+  const std::vector<Box> boxes = denseBoxes(kDenseBoxes, 1);
+  expectPairs(boxes, {}, test::oracle(boxes));
+  const std::vector<BoxF> inFloat = test::randomBoxes(kDenseBoxes, 2, 2.5F);
+  expectPairs(inFloat, {}, test::oracle(test::toDouble(inFloat)));
+}
+
+TEST(NeighborLists, OfTwoSetsGiveTheOraclesPairs) {
+  const std::vector<Box> first = denseBoxes(kDenseBoxes, 3);
+  for (const std::size_t size : {std::size_t{700}, kDenseBoxes + 1, 2 * kDenseBoxes}) {
+    const std::vector<Box> second = denseBoxes(size, 4);
+    const std::vector<Pair> expected = test::oracleBetween(first, second);
+    for (OverlapOptions options : waysToSearch()) {
+      ASSERT_EQ(overlaps(first, second, options), expected) << options.instructionSet;
+      options.order = Order::BySecond;
+      ASSERT_EQ(overlaps(first, second, options), bySecond(expected)) << options.instructionSet;
+    }
+  }
+}
+
+TEST(NeighborLists, DecideInDoubleWhatLanesCannot) {
+  // The lattice's faces touch, or are apart by less than float32 can tell.
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < kDenseBoxes; ++i) {
+    const double apart = i % 3 == 0 ? 1e-12 : 0.0;
+    const std::size_t place = i / 3;
+    boxes.push_back(test::cube(static_cast<double>(place % 8) + apart, static_cast<double>(place / 8 % 8) / 3.0,
+                               static_cast<double>(place / 64)));
+  }
+  const std::vector<Pair> expected = test::oracle(boxes);
+  expectPairs(boxes, {}, expected);
+  OverlapSearch search;
+  EXPECT_EQ(test::toVector(search.find(boxes)), expected);
+  EXPECT_GT(search.statistics().exactTests, 0U);
+  EXPECT_EQ(search.statistics().pairs, expected.size());
+}
+
+TEST(NeighborLists, AreFilteredAndWidened) {
+  const std::vector<Box> boxes = denseBoxes(kDenseBoxes, 5);
+  std::vector<std::uint32_t> groups(boxes.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = static_cast<std::uint32_t>(i % 5);
+  OverlapOptions options;
+  options.filter.first.groups = groups;
+  options.filter.accept = [](std::uint32_t a, std::uint32_t b) { return (a + 2 * b) % 11 != 0; };
+  options.distance = 0.25;
+  std::vector<Pair> expected;
+  for (const Pair pair : test::oracle(boxes, 0.25)) {
+    const bool alike = groups[pair.first] != 0 && groups[pair.first] == groups[pair.second];
+    if (!alike && (pair.first + 2 * pair.second) % 11 != 0) expected.push_back(pair);
+  }
+  expectPairs(boxes, options, expected);
+}
+
+TEST(NeighborLists, AreKeptFromSearchToSearchOfOtherSizesAndOrders) {
+  OverlapOptions options;
+  OverlapSearch search(options);
+  for (const std::size_t n : {std::size_t{900}, kDenseBoxes, std::size_t{600}, std::size_t{1200}}) {
+    const std::vector<Box> boxes = denseBoxes(n, static_cast<unsigned>(n));
+    const std::vector<Box> sparse = test::toDouble(test::randomBoxes(n, 9, 0.5F));
+    ASSERT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes));
+    ASSERT_EQ(test::toVector(search.find(sparse)), test::oracle(sparse));
+    ASSERT_EQ(test::toVector(search.find(boxes, sparse)), test::oracleBetween(boxes, sparse));
+    options.order = options.order == Order::ByFirst ? Order::BySecond : Order::ByFirst;
+    search.setOptions(options);
+    ASSERT_EQ(test::toVector(search.find(boxes)),
+              options.order == Order::ByFirst ? test::oracle(boxes) : bySecond(test::oracle(boxes)));
+    options.order = Order::ByFirst;
+    search.setOptions(options);
+  }
+}
+
+TEST(NeighborLists, HoldNoMorePairsThanTheLimit) {
+  const std::vector<Box> boxes = denseBoxes(kDenseBoxes, 6);
+  const std::vector<Pair> expected = test::oracle(boxes);
+  OverlapOptions options;
+  options.maxPairs = expected.size();
+  EXPECT_EQ(overlaps(boxes, options), expected);
+  options.maxPairs = expected.size() - 1;
+  EXPECT_THROW(static_cast<void>(overlaps(boxes, options)), LimitExceeded);
+  options.maxPairs = 100;
+  EXPECT_THROW(static_cast<void>(overlaps(boxes, options)), LimitExceeded);
+}
+
+}  // namespace
+}  // namespace allpairs
