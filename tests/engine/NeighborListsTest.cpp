@@ -55,7 +55,7 @@ std::vector<OverlapOptions> waysToSearch() {
 
 template <class Boxes>
 void expectPairs(const Boxes& boxes, const OverlapOptions& given, const std::vector<Pair>& expected) {
-  ASSERT_GT(expected.size(), 8 * boxes.size()) << "too few for lists";
+  ASSERT_GT(expected.size(), 15 * boxes.size()) << "too few for lists";
   for (OverlapOptions options : waysToSearch()) {
     options.filter = given.filter;
     options.distance = given.distance;
@@ -70,6 +70,25 @@ TEST(NeighborLists, OfOneSetGiveTheOraclesPairs) {
   expectPairs(boxes, {}, test::oracle(boxes));
   const std::vector<BoxF> inFloat = test::randomBoxes(kDenseBoxes, 2, 2.5F);
   expectPairs(inFloat, {}, test::oracle(test::toDouble(inFloat)));
+}
+
+TEST(NeighborLists, AreNotNeededForAFewBoxesWithManyPartners) {
+  // Most rows of a bucket are ordered by ranks; those with a row of thousands, or with too many pairs, are radix sorted.
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(4 * kDenseBoxes, 7));
+  for (const std::size_t giant : {std::size_t{5}, kDenseBoxes, 4 * kDenseBoxes - 300}) {
+    boxes[giant] = {{-1e30, -1e30, -1e30}, {1e30, 1e30, 1e30}};
+  }
+  const std::vector<Box> others = test::toDouble(test::randomBoxes(kDenseBoxes, 8, 1.5F));
+  const std::vector<Pair> expected = test::oracle(boxes);
+  const std::vector<Pair> expectedBetween = test::oracleBetween(boxes, others);
+  ASSERT_LT(expected.size(), 8 * boxes.size()) << "too many for buckets";
+  for (OverlapOptions options : waysToSearch()) {
+    ASSERT_EQ(overlaps(boxes, options), expected) << options.instructionSet;
+    ASSERT_EQ(overlaps(boxes, others, options), expectedBetween) << options.instructionSet;
+    options.order = Order::BySecond;
+    ASSERT_EQ(overlaps(boxes, options), bySecond(expected)) << options.instructionSet;
+    ASSERT_EQ(overlaps(boxes, others, options), bySecond(expectedBetween)) << options.instructionSet;
+  }
 }
 
 TEST(NeighborLists, OfTwoSetsGiveTheOraclesPairs) {

@@ -35,6 +35,7 @@ const Kernels* kernelTable() {
                              &join,
                              &boundBlocks,
                              &writePairs,
+                             &orderRows,
                              &curveKeys,
                              &readRun32,
                              &readFloat32,

@@ -85,6 +85,17 @@ struct JoinTask {
   NeighborLists* lists = nullptr;
 };
 
+/// Pairs as numbers, the key that orders them above the other index, in a row for each key. There is room for a vector after the
+/// last one.
+struct NumberRows {
+  std::uint32_t* numbers = nullptr;  ///< Of 31 bits.
+  std::size_t size = 0;
+  const std::uint32_t* begin = nullptr;  ///< By key, and where the last row ends.
+  unsigned otherBits = 0;
+  std::uint32_t firstKey = 0;  ///< Added to all keys.
+  bool bySecond = false;       ///< Whether the key is second in its pair.
+};
+
 /// Properties of sixteen boxes that were read from rows of six.
 struct BlockRead {
   bool exact = true;             ///< Their lanes are exactly the boxes.
@@ -118,6 +129,9 @@ struct Kernels {
 
   /// Turns hits into pairs.
   void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
+
+  /// Writes each row as pairs in order.
+  void (*orderRows)(const NumberRows& rows, Pair* to);
 
   /// The keys of the boxes of some blocks, sixteen of each.
   void (*curveKeys)(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys);

@@ -11,9 +11,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "allpairs/Pair.h"
 #include "kernels/Hits.h"
+#include "kernels/Kernels.h"
 #include "kernels/LaneTest-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -197,6 +199,34 @@ void writePairs(const Hits& hits, PairSide side, Pair* pairs) {
         break;
     }
   }
+}
+
+/// A number goes to where its rank says: how many of its row are less. The rows after it are greater, so that whole vectors count.
+template <bool kBySecond>
+HWY_INLINE void orderRowsBy(const NumberRows& rows, Pair* to) {
+  const hn::RebindToSigned<IdTag> d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto* const numbers = reinterpret_cast<std::int32_t*>(rows.numbers);
+  hn::StoreU(hn::Set(d, std::numeric_limits<std::int32_t>::max()), d, numbers + rows.size);
+  const std::uint32_t otherMask = (std::uint32_t{1} << rows.otherBits) - 1;
+  for (std::size_t i = 0; i < rows.size; ++i) {
+    const std::uint32_t number = rows.numbers[i];
+    const std::uint32_t key = number >> rows.otherBits;
+    const auto compared = hn::Set(d, static_cast<std::int32_t>(number));
+    const std::size_t end = rows.begin[key + 1];
+    std::size_t at = rows.begin[key];
+    std::size_t place = at;
+    do {
+      place += hn::CountTrue(d, hn::Lt(hn::LoadU(d, numbers + at), compared));
+      at += lanes;
+    } while (at < end);
+    const std::uint32_t other = number & otherMask;
+    to[place] = kBySecond ? Pair{other, rows.firstKey + key} : Pair{rows.firstKey + key, other};
+  }
+}
+
+void orderRows(const NumberRows& rows, Pair* to) {
+  rows.bySecond ? orderRowsBy<true>(rows, to) : orderRowsBy<false>(rows, to);
 }
 
 }  // namespace

@@ -2,18 +2,19 @@
 #include "order/PairBuckets.h"
 
 #include <bit>
+#include <numeric>
 
 #include "bvh/RadixSort.h"
 
 namespace allpairs::engine {
 namespace {
 
-/// Keys of a bucket: its numbers, two to six pairs a key, there and back, then fit the first-level cache
-/// (docs/decisions/0019).
-constexpr std::size_t kKeysPerBucket = 512;
+/// Keys of a bucket, 256: the places of their rows, and two to twenty pairs a key, then fit the first-level cache and the
+/// scratch memory.
+constexpr unsigned kLeastKeyBits = 8;
 
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
-constexpr std::size_t kMostBuckets = 2048;
+constexpr std::size_t kMostBuckets = 4096;
 
 /// Pairs of a key in a scene as most are.
 constexpr std::size_t kPairsPerKey = 4;
@@ -38,43 +39,49 @@ void unpackAll(const std::uint32_t* numbers, std::uint32_t firstKey, unsigned ot
   }
 }
 
-/// Writes the pairs of a bucket as numbers of 32 bits: what their keys differ in above the other index.
-template <bool kBySecond>
-void packAll(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers, std::uint32_t* to) {
-  const std::uint32_t keyMask = (std::uint32_t{1} << rule.keyBits) - 1;
-  const unsigned otherBits = rule.otherBits;
+/// A row of more pairs than this is not ordered by ranks, which compares each with all of them.
+constexpr std::size_t kLongestRow = 64;
+
+/// Room after the rows for a whole vector.
+constexpr std::size_t kSlack = kFanOut;
+
+/// All numbers of a bucket.
+template <class Use>
+void forEachNumber(std::size_t bucket, std::span<const PairBuckets> ofWorkers, const Use& use) {
   for (const PairBuckets& buckets : ofWorkers) {
-    buckets.forEachChunk(bucket, [&](std::span<const Pair> pairs) {
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const std::uint32_t key = kBySecond ? pairs[i].second : pairs[i].first;
-        to[i] = (key & keyMask) << otherBits | (kBySecond ? pairs[i].first : pairs[i].second);
-      }
-      to += pairs.size();
+    buckets.forEachChunk(bucket, [&](std::span<const std::uint32_t> numbers) {
+      for (const std::uint32_t number : numbers) use(number);
     });
   }
 }
 
-template <bool kBySecond>
-void sortBucketBy(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                  std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
-  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
-  const unsigned bits = rule.keyBits + rule.otherBits;
+/// Puts the pairs of a bucket into rows, one for each key. `begin` has room for two more than the keys, and has where each row
+/// begins at the end. Returns the length of the longest, and writes no rows if that is too long.
+std::size_t putInRows(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
+                      std::uint32_t* begin, std::uint32_t* rows) noexcept {
   const unsigned otherBits = rule.otherBits;
-  const auto firstKey = static_cast<std::uint32_t>(bucket << rule.keyBits);
+  const std::size_t keys = std::size_t{1} << rule.keyBits;
+  std::fill_n(begin, keys + 2, 0U);
+  std::uint32_t* const lengths = begin + 2;  // Only sums stand before the length that is added next.
+  forEachNumber(bucket, ofWorkers, [=](std::uint32_t number) { ++lengths[number >> otherBits]; });
+  const std::size_t longest = *std::max_element(lengths, lengths + keys);
+  if (longest > kLongestRow) return longest;
+  std::partial_sum(lengths, lengths + keys, lengths);
+  std::uint32_t* const next = begin + 1;
+  forEachNumber(bucket, ofWorkers, [=](std::uint32_t number) { rows[next[number >> otherBits]++] = number; });
+  return longest;
+}
+
+template <bool kBySecond>
+void radixSortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
+                     std::span<Pair> place) noexcept {
+  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
   const std::size_t size = place.size();
-  if (2 * size > scratch.size()) {
-    auto* const first = reinterpret_cast<std::uint32_t*>(place.data());
-    packAll<kBySecond>(rule, bucket, ofWorkers, first + size);
-    unpackAll<kBySecond>(radixSort(first + size, first, size, 0, bits), firstKey, otherBits, place);
-    return;
-  }
-  std::uint32_t* numbers = scratch.data();
-  std::uint32_t* others = scratch.data() + size;
-  packAll<kBySecond>(rule, bucket, ofWorkers, numbers);
-  const bool isWritten = radixSortTo(numbers, others, size, 0, bits, [=](std::size_t at, std::uint32_t number) {
-    place[at] = unpacked<kBySecond>(number, firstKey, otherBits);
-  });
-  if (!isWritten) unpackAll<kBySecond>(numbers, firstKey, otherBits, place);
+  auto* const first = reinterpret_cast<std::uint32_t*>(place.data());
+  std::uint32_t* to = first + size;
+  forEachNumber(bucket, ofWorkers, [&](std::uint32_t number) { *to++ = number; });
+  unpackAll<kBySecond>(radixSort(first + size, first, size, 0, rule.keyBits + rule.otherBits),
+                       static_cast<std::uint32_t>(bucket << rule.keyBits), rule.otherBits, place);
 }
 
 }  // namespace
@@ -82,20 +89,30 @@ void sortBucketBy(const BucketRule& rule, std::size_t bucket, std::span<const Pa
 BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : bySecond(order == Order::BySecond) {
   const std::size_t keys = bySecond ? seconds : firsts;
   const std::size_t others = bySecond ? firsts : seconds;
-  const std::size_t wanted = std::clamp<std::size_t>(keys / kKeysPerBucket, 1, kMostBuckets);
-  keyBits = static_cast<unsigned>(std::bit_width((keys - 1) / wanted));
+  keyBits = std::max(kLeastKeyBits, static_cast<unsigned>(std::bit_width((keys - 1) / kMostBuckets)));
   buckets = ((keys - 1) >> keyBits) + 1;
   otherBits = static_cast<unsigned>(std::bit_width(others - 1));
 }
 
 void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
-  rule.bySecond ? sortBucketBy<true>(rule, bucket, ofWorkers, place, scratch)
-                : sortBucketBy<false>(rule, bucket, ofWorkers, place, scratch);
+                std::span<Pair> place, std::span<std::uint32_t> scratch, const Kernels& kernels) noexcept {
+  const std::size_t keys = std::size_t{1} << rule.keyBits;
+  if (keys + 2 + place.size() + kSlack <= scratch.size()) {
+    std::uint32_t* const begin = scratch.data();
+    std::uint32_t* const rows = begin + keys + 2;
+    if (putInRows(rule, bucket, ofWorkers, begin, rows) <= kLongestRow) {
+      const auto firstKey = static_cast<std::uint32_t>(bucket << rule.keyBits);
+      kernels.orderRows({rows, place.size(), begin, rule.otherBits, firstKey, rule.bySecond}, place.data());
+      return;
+    }
+  }
+  rule.bySecond ? radixSortBucket<true>(rule, bucket, ofWorkers, place)
+                : radixSortBucket<false>(rule, bucket, ofWorkers, place);
 }
 
 void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
   m_keyBits = rule.keyBits;
+  m_otherBits = rule.otherBits;
   m_bySecond = rule.bySecond;
   m_chunks = rule.buckets;
   m_next.require(rule.buckets);
@@ -106,13 +123,13 @@ void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
   }
   // Of the default memory only what is used is taken: room for dense scenes too, so that no pairs are copied to fresh pages.
   const std::size_t keys = rule.buckets << rule.keyBits;
-  const bool isAmple = m_isDefaultMemory && keys <= kMostBuckets * kKeysPerBucket;
+  const bool isAmple = m_isDefaultMemory && keys <= kMostBuckets << kLeastKeyBits;
   const std::size_t likelyPairs = (isAmple ? 4 : 1) * kPairsPerKey * keys / workers;
   makeRoom(2 * rule.buckets + likelyPairs / kChunk);
 }
 
 void PairBuckets::makeRoom(std::size_t chunks) {
-  m_pairs.grow(chunks * kChunk);
+  m_numbers.grow(chunks * kChunk);
   m_following.grow(chunks);
 }
 
@@ -121,25 +138,28 @@ void PairBuckets::add(std::span<const Pair> pairs) { m_bySecond ? distribute<tru
 template <bool kBySecond>
 void PairBuckets::distribute(std::span<const Pair> pairs) {
   const unsigned shift = m_keyBits;
+  const unsigned otherBits = m_otherBits;
+  const std::uint32_t keyMask = (std::uint32_t{1} << shift) - 1;
   std::size_t* const next = m_next.data();
-  Pair* to = m_pairs.data();
+  std::uint32_t* to = m_numbers.data();
   for (const Pair pair : pairs) {
-    const std::size_t bucket = (kBySecond ? pair.second : pair.first) >> shift;
+    const std::uint32_t key = kBySecond ? pair.second : pair.first;
+    const std::size_t bucket = key >> shift;
     const std::size_t place = next[bucket]++;
-    to[place] = pair;
+    to[place] = (key & keyMask) << otherBits | (kBySecond ? pair.first : pair.second);
     if ((place + 1) % kChunk != 0) [[likely]] {
       continue;
     }
     next[bucket] = place;  // If there is no memory for another chunk, the pair has not come.
     next[bucket] = chunkAfter(place / kChunk) * kChunk;
     ++m_fullChunks[bucket];
-    to = m_pairs.data();
+    to = m_numbers.data();
   }
 }
 
 std::size_t PairBuckets::chunkAfter(std::size_t chunk) {
   const std::size_t fresh = m_chunks;
-  if ((fresh + 1) * kChunk > m_pairs.capacity() || fresh + 1 > m_following.capacity()) makeRoom(fresh + 1);
+  if ((fresh + 1) * kChunk > m_numbers.capacity() || fresh + 1 > m_following.capacity()) makeRoom(fresh + 1);
   ++m_chunks;
   m_following[chunk] = static_cast<std::uint32_t>(fresh);
   return fresh;

@@ -8,6 +8,7 @@
 
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
+#include "kernels/Kernels.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {
@@ -21,19 +22,19 @@ struct BucketRule {
 
   BucketRule(std::size_t firsts, std::size_t seconds, Order order);
 
-  /// Whether what the keys of a bucket differ in and the other index make a number of 32 bits.
-  [[nodiscard]] bool packs() const noexcept { return otherBits < 32 && keyBits + otherBits <= 32; }
+  /// Whether what the keys of a bucket differ in, above the other index, make a number of 31 bits.
+  [[nodiscard]] bool packs() const noexcept { return otherBits < 31 && keyBits + otherBits <= 31; }
 };
 
 /// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they are
-/// found, so that they need not be written and read once more.
+/// found, so that they need not be written and read once more. Within a bucket, 31 bits tell a pair.
 ///
 /// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have.
 class PairBuckets {
  public:
   explicit PairBuckets(std::pmr::memory_resource* memory)
       : m_isDefaultMemory(memory == defaultMemory()),
-        m_pairs(memory),
+        m_numbers(memory),
         m_following(memory),
         m_next(memory),
         m_fullChunks(memory) {}
@@ -47,13 +48,13 @@ class PairBuckets {
     return m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
   }
 
-  /// Calls use(pairs) for each stretch of pairs of a bucket.
+  /// Calls use(numbers) for each stretch of pairs of a bucket: what their keys differ in above the other index.
   template <class Use>
   void forEachChunk(std::size_t bucket, const Use& use) const {
     std::size_t rest = size(bucket);
     for (std::size_t chunk = bucket; rest > 0; chunk = m_following[chunk]) {
       const std::size_t length = std::min(rest, kChunk);
-      use(std::span(m_pairs.data() + chunk * kChunk, length));
+      use(std::span<const std::uint32_t>(m_numbers.data() + chunk * kChunk, length));
       rest -= length;
     }
   }
@@ -68,17 +69,20 @@ class PairBuckets {
 
   bool m_isDefaultMemory;
   unsigned m_keyBits = 0;
+  unsigned m_otherBits = 0;
   bool m_bySecond = false;
   std::size_t m_chunks = 0;  ///< Those in use; the first one of each bucket has the bucket's number.
-  Buffer<Pair> m_pairs;
+  Buffer<std::uint32_t> m_numbers;
   Buffer<std::uint32_t> m_following;   ///< By chunk: the next one of its bucket.
   Buffer<std::size_t> m_next;          ///< By bucket: where its next pair goes.
   Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
 };
 
-/// Puts the pairs of a bucket, which each worker has some of, in order into their place in the result. Where they fit twice
-/// into the scratch memory as numbers of 32 bits, they are sorted there and written as pairs in the last pass.
+/// Puts the pairs of a bucket, which each worker has some of, in order into their place in the result.
+///
+/// Where they fit into the scratch memory and no key has many, each pair goes to its key's row, and then to where its rank in
+/// the row says; else they are radix sorted in the memory of the result.
 void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept;
+                std::span<Pair> place, std::span<std::uint32_t> scratch, const Kernels& kernels) noexcept;
 
 }  // namespace allpairs::engine

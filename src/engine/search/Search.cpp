@@ -29,8 +29,11 @@ constexpr double kMuchOrdered = 0.1;
 
 /// From so many partners a box on, ordered pairs come from a list for each box and not from buckets; in one set, where each pair
 /// is then found from both sides, from so many of both (docs/decisions/0025).
-constexpr double kDense = 6.0;
-constexpr double kDenseBothWays = 16.0;
+constexpr double kDense = 9.0;
+constexpr double kDenseBothWays = 26.0;
+
+/// Lists take memory and time for each box of a set, those included that the other set cannot reach.
+constexpr std::size_t kMostRowsPerBox = 4;
 
 /// What the lists of partners of a search have in common: where they get memory, and the tests of a pair.
 struct ListReceiver {
@@ -282,7 +285,8 @@ void Search::sortBuckets(const BucketRule& rule) {
   }
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
-    m_runner.withScratch([&](std::span<std::uint32_t> scratch) { sortBucket(rule, b, m_buckets, place, scratch); });
+    m_runner.withScratch(
+        [&](std::span<std::uint32_t> scratch) { sortBucket(rule, b, m_buckets, place, scratch, *m_kernels); });
   });
 }
 
@@ -295,10 +299,11 @@ bool Search::findInLists(const Sets& sets, const OverlapOptions& options, Plan& 
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
+  const std::size_t rows = (bySecond ? sets.second : sets.first).size();
+  if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
   if (m_runner.partnersPerBox(job) < (sets.one ? kDenseBothWays : kDense)) return false;
   ListReceiver receiver{m_lists, plan.test, plan.sink, bySecond};
-  const BoxView& rows = bySecond ? sets.second : sets.first;
-  m_lists.start(rows.size(), (bySecond ? sets.first : sets.second).size(), workers);
+  m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers);
   for (NeighborLists& lists : m_lists.ofWorkers()) {
     lists.kept = !sets.one ? Columns::All : bySecond ? Columns::Preceding : Columns::Following;
     receiver.attach(lists);
