@@ -217,7 +217,7 @@ typedef struct allpairs_worlds {
   const uint64_t* begin;  ///< World k has the boxes [begin[k], begin[k + 1]): count + 1 offsets. Null: equally divided.
   const allpairs_pair* ignored;  ///< Boxes, numbered within a world, that are never a pair, in no world.
   size_t ignored_count;
-  const allpairs_set* shared;  ///< If set: boxes in every world. Pairs of a box of the world and one of these are found.
+  const allpairs_set* shared;  ///< If set, boxes that are in every world: pairs (box of the world, one of these).
   bool filter_is_of_one;  ///< The arrays of the search's `first` filter are of one world, for all of an equal size.
 } allpairs_worlds;
 
