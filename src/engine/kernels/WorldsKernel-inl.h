@@ -64,6 +64,31 @@ class FloatTest {
   Query m_columns;
 };
 
+/// The same of float64.
+class DoubleTest {
+ public:
+  using D = DoubleTag;
+
+  HWY_INLINE explicit DoubleTest(const WorldTile<double>& tile) : m_tile(tile) {}
+
+  HWY_INLINE void setColumns(std::size_t place) {
+    for (std::size_t bound = 0; bound < 6; ++bound) m_columns[bound] = hn::LoadU(D(), &m_tile.bound[bound][place]);
+  }
+
+  [[nodiscard]] HWY_INLINE hn::Mask<D> hits(std::size_t row) const {
+    const D d;
+    const auto meetsOn = [&](std::size_t axis) HWY_ATTR {
+      const auto least = hn::Max(m_columns[axis], hn::Set(d, m_tile.bound[axis][row]));
+      return hn::Le(least, hn::Min(m_columns[axis + 3], hn::Set(d, m_tile.bound[axis + 3][row])));
+    };
+    return hn::And(hn::And(meetsOn(0), meetsOn(1)), meetsOn(2));
+  }
+
+ private:
+  const WorldTile<double>& m_tile;
+  hn::Vec<D> m_columns[6];
+};
+
 /// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the two.
 /// Where that sum is NaN they are not apart. Whether a box is empty is the caller's to say.
 template <bool kPreceding>
@@ -376,14 +401,19 @@ void searchWorlds(WorldsRun& run) {
   }
 }
 
-void searchWideWorld(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
+template <bool kPreceding>
+HWY_INLINE void searchWide(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
   const SomePartners partners{places, rule.allowed, world.alive};
-  if (rule.bySecond) {
-    searchSome<true>(WideTest<true>(world), places, partners, place);
+  if (world.margins == nullptr && world.distance == 0.0) {
+    searchSome<kPreceding>(DoubleTest(*world.tile), places, partners, place);
   } else {
-    searchSome<false>(WideTest<false>(world), places, partners, place);
+    searchSome<kPreceding>(WideTest<kPreceding>(world), places, partners, place);
   }
+}
+
+void searchWideWorld(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
+  rule.bySecond ? searchWide<true>(world, rule, place) : searchWide<false>(world, rule, place);
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ namespace {
 constexpr std::size_t kLikelyPairs = 2;
 constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
 
+/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are faster.
+constexpr std::size_t kMostInDouble = 96;
+
 /// A world of more boxes is searched by all threads.
 constexpr std::size_t kManyBoxes = 4096;
 
@@ -87,10 +90,11 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_statistics = {};
   m_kernels = &chooseKernels(options);
   m_executor = options.executor != nullptr ? options.executor : &m_serial;
-  m_mostBoxes = mostBoxesOf(*m_kernels, options);
-  m_filter.prepare(worlds, options, m_mostBoxes);
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && haveReadableCorners(boxes);
+  m_mostBoxes = mostBoxesOf(*m_kernels, options);
+  if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, kMostInDouble);
+  m_filter.prepare(worlds, options, m_mostBoxes);
   while (m_workers.size() < m_executor->concurrency()) {
     m_workers.push_back(makeOwned<Worker>(m_workers.get_allocator().resource()));
   }
