@@ -29,7 +29,7 @@ _allpairs() {
   if [[ $current == -* ]]; then
     case $command in
       detect)
-        words='--distance --box --strategy --threads --verify --exact --format -o --output --partial --data --sofa
+        words='--distance --box --strategy --threads --verify --exact --worlds --format -o --output --partial --data --sofa
           --allow-outside --max-memory -h --help'
         ;;
       info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;

@@ -179,7 +179,7 @@ ALLPAIRS_C_API allpairs_status allpairs_search_create(const allpairs_options* op
 ALLPAIRS_C_API allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options);
 ALLPAIRS_C_API void allpairs_search_destroy(allpairs_search* search);
 
-/// Releases the memory kept for the next search. The pairs of the last search stay valid.
+/// Releases the memory kept for the next search. The pairs of the last search stay valid, those of worlds do not.
 ALLPAIRS_C_API allpairs_status allpairs_search_shrink(allpairs_search* search);
 
 /// All overlapping pairs of one set, each once; valid until the next search or the end of the handle.
@@ -206,6 +206,43 @@ ALLPAIRS_C_API allpairs_status allpairs_stream(allpairs_search* search, const al
                                                allpairs_visitor visitor);
 ALLPAIRS_C_API allpairs_status allpairs_stream_between(allpairs_search* search, const allpairs_set* first,
                                                        const allpairs_set* second, allpairs_visitor visitor);
+
+// Many worlds in one call.
+
+/// How the boxes of a set are divided into worlds: those of a world follow each other, and boxes of different worlds are
+/// never pairs. All fields except struct_size may be 0.
+typedef struct allpairs_worlds {
+  size_t struct_size;     ///< sizeof(allpairs_worlds)
+  size_t count;           ///< The number of worlds.
+  const uint64_t* begin;  ///< World k has the boxes [begin[k], begin[k + 1]): count + 1 offsets. Null: equally divided.
+  const allpairs_pair* ignored;  ///< Boxes, numbered within a world, that are never a pair, in no world.
+  size_t ignored_count;
+  const allpairs_set* shared;  ///< If set, boxes that are in every world: pairs (box of the world, one of these).
+  bool filter_is_of_one;  ///< The arrays of the search's `first` filter are of one world, for all of an equal size.
+} allpairs_worlds;
+
+/// The pairs of world k are data[begin[k]] up to data[begin[k + 1]], boxes numbered within the world; in memory of the
+/// search.
+typedef struct allpairs_world_pairs {
+  allpairs_pairs pairs;
+  const uint64_t* begin;  ///< One more than there are worlds.
+} allpairs_world_pairs;
+
+/// What allpairs_find() would find in each world alone, in the same order; with shared boxes, what allpairs_find_between()
+/// would. Valid until the next such search, allpairs_search_shrink() or the end of the handle.
+ALLPAIRS_C_API allpairs_status allpairs_find_in_worlds(allpairs_search* search, const allpairs_set* boxes,
+                                                       const allpairs_worlds* worlds, allpairs_world_pairs* pairs);
+
+/// Where each world's pairs begin, without storing them: writes one number more than there are worlds.
+ALLPAIRS_C_API allpairs_status allpairs_count_in_worlds(allpairs_search* search, const allpairs_set* boxes,
+                                                        const allpairs_worlds* worlds, uint64_t* begin);
+
+/// Writes the pairs to memory of the caller, where `begin` says, which allpairs_count_in_worlds() has written.
+///
+/// Bad input: other numbers are an ALLPAIRS_INVALID_ARGUMENT; `pairs` may then have been written to.
+ALLPAIRS_C_API allpairs_status allpairs_list_in_worlds(allpairs_search* search, const allpairs_set* boxes,
+                                                       const allpairs_worlds* worlds, const uint64_t* begin,
+                                                       allpairs_pair* pairs);
 
 // Moving boxes.
 

@@ -19,6 +19,7 @@
 #include "cli/Table.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
+#include "detect/DetectWorlds.h"
 #include "detect/Detection.h"
 #include "detect/Exact.h"
 #include "detect/SearchArguments.h"
@@ -34,6 +35,7 @@ struct DetectSettings {
   std::string threads = "0";
   bool verify = false;
   bool exact = false;
+  bool worlds = false;
   std::string format;  ///< Empty: as the output file's extension says, else a table.
   std::string output;
 };
@@ -45,6 +47,7 @@ constexpr const char* kDetectExamples = R"(INPUT is one or more of
   .npy                           boxes as a NumPy array (n, 6), float32 or float64:
                                  minx miny minz maxx maxy maxz
   .csv                           the same as text, with a name in the first or last column
+With --worlds it is one .npy array (w, n, 6): w worlds of n boxes, each searched by itself.
 
 Examples:
   allpairs detect scene.scn
@@ -52,6 +55,7 @@ Examples:
   allpairs detect parts/ --distance 0.5
   allpairs detect parts/ --exact
   allpairs detect boxes.npy -o pairs.npy
+  allpairs detect robots.npy --worlds -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
   allpairs detect scene.scn --verify --format json | jq '.pairs | length'
 
@@ -164,6 +168,12 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   if (settings.format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }
+  if (settings.worlds) {
+    if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
+    detectWorlds({settings.input.paths, settings.input.limits, settings.format, options}, output);
+    output.commit();
+    return;
+  }
   if (settings.exact) requireExact();
   const Timer timer;
   Inputs inputs = readInputs(settings.input);
@@ -198,6 +208,7 @@ void addDetect(CLI::App& program) {
   command->add_flag("--verify", settings->verify, "Also search exhaustively; fail on any difference");
   command->add_flag("--exact", settings->exact,
                     "Test the shapes too: contacts with depth and position, distances of the other pairs");
+  command->add_flag("--worlds", settings->worlds, "A .npy array (w, n, 6): pairs of boxes of the same world only");
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);
   command->callback([settings] {

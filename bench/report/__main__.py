@@ -9,6 +9,7 @@ from charts import pair_cost_chart, save, thread_chart, time_chart
 from moving import write_moving
 from page import write_page
 from records import Table, read_external, read_results
+from worlds import write_worlds
 
 
 def chart_cells(table):
@@ -41,7 +42,8 @@ def main():
         sys.exit(f"{arguments.records}: no records")
     table = Table(records)
     write_pictures(table, arguments.docs / "images" / "benchmarks")
-    (arguments.docs / "benchmarks.md").write_text(write_page(table, records, write_moving(arguments.docs)), encoding="utf-8")
+    page = write_page(table, records, write_moving(arguments.docs), write_worlds(arguments.docs))
+    (arguments.docs / "benchmarks.md").write_text(page, encoding="utf-8")
 
 
 if __name__ == "__main__":

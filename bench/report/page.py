@@ -69,10 +69,10 @@ the same boxes in Morton order, which favours most peers.
 """
 
 
-def write_page(table, records, moving=""):
+def write_page(table, records, moving="", worlds=""):
     parts = [INTRODUCTION, _machine(records), _mistakes(records), _summary(table), METHOD]
     parts += [_scene_section(table, scene) for scene in table.scenes()]
-    parts += [_sorted_section(table), _pair_cost(), _threads(table), _kernel(table), _external(table), moving, SCENES, PEERS, _settings(table)]
+    parts += [_sorted_section(table), _pair_cost(), _threads(table), _kernel(table), _external(table), moving, worlds, SCENES, PEERS, _settings(table)]
     return "\n".join(part for part in parts if part)
 
 

@@ -16,6 +16,7 @@ from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceede
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
 from ._world import NO_BOX, Step, World
+from ._worlds import overlaps_in_worlds
 
 __all__ = [
     "Detection",
@@ -41,4 +42,5 @@ __all__ = [
     "load",
     "overlaps",
     "overlaps_between",
+    "overlaps_in_worlds",
 ]

@@ -12,5 +12,6 @@ void bindSearch(pybind11::module_& module);
 void bindElements(pybind11::module_& module);
 void bindScene(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
+void bindWorlds(pybind11::module_& module);
 
 }  // namespace allpairs::python

@@ -24,8 +24,9 @@ struct Table {
 /// Rows of numbers one after the other; no rows but a list for 0 columns.
 template <class T>
 Table tableOf(T* data, std::size_t size, pybind11::ssize_t columns) {
-  static_assert(std::is_same_v<T, std::uint32_t> || std::is_same_v<T, float> || std::is_same_v<T, double>);
-  constexpr char kFormat = std::is_same_v<T, std::uint32_t> ? 'I' : std::is_same_v<T, float> ? 'f' : 'd';
+  constexpr bool kIsInteger = std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::uint64_t>;
+  static_assert(kIsInteger || std::is_same_v<T, float> || std::is_same_v<T, double>);
+  constexpr char kFormat = kIsInteger ? (sizeof(T) == 4 ? 'I' : 'Q') : std::is_same_v<T, float> ? 'f' : 'd';
   constexpr auto kSize = static_cast<pybind11::ssize_t>(sizeof(T));
   const auto count = static_cast<pybind11::ssize_t>(size);
   Table table{.data = data, .format = {kFormat, '\0'}, .itemSize = kSize, .dimensions = columns == 0 ? 1 : 2};

@@ -10,4 +10,5 @@ PYBIND11_MODULE(_core, module) {
   allpairs::python::bindElements(module);
   allpairs::python::bindScene(module);
   allpairs::python::bindWorld(module);
+  allpairs::python::bindWorlds(module);
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <memory_resource>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
+#include "allpairs/Worlds.h"
 
 namespace allpairs::c {
 
@@ -64,6 +66,7 @@ struct allpairs_search {
   allpairs::OverlapSearch overlaps;
   allpairs_filter first{};
   allpairs_filter second{};
+  std::optional<allpairs::WorldsSearch> worlds{};  ///< From the first search of worlds on.
 };
 
 struct allpairs_world {
@@ -123,6 +126,12 @@ template <class T>
 /// Bad input: no size, or more than this library knows, throws InvalidArgument.
 template <class T>
 [[nodiscard]] T known(const T* options);
+
+/// What a filter's arrays are about: C says nothing of their length, which is that of a set.
+[[nodiscard]] FilterBits bitsOf(const allpairs_filter& filter, std::size_t boxes);
+
+/// Throws InvalidArgument if the search is running: it is called by its own callback.
+void checkIdle(allpairs_search& search);
 
 /// Threads to run on, or null for the calling one.
 [[nodiscard]] std::unique_ptr<Executor> executorFor(std::size_t threads);

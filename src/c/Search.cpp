@@ -16,15 +16,6 @@ Strategy strategyOf(int strategy) {
   throw InvalidArgument("no strategy " + std::to_string(strategy));
 }
 
-/// What a filter's array is about: C says nothing of its length, which is the set's.
-std::span<const std::uint32_t> labelsOf(const std::uint32_t* data, const BoxView& boxes) {
-  return {data, data == nullptr ? 0 : boxes.size()};
-}
-
-FilterBits bitsOf(const allpairs_filter& filter, const BoxView& boxes) {
-  return {labelsOf(filter.categories, boxes), labelsOf(filter.masks, boxes), labelsOf(filter.groups, boxes)};
-}
-
 OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
   OverlapOptions options;
   options.strategy = strategyOf(numberIn(given.strategy));
@@ -46,6 +37,7 @@ void setOptions(allpairs_search& search, const allpairs_options* options) {
   if (given.memory.allocate != nullptr && (search.memory == nullptr || !search.memory->is(given.memory))) {
     throw InvalidArgument("a search keeps the memory that it was made with; make another one");
   }
+  checkIdle(search);
   std::unique_ptr<Executor> executor = executorFor(given.threads);
   search.overlaps.setOptions(optionsOf(given, executor.get()));
   search.executor = std::move(executor);
@@ -56,14 +48,27 @@ void setOptions(allpairs_search& search, const allpairs_options* options) {
 /// The search, with its filters as long as the sets that it is about to look at.
 OverlapSearch& prepared(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) {
   allpairs_search& handle = required(search, "search");
+  checkIdle(handle);
   OverlapOptions options = handle.overlaps.options();
-  options.filter.first = bitsOf(handle.first, required(first, "set").boxes);
-  options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes);
+  options.filter.first = bitsOf(handle.first, required(first, "set").boxes.size());
+  options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes.size());
   handle.overlaps.setOptions(std::move(options));
   return handle.overlaps;
 }
 
 }  // namespace
+
+FilterBits bitsOf(const allpairs_filter& filter, std::size_t boxes) {
+  const auto labelsOf = [boxes](const std::uint32_t* data) {
+    return std::span<const std::uint32_t>(data, data == nullptr ? 0 : boxes);
+  };
+  return {labelsOf(filter.categories), labelsOf(filter.masks), labelsOf(filter.groups)};
+}
+
+void checkIdle(allpairs_search& search) {
+  if (search.worlds) search.worlds->setOptions(search.worlds->options());
+}
+
 }  // namespace allpairs::c
 
 // NOLINTBEGIN(readability-identifier-naming): names are C's.
@@ -76,7 +81,7 @@ allpairs_status allpairs_search_create(const allpairs_options* options, allpairs
     std::unique_ptr<CallerMemory> memory = memoryOf(known(options).memory);
     memoryOnly.memory = memory.get();
     auto handle = std::make_unique<allpairs_search>(
-        allpairs_search{std::move(memory), nullptr, allpairs::OverlapSearch(std::move(memoryOnly)), {}, {}});
+        allpairs_search{std::move(memory), nullptr, allpairs::OverlapSearch(std::move(memoryOnly)), {}, {}, {}});
     setOptions(*handle, options);
     result = handle.release();
   });
@@ -91,7 +96,12 @@ void allpairs_search_destroy(allpairs_search* search) {
 }
 
 allpairs_status allpairs_search_shrink(allpairs_search* search) {
-  return guarded([&] { required(search, "search").overlaps.shrink(); });
+  return guarded([&] {
+    allpairs_search& handle = required(search, "search");
+    checkIdle(handle);
+    handle.overlaps.shrink();
+    handle.worlds.reset();
+  });
 }
 
 allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs) {

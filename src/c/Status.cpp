@@ -109,6 +109,7 @@ T known(const T* options) {
 
 template allpairs_options known(const allpairs_options* options);
 template allpairs_world_options known(const allpairs_world_options* options);
+template allpairs_worlds known(const allpairs_worlds* options);
 template allpairs_elements_options known(const allpairs_elements_options* options);
 
 Order orderOf(int order) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <span>
@@ -10,6 +11,7 @@
 #include "AllocationCount.h"
 #include "CountingMemory.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/Worlds.h"
 #include "memory/Memory.h"
 #include "support/Boxes.h"
 
@@ -67,6 +69,22 @@ TEST_P(Allocation, ASecondSearchOfTheSameSizeAllocatesNothing) {
   const std::size_t before = allocations;
   EXPECT_GT(search.find(boxes).size(), 1000U);
   EXPECT_EQ(allocations - before, 0U);
+}
+
+TEST(Allocation, ASecondSearchOfManyWorldsOfTheSameSizeAllocatesNothing) {
+  const std::vector<BoxF> boxes = test::randomBoxes(3000, 3);
+  const std::vector<Box> precise = test::toDouble(boxes);
+  std::vector<std::uint64_t> begin{0, 1000};
+  while (begin.back() != boxes.size()) begin.push_back(begin.back() + 20);
+  for (const BoxView& view : {BoxView(boxes), BoxView(precise)}) {
+    const Worlds worlds(view, begin);
+    WorldsSearch search;
+    const std::size_t pairs = search.find(worlds).pairs.size();
+    const std::size_t before = allocations;
+    EXPECT_EQ(search.find(worlds).pairs.size(), pairs);
+    EXPECT_EQ(search.count(worlds).back(), pairs);
+    EXPECT_EQ(allocations, before);
+  }
 }
 
 TEST(Allocation, TakesAtMost48BytesABoxBesideTheOutput) {

@@ -2,8 +2,10 @@
 #include "allpairs/BoxView.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include "allpairs/Error.h"
 
@@ -50,11 +52,11 @@ bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
   throw InvalidBox(index, "box " + std::to_string(index) + " has a NaN");
 }
 
-/// Whether any of the values is a NaN; a loop that compilers vectorise.
+/// Whether any of the values is a NaN; a loop that compilers vectorise, with flags as wide as the values.
 template <class T>
 bool anyNan(const T* values, std::size_t count) {
-  std::size_t nans = 0;
-  for (std::size_t i = 0; i < count; ++i) nans += values[i] != values[i] ? 1U : 0U;
+  std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t> nans = 0;
+  for (std::size_t i = 0; i < count; ++i) nans |= values[i] != values[i] ? 1U : 0U;
   return nans != 0;
 }
 

@@ -14,6 +14,7 @@
 #include "kernels/Kernels.h"
 #include "kernels/QueryKernel-inl.h"
 #include "kernels/ReadKernel-inl.h"
+#include "kernels/WorldsKernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
@@ -32,6 +33,8 @@ const Kernels* kernelTable() {
                              kFlatUnordered,
                              &searchFlat,
                              &searchFew,
+                             &searchWorlds,
+                             &searchWideWorld,
                              &join,
                              &boundBlocks,
                              &writePairs,

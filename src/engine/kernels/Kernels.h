@@ -16,6 +16,7 @@
 #include "kernels/Hits.h"
 #include "kernels/Lanes.h"
 #include "kernels/NeighborLists.h"
+#include "kernels/WorldsRun.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {
@@ -120,6 +121,10 @@ struct Kernels {
 
   /// The same for a few boxes.
   void (*searchFew)(const FewSearch& search, Hits& hits);
+
+  /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
+  void (*searchWorlds)(WorldsRun& run);
+  void (*searchWideWorld)(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place);
 
   /// Joins part of one hierarchy with another, or with itself.
   void (*join)(const JoinTask& task, Hits& hits);

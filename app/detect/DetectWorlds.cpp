@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "detect/DetectWorlds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Worlds.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/scene/BoxFrames.h"
+#include "allpairs/scene/FileError.h"
+#include "cli/ExitStatus.h"
+#include "cli/NpyOutput.h"
+#include "cli/Progress.h"
+#include "cli/Text.h"
+#include "cli/Timer.h"
+#include "input/Inputs.h"
+
+namespace allpairs::app {
+namespace {
+
+/// The boxes of all worlds, one after the other.
+struct WorldBoxes {
+  std::size_t worlds = 0;
+  std::size_t each = 0;
+  std::vector<float> float32{};
+  std::vector<double> float64{};
+
+  [[nodiscard]] Worlds view() const {
+    const BoxView boxes =
+        float64.empty() ? BoxView::fromRows(std::span(float32)) : BoxView::fromRows(std::span(float64));
+    return Worlds::ofEqualSize(boxes, worlds);
+  }
+};
+
+WorldBoxes readWorlds(const WorldsRequest& request) {
+  if (request.paths.size() != 1) throw UsageError("--worlds takes one input: a .npy file of shape (worlds, boxes, 6)");
+  const std::string& path = request.paths.front();
+  if (lowerExtension(path) != ".npy") throw UsageError("--worlds takes a .npy file of shape (worlds, boxes, 6)");
+  scene::BoxFrames file(path);
+  const scene::ReadOptions options = readOptions(request.limits);
+  WorldBoxes result{file.frameCount(), file.boxCount()};
+  if (options.maxMemory != 0 && 6 * sizeof(float) * result.worlds * result.each > options.maxMemory) {
+    throw FileError(path, "needs more memory than --max-memory allows");
+  }
+  const ProgressClock clock("reading " + printable(path));
+  for (std::size_t k = 0; k < result.worlds; ++k) {
+    const BoxView boxes = file.next();
+    const std::size_t numbers = 6 * boxes.size();
+    if (boxes.isFloat64()) {
+      result.float64.insert(result.float64.end(), boxes.float64().min.data, boxes.float64().min.data + numbers);
+    } else if (numbers != 0) {
+      result.float32.insert(result.float32.end(), boxes.float32().min.data, boxes.float32().min.data + numbers);
+    }
+  }
+  return result;
+}
+
+/// Compares with an exhaustive search of each world alone.
+void verify(const Worlds& worlds, const WorldPairsView& found, OverlapOptions options) {
+  options.strategy = Strategy::Exhaustive;
+  options.executor = nullptr;
+  for (std::size_t k = 0; k < worlds.size(); ++k) {
+    const std::vector<Pair> expected = overlaps(worlds[k], options);
+    const std::span<const Pair> pairs = found[k];
+    if (!std::equal(pairs.begin(), pairs.end(), expected.begin(), expected.end())) {
+      throw collision::VerificationError(
+          fmt::format("verification failed: the pairs of world {} are not those of an exhaustive search", k));
+    }
+  }
+}
+
+/// Passes on text a part at a time.
+class TextParts {
+ public:
+  explicit TextParts(Output& output) : m_output(output) {}
+
+  template <class... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(m_text), format, std::forward<Values>(values)...);
+    if (m_text.size() > kPart) flush();
+  }
+  void flush() {
+    m_output.write(m_text);
+    m_text.clear();
+  }
+
+ private:
+  static constexpr std::size_t kPart = std::size_t{1} << 16;
+
+  Output& m_output;
+  std::string m_text;
+};
+
+template <class Use>
+void forEachPair(const WorldPairsView& found, const Use& use) {
+  for (std::size_t k = 0; k + 1 < found.begin.size(); ++k) {
+    for (const Pair pair : found[k]) use(k, pair);
+  }
+}
+
+void writeNpy(const WorldPairsView& found, Output& output) {
+  if (found.begin.size() - 1 > std::uint64_t{0xFFFFFFFF}) throw UsageError("more worlds than 32 bits number");
+  NpyOutput file(output, "<u4", {found.pairs.size(), 3});
+  std::vector<std::uint32_t> rows;
+  forEachPair(found, [&](std::size_t world, Pair pair) {
+    rows.insert(rows.end(), {static_cast<std::uint32_t>(world), pair.first, pair.second});
+    if (rows.size() < 3 * kBatchSize) return;
+    file.add(rows);
+    rows.clear();
+  });
+  file.add(rows);
+}
+
+void writeCsv(const WorldPairsView& found, Output& output) {
+  TextParts text(output);
+  text.add("world,first,second\n");
+  forEachPair(found, [&](std::size_t world, Pair pair) { text.add("{},{},{}\n", world, pair.first, pair.second); });
+  text.flush();
+}
+
+void writeJson(const WorldPairsView& found, const WorldBoxes& boxes, double seconds, Output& output) {
+  TextParts text(output);
+  text.add("{{\"worlds\": {}, \"boxes\": {}, \"pairs\": [", boxes.worlds, boxes.each);
+  const char* separator = "";
+  forEachPair(found, [&](std::size_t world, Pair pair) {
+    text.add("{}[{}, {}, {}]", separator, world, pair.first, pair.second);
+    separator = ", ";
+  });
+  text.add("], \"statistics\": {{\"pairs\": {}, \"detectSeconds\": {}}}}}\n", found.pairs.size(), seconds);
+  text.flush();
+}
+
+void writeTable(const WorldPairsView& found, const WorldBoxes& boxes, double seconds, Output& output) {
+  std::size_t most = 0;
+  std::size_t without = 0;
+  for (std::size_t k = 0; k < boxes.worlds; ++k) {
+    if (found[k].size() > found[most].size()) most = k;
+    without += found[k].empty() ? 1U : 0U;
+  }
+  std::string text = fmt::format("worlds   {} of {}\n", grouped(boxes.worlds), counted(boxes.each, "box", "boxes"));
+  text += fmt::format("pairs    {}", grouped(found.pairs.size()));
+  if (boxes.worlds != 0) {
+    text +=
+        fmt::format("; most in world {}, {}; none in {}", most, grouped(found[most].size()), counted(without, "world"));
+  }
+  text += fmt::format("\ntime     {:.3f} ms\n\n--format csv, json or npy, or -o FILE, lists the pairs of each world.\n",
+                      1000.0 * seconds);
+  output.write(text);
+}
+
+}  // namespace
+
+void detectWorlds(const WorldsRequest& request, Output& output) {
+  const WorldBoxes boxes = readWorlds(request);
+  const Worlds worlds = boxes.view();
+  const std::unique_ptr<Executor> executor = makeExecutor(request.detection.threads, worlds.boxes().size());
+  OverlapOptions options;
+  options.strategy = request.detection.strategy;
+  options.distance = request.detection.distance.value_or(0.0);
+  options.region = request.detection.region;
+  options.executor = executor.get();
+  WorldsSearch search(options);
+  const Timer timer;
+  const WorldPairsView found = search.find(worlds);
+  const double seconds = timer.seconds();
+  if (request.detection.verify) verify(worlds, found, options);
+  if (request.format == "npy") {
+    writeNpy(found, output);
+  } else if (request.format == "csv") {
+    writeCsv(found, output);
+  } else if (request.format == "json") {
+    writeJson(found, boxes, seconds, output);
+  } else {
+    writeTable(found, boxes, seconds, output);
+  }
+}
+
+}  // namespace allpairs::app

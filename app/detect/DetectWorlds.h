@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/Options.h"
+#include "cli/Output.h"
+#include "detect/Detection.h"
+
+namespace allpairs::app {
+
+/// What `detect --worlds` is asked for.
+struct WorldsRequest {
+  std::vector<std::string> paths;
+  ReadLimits limits;
+  std::string format;
+  DetectionOptions detection;
+};
+
+/// Reads a .npy file of shape (w, n, 6), w worlds of n boxes, and writes the pairs of each world: boxes of different worlds are
+/// never pairs.
+///
+/// Bad input: more than one input, or another file, throws UsageError or FileError; with options.verify, strategies that
+///            disagree throw collision::VerificationError.
+void detectWorlds(const WorldsRequest& request, Output& output);
+
+}  // namespace allpairs::app

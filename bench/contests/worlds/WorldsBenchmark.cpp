@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Many small worlds, such as the copies of a simulation: from their boxes in float32 to the lists of all worlds, on one thread,
+// in processor time. One call for all worlds, in turns with a loop of calls of an OverlapSearch that is kept, and with one call
+// for the worlds side by side in space, whose pairs are then divided. Worlds differ, since a processor learns the branches of
+// a scene that it sees again; each round has other worlds too.
+//
+//   worlds_benchmark [--rounds R] [--instruction-set NAME]
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "Stopwatch.h"
+#include "allpairs/Worlds.h"
+#include "allpairs/generate/BoxScenes.h"
+
+namespace {
+
+using namespace allpairs;
+
+/// Scenes of worlds that rounds take in turn.
+constexpr std::size_t kScenes = 3;
+
+/// Worlds of equal size, and the same ones side by side along x.
+struct Scene {
+  std::size_t worlds;
+  std::size_t boxes;
+  std::vector<float> rows;
+  std::vector<float> apart;
+  std::vector<double> precise;
+
+  Scene(std::size_t worldCount, std::size_t boxCount, std::uint64_t seed) : worlds(worldCount), boxes(boxCount) {
+    for (std::size_t k = 0; k < worlds; ++k) {
+      const std::vector<float> world =
+          generate::makeBoxes({.scene = "uniform", .count = boxes, .seed = seed + 1000 * boxes + k});
+      rows.insert(rows.end(), world.begin(), world.end());
+    }
+    precise.assign(rows.begin(), rows.end());
+    placeApart();
+  }
+
+  [[nodiscard]] BoxView world(std::size_t k) const {
+    return BoxView::fromRows(std::span(rows).subspan(6 * boxes * k, 6 * boxes));
+  }
+  [[nodiscard]] BoxView preciseWorld(std::size_t k) const {
+    return BoxView::fromRows(std::span(precise).subspan(6 * boxes * k, 6 * boxes));
+  }
+
+ private:
+  /// In a grid, so that no coordinate is much larger than others.
+  void placeApart() {
+    apart = rows;
+    float extent = 0.0F;
+    for (const float bound : rows) extent = std::max(extent, std::abs(bound));
+    std::size_t side = 1;
+    while (side * side * side < worlds) ++side;
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+      const std::size_t k = i / (6 * boxes);
+      const std::array<std::size_t, 3> place{k % side, k / side % side, k / side / side};
+      apart[i] += 3.0F * extent * static_cast<float>(place[i % 3]);
+    }
+  }
+};
+
+/// A way of searching all worlds; returns the number of pairs.
+struct Contender {
+  std::string name;
+  std::function<std::size_t(const Scene&)> search;
+  std::vector<double> ms;
+};
+
+double medianOf(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+class Contest {
+ public:
+  explicit Contest(const std::string& instructionSet)
+      : m_name(instructionSet), m_kept(options()), m_aside(options()), m_search(options()) {}
+
+  std::vector<Contender> contenders() {
+    return {{"loop of kept calls",
+             [this](const Scene& scene) { return loop(scene, [&](std::size_t k) { return scene.world(k); }); },
+             {}},
+            {"side by side", [this](const Scene& scene) { return sideBySide(scene); }, {}},
+            {"WorldsSearch, kept",
+             [this](const Scene& scene) {
+               return m_search.find(Worlds::ofEqualSize(BoxView::fromRows(std::span(scene.rows)), scene.worlds))
+                   .pairs.size();
+             },
+             {}},
+            {"overlapsInWorlds()",
+             [this](const Scene& scene) {
+               const BoxView boxes = BoxView::fromRows(std::span(scene.rows));
+               return overlapsInWorlds(Worlds::ofEqualSize(boxes, scene.worlds), options()).pairs.size();
+             },
+             {}},
+            {"float64: loop",
+             [this](const Scene& scene) { return loop(scene, [&](std::size_t k) { return scene.preciseWorld(k); }); },
+             {}},
+            {"float64: kept",
+             [this](const Scene& scene) {
+               return m_search.find(Worlds::ofEqualSize(BoxView::fromRows(std::span(scene.precise)), scene.worlds))
+                   .pairs.size();
+             },
+             {}}};
+  }
+
+ private:
+  [[nodiscard]] OverlapOptions options() const {
+    OverlapOptions options;
+    options.instructionSet = m_name;
+    return options;
+  }
+
+  /// Calls worldOf(k) for each world's boxes.
+  template <class WorldOf>
+  std::size_t loop(const Scene& scene, const WorldOf& worldOf) {
+    m_pairs.clear();
+    m_begin.clear();
+    for (std::size_t k = 0; k < scene.worlds; ++k) {
+      m_begin.push_back(m_pairs.size());
+      const std::span<const Pair> found = m_kept.find(worldOf(k));
+      m_pairs.insert(m_pairs.end(), found.begin(), found.end());
+    }
+    return m_pairs.size();
+  }
+
+  std::size_t sideBySide(const Scene& scene) {
+    m_pairs.clear();
+    m_begin.assign(1, 0);
+    for (const Pair pair : m_aside.find(BoxView::fromRows(std::span(scene.apart)))) {
+      const std::size_t k = pair.first / scene.boxes;
+      while (m_begin.size() <= k) m_begin.push_back(m_pairs.size());
+      const auto first = static_cast<std::uint32_t>(k * scene.boxes);
+      m_pairs.push_back({pair.first - first, pair.second - first});
+    }
+    return m_pairs.size();
+  }
+
+  std::string m_name;
+  OverlapSearch m_kept;
+  OverlapSearch m_aside;
+  WorldsSearch m_search;
+  std::vector<Pair> m_pairs;
+  std::vector<std::uint64_t> m_begin;
+};
+
+void compare(std::size_t worlds, std::size_t boxes, std::size_t rounds, const std::string& instructionSet) {
+  std::vector<Scene> scenes;
+  for (std::size_t i = 0; i < kScenes; ++i) scenes.emplace_back(worlds, boxes, 100000 * i);
+  Contest contest(instructionSet);
+  std::vector<Contender> contenders = contest.contenders();
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const Scene& scene = scenes[round % kScenes];
+    std::size_t expected = 0;
+    for (Contender& contender : contenders) {
+      const measure::Stopwatch watch;
+      const std::size_t pairs = contender.search(scene);
+      contender.ms.push_back(watch.elapsed().cpuMs);
+      if (&contender == contenders.data()) expected = pairs;
+      // Side by side, bounds are rounded: boxes that barely touch may not, or the other way round.
+      const bool isRounded = contender.name == "side by side";
+      if (pairs != expected && !isRounded) throw std::runtime_error(contender.name + " found another number of pairs");
+    }
+  }
+  std::printf("| %zu of %zu |", worlds, boxes);
+  for (const Contender& contender : contenders) std::printf(" %.2f |", medianOf(contender.ms));
+  const double best = std::min(medianOf(contenders[0].ms), medianOf(contenders[1].ms));
+  const double own = medianOf(contenders[2].ms);
+  std::printf(" %.0f | %.1f |\n", 1e6 * own / static_cast<double>(worlds), best / own);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    std::size_t rounds = 31;
+    std::string instructionSet;
+    CLI::App app("Compares ways of searching many small worlds.");
+    app.add_option("--rounds", rounds, "Of each number of worlds")->capture_default_str();
+    app.add_option("--instruction-set", instructionSet, "Instead of the best one");
+    CLI11_PARSE(app, argc, argv);
+    std::printf("Milliseconds of processor time for all worlds, medians; uniform boxes.\n\n| worlds |");
+    for (const Contender& contender : Contest(instructionSet).contenders())
+      std::printf(" %s |", contender.name.c_str());
+    std::printf(" ns a world | times faster |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+    compare(32768, 5, rounds, instructionSet);
+    compare(8192, 20, rounds, instructionSet);
+    compare(4096, 64, rounds, instructionSet);
+    compare(1024, 200, rounds, instructionSet);
+    compare(256, 400, rounds, instructionSet);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "worlds_benchmark: %s\n", error.what());
+    return 1;
+  }
+}

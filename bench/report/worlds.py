@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""The part of the report about many worlds in one call."""
+
+import csv
+
+TEXT = """## Many worlds
+
+Uniform boxes, about two pairs a box: processor time in milliseconds for all worlds, one thread, from arrays to the lists of
+each world; medians of rounds on other worlds, in which the ways took turns. *Loop* is an `OverlapSearch` that is kept, called for
+each world; *side by side* one call for all worlds, moved apart; *kept* a `WorldsSearch` that is kept; *once* the function
+`overlapsInWorlds()`. Recorded in [benchmarks-worlds.csv](benchmarks-worlds.csv) as `worlds_benchmark` prints it
+([decision 26](decisions/0026-many-worlds.md)).
+
+"""
+
+COLUMNS = ("loop_ms", "side_by_side_ms", "kept_ms", "once_ms", "loop_float64_ms", "kept_float64_ms")
+
+
+def write_worlds(docs):
+    path = docs / "benchmarks-worlds.csv"
+    if not path.exists():
+        return ""
+    heading = ["worlds", "instruction set", "loop", "side by side", "kept", "once", "float64: loop", "float64: kept"]
+    lines = ["| " + " | ".join(heading) + " |", "|---|---|" + "---:|" * (len(heading) - 2)]
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            cells = [f"{int(row['worlds']):,} of {row['boxes']}", row["instruction_set"], *(row[name] for name in COLUMNS)]
+            lines.append("| " + " | ".join(cells) + " |")
+    return TEXT + "\n".join(lines) + "\n"

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: MIT
+"""Pairs of many worlds in one call."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _core, _search
+from ._arguments import BoxesLike
+from ._errors import InvalidArgument
+
+#: Where each world's pairs, or boxes, begin: one more than there are worlds.
+Offsets = npt.NDArray[np.int64]
+
+
+def _array(value: Any) -> npt.NDArray[Any]:
+    """An array of what is one, in the same memory where it can be."""
+    if not isinstance(value, np.ndarray) and not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):
+        array: npt.NDArray[Any] = np.from_dlpack(value)
+        return array
+    return np.asarray(value)
+
+
+def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
+    worlds, size = shape[0], shape[1]
+    return np.arange(worlds + 1, dtype=np.uint64) * np.uint64(size)
+
+
+def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
+    """Integers as uint64, the same memory where they are of 64 bits."""
+    array = _array(value)
+    if array.ndim != 1:
+        raise InvalidArgument(f"offsets has shape {array.shape}; it takes (worlds + 1,)")
+    if array.dtype.kind not in "iu":
+        raise InvalidArgument(f"offsets has dtype {array.dtype}; it takes integers")
+    if array.dtype.kind == "i" and (array < 0).any():
+        world = int(np.argmax(array < 0))
+        raise InvalidArgument(f"offsets[{world}] is {array[world]}; it is at least 0")
+    native = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+    return native.view(np.uint64) if native.dtype == np.int64 else native.astype(np.uint64, copy=False)
+
+
+def _divided(
+    lower: npt.ArrayLike, upper: npt.ArrayLike | None, offsets: npt.ArrayLike | None
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None, npt.NDArray[np.uint64]]:
+    """Boxes as tables, and where each world begins."""
+    low = _array(lower)
+    high = None if upper is None else _array(upper)
+    if offsets is not None:
+        return low, high, _given_offsets(offsets)
+    columns = 6 if high is None else 3
+    for name, array in (("lower", low), ("upper", high)):
+        if array is not None and (array.ndim != 3 or array.shape[2] != columns):
+            raise InvalidArgument(
+                f"{name} has shape {array.shape}; without offsets it takes (worlds, n, {columns})"
+            )
+    if high is not None and low.shape != high.shape:
+        raise InvalidArgument(f"lower has shape {low.shape} and upper {high.shape}")
+    return low.reshape(-1, columns), None if high is None else high.reshape(-1, columns), _equal_offsets(low.shape)
+
+
+def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint32]:
+    """A filter's array: for each box of all worlds, or, if they are of equal size, of one."""
+    array = _array(value).ravel()
+    sizes = np.diff(begin)
+    one = int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else boxes
+    return _arguments.labels(name, array, one if array.size == one else boxes)
+
+
+def overlaps_in_worlds(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    offsets: npt.ArrayLike | None = None,
+    *,
+    shared: BoxesLike | None = None,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    ignore: npt.ArrayLike | None = None,
+    order: str = "first",
+    strategy: str = "auto",
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> tuple[_search.Pairs, Offsets]:
+    """The overlapping pairs of each of many worlds, such as the copies of a simulation, in one call.
+
+    The rows of world k are what `overlaps` returns for its boxes alone, in the same order, with boxes numbered within
+    the world.
+
+    Parameters
+    ----------
+    lower, upper : array_like, shape (worlds, n, 3), or (boxes, 3) with offsets
+        The corners of the boxes. Or ``lower`` alone, of shape (worlds, n, 6) or (boxes, 6). As in `overlaps`; anything
+        with ``__array__``, ``__dlpack__`` or the buffer protocol in the processor's memory is read without a copy.
+    offsets : array_like, shape (worlds + 1,), integers
+        World k has the boxes ``offsets[k]`` to ``offsets[k + 1] - 1``. Not needed where worlds are of equal size.
+    shared : array_like, shape (m, 6), or tuple of two array_like of shape (m, 3)
+        Boxes that are in every world, such as the ground. The pairs are then those of a box of the world and one of
+        these, as `overlaps_between` returns them.
+    margin : float or array_like, one for each box of all worlds
+        As in `overlaps`. Shared boxes have none.
+    group, category, mask : array_like of integers 0 to 2**32 - 1
+        As in `overlaps`: one for each box of all worlds, or, if worlds are of equal size, of one world for all. Shared
+        boxes have no group, and every category and mask.
+    ignore : array_like, shape (k, 2), integers
+        Pairs to exclude in every world, numbered within a world; with ``shared``, pairs of a box and a shared one.
+
+    The other parameters, and what is raised, are those of `overlaps`; ``max_pairs`` is for all worlds together.
+
+    Returns
+    -------
+    pairs : ndarray, shape (m, 2), uint32
+    offsets : ndarray, shape (worlds + 1,), int64
+        World k has the rows ``pairs[offsets[k]:offsets[k + 1]]``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> row = np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]], dtype=np.float32)
+    >>> pairs, offsets = allpairs.overlaps_in_worlds(np.stack([row, row * 0, row]))
+    >>> pairs.tolist()
+    [[0, 1], [0, 1], [0, 2], [1, 2], [0, 1]]
+    >>> offsets
+    array([0, 1, 4, 5])
+    >>> pairs, offsets = allpairs.overlaps_in_worlds(row, offsets=[0, 1, 3], shared=[[0, 0, 0, 9, 9, 1]])
+    >>> pairs.tolist(), offsets.tolist()
+    ([[0, 0], [0, 0]], [0, 1, 2])
+    """
+    low, high, begin = _divided(lower, upper, offsets)
+    margins = None if margin is None else np.asarray(margin, dtype=np.float64)
+    if margins is not None and margins.ndim != 0:
+        margins = margins.ravel()
+    boxes = _arguments.boxes_of(low, high, margins)
+    values = dict(locals())
+    nothing = np.empty((0, 2), dtype=np.uint32)
+    ignored = nothing
+    if shared is None and ignore is not None:
+        ignored, values["ignore"] = _arguments.index_rows("ignore", ignore, 2), None
+    options = _search._settings(values, one_set=shared is None)
+    for name, setter in (("group", options.set_groups), ("category", options.set_categories), ("mask", options.set_masks)):
+        if values[name] is not None:
+            setter(_core.Side.FIRST, _labels(name, values[name], len(boxes), begin))
+    others = None if shared is None else _arguments.boxes_between(shared, None, "shared: ")
+    pairs, places = _core.overlaps_in_worlds(boxes, begin, ignored, others, options)
+    return np.asarray(pairs), np.asarray(places).view(np.int64)

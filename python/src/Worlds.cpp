@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/Worlds.h"
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <utility>
+
+#include "Arguments.h"
+#include "Bindings.h"
+#include "Boxes.h"
+#include "BufferProtocol.h"
+#include "NumberArray.h"
+#include "Options.h"
+#include "PairArray.h"
+#include "allpairs/Error.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+using OffsetArray = NumberArray<std::uint64_t>;
+
+/// How boxes are divided, with the arrays that say so kept alive.
+class Division {
+ public:
+  /// Offsets are a contiguous buffer of uint64, ignored pairs one of shape (k, 2), uint32.
+  Division(const Boxes& boxes, const py::buffer& begin, const py::buffer& ignored)
+      : m_begin(begin.request()), m_ignored(requestBuffer(ignored, {"I", 2})) {
+    if (m_begin.ndim != 1 || m_begin.itemsize != 8 || (m_begin.format != "L" && m_begin.format != "Q")) {
+      throw InvalidArgument("offsets of another kind than the module takes");
+    }
+    m_worlds = Worlds(boxes.set(), valuesOf<std::uint64_t>(m_begin));
+    const std::span<const std::uint32_t> numbers = valuesOf<std::uint32_t>(m_ignored);
+    m_worlds.setIgnoredPairs({reinterpret_cast<const Pair*>(numbers.data()), numbers.size() / 2});
+  }
+
+  [[nodiscard]] const Worlds& worlds() const noexcept { return m_worlds; }
+
+ private:
+  py::buffer_info m_begin;
+  py::buffer_info m_ignored;
+  Worlds m_worlds;
+};
+
+py::tuple toTuple(WorldPairs found) {
+  return py::make_tuple(toPython(std::move(found.pairs)), std::make_unique<OffsetArray>(std::move(found.begin)));
+}
+
+py::tuple findInWorlds(const Boxes& boxes, const py::buffer& begin, const py::buffer& ignored, const Boxes* shared,
+                       Options& options) {
+  const Division division(boxes, begin, ignored);
+  WorldPairs found;
+  {
+    const py::gil_scoped_release release;
+    const OverlapOptions engine = options.withExecutor(boxes.set().size());
+    found = shared == nullptr ? overlapsInWorlds(division.worlds(), engine)
+                              : overlapsInWorlds(division.worlds(), shared->set(), engine);
+  }
+  return toTuple(std::move(found));
+}
+
+}  // namespace
+
+void bindWorlds(py::module_& module) {
+  const py::class_<OffsetArray> offsets(module, "OffsetArray", tableProtocol<OffsetArray>());
+  module.def("overlaps_in_worlds", &findInWorlds);
+}
+
+}  // namespace allpairs::python

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "allpairs/Pair.h"
+
+namespace allpairs::engine {
+
+/// The most boxes of a world that the kernels for worlds take.
+inline constexpr std::size_t kMostInWorld = 448;
+
+/// Boxes whose hits make a word of bits.
+inline constexpr std::size_t kWordBoxes = 64;
+
+/// Words for the hits of one box.
+inline constexpr std::size_t kMostWords = kMostInWorld / kWordBoxes;
+static_assert(kMostInWorld % kWordBoxes == 0);
+
+/// The places of a world's boxes among lanes and bits: its last box has the last place of a word, so that the boxes that
+/// follow a box are in as few vectors as possible.
+struct WorldPlaces {
+  std::size_t first;  ///< The place of box 0.
+  std::size_t end;
+  std::size_t words;
+
+  static WorldPlaces of(std::size_t boxes) noexcept {
+    const std::size_t words = (boxes + kWordBoxes - 1) / kWordBoxes;
+    return {words * kWordBoxes - boxes, words * kWordBoxes, words};
+  }
+};
+
+/// The boxes of a world, a row for each bound, by place.
+template <class T>
+struct alignas(64) WorldTile {
+  std::array<std::array<T, kMostInWorld>, 6> bound;
+};
+
+/// Where each world begins: at its offset, or, if there are none, at a multiple of a size that all worlds have.
+struct WorldOffsets {
+  const std::uint64_t* begin = nullptr;
+  std::size_t size = 0;
+
+  [[nodiscard]] std::size_t operator[](std::size_t world) const noexcept {
+    return begin != nullptr ? static_cast<std::size_t>(begin[world]) : world * size;
+  }
+};
+
+/// Where the pairs of worlds go, one world's after the other's.
+struct WorldPairsPlace {
+  /// Pairs that may be written past the last one.
+  static constexpr std::size_t kSlack = 8;
+
+  /// The pairs that there must be room for to search a world.
+  [[nodiscard]] static std::size_t roomFor(std::size_t boxes) noexcept {
+    return boxes * (boxes - (boxes == 0 ? 0 : 1)) / 2 + kSlack;
+  }
+
+  Pair* pairs = nullptr;
+  std::size_t capacity = 0;  ///< With the slack.
+  std::uint64_t size = 0;
+
+  /// If set, pairs are counted in `size` and not stored.
+  bool countOnly = false;
+
+  [[nodiscard]] bool takes(std::size_t boxes) const noexcept { return countOnly || size + roomFor(boxes) <= capacity; }
+};
+
+/// How the hits of a world become pairs.
+struct WorldRule {
+  /// Whether pairs are ordered by their second box.
+  bool bySecond = false;
+
+  /// Which pairs are not filtered out: for each box, as a row, the bits of its partners; the same for all worlds. Null
+  /// means all.
+  const std::uint64_t* allowed = nullptr;
+};
+
+/// Worlds of float32 boxes, one after the other, all pairs of each tested, up to a world that is too large or that there
+/// may be no room for.
+struct WorldsRun {
+  /// The corners of box 0: values of a corner follow each other, corners are `stride` values apart: 3, or 6 if `max`
+  /// follows `min`.
+  const float* min = nullptr;
+  const float* max = nullptr;
+  std::size_t stride = 6;
+
+  WorldOffsets offsets;
+  std::size_t world = 0;  ///< The next one; the one that it stopped at.
+  std::size_t end = 0;
+  std::size_t mostBoxes = kMostInWorld;
+  WorldRule rule;
+  WorldPairsPlace place;
+
+  /// pairEnd[k] receives the place's size after world k.
+  std::uint64_t* pairEnd = nullptr;
+  std::uint64_t boxTests = 0;
+};
+
+/// One world in double, the exact test of boxes with margins and a distance.
+struct WideWorld {
+  const WorldTile<double>* tile = nullptr;
+  std::size_t boxes = 0;
+  const double* margins = nullptr;  ///< By place; null if the boxes are compared as they are.
+  double distance = 0.0;
+  const std::uint64_t* alive = nullptr;  ///< A bit for each place whose box can overlap others.
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+#include "worlds/WorldsSearcher.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "allpairs/Error.h"
+#include "input/Options.h"
+#include "search/PairSink.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Pairs per box in a typical scene, for which room is made at first, and the most that it is made for.
+constexpr std::size_t kLikelyPairs = 2;
+constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
+
+/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are faster.
+constexpr std::size_t kMostInDouble = 96;
+
+/// A world of more boxes is searched by all threads.
+constexpr std::size_t kManyBoxes = 4096;
+
+/// Parts for each thread: several, since some take longer than others; and the work that a part is worth.
+constexpr std::size_t kPartsPerThread = 16;
+constexpr std::size_t kLeastWork = std::size_t{1} << 16;
+
+/// What a world takes, very roughly in vector tests.
+std::uint64_t workOf(std::size_t boxes, std::size_t mostBoxes) {
+  constexpr std::uint64_t kPerWorld = 16;
+  constexpr std::uint64_t kPerBox = 4;
+  constexpr std::uint64_t kPerBoxOfHierarchy = 64;
+  const std::uint64_t size = boxes;
+  return kPerWorld + (boxes <= mostBoxes ? size * (kPerBox + size / kFanOut) : size * kPerBoxOfHierarchy);
+}
+
+/// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
+std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options) {
+  if (options.strategy == Strategy::Bvh) return 0;
+  if (options.strategy == Strategy::Exhaustive) return kMostInWorld;
+  return std::min(kMostInWorld, kernels.flatBoxes(options.order));
+}
+
+/// Whether the corners of boxes of float32 lie as the kernels read them.
+bool haveReadableCorners(const BoxView& boxes) {
+  if (boxes.isFloat64()) return false;
+  const auto& [min, max] = boxes.float32();
+  if (min.axisStride != 1 || max.axisStride != 1) return false;
+  return boxes.float32().isPacked() || (min.boxStride == 3 && max.boxStride == 3);
+}
+
+void add(OverlapStatistics& sum, const OverlapStatistics& part) {
+  sum.pairs += part.pairs;
+  sum.boxTests += part.boxTests;
+  sum.groupTests += part.groupTests;
+  sum.exactTests += part.exactTests;
+}
+
+}  // namespace
+
+bool WorldsSearcher::Target::takes(std::size_t boxes) {
+  if (place.takes(boxes)) return true;
+  if (growing == nullptr) return false;
+  growing->grow(place.size + WorldPairsPlace::roomFor(boxes));
+  place.pairs = growing->data();
+  place.capacity = growing->capacity();
+  return true;
+}
+
+void WorldsSearcher::Target::append(std::span<const Pair> pairs) {
+  if (growing != nullptr && place.size + pairs.size() > place.capacity) {
+    growing->grow(place.size + pairs.size());
+    place.pairs = growing->data();
+    place.capacity = growing->capacity();
+  }
+  if (place.size + pairs.size() > place.capacity) {
+    throw InvalidArgument("there are more pairs than the offsets given say; count them first");
+  }
+  std::copy(pairs.begin(), pairs.end(), place.pairs + place.size);
+  place.size += pairs.size();
+}
+
+void WorldsSearcher::Target::check() const { checkLimit({.maxPairs = maxPairs}, place.size); }
+
+void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) {
+  m_worlds = &worlds;
+  m_options = &options;
+  m_statistics = {};
+  m_kernels = &chooseKernels(options);
+  m_executor = options.executor != nullptr ? options.executor : &m_serial;
+  const BoxView& boxes = worlds.boxes();
+  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && haveReadableCorners(boxes);
+  m_mostBoxes = mostBoxesOf(*m_kernels, options);
+  if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, kMostInDouble);
+  m_filter.prepare(worlds, options, m_mostBoxes);
+  while (m_workers.size() < m_executor->concurrency()) {
+    m_workers.push_back(makeOwned<Worker>(m_workers.get_allocator().resource()));
+  }
+  for (const Owned<Worker>& worker : m_workers) {
+    worker->size = 0;
+    worker->statistics = {};
+  }
+  m_begin.resize(worlds.size() + 1);
+  m_begin[0] = 0;
+  cutParts();
+}
+
+/// Cuts the worlds into parts of similar work, one for each world that all threads search together.
+void WorldsSearcher::cutParts() {
+  m_parts.clear();
+  const std::size_t worlds = m_worlds->size();
+  const std::size_t threads = m_executor->concurrency();
+  if (threads <= 1) {
+    m_parts.push_back({0, worlds});
+    return;
+  }
+  std::uint64_t all = 0;
+  for (std::size_t world = 0; world < worlds; ++world) all += workOf(sizeOf(world), m_mostBoxes);
+  const std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kPartsPerThread * threads));
+  std::uint64_t work = most;
+  for (std::size_t world = 0; world < worlds; ++world) {
+    const bool takesAllThreads = sizeOf(world) > kManyBoxes;
+    if (work >= most || takesAllThreads) {
+      m_parts.push_back({world, world, takesAllThreads});
+      work = 0;
+    }
+    m_parts.back().end = world + 1;
+    work = takesAllThreads ? most : work + workOf(sizeOf(world), m_mostBoxes);
+  }
+}
+
+std::size_t WorldsSearcher::claimWorker() {
+  for (;;) {
+    for (std::size_t i = 0; i < m_workers.size(); ++i) {
+      if (!m_workers[i]->busy.test_and_set(std::memory_order_acquire)) return i;
+    }
+    std::this_thread::yield();
+  }
+}
+
+/// Calls use(part, worker) for each part, with a worker that no other part has meanwhile.
+template <class Use>
+void WorldsSearcher::forEachPart(const Use& use) {
+  const auto run = [&](Part& part) {
+    part.worker = claimWorker();
+    const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
+    Worker& worker = *m_workers[part.worker];
+    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&worker.busy, clear);
+    use(part, worker);
+  };
+  m_executor->run(m_parts.size(), [&](std::size_t i) {
+    if (!m_parts[i].takesAllThreads) run(m_parts[i]);
+  });
+  for (Part& part : m_parts) {
+    if (part.takesAllThreads) run(part);
+  }
+}
+
+void WorldsSearcher::sumStatistics() {
+  for (const Owned<Worker>& worker : m_workers) add(m_statistics, worker->statistics);
+  m_statistics.pairs = m_begin.back();
+}
+
+/// Where the pairs of each part go in the result.
+void WorldsSearcher::placeParts() {
+  std::uint64_t place = 0;
+  for (Part& part : m_parts) {
+    part.place = place;
+    place += part.pairs;
+  }
+  checkLimit({.maxPairs = m_options->maxPairs}, place);
+  for (const Part& part : m_parts) {
+    if (part.place == part.firstPair) continue;
+    for (std::size_t world = part.begin; world < part.end; ++world) m_begin[world + 1] += part.place - part.firstPair;
+  }
+}
+
+WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& options) {
+  begin(worlds, options);
+  forEachPart([&](Part& part, Worker& worker) {
+    const std::size_t boxes = m_worlds->begin(part.end) - m_worlds->begin(part.begin);
+    part.firstPair = worker.size;
+    worker.pairs.grow(worker.size + std::min(kLikelyPairs * boxes, kMostLikelyPairs));
+    Target target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
+    searchPart(part, worker, target);
+    part.pairs = target.place.size - part.firstPair;
+    worker.size = target.place.size;
+  });
+  placeParts();
+  sumStatistics();
+  if (m_parts.size() <= 1) {
+    const Pair* const pairs = m_parts.empty() ? nullptr : m_workers[m_parts[0].worker]->pairs.data();
+    return {{pairs, m_begin.back()}, m_begin};
+  }
+  m_joined.require(m_begin.back());
+  m_executor->run(m_parts.size(), [&](std::size_t i) {
+    const Part& part = m_parts[i];
+    std::copy_n(m_workers[part.worker]->pairs.data() + part.firstPair, part.pairs, m_joined.data() + part.place);
+  });
+  return {{m_joined.data(), m_begin.back()}, m_begin};
+}
+
+std::span<const std::uint64_t> WorldsSearcher::count(const Worlds& worlds, const OverlapOptions& options) {
+  begin(worlds, options);
+  forEachPart([&](Part& part, Worker& worker) {
+    Target target{{.countOnly = true}, nullptr, options.maxPairs};
+    searchPart(part, worker, target);
+    part.firstPair = 0;
+    part.pairs = target.place.size;
+  });
+  placeParts();
+  sumStatistics();
+  return m_begin;
+}
+
+std::uint64_t WorldsSearcher::list(const Worlds& worlds, const OverlapOptions& options,
+                                   std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
+  if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {
+    throw InvalidArgument("the offsets of pairs are not those that count() gives: one more than the " +
+                          std::to_string(worlds.size()) + " worlds, from 0 on, ascending");
+  }
+  if (pairs.size() < begin.back()) {
+    throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
+                          std::to_string(begin.back()));
+  }
+  this->begin(worlds, options);
+  forEachPart([&](Part& part, Worker& worker) {
+    const std::uint64_t first = begin[part.begin];
+    Target target{{pairs.data() + first, begin[part.end] - first}, nullptr, options.maxPairs};
+    searchPart(part, worker, target);
+    part.firstPair = 0;
+    part.pairs = target.place.size;
+  });
+  placeParts();
+  sumStatistics();
+  if (!std::equal(begin.begin(), begin.end(), m_begin.begin(), m_begin.end())) {
+    throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
+  }
+  return m_begin.back();
+}
+
+void WorldsSearcher::searchPart(const Part& part, Worker& worker, Target& target) {
+  for (std::size_t world = part.begin; world < part.end;) {
+    if (m_isPlain && !m_filter.selects()) {
+      const std::size_t next = runKernel(world, part.end, worker, target.place);
+      target.check();
+      if (next == part.end) return;
+      world = next;
+      if (sizeOf(world) <= m_mostBoxes && target.takes(sizeOf(world))) continue;
+    }
+    if (sizeOf(world) <= m_mostBoxes) {
+      searchSmall(world, worker, target);
+    } else {
+      searchLarge(world, part.takesAllThreads, worker, target);
+    }
+    target.check();
+    m_begin[world + 1] = target.place.size;
+    ++world;
+  }
+}
+
+/// Worlds that the kernel reads itself, as many as there is room for; returns the one that follows them.
+std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker& worker, WorldPairsPlace& place) {
+  const auto& [min, max] = m_worlds->boxes().float32();
+  WorldsRun run;
+  run.min = min.data;
+  run.max = max.data;
+  run.stride = static_cast<std::size_t>(min.boxStride);
+  run.offsets = {m_worlds->offsets().empty() ? nullptr : m_worlds->offsets().data(), m_worlds->eachSize()};
+  run.world = world;
+  run.end = end;
+  run.mostBoxes = m_mostBoxes;
+  run.rule = {m_options->order == Order::BySecond, m_filter.allowed()};
+  run.place = place;
+  run.pairEnd = m_begin.data() + 1;
+  m_kernels->searchWorlds(run);
+  place = run.place;
+  worker.statistics.boxTests += run.boxTests;
+  return run.world;
+}
+
+/// One world, in its place if there is certainly room for all its pairs before some are selected, else beside it.
+void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, Target& target) {
+  const std::size_t boxes = sizeOf(world);
+  const bool isCounted = target.place.countOnly && !m_filter.selects();
+  const bool isDirect = isCounted || (!target.place.countOnly && target.takes(boxes));
+  WorldPairsPlace place = target.place;
+  if (!isDirect) {
+    worker.scratch.require(WorldPairsPlace::roomFor(boxes));
+    place = {worker.scratch.data(), worker.scratch.capacity()};
+  }
+  const std::uint64_t before = place.size;
+  m_isPlain ? static_cast<void>(runKernel(world, world + 1, worker, place)) : runWide(world, worker, place);
+  if (m_filter.selects()) {
+    place.size = before + m_filter.select(world, {place.pairs + before, place.size - before});
+  }
+  if (isDirect) {
+    target.place = place;
+  } else if (target.place.countOnly) {
+    target.place.size += place.size;
+  } else {
+    target.append({place.pairs, place.size});
+  }
+}
+
+void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldPairsPlace& place) const {
+  worker.wide.require(1);
+  WideBoxes& wide = worker.wide[0];
+  const BoxView& boxes = m_worlds->boxes();
+  const std::size_t first = m_worlds->begin(world);
+  const std::size_t size = sizeOf(world);
+  const WorldPlaces places = WorldPlaces::of(size);
+  wide.alive.fill(0);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Box box = boxes[first + i];
+    const double margin = boxes.margin(first + i);
+    const std::size_t at = places.first + i;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      wide.tile.bound[axis][at] = box.min[axis];
+      wide.tile.bound[axis + 3][at] = box.max[axis];
+    }
+    wide.margins[at] = margin;
+    const bool isIn = !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
+    if (isIn && !isEmpty(box)) wide.alive[at / kWordBoxes] |= std::uint64_t{1} << (at % kWordBoxes);
+  }
+  const WideWorld kernel{&wide.tile, size, boxes.hasMargins() ? wide.margins.data() : nullptr, m_options->distance,
+                         wide.alive.data()};
+  m_kernels->searchWideWorld(kernel, {m_options->order == Order::BySecond, m_filter.allowed()}, place);
+  worker.statistics.boxTests += WorldPairsPlace::roomFor(size) - WorldPairsPlace::kSlack;
+}
+
+/// A world that is searched as if it were alone.
+void WorldsSearcher::searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, Target& target) {
+  const BoxView boxes = (*m_worlds)[world];
+  OverlapOptions options = *m_options;
+  options.executor = takesAllThreads ? m_executor : nullptr;
+  options.filter.first = m_filter.bitsOf(world);
+  if (m_filter.hasIgnored()) {
+    options.filter.accept = [this](std::uint32_t first, std::uint32_t second) {
+      const PairPredicate& accept = m_options->filter.accept;
+      return !m_filter.isIgnored({first, second}) && (!accept || accept(first, second));
+    };
+  }
+  if (target.place.countOnly) {
+    target.place.size += worker.search.count({boxes, boxes, true}, options);
+  } else {
+    target.append(worker.search.find({boxes, boxes, true}, options));
+  }
+  add(worker.statistics, worker.search.statistics());
+}
+
+}  // namespace allpairs::engine

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/Worlds.h"
+#include "kernels/Kernels.h"
+#include "memory/Memory.h"
+#include "search/Search.h"
+#include "worlds/WorldsFilter.h"
+
+namespace allpairs::engine {
+
+/// The boxes of a world in double, with what the kernel reads besides.
+struct WideBoxes {
+  WorldTile<double> tile;
+  std::array<double, kMostInWorld> margins;
+  std::array<std::uint64_t, kMostWords> alive;
+};
+
+/// Searches many worlds, and keeps its memory for the next time.
+class WorldsSearcher {
+ public:
+  explicit WorldsSearcher(std::pmr::memory_resource* memory)
+      : m_filter(memory), m_workers(memory), m_parts(memory), m_begin(memory), m_joined(memory) {}
+
+  WorldPairsView find(const Worlds& worlds, const OverlapOptions& options);
+  std::span<const std::uint64_t> count(const Worlds& worlds, const OverlapOptions& options);
+  /// Returns the number of pairs.
+  std::uint64_t list(const Worlds& worlds, const OverlapOptions& options, std::span<const std::uint64_t> begin,
+                     std::span<Pair> pairs);
+
+  [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
+
+ private:
+  /// Where pairs go, and how many may.
+  struct Target {
+    WorldPairsPlace place;
+    Buffer<Pair>* growing = nullptr;  ///< Grows as needed; null if the place is of fixed size.
+    std::uint64_t maxPairs = 0;
+
+    /// Whether the pairs of a world can be written there at once; makes room if it can grow.
+    bool takes(std::size_t boxes);
+    void append(std::span<const Pair> pairs);
+    void check() const;
+  };
+
+  /// What a thread needs.
+  struct Worker {
+    explicit Worker(std::pmr::memory_resource* memory) : search(memory), pairs(memory), scratch(memory), wide(memory) {}
+
+    Search search;       ///< Of worlds that are too large for the kernels.
+    Buffer<Pair> pairs;  ///< Results.
+    std::uint64_t size = 0;
+    Buffer<Pair> scratch;  ///< Of a world whose pairs cannot be written to their place at once.
+    Buffer<WideBoxes> wide;
+    OverlapStatistics statistics;
+    std::atomic_flag busy;
+  };
+
+  /// Worlds that follow each other, searched by one thread, or one world searched by all.
+  struct Part {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    bool takesAllThreads = false;
+    std::size_t worker = 0;
+    std::uint64_t firstPair = 0;  ///< In the memory of the worker.
+    std::uint64_t pairs = 0;
+    std::uint64_t place = 0;  ///< In the result.
+  };
+
+  void begin(const Worlds& worlds, const OverlapOptions& options);
+  void cutParts();
+  template <class Use>
+  void forEachPart(const Use& use);
+  std::size_t claimWorker();
+  void sumStatistics();
+  void placeParts();
+
+  void searchPart(const Part& part, Worker& worker, Target& target);
+  std::size_t runKernel(std::size_t world, std::size_t end, Worker& worker, WorldPairsPlace& place);
+  void searchSmall(std::size_t world, Worker& worker, Target& target);
+  void searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, Target& target);
+  void runWide(std::size_t world, Worker& worker, WorldPairsPlace& place) const;
+  [[nodiscard]] std::size_t sizeOf(std::size_t world) const noexcept {
+    return m_worlds->begin(world + 1) - m_worlds->begin(world);
+  }
+
+  const Worlds* m_worlds = nullptr;
+  const OverlapOptions* m_options = nullptr;
+  const Kernels* m_kernels = nullptr;
+  Executor* m_executor = nullptr;
+  SerialExecutor m_serial;
+  std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
+  bool m_isPlain = false;       ///< Boxes that the kernel reads from the caller's memory.
+  WorldsFilter m_filter;
+  std::pmr::vector<Owned<Worker>> m_workers;
+  std::pmr::vector<Part> m_parts;
+  std::pmr::vector<std::uint64_t> m_begin;
+  Buffer<Pair> m_joined;
+  OverlapStatistics m_statistics;
+};
+
+}  // namespace allpairs::engine

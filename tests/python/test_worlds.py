@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: MIT
+"""Many worlds in one call: each world's rows are those of the double loop, and those of a call for it alone."""
+
+import array
+
+import allpairs
+import numpy as np
+import pytest
+from conftest import every_pair, random_boxes
+
+SIZES = [0, 1, 2, 15, 16, 17, 33, 64, 65, 300, 20, 0, 5]
+
+
+def scene(dtype=np.float32):
+    offsets = np.concatenate([[0], np.cumsum(SIZES)])
+    lower, upper = random_boxes(offsets[-1], seed=3, dtype=dtype)
+    return lower, upper, offsets
+
+
+def assert_worlds(found, expected):
+    pairs, offsets = found
+    assert pairs.dtype == np.uint32
+    assert offsets.dtype == np.int64
+    assert len(offsets) == len(expected) + 1
+    for k, rows in enumerate(expected):
+        np.testing.assert_array_equal(pairs[offsets[k] : offsets[k + 1]], rows)
+
+
+def each(lower, upper, offsets, call):
+    return [call(lower[a:b], upper[a:b]) for a, b in zip(offsets[:-1], offsets[1:])]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("threads", [1, 3])
+def test_rows_of_each_world_are_those_of_the_double_loop(dtype, threads):
+    lower, upper, offsets = scene(dtype)
+    expected = each(lower, upper, offsets, every_pair)
+    assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, threads=threads), expected)
+    assert_worlds(allpairs.overlaps_in_worlds(np.hstack([lower, upper]), offsets=offsets, threads=threads), expected)
+
+
+@pytest.mark.parametrize("dtype", [np.int32, np.int64, np.uint32, np.uint64, ">i8", np.int16])
+def test_offsets_are_of_any_integers(dtype):
+    lower, upper, offsets = scene()
+    assert_worlds(
+        allpairs.overlaps_in_worlds(lower, upper, offsets.astype(dtype)), each(lower, upper, offsets, every_pair)
+    )
+
+
+def test_worlds_of_equal_size_need_no_offsets():
+    lower, upper = random_boxes(12 * 20, seed=4)
+    offsets = np.arange(13) * 20
+    expected = each(lower, upper, offsets, every_pair)
+    low, high = lower.reshape(12, 20, 3), upper.reshape(12, 20, 3)
+    assert_worlds(allpairs.overlaps_in_worlds(low, high), expected)
+    assert_worlds(allpairs.overlaps_in_worlds(np.concatenate([low, high], axis=2)), expected)
+    pairs, found = allpairs.overlaps_in_worlds(np.empty((0, 20, 6)))
+    assert pairs.shape == (0, 2)
+    assert found.tolist() == [0]
+
+
+def test_every_setting_holds_in_each_world():
+    lower, upper, offsets = scene()
+    rng = np.random.default_rng(5)
+    n = len(lower)
+    settings = {"margin": rng.random(n), "group": rng.integers(0, 4, n), "category": rng.integers(1, 8, n)}
+    settings["mask"] = rng.integers(1, 8, n)
+    common = {"distance": 0.5, "region": [0, 0, 0, 15, 15, 15], "order": "second"}
+    expected = [
+        allpairs.overlaps(lower[a:b], upper[a:b], **{key: value[a:b] for key, value in settings.items()}, **common)
+        for a, b in zip(offsets[:-1], offsets[1:])
+    ]
+    assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, **settings, **common), expected)
+
+
+def test_a_filter_of_one_world_holds_for_all_of_equal_size():
+    lower, upper = random_boxes(30 * 40, seed=6)
+    group = np.arange(40) % 6
+    ignore = np.stack([np.arange(1, 40), np.arange(39)], axis=1)
+    expected = [
+        allpairs.overlaps(lower[a : a + 40], upper[a : a + 40], group=group, ignore=ignore) for a in range(0, 1200, 40)
+    ]
+    low, high = lower.reshape(30, 40, 3), upper.reshape(30, 40, 3)
+    assert_worlds(allpairs.overlaps_in_worlds(low, high, group=group, ignore=ignore), expected)
+    every = np.tile(group, (30, 1))
+    assert_worlds(allpairs.overlaps_in_worlds(low, high, group=every, ignore=ignore), expected)
+
+
+def test_shared_boxes_are_in_every_world():
+    lower, upper, offsets = scene()
+    shared = np.hstack(random_boxes(9, seed=7))
+    for settings in ({}, {"order": "second"}, {"ignore": [[0, 3], [1, 1]]}, {"distance": 1}):
+        expected = each(lower, upper, offsets, lambda a, b, s=settings: allpairs.overlaps_between((a, b), shared, **s))
+        assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, shared=shared, **settings), expected)
+
+
+class Capsule:
+    """What has nothing but __dlpack__."""
+
+    def __init__(self, held):
+        self.held = held
+
+    def __dlpack__(self, **settings):
+        return self.held.__dlpack__(**settings)
+
+    def __dlpack_device__(self):
+        return self.held.__dlpack_device__()
+
+
+def test_arrays_of_others_are_taken():
+    lower, upper = random_boxes(60, seed=8, dtype=np.float32)
+    rows = np.hstack([lower, upper]).reshape(3, 20, 6)
+    expected = each(lower, upper, [0, 20, 40, 60], every_pair)
+    assert_worlds(allpairs.overlaps_in_worlds(Capsule(rows)), expected)
+    assert_worlds(allpairs.overlaps_in_worlds(memoryview(rows)), expected)
+    offsets = array.array("q", [0, 20, 40, 60])
+    assert_worlds(allpairs.overlaps_in_worlds(Capsule(lower), Capsule(upper), offsets), expected)
+
+
+@pytest.mark.parametrize(
+    ("offsets", "message"),
+    [
+        ([0, 5, 4, 10], "world 1 begins at box 5 and ends at 4"),
+        ([0, 5, 11], "world 1 ends at box 11, but there are 10 boxes"),
+        ([1, 10], "world 0 begins at box 1"),
+        ([0, 9], "the last world, 0, ends at box 9 of 10"),
+        ([], "no offsets of worlds"),
+        ([0, -1], r"offsets\[1\] is -1"),
+        ([0.0, 10.0], "it takes integers"),
+        ([[0, 10]], "it takes"),
+    ],
+)
+def test_wrong_offsets_are_named(offsets, message):
+    values = np.array(offsets, dtype=np.int64) if offsets == [] else offsets
+    with pytest.raises(allpairs.InvalidArgument, match=message):
+        allpairs.overlaps_in_worlds(np.zeros((10, 6)), offsets=values)
+
+
+def test_wrong_shapes_are_named():
+    with pytest.raises(allpairs.InvalidArgument, match=r"without offsets it takes \(worlds, n, 6\)"):
+        allpairs.overlaps_in_worlds(np.zeros((10, 6)))
+    with pytest.raises(allpairs.InvalidArgument, match="and upper"):
+        allpairs.overlaps_in_worlds(np.zeros((10, 2, 3)), np.zeros((10, 3, 3)))
+    with pytest.raises(allpairs.InvalidArgument, match="group has shape"):
+        allpairs.overlaps_in_worlds(np.zeros((10, 2, 6)), group=[1, 2, 3])
+    with pytest.raises(allpairs.InvalidArgument, match="in no world"):
+        allpairs.overlaps_in_worlds(np.zeros((10, 2, 6)), ignore=[[0, 2]])
+    with pytest.raises(allpairs.InvalidBox, match="box 7"):
+        allpairs.overlaps_in_worlds(np.where(np.arange(60).reshape(5, 2, 6) == 43, np.nan, 0.0))
