@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "Boxes.h"
+#include "Interrupts.h"
 #include "NumberArray.h"
 #include "PairArray.h"
 #include "allpairs/World.h"
@@ -72,7 +74,19 @@ class MovingBoxes {
     return work(m_world);
   }
 
+  /// The same for a search, with as many boxes that it asks for, that a signal may interrupt.
+  template <class Work>
+  auto search(std::size_t queries, const Work& work) {
+    return interruptibly(m_size + queries, [&](Stopper& stopper) {
+      const std::lock_guard lock(m_mutex);
+      const Stopper::Hold hold(stopper, m_stop);
+      return work(m_world);
+    });
+  }
+
   std::mutex m_mutex;
+  StopFlag m_stop;
+  std::atomic<std::size_t> m_size = 0;
   std::unique_ptr<Executor> m_executor;
   World m_world;
 };

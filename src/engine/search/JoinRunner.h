@@ -84,8 +84,10 @@ class JoinRunner {
   }
 
   void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
+  void runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
 
   const Kernels* m_kernels = nullptr;
+  const StopFlag* m_stop = nullptr;
   std::pmr::vector<Owned<Worker>> m_workers;
   std::pmr::vector<Segment> m_segments;
 };
