@@ -51,9 +51,17 @@ def whole(name: str, value: int, least: int = 0) -> int:
     return number
 
 
-def _floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+    """The value as an array; NumPy would drop the mask of a masked one, and what it hides would count."""
+    rows = value if isinstance(value, (list, tuple)) else (value,)
+    if any(np.any(row.mask) for row in rows if isinstance(row, np.ma.MaskedArray)):
+        raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
+    return np.asarray(value)
+
+
+def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly."""
-    array = np.asarray(value)
+    array = _array(name, value)
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
         return array.astype(native, copy=False)
@@ -77,7 +85,7 @@ def _plain(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def _corners(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
-    array = _floats(name, value)
+    array = floats(name, value)
     if array.ndim == 1 and array.size == 0:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -86,7 +94,7 @@ def _corners(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
 
 
 def _rows(name: str, value: npt.ArrayLike) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    array = _floats(name, value)
+    array = floats(name, value)
     if array.ndim == 1 and array.size == 0:
         array = array.reshape(0, 6)
     if array.ndim != 2 or array.shape[1] != 6:
@@ -117,7 +125,7 @@ def boxes_of(
         corners = corner_pair(prefix + "lower", lower, prefix + "upper", upper)
     boxes = _core.Boxes(corners[0], corners[1], prefix)
     if margin is not None:
-        margins = np.asarray(margin, dtype=np.float64)
+        margins = floats(prefix + "margin", margin).astype(np.float64, copy=False)
         if margins.ndim == 0:
             boxes.set_margin(float(margins))
         else:
@@ -143,7 +151,7 @@ def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[A
 
 def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """Integers as uint32, the same memory where they are."""
-    array = np.asarray(value)
+    array = _array(name, value)
     if array.size == 0:
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iub":
@@ -171,7 +179,7 @@ def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Points or directions as rows of three."""
-    array: npt.NDArray[np.float64] = np.atleast_2d(_floats(name, value)).astype(np.float64, copy=False)
+    array: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
     if array.ndim != 2 or array.shape[1] != 3:
         raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3)")
     return array
@@ -189,7 +197,7 @@ def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.
 
 def region_of(region: npt.ArrayLike) -> list[float]:
     """A box as six numbers, from six or from two corners."""
-    bounds = np.asarray(region, dtype=np.float64)
+    bounds = floats("region", region)
     if bounds.shape not in ((6,), (2, 3)):
         raise InvalidArgument(f"region has shape {bounds.shape}; it takes (2, 3) or (6,)")
     return [float(bound) for bound in bounds.ravel()]

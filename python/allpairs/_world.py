@@ -43,14 +43,14 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
         if values[name] is not None:
             setter(_arguments.labels(name, _spread(values[name], size), size))
     if values["margin"] is not None:
-        margins = np.ascontiguousarray(_spread(values["margin"], size), dtype=np.float64)
-        properties.set_margin(_arguments.of_length("margin", margins, size))
+        margins = _arguments.floats("margin", _spread(values["margin"], size))
+        properties.set_margin(np.ascontiguousarray(_arguments.of_length("margin", margins, size), dtype=np.float64))
     return properties
 
 
 def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
     """One value for all boxes, or the array as it is."""
-    return np.broadcast_to(value, (size,)) if np.ndim(value) == 0 else value
+    return np.broadcast_to(value, (size,), subok=True) if np.ndim(value) == 0 else value
 
 
 def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
@@ -256,7 +256,7 @@ class World:
         query = _query_filter(locals())
         start, way = _arguments.points("origins", origins), _arguments.points("directions", directions)
         start, way = np.broadcast_arrays(start, way)
-        end = np.broadcast_to(np.asarray(length, dtype=np.float64), (len(start),))
+        end = np.broadcast_to(_arguments.floats("length", length).astype(np.float64), (len(start),))
         ids, t = self._core.first_hits(np.column_stack([start, way, end]), query)
         return np.asarray(ids), np.asarray(t)
 
