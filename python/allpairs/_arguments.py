@@ -18,6 +18,8 @@ BoxesLike = Union[npt.ArrayLike, tuple[npt.ArrayLike, npt.ArrayLike]]
 Chosen = TypeVar("Chosen")
 
 _UINT32_MAX = 0xFFFFFFFF
+_UINT64_MAX = 0xFFFFFFFFFFFFFFFF
+_MOST_THREADS = 65535
 _EXACT_INTEGERS = 2**53  # up to here float64 holds every integer
 
 _ORDERS = {"first": _core.Order.first, "second": _core.Order.second, "unordered": _core.Order.unordered}
@@ -32,7 +34,7 @@ def choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
     try:
         return choices[value]
     except (KeyError, TypeError):
-        raise InvalidArgument(f"{name} is {value!r}; it can be {', '.join(map(repr, choices))}") from None
+        raise InvalidArgument(f"{name} is {_shown(value)}; it can be {', '.join(map(repr, choices))}") from None
 
 
 def order_of(order: str) -> _core.Order:
@@ -43,12 +45,45 @@ def strategy_of(strategy: str) -> _core.Strategy:
     return choice("strategy", strategy, _STRATEGIES)
 
 
-def whole(name: str, value: int, least: int = 0) -> int:
+def whole(name: str, value: int, least: int = 0, most: int = _UINT64_MAX) -> int:
     """An argument that counts something."""
-    number = operator.index(value)
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {_shown(value)}; it takes an integer") from None
     if number < least:
         raise InvalidArgument(f"{name} is {number}; it is at least {least}")
+    if number > most:
+        raise InvalidArgument(f"{name} is {_shown(number)}; it is at most {most}")
     return number
+
+
+def threads_of(threads: int) -> int:
+    """A number of threads; 0 means as many as the machine has."""
+    return whole("threads", threads, most=_MOST_THREADS)
+
+
+def bits(name: str, value: int) -> int:
+    """A bit set."""
+    return whole(name, value, most=_UINT32_MAX)
+
+
+def number(name: str, value: float) -> float:
+    """A single number; what is wrong with its value is for the engine to say."""
+    if not isinstance(value, (str, bytes, bytearray)):
+        try:
+            return float(value)
+        except OverflowError:
+            raise InvalidArgument(f"{name} is {_shown(value)}, which float64 does not hold") from None
+        except (TypeError, ValueError):
+            pass
+    raise TypeError(f"{name} is {_shown(value)}; it takes a number")
+
+
+def _shown(value: object) -> str:
+    """A value as messages show it: on one line, and not all of it if it is long."""
+    text = " ".join(repr(value).split()) if not isinstance(value, int) or abs(value) < _UINT64_MAX**2 else "a large integer"
+    return text if len(text) <= 80 else text[:77] + "..."
 
 
 def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:

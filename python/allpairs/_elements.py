@@ -74,16 +74,17 @@ class MeshCandidates:
         threads: int = 1,
     ) -> None:
         settings = _core.CandidateSettings()
-        settings.distance, settings.within, settings.between = distance, within, between
+        settings.distance = _arguments.number("distance", distance)
+        settings.within, settings.between = bool(within), bool(between)
         settings.order = _arguments.order_of(order)
-        settings.threads = _arguments.whole("threads", threads)
+        settings.threads = _arguments.threads_of(threads)
         single = isinstance(vertex_count, (int, np.integer))
         meshes: list[Any] = [triangles] if single else list(cast(Any, triangles))
         counts: list[Any] = [vertex_count] if single else list(cast(Any, vertex_count))
         if len(meshes) != len(counts):
             raise InvalidArgument(f"triangles of {len(meshes)} meshes and vertex_count of {len(counts)}")
         arrays = [_arguments.index_rows(f"triangles of mesh {i}", mesh, 3) for i, mesh in enumerate(meshes)]
-        numbers = [_arguments.whole("vertex_count", count) for count in counts]
+        numbers = [_arguments.whole("vertex_count", count, most=_core.NO_BOX) for count in counts]
         self._core = _core.MeshCandidates(arrays, numbers, settings)
         self.edges: npt.NDArray[np.uint32] = np.asarray(self._core.edges())
         self.triangles: npt.NDArray[np.uint32] = np.asarray(self._core.triangles())

@@ -115,10 +115,10 @@ class Scene:
             In the orientation and the order of the double loop: newer model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
         """
         options = _core.DetectionOptions()
-        options.distance = distance
+        options.distance = None if distance is None else _arguments.number("distance", distance)
         options.strategy = _arguments.strategy_of(strategy)
-        options.threads = _arguments.whole("threads", threads)
-        options.verify = verify
+        options.threads = _arguments.threads_of(threads)
+        options.verify = bool(verify)
         if region is not None:
             options.set_region(_arguments.region_of(region))
         return np.asarray(self._core.detect(options))
@@ -168,10 +168,10 @@ def load(
     FileError
         With the file, line and column; it is a ValueError and an OSError.
     """
-    roots = [os.fspath(root) for root in search_roots]
-    if sofa not in ("", "20.06", "26.12"):
-        raise ValueError(f'sofa is "20.06" or "26.12", not {sofa!r}')
-    return Scene(_core.load(os.fspath(path), roots, partial, sofa, allow_outside, max_memory))
+    roots = [os.fsdecode(root) for root in search_roots]
+    version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
+    memory = _arguments.whole("max_memory", max_memory)
+    return Scene(_core.load(os.fsdecode(path), roots, bool(partial), version, bool(allow_outside), memory))
 
 
 def detect(

@@ -32,9 +32,9 @@ def _filter(options: _core.Options, side: _core.Side, boxes: _core.Boxes, values
 def _settings(values: dict[str, Any], one_set: bool) -> _core.Options:
     """What is not about single boxes; a function that lacks a setting has no such name among its values."""
     options = _core.Options()
-    options.set_distance(values["distance"])
+    options.set_distance(_arguments.number("distance", values["distance"]))
     options.set_strategy(_arguments.strategy_of(values["strategy"]))
-    options.threads = _arguments.whole("threads", values["threads"])
+    options.threads = _arguments.threads_of(values["threads"])
     if values["region"] is not None:
         options.set_region(_arguments.region_of(values["region"]))
     if values["ignore"] is not None:

@@ -55,8 +55,9 @@ def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
 
 def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
     query = _core.QueryFilter()
-    query.category, query.mask = values["category"], values["mask"]
-    query.static, query.moving = values["static"], values["moving"]
+    query.category = _arguments.bits("category", values["category"])
+    query.mask = _arguments.bits("mask", values["mask"])
+    query.static, query.moving = bool(values["static"]), bool(values["moving"])
     return query
 
 
@@ -92,7 +93,7 @@ class World:
     """
 
     def __init__(self, *, distance: float = 0.0, order: str = "first", threads: int = 1) -> None:
-        self._core = _core.World(distance, _arguments.order_of(order), _arguments.whole("threads", threads))
+        self._core = _core.World(_arguments.number("distance", distance), _arguments.order_of(order), _arguments.threads_of(threads))
 
     def add(
         self,
@@ -177,8 +178,9 @@ class World:
     def __len__(self) -> int:
         return self._core.size()
 
-    def __contains__(self, id: int) -> bool:
-        return self._core.contains(id)
+    def __contains__(self, id: object) -> bool:
+        number = int(id) if isinstance(id, (int, np.integer)) else -1
+        return 0 <= number < NO_BOX and self._core.contains(number)
 
     def boxes(self, ids: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The bounds of boxes.
@@ -286,6 +288,6 @@ class World:
         distances : ndarray, shape (n, k), float64
         """
         query = _query_filter(locals())
-        count = _arguments.whole("k", k, least=1)
+        count = _arguments.whole("k", k, least=1, most=NO_BOX)
         ids, distances = self._core.nearest(np.ascontiguousarray(_arguments.points("points", points)), count, query)
         return np.asarray(ids), np.asarray(distances)

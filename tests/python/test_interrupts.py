@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Ctrl-C ends a search soon, and signal handlers run during one; what was searching can be used on.
 
-Each search runs in a process of its own, which would take a minute or more to the end of it. The limits are a small part of
+Each search runs in a process of its own and would take a minute or more to its end. The limits are a small part of
 that, and a large multiple of the fifth of a second that an interrupt takes: the machine may be busy.
 """
 
