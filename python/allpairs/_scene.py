@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple, Union
+from typing import Literal, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,9 @@ from . import _arguments, _core
 from ._search import Pairs
 
 Path = Union[str, "os.PathLike[str]"]
+
+#: A version of SOFA whose scenes are read.
+Sofa = Literal["", "20.06", "26.12"]
 
 
 class Model(NamedTuple):
@@ -92,7 +95,7 @@ class Scene:
         *,
         distance: float | None = None,
         region: npt.ArrayLike | None = None,
-        strategy: str = "auto",
+        strategy: _arguments.Strategy = "auto",
         threads: int = 1,
         verify: bool = False,
     ) -> Pairs:
@@ -142,7 +145,7 @@ def load(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
-    sofa: str = "",
+    sofa: Sofa = "",
     allow_outside: bool = False,
     max_memory: int = 0,
 ) -> Scene:
@@ -179,12 +182,12 @@ def detect(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
-    sofa: str = "",
+    sofa: Sofa = "",
     allow_outside: bool = False,
     max_memory: int = 0,
     distance: float | None = None,
     region: npt.ArrayLike | None = None,
-    strategy: str = "auto",
+    strategy: _arguments.Strategy = "auto",
     threads: int = 1,
     verify: bool = False,
 ) -> Detection:

@@ -41,7 +41,7 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
         ("static", properties.set_static),
     ):
         if values[name] is not None:
-            setter(_arguments.labels(name, _spread(values[name], size), size))
+            setter(_arguments.labels(name, values[name], size))
     if values["margin"] is not None:
         margins = _arguments.floats("margin", _spread(values["margin"], size))
         properties.set_margin(np.ascontiguousarray(_arguments.of_length("margin", margins, size), dtype=np.float64))
@@ -50,7 +50,7 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
 
 def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
     """One value for all boxes, or the array as it is."""
-    return np.broadcast_to(value, (size,), subok=True) if np.ndim(value) == 0 else value
+    return np.broadcast_to(value, (size,), subok=True) if _arguments.is_one(value) else value
 
 
 def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
@@ -92,7 +92,7 @@ class World:
     array([[1, 2]], dtype=uint32)
     """
 
-    def __init__(self, *, distance: float = 0.0, order: str = "first", threads: int = 1) -> None:
+    def __init__(self, *, distance: float = 0.0, order: _arguments.StepOrder = "first", threads: int = 1) -> None:
         self._core = _core.World(_arguments.number("distance", distance), _arguments.order_of(order), _arguments.threads_of(threads))
 
     def add(
@@ -111,7 +111,7 @@ class World:
         Parameters
         ----------
         lower, upper : array_like, shape (n, 3), or one of shape (n, 6)
-            As in `allpairs.overlaps`. They are copied.
+            As in `allpairs.overlaps`, of three axes; one box may have shape (3,) or (6,). They are copied.
         category, mask : int or array_like, shape (n,)
             Bits: a pair is kept if each box's mask shares a bit with the other's category. All bits are set by default.
         group : int or array_like, shape (n,)
@@ -126,7 +126,7 @@ class World:
         ndarray, shape (n,), uint32
             The ids of the boxes. Ids of removed boxes are reused.
         """
-        boxes = _arguments.boxes_of(lower, upper, None)
+        boxes = _arguments.boxes_of(lower, upper)
         return np.asarray(self._core.add(boxes, _properties(len(boxes), locals())))
 
     def move(self, ids: npt.ArrayLike, lower: npt.ArrayLike, upper: npt.ArrayLike | None = None) -> None:
@@ -135,9 +135,9 @@ class World:
         Parameters
         ----------
         ids : array_like, shape (k,), integers
-        lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
+        lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
         """
-        self._core.move(_arguments.ids(ids), _arguments.boxes_of(lower, upper, None))
+        self._core.move(_arguments.ids(ids), _arguments.boxes_of(lower, upper))
 
     def move_swept(
         self, ids: npt.ArrayLike, starts: _arguments.BoxesLike, ends: _arguments.BoxesLike
@@ -149,8 +149,9 @@ class World:
         ids : array_like, shape (k,), integers
         starts, ends : array_like, shape (k, 6), or tuple of two array_like of shape (k, 3)
         """
-        begin = _arguments.boxes_between(starts, None, "starts: ")
-        self._core.move_swept(_arguments.ids(ids), begin, _arguments.boxes_between(ends, None, "ends: "))
+        begin = _arguments.boxes_of(*_arguments.two_corners(starts, "starts: "), "starts: ")
+        end = _arguments.boxes_of(*_arguments.two_corners(ends, "ends: "), "ends: ")
+        self._core.move_swept(_arguments.ids(ids), begin, end)
 
     def remove(self, ids: npt.ArrayLike) -> None:
         """Removes boxes; the next step lists their pairs among those that ended.
@@ -213,7 +214,7 @@ class World:
 
         Parameters
         ----------
-        lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
+        lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
         category, mask : int
             Only boxes whose category shares a bit with ``mask`` and whose mask with ``category``.
         static, moving : bool
@@ -225,7 +226,7 @@ class World:
             In each row the index of a query and the id of a box, in ascending order.
         """
         query = _query_filter(locals())
-        return np.asarray(self._core.overlapping(_arguments.boxes_of(lower, upper, None), query))
+        return np.asarray(self._core.overlapping(_arguments.boxes_of(lower, upper), query))
 
     def first_hits(
         self,

@@ -58,6 +58,9 @@ def test_a_label_that_does_not_fit_names_its_box():
         ({"lower": BOXES, "ignore": [1, 2, 3]}, r"ignore has shape \(3,\)"),
         ({"lower": BOXES, "region": [1, 2, 3]}, r"region has shape \(3,\)"),
         ({"lower": BOXES, "region": [[1, 1, 1], [0, 0, 0]]}, "region"),
+        ({"lower": BOXES, "region": [1, 2, 3, 4]}, r"for boxes of 3 axes it takes \(2, 3\) or \(6,\)"),
+        ({"lower": BOXES[:, :4], "region": range(6)}, r"for boxes of 2 axes it takes \(2, 2\) or \(4,\)"),
+        ({"lower": np.zeros((2, 2)), "upper": np.zeros((2, 3))}, r"upper has shape \(2, 3\); it takes \(n, 2\)"),
         ({"lower": BOXES, "distance": np.nan}, "distance"),
         ({"lower": BOXES, "order": "third"}, "'first', 'second', 'unordered'"),
         ({"lower": BOXES, "strategy": []}, "strategy"),
@@ -89,7 +92,7 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: WORLD.nearest([0, 0, 0], k=2**63), "k is 9223372036854775808; it is at most 4294967295"),
         (lambda: WORLD.nearest([0, 0, 0], k=0), "k is 0; it is at least 1"),
         (lambda: allpairs.World(threads=-1), "threads is -1; it is at least 0"),
-        (lambda: WORLD.add(BOXES, mask=2**40), r"mask\[0\] is 1099511627776; it takes 0 to 4294967295"),
+        (lambda: WORLD.add(BOXES, mask=2**40), "mask is 1099511627776; it is at most 4294967295"),
         (lambda: WORLD.add(BOXES, margin="x"), "margin has dtype <U1"),
         (lambda: WORLD.first_hits([0, 0, 0], [1, 0, 0], "far"), "length has dtype <U3"),
         (lambda: allpairs.overlaps(BOXES, region=["a"] * 6), "region has dtype <U1"),
@@ -141,12 +144,14 @@ def test_a_batch_may_be_of_any_size():
 
 
 def test_two_sets_take_their_settings_in_pairs():
-    with pytest.raises(allpairs.InvalidArgument, match="group takes a tuple of two"):
+    with pytest.raises(allpairs.InvalidArgument, match="group takes a number or a tuple of two"):
         allpairs.overlaps_between(BOXES, BOXES, group=[1, 2, 3, 4])
     with pytest.raises(allpairs.InvalidArgument, match="second set: group has shape"):
         allpairs.overlaps_between(BOXES, BOXES, group=(None, [1]))
     with pytest.raises(allpairs.InvalidArgument, match="a tuple of 3"):
         allpairs.overlaps_between((1, 2, 3), BOXES)
+    with pytest.raises(allpairs.InvalidArgument, match="the first set have 3 axes and those of the second 2"):
+        allpairs.overlaps_between(BOXES, BOXES[:, :4])
 
 
 def test_more_pairs_than_allowed_say_how_many():

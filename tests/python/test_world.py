@@ -162,3 +162,17 @@ def test_threads_that_share_a_world_wait_for_each_other():
         thread.join()
     assert len(world) == 0
     assert len(world.step().pairs) == 0
+
+
+def test_one_box_needs_no_list():
+    world = allpairs.World()
+    first = world.add([0, 0, 0, 1, 1, 1])
+    second = world.add([1, 1, 1], [2, 2, 2], mask=3, group=np.uint32(5))
+    assert (first.tolist(), second.tolist()) == ([0], [1])
+    assert world.step().pairs.tolist() == [[0, 1]]
+    world.move(first, np.array([5.0, 5, 5, 6, 6, 6], np.float32))
+    assert world.step().ended.tolist() == [[0, 1]]
+    assert world.overlapping([0, 0, 0, 9, 9, 9]).tolist() == [[0, 0], [0, 1]]
+    assert world.overlapping((2, 2, 2), (4, 4, 4)).tolist() == [[0, 1]]
+    with pytest.raises(allpairs.InvalidArgument, match=r"lower has shape \(4,\)"):
+        world.overlapping([0, 0, 1, 1])
