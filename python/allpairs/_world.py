@@ -66,6 +66,9 @@ class World:
 
     Each step costs what has changed since the last one. Boxes are closed.
 
+    A world can be copied and pickled. The copy has the settings and all boxes, with their ids, bounds and properties. It
+    has no last step: its next one lists all pairs among those that began. New boxes may get other ids.
+
     Parameters
     ----------
     distance : float
@@ -93,7 +96,35 @@ class World:
     """
 
     def __init__(self, *, distance: float = 0.0, order: _arguments.StepOrder = "first", threads: int = 1) -> None:
-        self._core = _core.World(_arguments.number("distance", distance), _arguments.order_of(order), _arguments.threads_of(threads))
+        self._settings = (_arguments.number("distance", distance), order, _arguments.threads_of(threads))
+        self._core = self._empty()
+
+    def _empty(self) -> _core.World:
+        distance, order, threads = self._settings
+        return _core.World(distance, _arguments.order_of(order), threads)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The settings, and ids, bounds and properties of all boxes."""
+        ids = np.asarray(self._core.ids())
+        properties, margin = map(np.asarray, self._core.properties(ids))
+        names = ("category", "mask", "group", "static")
+        columns = {name: properties[:, i].copy() for i, name in enumerate(names)}
+        return {"settings": self._settings, "ids": ids, "boxes": self.boxes(ids), "margin": margin, **columns}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._settings = state["settings"]
+        self._core = self._empty()
+        ids = state["ids"]
+        if len(ids) == 0:
+            return
+        # The ids of a new world are consecutive; those of empty boxes that go before the first step are free after it.
+        bound = int(ids[-1]) + 1
+        self.add(np.tile([1.0, 0, 0, 0, 0, 0], (bound, 1)))
+        self.remove(np.setdiff1d(np.arange(bound, dtype=np.uint32), ids, assume_unique=True))
+        self.step()
+        self.move(ids, state["boxes"])
+        names = ("category", "mask", "group", "static", "margin")
+        self.set_properties(ids, **{name: state[name] for name in names})
 
     def add(
         self,

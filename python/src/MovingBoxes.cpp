@@ -145,6 +145,32 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
 }
 
+MovingBoxes::Ids MovingBoxes::ids() {
+  std::vector<BoxId> ids;
+  alone([&](World& world) {
+    ids.reserve(world.size());
+    for (BoxId id = 0; id < world.idBound(); ++id) {
+      if (world.contains(id)) ids.push_back(id);
+    }
+  });
+  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
+}
+
+py::tuple MovingBoxes::properties(const py::buffer& ids) {
+  const IdView view(ids);
+  std::vector<std::uint32_t> bits;
+  std::vector<double> margins;
+  alone([&](World& world) {
+    for (const BoxId id : view.ids()) {
+      const BoxProperties properties = world.properties(id);
+      bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U});
+      margins.push_back(properties.margin);
+    }
+  });
+  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 4),
+                        std::make_unique<NumberArray<double>>(std::move(margins)));
+}
+
 py::tuple MovingBoxes::step() {
   std::array<std::unique_ptr<PairArray>, 4> lists;
   search(0, [&](World& world) {

@@ -53,6 +53,12 @@ class MovingBoxes {
   [[nodiscard]] bool contains(BoxId id);
   [[nodiscard]] Numbers boxes(const pybind11::buffer& ids);
 
+  /// All ids, ascending.
+  [[nodiscard]] Ids ids();
+
+  /// In each row category, mask, group, and whether the box is static; and the margins.
+  [[nodiscard]] pybind11::tuple properties(const pybind11::buffer& ids);
+
   /// Pairs, and those that began, persisted and ended.
   [[nodiscard]] pybind11::tuple step();
 
