@@ -23,7 +23,11 @@ _allpairs() {
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench --help -h --version' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench help --help -h --version -V' -- "$current")
+    return
+  fi
+  if [[ $command == help ]]; then
+    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
