@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -19,6 +20,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/Output.h"
 #include "cli/SignalCleanup.h"
+#include "cli/Suggestion.h"
 
 namespace {
 
@@ -33,7 +35,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   allpairs elements start.ply end.ply            candidates for contact
   allpairs bench uniform -n 100000               time of a search
 
-See 'allpairs COMMAND --help'. Exit status: 0 success, 1 --verify found a
+See 'allpairs help COMMAND'. Exit status: 0 success, 1 --verify found a
 difference, 2 usage error, 3 a file cannot be read or written.)";
 
 /// One line on standard error, whatever the message holds: names of files are the user's, or a stranger's.
@@ -74,9 +76,55 @@ std::string chosenCommand(const CLI::App& program) {
   return chosen.empty() ? "allpairs" : "allpairs " + chosen.front()->get_name();
 }
 
+std::vector<std::string> commandNames(const CLI::App& program) {
+  std::vector<std::string> names{"help"};
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// What an argument that nothing takes should have been.
+std::string describeExtra(const CLI::App& program) {
+  const auto chosen = program.get_subcommands();
+  const CLI::App& command = chosen.empty() ? program : *chosen.front();
+  const std::vector<std::string> extras = program.remaining(true);
+  const auto option =
+      std::find_if(extras.begin(), extras.end(), [](const auto& extra) { return extra.starts_with('-'); });
+  if (option == extras.end())
+    return "one argument too many: '" + (extras.empty() ? std::string() : extras.front()) + "'";
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : command.get_options()) {
+    for (const std::string& text : known->get_lnames()) names.push_back("--" + text);
+    if (names.back() == "--distance") names.emplace_back("--margin");  // its name of before is taken too
+  }
+  return "unknown option '" + name + "'" + allpairs::app::suggestionFor(name, names);
+}
+
+[[noreturn]] void failForCommand(const CLI::App& program, const std::string& word) {
+  const std::string what = word.starts_with('-') ? "a command comes first, not" : "unknown command";
+  const std::string suggestion = allpairs::app::suggestionFor(word, commandNames(program));
+  throw allpairs::app::UsageError(what + " '" + word + "'" + suggestion);
+}
+
+/// `help COMMAND` as `COMMAND --help`.
+std::vector<std::string> withoutHelpWord(const CLI::App& program, std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments.front() != "help") return arguments;
+  arguments.erase(arguments.begin());
+  arguments.resize(std::min<std::size_t>(arguments.size(), 1));
+  if (!arguments.empty()) {
+    const std::vector<std::string> names = commandNames(program);
+    const bool isKnown = std::find(names.begin(), names.end(), arguments.front()) != names.end();
+    if (!isKnown && !arguments.front().starts_with('-')) failForCommand(program, arguments.front());
+    if (arguments.front() == "help") arguments.clear();
+  }
+  arguments.emplace_back("--help");
+  return arguments;
+}
+
 void print(const std::string& text) { allpairs::app::Output(std::nullopt).write(text); }
 
-void parse(CLI::App& program, const std::vector<std::string>& arguments) {
+void parse(CLI::App& program, const std::vector<std::string>& given) {
+  const std::vector<std::string> arguments = withoutHelpWord(program, given);
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // the order that CLI11 takes
   try {
     program.parse(std::move(reversed));
@@ -86,9 +134,14 @@ void parse(CLI::App& program, const std::vector<std::string>& arguments) {
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + '\n');
   } catch (const CLI::RequiredError&) {
-    const bool hasWord = program.get_subcommands().empty() && !arguments.empty();
-    if (hasWord) throw allpairs::app::UsageError("unknown command '" + arguments.front() + "'");
-    throw allpairs::app::UsageError(program.get_subcommands().empty() ? "no command given" : "no INPUT given");
+    if (!program.get_subcommands().empty()) throw allpairs::app::UsageError("no INPUT given");
+    if (arguments.empty()) {
+      print(program.help());
+      throw allpairs::app::UsageError("no command given");
+    }
+    failForCommand(program, arguments.front());
+  } catch (const CLI::ExtrasError&) {
+    throw allpairs::app::UsageError(describeExtra(program));
   } catch (const CLI::ArgumentMismatch& problem) {
     throw allpairs::app::UsageError(countProblem(problem));
   } catch (const CLI::ParseError& problem) {
@@ -117,7 +170,7 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
 /// Making the options allocates, too.
 int runProgram(int count, char** arguments) {
   CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
-  program.set_version_flag("--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
+  program.set_version_flag("-V,--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
   program.require_subcommand(1);
   program.footer(kProgramExamples);
   allpairs::app::addDetect(program);

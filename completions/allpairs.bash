@@ -23,7 +23,11 @@ _allpairs() {
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench --help -h --version' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench help --help -h --version -V' -- "$current")
+    return
+  fi
+  if [[ $command == help ]]; then
+    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
@@ -34,7 +38,7 @@ _allpairs() {
         ;;
       info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
       view) words='--sequence --distance --box --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
-      report) words='--distance --box --partial --data --sofa --allow-outside --max-memory -o --output --pictures --metres-per-unit -h --help' ;;
+      report) words='--distance --box --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;
       track) words='--distance --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
       elements) words='--distance --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
       generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;

@@ -7,7 +7,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
+
+#include "cli/ExitStatus.h"
 
 namespace allpairs::app {
 
@@ -49,6 +53,19 @@ void addThreads(CLI::App& command, std::string& threads) {
   command.add_option("--threads", threads, "Number of threads; 0: one per core")->type_name("N")->capture_default_str();
 }
 
+void takeCount(CLI::Option& option) {
+  option.transform([](const std::string& text) {
+    constexpr double kMost = 1e15;  // float64 holds every whole number up to it
+    double value = 0.0;
+    const char* const last = text.data() + text.size();
+    const auto [end, problem] = std::from_chars(text.data(), last, value);
+    const bool isWhole =
+        problem == std::errc() && end == last && value >= 0.0 && value <= kMost && std::floor(value) == value;
+    const bool isPlain = text.find_first_of("eE.") == std::string::npos;  // for the option itself to judge
+    return isWhole && !isPlain ? fmt::format("{:.0f}", value) : text;
+  });
+}
+
 void addStrategy(CLI::App& command, std::string& strategy) {
   addChoice(command, "--strategy", strategy, {"auto", "exhaustive", "bvh"})
       ->description("Algorithm: auto, exhaustive or bvh; all give the same pairs")
@@ -66,7 +83,12 @@ std::string formatOf(const std::string& format, const std::string& output, const
   const std::string extension = lowerExtension(output);
   const auto named = std::find_if(formats.begin() + 1, formats.end(),
                                   [&extension](const std::string& name) { return extension == '.' + name; });
-  return named == formats.end() ? formats.front() : *named;
+  if (named != formats.end()) return *named;
+  if (extension.empty() || extension == ".txt") return formats.front();
+  throw UsageError(
+      fmt::format("-o: '{}' ends in no format that can be written, which are .txt and .{}; --format says which "
+                  "one it is",
+                  output, fmt::join(formats.begin() + 1, formats.end(), ", .")));
 }
 
 void addOutput(CLI::App& command, std::string& path) {

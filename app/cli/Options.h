@@ -42,6 +42,9 @@ CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::st
 /// Declares --threads N, whose value parseThreads() takes.
 void addThreads(CLI::App& command, std::string& threads);
 
+/// Lets an option that counts something take numbers like 1e6 too.
+void takeCount(CLI::Option& option);
+
 /// Declares --strategy WORD, whose value strategyOf() takes.
 void addStrategy(CLI::App& command, std::string& strategy);
 
@@ -49,6 +52,8 @@ void addStrategy(CLI::App& command, std::string& strategy);
 void addFormat(CLI::App& command, std::string& format, const std::vector<std::string>& formats);
 
 /// The format that was chosen; else the one that the name of the output ends in, if it is one of these; else the first.
+///
+/// Bad input: a name that ends in something else than ".txt" throws UsageError.
 [[nodiscard]] std::string formatOf(const std::string& format, const std::string& output,
                                    const std::vector<std::string>& formats);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "Commands.h"
+#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
@@ -137,6 +138,11 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
   const auto count = std::count_if(scene.remarks.begin(), scene.remarks.end(),
                                    [](const scene::Remark& remark) { return remark.isPartial; });
   if (count == 0) return;
+  if (scene.models.empty()) {
+    throw FileError(input.paths.front(),
+                    "no model of it can be placed or read, and nothing is left: 'allpairs info "
+                    "--partial' lists why");
+  }
   const std::string inputs = printable(fmt::format("{}", fmt::join(input.paths, " ")));
   fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
              counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");

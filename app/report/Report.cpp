@@ -36,6 +36,7 @@ struct ReportSettings {
   std::string folder;
   std::size_t pictures = 500;
   double metresPerUnit = 1.0;
+  bool force = false;
 };
 
 constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
@@ -95,7 +96,7 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
   if (!(settings.metresPerUnit > 0.0)) throw UsageError("--metres-per-unit must be above 0");
-  checkReportFolder(settings.folder);
+  checkReportFolder(settings.folder, settings.force);
   const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
   if (scene.frames.size() > 1) throw UsageError("a report shows one frame: the input has several");
   writeReport(scene, settings);
@@ -112,6 +113,7 @@ void addReport(CLI::App& program) {
   addSearchOptions(*command, settings->search);
   command->add_option("-o,--output", settings->folder, "Write to the folder DIR; it is created if missing")
       ->type_name("DIR");
+  command->add_flag("--force", settings->force, "Write to DIR although it holds other files");
   command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
       ->type_name("N")
       ->capture_default_str();

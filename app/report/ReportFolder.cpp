@@ -11,13 +11,27 @@ namespace allpairs::app {
 
 namespace fs = std::filesystem;
 
-void checkReportFolder(const fs::path& folder) {
+namespace {
+
+/// Whether it has the files of a report of ours.
+bool holdsReport(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "index.html", ignored) && fs::exists(folder / "clashes.csv", ignored);
+}
+
+}  // namespace
+
+void checkReportFolder(const fs::path& folder, bool force) {
   std::error_code ignored;
   if (fs::is_regular_file(folder, ignored)) throw FileError(folder, "is a file; -o takes a folder");
   for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
     if (fs::is_regular_file(above, ignored)) {
       throw FileError(folder, "cannot create this folder: '" + above.string() + "' is a file");
     }
+  }
+  const bool isFull = fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored) && !ignored;
+  if (isFull && !force && !holdsReport(folder)) {
+    throw FileError(folder, "is not empty and holds no report; --force writes one into it all the same");
   }
 }
 

@@ -10,10 +10,11 @@
 
 namespace allpairs::app {
 
-/// Fails before the work that a report needs where the folder cannot be: a file is in its place.
+/// Fails before the work that a report needs where the folder cannot be: a file is in its place, or, unless it is forced,
+/// the folder holds something else than an earlier report.
 ///
 /// Bad input: throws FileError.
-void checkReportFolder(const std::filesystem::path& folder);
+void checkReportFolder(const std::filesystem::path& folder, bool force);
 
 /// The files of a report. Each appears when it is complete; without commit(), those that were not there before are taken
 /// away again, and so are the folders that were made for them.

@@ -111,7 +111,13 @@ void addView(CLI::App& program) {
   command->add_option("--port", settings->port, "Port to serve on; 0, the default: any free port")
       ->type_name("P")
       ->check(CLI::Range(0, 65535));
-  command->callback([settings] { runView(*settings); });
+  command->callback([settings] {
+    const std::string extension = lowerExtension(settings->output);
+    if (!extension.empty() && extension != ".html" && extension != ".htm") {
+      throw UsageError("-o: '" + settings->output + "': a page is written as .html");
+    }
+    runView(*settings);
+  });
 }
 
 }  // namespace allpairs::app

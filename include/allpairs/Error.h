@@ -71,4 +71,10 @@ class LimitExceeded : public Error {
   std::uint64_t m_count;
 };
 
+/// A search that its options' `stop` has ended before it was complete.
+class Stopped : public Error {
+ public:
+  Stopped() : Error("the search was stopped before its end") {}
+};
+
 }  // namespace allpairs

@@ -10,6 +10,7 @@
 #include "allpairs/Executor.h"
 #include "allpairs/Filter.h"
 #include "allpairs/MemoryResource.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs {
 
@@ -57,6 +58,9 @@ struct OverlapOptions {
 
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.
   std::string_view instructionSet{};
+
+  /// If given, a search throws Stopped soon after this is set. Not owned. Null costs nothing.
+  const StopFlag* stop = nullptr;
 };
 
 }  // namespace allpairs

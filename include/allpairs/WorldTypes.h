@@ -15,6 +15,7 @@
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "allpairs/PairPredicate.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs {
 
@@ -64,6 +65,10 @@ struct WorldOptions {
 
   /// The instruction set to use, one of instructionSets(); empty means the best that the processor has.
   std::string_view instructionSet{};
+
+  /// If given, a step or query throws Stopped soon after this is set. The boxes are as they were, and the next step
+  /// reports the changes since the last one that returned. Not owned.
+  const StopFlag* stop = nullptr;
 };
 
 /// The pairs of a step, each with first < second, each list in the order of the options; valid until the next step.

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, TypeVar, Union
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Literal, NamedTuple, TypeVar, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -12,12 +13,19 @@ import numpy.typing as npt
 from . import _core
 from ._errors import InvalidArgument, InvalidBox
 
-#: Boxes as one array of shape (n, 6), or as two of shape (n, 3).
+#: Boxes as one array of shape (n, 6), or as two of shape (n, 3); with 4 and 2 instead of 6 and 3 in the plane.
 BoxesLike = Union[npt.ArrayLike, tuple[npt.ArrayLike, npt.ArrayLike]]
+
+#: The orders of pairs, of the lists of a World, and how pairs are found.
+Order = Literal["first", "second", "unordered"]
+StepOrder = Literal["first", "second"]
+Strategy = Literal["auto", "exhaustive", "bvh"]
 
 Chosen = TypeVar("Chosen")
 
 _UINT32_MAX = 0xFFFFFFFF
+_UINT64_MAX = 0xFFFFFFFFFFFFFFFF
+_MOST_THREADS = 65535
 _EXACT_INTEGERS = 2**53  # up to here float64 holds every integer
 
 _ORDERS = {"first": _core.Order.first, "second": _core.Order.second, "unordered": _core.Order.unordered}
@@ -32,7 +40,7 @@ def choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
     try:
         return choices[value]
     except (KeyError, TypeError):
-        raise InvalidArgument(f"{name} is {value!r}; it can be {', '.join(map(repr, choices))}") from None
+        raise InvalidArgument(f"{name} is {_shown(value)}; it can be {', '.join(map(repr, choices))}") from None
 
 
 def order_of(order: str) -> _core.Order:
@@ -43,17 +51,65 @@ def strategy_of(strategy: str) -> _core.Strategy:
     return choice("strategy", strategy, _STRATEGIES)
 
 
-def whole(name: str, value: int, least: int = 0) -> int:
+def whole(name: str, value: int, least: int = 0, most: int = _UINT64_MAX) -> int:
     """An argument that counts something."""
-    number = operator.index(value)
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {_shown(value)}; it takes an integer") from None
     if number < least:
         raise InvalidArgument(f"{name} is {number}; it is at least {least}")
+    if number > most:
+        raise InvalidArgument(f"{name} is {_shown(number)}; it is at most {most}")
     return number
 
 
-def _floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+def threads_of(threads: int) -> int:
+    """A number of threads; 0 means as many as the machine has."""
+    return whole("threads", threads, most=_MOST_THREADS)
+
+
+def bits(name: str, value: int) -> int:
+    """A bit set."""
+    return whole(name, value, most=_UINT32_MAX)
+
+
+def number(name: str, value: float) -> float:
+    """A single number; what is wrong with its value is for the engine to say."""
+    if not isinstance(value, (str, bytes, bytearray)):
+        try:
+            return float(value)
+        except OverflowError:
+            raise InvalidArgument(f"{name} is {_shown(value)}, which float64 does not hold") from None
+        except (TypeError, ValueError):
+            pass
+    raise TypeError(f"{name} is {_shown(value)}; it takes a number")
+
+
+def _shown(value: object) -> str:
+    """A value as messages show it: on one line, and not all of it if it is long."""
+    text = " ".join(repr(value).split()) if not isinstance(value, int) or abs(value) < _UINT64_MAX**2 else "a large integer"
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def is_one(value: object) -> bool:
+    """Whether it is a single value, and no array."""
+    return bool(np.isscalar(value)) or (isinstance(value, np.ndarray) and value.ndim == 0)
+
+
+def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+    """The value as an array; NumPy would drop the mask of a masked one, and what it hides would count."""
+    if type(value) is np.ndarray:
+        return value
+    rows = value if isinstance(value, (list, tuple)) else (value,)
+    if any(np.any(row.mask) for row in rows if isinstance(row, np.ma.MaskedArray)):
+        raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
+    return np.asarray(value)
+
+
+def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly."""
-    array = np.asarray(value)
+    array = _array(name, value)
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
         return array.astype(native, copy=False)
@@ -76,30 +132,30 @@ def _plain(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return np.ascontiguousarray(array)
 
 
-def _corners(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
-    array = _floats(name, value)
+def _table(name: str, value: npt.ArrayLike, columns: Sequence[int], kind: str = "it", single: bool = False) -> npt.NDArray[Any]:
+    """Rows of so many numbers; nothing at all is no row, and a list of them is one where that makes sense."""
+    array = floats(name, value)
     if array.ndim == 1 and array.size == 0:
-        array = array.reshape(0, 3)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (n, 3)")
+        array = array.reshape(0, columns[0])
+    elif array.ndim == 1 and single:
+        array = array.reshape(1, -1)
+    if array.ndim != 2 or array.shape[1] not in columns:
+        takes = " or ".join(f"(n, {count})" for count in columns)
+        raise InvalidArgument(f"{name} has shape {np.shape(value)}; {kind} takes {takes}")
     return _plain(array)
 
 
-def _rows(name: str, value: npt.ArrayLike) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    array = _floats(name, value)
-    if array.ndim == 1 and array.size == 0:
-        array = array.reshape(0, 6)
-    if array.ndim != 2 or array.shape[1] != 6:
-        raise InvalidArgument(f"{name} has shape {array.shape}; alone it takes (n, 6)")
-    array = _plain(array)
-    return array[:, :3], array[:, 3:]
-
-
 def corner_pair(
-    low_name: str, lower: npt.ArrayLike, high_name: str, upper: npt.ArrayLike
+    low_name: str,
+    lower: npt.ArrayLike,
+    high_name: str,
+    upper: npt.ArrayLike,
+    columns: Sequence[int] = (3,),
+    single: bool = False,
 ) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    """Two arrays of shape (n, 3) and of one type."""
-    low, high = _corners(low_name, lower), _corners(high_name, upper)
+    """Two arrays of shape (n, 3), or of what else is allowed, and of one type."""
+    low = _table(low_name, lower, columns, single=single)
+    high = _table(high_name, upper, columns if low.size == 0 else (low.shape[1],), single=single)
     if len(low) != len(high):
         raise InvalidArgument(f"{low_name} has {len(low)} rows and {high_name} {len(high)}")
     if low.dtype != high.dtype:
@@ -107,17 +163,20 @@ def corner_pair(
     return low, high
 
 
-def boxes_of(
-    lower: npt.ArrayLike, upper: npt.ArrayLike | None, margin: npt.ArrayLike | None, prefix: str = ""
-) -> _core.Boxes:
-    """A set of boxes; ``prefix`` is how errors call it where there are two."""
-    if upper is None:
-        corners = _rows(prefix + "lower", lower)
-    else:
-        corners = corner_pair(prefix + "lower", lower, prefix + "upper", upper)
-    boxes = _core.Boxes(corners[0], corners[1], prefix)
+def _corners(
+    lower: npt.ArrayLike, upper: npt.ArrayLike | None, prefix: str, axes: Sequence[int], single: bool
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    """The corners of boxes with one of these numbers of axes."""
+    if upper is not None:
+        return corner_pair(prefix + "lower", lower, prefix + "upper", upper, axes, single)
+    rows = _table(prefix + "lower", lower, [2 * count for count in axes], "alone it", single)
+    half = rows.shape[1] // 2
+    return rows[:, :half], rows[:, half:]
+
+
+def _with_margins(boxes: _core.Boxes, margin: npt.ArrayLike | None, prefix: str) -> _core.Boxes:
     if margin is not None:
-        margins = np.asarray(margin, dtype=np.float64)
+        margins = floats(prefix + "margin", margin).astype(np.float64, copy=False)
         if margins.ndim == 0:
             boxes.set_margin(float(margins))
         else:
@@ -125,13 +184,53 @@ def boxes_of(
     return boxes
 
 
-def boxes_between(value: BoxesLike, margin: npt.ArrayLike | None, prefix: str) -> _core.Boxes:
+def boxes_of(lower: npt.ArrayLike, upper: npt.ArrayLike | None, prefix: str = "") -> _core.Boxes:
+    """Boxes of a world, or for one; a single one too. ``prefix`` is how errors call them where there are two sets."""
+    corners = _corners(lower, upper, prefix, (3,), single=True)
+    return _core.Boxes(corners[0], corners[1], prefix)
+
+
+class BoxSet(NamedTuple):
+    """A set of boxes to search."""
+
+    boxes: _core.Boxes
+    axes: int
+    """2 or 3: boxes in the plane have a third one on which all overlap."""
+
+
+def box_set(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None,
+    margin: npt.ArrayLike | None,
+    depth_of_plane: Callable[[], float],
+    prefix: str = "",
+) -> BoxSet:
+    """A set of boxes; those in the plane become so deep, up and down."""
+    low, high = _corners(lower, upper, prefix, (3, 2), single=False)
+    axes = low.shape[1]
+    if axes == 2:
+        flat = np.full((len(low), 1), depth_of_plane(), low.dtype)
+        low, high = np.hstack([low, -flat]), np.hstack([high, flat])
+    return BoxSet(_with_margins(_core.Boxes(low, high, prefix), margin, prefix), axes)
+
+
+def depth_of(distance: float, margins: Iterable[npt.ArrayLike | None]) -> float:
+    """How deep boxes in the plane have to be for all of them to overlap in depth: a negative distance or margin asks for
+    an overlap, of which this is more than enough."""
+    depth = max(0.0, -number("distance", distance))
+    for margin in margins:
+        if margin is not None:
+            depth += 2 * max(0.0, -float(floats("margin", margin).min(initial=0)))
+    return 2 * depth
+
+
+def two_corners(value: BoxesLike, name: str) -> tuple[npt.ArrayLike, npt.ArrayLike | None]:
     """One of two sets: an array of shape (n, 6), or a tuple (lower, upper)."""
     if isinstance(value, tuple):
         if len(value) != 2:
-            raise InvalidArgument(f"{prefix}boxes are a tuple of {len(value)}; it takes (lower, upper)")
-        return boxes_of(value[0], value[1], margin, prefix)
-    return boxes_of(value, None, margin, prefix)
+            raise InvalidArgument(f"{name}boxes are a tuple of {len(value)}; it takes (lower, upper)")
+        return value[0], value[1]
+    return value, None
 
 
 def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[Any]:
@@ -143,7 +242,7 @@ def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[A
 
 def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """Integers as uint32, the same memory where they are."""
-    array = np.asarray(value)
+    array = _array(name, value)
     if array.size == 0:
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iub":
@@ -157,8 +256,11 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 
 def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:
-    """A filter's array: one number for each box."""
-    return of_length(name, _uint32(name, value), length)
+    """A filter's array: one number for each box, from an array or from a number for all."""
+    if not is_one(value):
+        return of_length(name, _uint32(name, value), length)
+    single = value.item() if isinstance(value, (np.generic, np.ndarray)) else value
+    return np.full(length, bits(name, cast(int, single)), np.uint32)
 
 
 def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
@@ -171,7 +273,7 @@ def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Points or directions as rows of three."""
-    array: npt.NDArray[np.float64] = np.atleast_2d(_floats(name, value)).astype(np.float64, copy=False)
+    array: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
     if array.ndim != 2 or array.shape[1] != 3:
         raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3)")
     return array
@@ -187,19 +289,21 @@ def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.
     return array
 
 
-def region_of(region: npt.ArrayLike) -> list[float]:
-    """A box as six numbers, from six or from two corners."""
-    bounds = np.asarray(region, dtype=np.float64)
-    if bounds.shape not in ((6,), (2, 3)):
-        raise InvalidArgument(f"region has shape {bounds.shape}; it takes (2, 3) or (6,)")
-    return [float(bound) for bound in bounds.ravel()]
+def region_of(region: npt.ArrayLike, axes: int = 3) -> list[float]:
+    """A box as six numbers, from two corners or from one row."""
+    bounds = floats("region", region)
+    if bounds.shape not in ((2 * axes,), (2, axes)):
+        takes = f"for boxes of {axes} axes it takes (2, {axes}) or ({2 * axes},)"
+        raise InvalidArgument(f"region has shape {bounds.shape}; {takes}")
+    corners = bounds.reshape(2, axes)
+    return [float(bound) for bound in np.hstack([corners, np.zeros((2, 3 - axes))]).ravel()]
 
 
 def both(name: str, value: Any) -> tuple[Any, Any]:
-    """An argument for each of two sets: a tuple of two, or None for neither."""
-    if value is None:
-        return None, None
+    """An argument for each of two sets: a tuple of two, a number for all boxes, or None for neither."""
+    if value is None or is_one(value):
+        return value, value
     if not isinstance(value, tuple) or len(value) != 2:
-        raise InvalidArgument(f"{name} takes a tuple of two here: one for each set, or None")
+        raise InvalidArgument(f"{name} takes a number or a tuple of two here: one for each set, or None")
     first, second = value
     return first, second

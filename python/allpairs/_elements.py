@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Union, cast
+from typing import Any, Literal, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,9 @@ import numpy.typing as npt
 from . import _arguments, _core
 from ._errors import InvalidArgument
 from ._search import Pairs
+
+#: Which elements are candidates.
+Kind = Literal["vertex-face", "edge-edge", "face-face"]
 
 _KINDS = {
     "vertex-face": _core.CandidateKind.vertex_face,
@@ -70,20 +73,21 @@ class MeshCandidates:
         distance: float = 0.0,
         within: bool = True,
         between: bool = True,
-        order: str = "first",
+        order: _arguments.Order = "first",
         threads: int = 1,
     ) -> None:
         settings = _core.CandidateSettings()
-        settings.distance, settings.within, settings.between = distance, within, between
+        settings.distance = _arguments.number("distance", distance)
+        settings.within, settings.between = bool(within), bool(between)
         settings.order = _arguments.order_of(order)
-        settings.threads = _arguments.whole("threads", threads)
+        settings.threads = _arguments.threads_of(threads)
         single = isinstance(vertex_count, (int, np.integer))
         meshes: list[Any] = [triangles] if single else list(cast(Any, triangles))
         counts: list[Any] = [vertex_count] if single else list(cast(Any, vertex_count))
         if len(meshes) != len(counts):
             raise InvalidArgument(f"triangles of {len(meshes)} meshes and vertex_count of {len(counts)}")
         arrays = [_arguments.index_rows(f"triangles of mesh {i}", mesh, 3) for i, mesh in enumerate(meshes)]
-        numbers = [_arguments.whole("vertex_count", count) for count in counts]
+        numbers = [_arguments.whole("vertex_count", count, most=_core.NO_BOX) for count in counts]
         self._core = _core.MeshCandidates(arrays, numbers, settings)
         self.edges: npt.NDArray[np.uint32] = np.asarray(self._core.edges())
         self.triangles: npt.NDArray[np.uint32] = np.asarray(self._core.triangles())
@@ -101,7 +105,7 @@ class MeshCandidates:
         number = _arguments.whole("mesh", mesh)
         self._core.set_positions(number, np.ascontiguousarray(begin), np.ascontiguousarray(finish))
 
-    def find(self, kind: str) -> Pairs:
+    def find(self, kind: Kind) -> Pairs:
         """All candidates of a kind, each once.
 
         Parameters
@@ -115,6 +119,6 @@ class MeshCandidates:
         """
         return np.asarray(self._core.find(_arguments.choice("kind", kind, _KINDS)))
 
-    def count(self, kind: str) -> int:
+    def count(self, kind: Kind) -> int:
         """The number of candidates of `find`; uses memory independent of that number."""
         return self._core.count(_arguments.choice("kind", kind, _KINDS))

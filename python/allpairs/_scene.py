@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple, Union
+from typing import Literal, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,9 @@ from . import _arguments, _core
 from ._search import Pairs
 
 Path = Union[str, "os.PathLike[str]"]
+
+#: A version of SOFA whose scenes are read.
+Sofa = Literal["", "20.06", "26.12"]
 
 
 class Model(NamedTuple):
@@ -92,7 +95,7 @@ class Scene:
         *,
         distance: float | None = None,
         region: npt.ArrayLike | None = None,
-        strategy: str = "auto",
+        strategy: _arguments.Strategy = "auto",
         threads: int = 1,
         verify: bool = False,
     ) -> Pairs:
@@ -115,10 +118,10 @@ class Scene:
             In the orientation and the order of the double loop: newer model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
         """
         options = _core.DetectionOptions()
-        options.distance = distance
+        options.distance = None if distance is None else _arguments.number("distance", distance)
         options.strategy = _arguments.strategy_of(strategy)
-        options.threads = _arguments.whole("threads", threads)
-        options.verify = verify
+        options.threads = _arguments.threads_of(threads)
+        options.verify = bool(verify)
         if region is not None:
             options.set_region(_arguments.region_of(region))
         return np.asarray(self._core.detect(options))
@@ -142,7 +145,7 @@ def load(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
-    sofa: str = "",
+    sofa: Sofa = "",
     allow_outside: bool = False,
     max_memory: int = 0,
 ) -> Scene:
@@ -168,10 +171,10 @@ def load(
     FileError
         With the file, line and column; it is a ValueError and an OSError.
     """
-    roots = [os.fspath(root) for root in search_roots]
-    if sofa not in ("", "20.06", "26.12"):
-        raise ValueError(f'sofa is "20.06" or "26.12", not {sofa!r}')
-    return Scene(_core.load(os.fspath(path), roots, partial, sofa, allow_outside, max_memory))
+    roots = [os.fsdecode(root) for root in search_roots]
+    version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
+    memory = _arguments.whole("max_memory", max_memory)
+    return Scene(_core.load(os.fsdecode(path), roots, bool(partial), version, bool(allow_outside), memory))
 
 
 def detect(
@@ -179,12 +182,12 @@ def detect(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
-    sofa: str = "",
+    sofa: Sofa = "",
     allow_outside: bool = False,
     max_memory: int = 0,
     distance: float | None = None,
     region: npt.ArrayLike | None = None,
-    strategy: str = "auto",
+    strategy: _arguments.Strategy = "auto",
     threads: int = 1,
     verify: bool = False,
 ) -> Detection:

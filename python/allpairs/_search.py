@@ -3,20 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, Optional
+from collections.abc import Iterable, Iterator
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core
-from ._arguments import BoxesLike
+from ._arguments import BoxesLike, Order, Strategy
+from ._errors import InvalidArgument
 
 #: Pairs by index: shape (m, 2).
 Pairs = npt.NDArray[np.uint32]
 
-#: A setting for each of two sets.
-Both = Optional[tuple[Optional[npt.ArrayLike], Optional[npt.ArrayLike]]]
+#: A setting for each of two sets, or one number for all boxes of both.
+Both = Union[None, float, tuple[Optional[npt.ArrayLike], Optional[npt.ArrayLike]]]
 
 
 def _filter(options: _core.Options, side: _core.Side, boxes: _core.Boxes, values: dict[str, Any], prefix: str) -> None:
@@ -29,14 +30,14 @@ def _filter(options: _core.Options, side: _core.Side, boxes: _core.Boxes, values
             setter(side, _arguments.labels(prefix + name, values[name], len(boxes)))
 
 
-def _settings(values: dict[str, Any], one_set: bool) -> _core.Options:
+def _settings(values: dict[str, Any], axes: int, one_set: bool) -> _core.Options:
     """What is not about single boxes; a function that lacks a setting has no such name among its values."""
     options = _core.Options()
-    options.set_distance(values["distance"])
+    options.set_distance(_arguments.number("distance", values["distance"]))
     options.set_strategy(_arguments.strategy_of(values["strategy"]))
-    options.threads = _arguments.whole("threads", values["threads"])
+    options.threads = _arguments.threads_of(values["threads"])
     if values["region"] is not None:
-        options.set_region(_arguments.region_of(values["region"]))
+        options.set_region(_arguments.region_of(values["region"], axes))
     if values["ignore"] is not None:
         options.set_ignored(_arguments.index_rows("ignore", values["ignore"], 2), one_set)
     if "order" in values:
@@ -47,23 +48,34 @@ def _settings(values: dict[str, Any], one_set: bool) -> _core.Options:
 
 
 def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
-    boxes = _arguments.boxes_of(values["lower"], values["upper"], values["margin"])
-    options = _settings(values, one_set=True)
+    margin = values["margin"]
+    depth = lambda: _arguments.depth_of(values["distance"], [margin])
+    boxes, axes = _arguments.box_set(values["lower"], values["upper"], margin, depth)
+    options = _settings(values, axes, one_set=True)
     _filter(options, _core.Side.FIRST, boxes, values, "")
     return boxes, options
 
 
+def _axes_of(first: _arguments.BoxSet, second: _arguments.BoxSet) -> int:
+    """The number of axes of two sets, of which one that is empty has any."""
+    if first.axes != second.axes and len(first.boxes) and len(second.boxes):
+        raise InvalidArgument(f"the boxes of the first set have {first.axes} axes and those of the second {second.axes}")
+    return first.axes if len(first.boxes) else second.axes
+
+
 def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
-    options = _settings(values, one_set=False)
     margins = _arguments.both("margin", values["margin"])
     labels = {name: _arguments.both(name, values[name]) for name in ("group", "category", "mask")}
+    depth = lambda: _arguments.depth_of(values["distance"], margins)
     sets = []
-    for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
+    for margin, name in zip(margins, ("first", "second")):
         prefix = f"{name} set: "
-        boxes = _arguments.boxes_between(values[name], margins[i], prefix)
-        _filter(options, side, boxes, {key: pair[i] for key, pair in labels.items()}, prefix)
-        sets.append(boxes)
-    return sets[0], sets[1], options
+        lower, upper = _arguments.two_corners(values[name], prefix)
+        sets.append(_arguments.box_set(lower, upper, margin, depth, prefix))
+    options = _settings(values, _axes_of(sets[0], sets[1]), one_set=False)
+    for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
+        _filter(options, side, sets[i].boxes, {key: pair[i] for key, pair in labels.items()}, f"{name} set: ")
+    return sets[0].boxes, sets[1].boxes, options
 
 
 def overlaps(
@@ -77,8 +89,8 @@ def overlaps(
     category: npt.ArrayLike | None = None,
     mask: npt.ArrayLike | None = None,
     ignore: npt.ArrayLike | None = None,
-    order: str = "first",
-    strategy: str = "auto",
+    order: Order = "first",
+    strategy: Strategy = "auto",
     threads: int = 1,
     max_pairs: int | None = None,
 ) -> Pairs:
@@ -93,16 +105,16 @@ def overlaps(
     lower, upper : array_like, shape (n, 3), float32 or float64
         The corners of n boxes. Or ``lower`` alone, of shape (n, 6): a row is minx miny minz maxx maxy maxz. Any
         strides are allowed. Arrays are copied only if one is float32 and the other float64, or for other types.
-        Integers are converted to float64.
+        Integers are converted to float64. Boxes in the plane have shape (n, 2), or alone (n, 4).
     distance : float
         Boxes that are at most this far apart on every axis are a pair. A negative distance requires that much overlap.
     margin : float or array_like, shape (n,)
         How far each box extends beyond its bounds: a pair's margins are added to the distance.
-    region : array_like, shape (2, 3) or (6,)
+    region : array_like, shape (2, 3) or (6,); (2, 2) or (4,) in the plane
         Boxes farther from this box than distance plus margin are excluded.
-    group : array_like, shape (n,), integers 0 to 2**32 - 1
+    group : int or array_like, shape (n,), integers 0 to 2**32 - 1
         Boxes of the same group are never paired, unless it is 0.
-    category, mask : array_like, shape (n,), integers 0 to 2**32 - 1
+    category, mask : int or array_like, shape (n,), integers 0 to 2**32 - 1
         Bits: a pair is kept if each box's mask shares a bit with the other's category. By default all bits are set.
     ignore : array_like, shape (k, 2), integers
         Pairs to exclude, in either orientation.
@@ -164,8 +176,8 @@ def overlaps_between(
     category: Both = None,
     mask: Both = None,
     ignore: npt.ArrayLike | None = None,
-    order: str = "first",
-    strategy: str = "auto",
+    order: Order = "first",
+    strategy: Strategy = "auto",
     threads: int = 1,
     max_pairs: int | None = None,
 ) -> Pairs:
@@ -174,9 +186,9 @@ def overlaps_between(
     Parameters
     ----------
     first, second : array_like, shape (n, 6), or tuple of two array_like of shape (n, 3)
-        Each set as one array, or as ``(lower, upper)``; float32 or float64, also one of each.
-    margin, group, category, mask : tuple of two, optional
-        As in `overlaps`, for the first set and for the second; None means the default.
+        Each set as one array, or as ``(lower, upper)``; float32 or float64, also one of each. In the plane 4 and 2 columns.
+    margin, group, category, mask : number or tuple of two, optional
+        As in `overlaps`, for the first set and for the second; None means the default. A number is for all boxes of both.
     ignore : array_like, shape (k, 2), integers
         Pairs (first, second) to exclude.
 
@@ -213,7 +225,7 @@ def count(
     category: npt.ArrayLike | None = None,
     mask: npt.ArrayLike | None = None,
     ignore: npt.ArrayLike | None = None,
-    strategy: str = "auto",
+    strategy: Strategy = "auto",
     threads: int = 1,
 ) -> int:
     """The number of pairs of `overlaps`; uses memory independent of that number.
@@ -243,7 +255,7 @@ def count_between(
     category: Both = None,
     mask: Both = None,
     ignore: npt.ArrayLike | None = None,
-    strategy: str = "auto",
+    strategy: Strategy = "auto",
     threads: int = 1,
 ) -> int:
     """The number of pairs of `overlaps_between`; uses memory independent of that number.
@@ -279,8 +291,8 @@ def batches(
     category: npt.ArrayLike | None = None,
     mask: npt.ArrayLike | None = None,
     ignore: npt.ArrayLike | None = None,
-    order: str = "first",
-    strategy: str = "auto",
+    order: Order = "first",
+    strategy: Strategy = "auto",
     threads: int = 1,
     batch_size: int = 65536,
 ) -> Iterator[Pairs]:
@@ -324,8 +336,8 @@ def batches_between(
     category: Both = None,
     mask: Both = None,
     ignore: npt.ArrayLike | None = None,
-    order: str = "first",
-    strategy: str = "auto",
+    order: Order = "first",
+    strategy: Strategy = "auto",
     threads: int = 1,
     batch_size: int = 65536,
 ) -> Iterator[Pairs]:

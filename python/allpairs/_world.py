@@ -41,22 +41,23 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
         ("static", properties.set_static),
     ):
         if values[name] is not None:
-            setter(_arguments.labels(name, _spread(values[name], size), size))
+            setter(_arguments.labels(name, values[name], size))
     if values["margin"] is not None:
-        margins = np.ascontiguousarray(_spread(values["margin"], size), dtype=np.float64)
-        properties.set_margin(_arguments.of_length("margin", margins, size))
+        margins = _arguments.floats("margin", _spread(values["margin"], size))
+        properties.set_margin(np.ascontiguousarray(_arguments.of_length("margin", margins, size), dtype=np.float64))
     return properties
 
 
 def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
     """One value for all boxes, or the array as it is."""
-    return np.broadcast_to(value, (size,)) if np.ndim(value) == 0 else value
+    return np.broadcast_to(value, (size,), subok=True) if _arguments.is_one(value) else value
 
 
 def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
     query = _core.QueryFilter()
-    query.category, query.mask = values["category"], values["mask"]
-    query.static, query.moving = values["static"], values["moving"]
+    query.category = _arguments.bits("category", values["category"])
+    query.mask = _arguments.bits("mask", values["mask"])
+    query.static, query.moving = bool(values["static"]), bool(values["moving"])
     return query
 
 
@@ -64,6 +65,9 @@ class World:
     """Boxes that are added, moved and removed by id, their overlapping pairs step by step, and queries.
 
     Each step costs what has changed since the last one. Boxes are closed.
+
+    A world can be copied and pickled. The copy has the settings and all boxes, with their ids, bounds and properties. It
+    has no last step: its next one lists all pairs among those that began. New boxes may get other ids.
 
     Parameters
     ----------
@@ -91,8 +95,36 @@ class World:
     array([[1, 2]], dtype=uint32)
     """
 
-    def __init__(self, *, distance: float = 0.0, order: str = "first", threads: int = 1) -> None:
-        self._core = _core.World(distance, _arguments.order_of(order), _arguments.whole("threads", threads))
+    def __init__(self, *, distance: float = 0.0, order: _arguments.StepOrder = "first", threads: int = 1) -> None:
+        self._settings = (_arguments.number("distance", distance), order, _arguments.threads_of(threads))
+        self._core = self._empty()
+
+    def _empty(self) -> _core.World:
+        distance, order, threads = self._settings
+        return _core.World(distance, _arguments.order_of(order), threads)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The settings, and ids, bounds and properties of all boxes."""
+        ids = np.asarray(self._core.ids())
+        properties, margin = map(np.asarray, self._core.properties(ids))
+        names = ("category", "mask", "group", "static")
+        columns = {name: properties[:, i].copy() for i, name in enumerate(names)}
+        return {"settings": self._settings, "ids": ids, "boxes": self.boxes(ids), "margin": margin, **columns}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._settings = state["settings"]
+        self._core = self._empty()
+        ids = state["ids"]
+        if len(ids) == 0:
+            return
+        # The ids of a new world are consecutive; those of empty boxes that go before the first step are free after it.
+        bound = int(ids[-1]) + 1
+        self.add(np.tile([1.0, 0, 0, 0, 0, 0], (bound, 1)))
+        self.remove(np.setdiff1d(np.arange(bound, dtype=np.uint32), ids, assume_unique=True))
+        self.step()
+        self.move(ids, state["boxes"])
+        names = ("category", "mask", "group", "static", "margin")
+        self.set_properties(ids, **{name: state[name] for name in names})
 
     def add(
         self,
@@ -110,7 +142,7 @@ class World:
         Parameters
         ----------
         lower, upper : array_like, shape (n, 3), or one of shape (n, 6)
-            As in `allpairs.overlaps`. They are copied.
+            As in `allpairs.overlaps`, of three axes; one box may have shape (3,) or (6,). They are copied.
         category, mask : int or array_like, shape (n,)
             Bits: a pair is kept if each box's mask shares a bit with the other's category. All bits are set by default.
         group : int or array_like, shape (n,)
@@ -125,7 +157,7 @@ class World:
         ndarray, shape (n,), uint32
             The ids of the boxes. Ids of removed boxes are reused.
         """
-        boxes = _arguments.boxes_of(lower, upper, None)
+        boxes = _arguments.boxes_of(lower, upper)
         return np.asarray(self._core.add(boxes, _properties(len(boxes), locals())))
 
     def move(self, ids: npt.ArrayLike, lower: npt.ArrayLike, upper: npt.ArrayLike | None = None) -> None:
@@ -134,9 +166,9 @@ class World:
         Parameters
         ----------
         ids : array_like, shape (k,), integers
-        lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
+        lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
         """
-        self._core.move(_arguments.ids(ids), _arguments.boxes_of(lower, upper, None))
+        self._core.move(_arguments.ids(ids), _arguments.boxes_of(lower, upper))
 
     def move_swept(
         self, ids: npt.ArrayLike, starts: _arguments.BoxesLike, ends: _arguments.BoxesLike
@@ -148,8 +180,9 @@ class World:
         ids : array_like, shape (k,), integers
         starts, ends : array_like, shape (k, 6), or tuple of two array_like of shape (k, 3)
         """
-        begin = _arguments.boxes_between(starts, None, "starts: ")
-        self._core.move_swept(_arguments.ids(ids), begin, _arguments.boxes_between(ends, None, "ends: "))
+        begin = _arguments.boxes_of(*_arguments.two_corners(starts, "starts: "), "starts: ")
+        end = _arguments.boxes_of(*_arguments.two_corners(ends, "ends: "), "ends: ")
+        self._core.move_swept(_arguments.ids(ids), begin, end)
 
     def remove(self, ids: npt.ArrayLike) -> None:
         """Removes boxes; the next step lists their pairs among those that ended.
@@ -177,8 +210,9 @@ class World:
     def __len__(self) -> int:
         return self._core.size()
 
-    def __contains__(self, id: int) -> bool:
-        return self._core.contains(id)
+    def __contains__(self, id: object) -> bool:
+        number = int(id) if isinstance(id, (int, np.integer)) else -1
+        return 0 <= number < NO_BOX and self._core.contains(number)
 
     def boxes(self, ids: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The bounds of boxes.
@@ -211,7 +245,7 @@ class World:
 
         Parameters
         ----------
-        lower, upper : array_like, shape (k, 3), or one of shape (k, 6)
+        lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
         category, mask : int
             Only boxes whose category shares a bit with ``mask`` and whose mask with ``category``.
         static, moving : bool
@@ -223,7 +257,7 @@ class World:
             In each row the index of a query and the id of a box, in ascending order.
         """
         query = _query_filter(locals())
-        return np.asarray(self._core.overlapping(_arguments.boxes_of(lower, upper, None), query))
+        return np.asarray(self._core.overlapping(_arguments.boxes_of(lower, upper), query))
 
     def first_hits(
         self,
@@ -256,7 +290,7 @@ class World:
         query = _query_filter(locals())
         start, way = _arguments.points("origins", origins), _arguments.points("directions", directions)
         start, way = np.broadcast_arrays(start, way)
-        end = np.broadcast_to(np.asarray(length, dtype=np.float64), (len(start),))
+        end = np.broadcast_to(_arguments.floats("length", length).astype(np.float64), (len(start),))
         ids, t = self._core.first_hits(np.column_stack([start, way, end]), query)
         return np.asarray(ids), np.asarray(t)
 
@@ -286,6 +320,6 @@ class World:
         distances : ndarray, shape (n, k), float64
         """
         query = _query_filter(locals())
-        count = _arguments.whole("k", k, least=1)
+        count = _arguments.whole("k", k, least=1, most=NO_BOX)
         ids, distances = self._core.nearest(np.ascontiguousarray(_arguments.points("points", points)), count, query)
         return np.asarray(ids), np.asarray(distances)

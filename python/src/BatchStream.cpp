@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "allpairs/Error.h"
+
 namespace allpairs::python {
 
 BatchStream::BatchStream(Search search) : m_thread([this, search = std::move(search)] { run(search); }) {}
@@ -11,7 +13,7 @@ BatchStream::~BatchStream() { close(); }
 void BatchStream::run(const Search& search) noexcept {
   std::exception_ptr error;
   try {
-    search([this](std::span<const Pair> batch) { put(batch); });
+    search([this](std::span<const Pair> batch) { put(batch); }, m_stop);
   } catch (const Stopped&) {
     error = nullptr;  // the rest is not needed
   } catch (...) {
@@ -26,10 +28,15 @@ void BatchStream::run(const Search& search) noexcept {
 void BatchStream::put(std::span<const Pair> batch) {
   std::vector<Pair> pairs(batch.begin(), batch.end());
   std::unique_lock lock(m_mutex);
-  m_changed.wait(lock, [this] { return m_stop || !m_batch; });
-  if (m_stop) throw Stopped();
+  m_changed.wait(lock, [this] { return m_stop.isSet() || !m_batch; });
+  if (m_stop.isSet()) throw Stopped();
   m_batch = std::move(pairs);
   m_changed.notify_all();
+}
+
+bool BatchStream::isSoonReady(std::chrono::milliseconds time) {
+  std::unique_lock lock(m_mutex);
+  return m_changed.wait_for(lock, time, [this] { return m_batch || m_done; });
 }
 
 std::optional<std::vector<Pair>> BatchStream::next() {
@@ -44,7 +51,7 @@ std::optional<std::vector<Pair>> BatchStream::next() {
 void BatchStream::close() noexcept {
   {
     const std::lock_guard lock(m_mutex);
-    m_stop = true;
+    m_stop.set();
     m_batch.reset();
     m_changed.notify_all();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -19,7 +20,8 @@ namespace allpairs::python {
 /// Threads: next() and close() from one thread at a time.
 class BatchStream {
  public:
-  using Search = std::function<void(PairVisitor)>;
+  /// Called with what receives batches, and the flag that stops the search.
+  using Search = std::function<void(PairVisitor, const StopFlag& stop)>;
 
   explicit BatchStream(Search search);
   BatchStream(const BatchStream&) = delete;
@@ -28,6 +30,9 @@ class BatchStream {
   BatchStream& operator=(BatchStream&&) = delete;
   ~BatchStream();
 
+  /// Whether next() has something to give, within that time.
+  [[nodiscard]] bool isSoonReady(std::chrono::milliseconds time);
+
   /// The next batch; nothing after the last. What the search throws is thrown here, once.
   [[nodiscard]] std::optional<std::vector<Pair>> next();
 
@@ -35,8 +40,6 @@ class BatchStream {
   void close() noexcept;
 
  private:
-  struct Stopped {};
-
   void run(const Search& search) noexcept;
   void put(std::span<const Pair> batch);
 
@@ -45,7 +48,7 @@ class BatchStream {
   std::optional<std::vector<Pair>> m_batch;
   std::exception_ptr m_error;
   bool m_done = false;
-  bool m_stop = false;
+  StopFlag m_stop;
   std::thread m_thread;
 };
 

@@ -24,11 +24,13 @@ class Batches {
   Batches& operator=(Batches&&) = delete;
   ~Batches();
 
-  /// Null after the last batch.
+  /// Null after the last batch. Signals are handled while it waits.
   [[nodiscard]] std::unique_ptr<PairArray> next();
   void close();
 
  private:
+  [[nodiscard]] bool isSoonReady();
+
   std::shared_ptr<Boxes> m_first;
   std::shared_ptr<Boxes> m_second;
   std::shared_ptr<Options> m_options;

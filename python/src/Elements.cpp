@@ -9,6 +9,7 @@
 
 #include "Arguments.h"
 #include "Bindings.h"
+#include "Interrupts.h"
 #include "NumberArray.h"
 #include "PairArray.h"
 #include "allpairs/Error.h"
@@ -51,7 +52,8 @@ class MeshCandidates {
                                                            .withinMeshes = settings.within,
                                                            .betweenMeshes = settings.between,
                                                            .order = settings.order,
-                                                           .executor = m_executor.get()}) {}
+                                                           .executor = m_executor.get(),
+                                                           .stop = &m_stop}) {}
 
   /// Contiguous buffers of shape (n, 3), both float32 or both float64.
   void setPositions(std::size_t mesh, const py::buffer& start, const py::buffer& end) {
@@ -67,17 +69,27 @@ class MeshCandidates {
     }
   }
 
+ private:
+  /// Runs a search without the GIL, alone, until it ends or a signal interrupts it.
+  template <class Work>
+  auto search(const Work& work) {
+    return interruptibly(m_candidates.topology().edges().size(), [&](Stopper& stopper) {
+      const std::lock_guard lock(m_mutex);
+      const Stopper::Hold hold(stopper, m_stop);
+      return work(m_candidates);
+    });
+  }
+
+ public:
   [[nodiscard]] std::unique_ptr<PairArray> find(CandidateKind kind) {
-    const py::gil_scoped_release release;
-    const std::lock_guard lock(m_mutex);
-    const std::span<const Pair> pairs = m_candidates.find(kind);
-    return toPython({pairs.begin(), pairs.end()});
+    return search([kind](elements::ElementCandidates& candidates) {
+      const std::span<const Pair> pairs = candidates.find(kind);
+      return toPython({pairs.begin(), pairs.end()});
+    });
   }
 
   [[nodiscard]] std::uint64_t count(CandidateKind kind) {
-    const py::gil_scoped_release release;
-    const std::lock_guard lock(m_mutex);
-    return m_candidates.count(kind);
+    return search([kind](elements::ElementCandidates& candidates) { return candidates.count(kind); });
   }
 
   [[nodiscard]] Indices edges() const {
@@ -103,6 +115,7 @@ class MeshCandidates {
   }
 
   std::mutex m_mutex;
+  StopFlag m_stop;
   std::unique_ptr<Executor> m_executor;
   elements::ElementCandidates m_candidates;
 };

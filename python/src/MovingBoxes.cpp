@@ -17,8 +17,9 @@ std::unique_ptr<Executor> executorOf(std::size_t threads) {
   return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
 }
 
-WorldOptions optionsOf(double distance, Order order, Executor* executor) {
+WorldOptions optionsOf(double distance, Order order, Executor* executor, const StopFlag& stop) {
   WorldOptions options;
+  options.stop = &stop;
   options.order = order;
   options.distance = distance;
   options.executor = executor;
@@ -87,12 +88,15 @@ void Properties::setStatic(const py::buffer& values) {
 }
 
 MovingBoxes::MovingBoxes(double distance, Order order, std::size_t threads)
-    : m_executor(executorOf(threads)), m_world(optionsOf(distance, order, m_executor.get())) {}
+    : m_executor(executorOf(threads)), m_world(optionsOf(distance, order, m_executor.get(), m_stop)) {}
 
 MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properties) {
   // All memory first: boxes whose ids nobody knows could never be removed.
   auto ids = std::make_unique<NumberArray<std::uint32_t>>(std::vector<BoxId>(boxes.set().size()));
-  alone([&](World& world) { world.add(boxes.set(), properties.values(), ids->values()); });
+  alone([&](World& world) {
+    world.add(boxes.set(), properties.values(), ids->values());
+    m_size = world.size();
+  });
   return ids;
 }
 
@@ -108,7 +112,10 @@ void MovingBoxes::moveSwept(const py::buffer& ids, const Boxes& starts, const Bo
 
 void MovingBoxes::remove(const py::buffer& ids) {
   const IdView view(ids);
-  alone([&](World& world) { world.remove(view.ids()); });
+  alone([&](World& world) {
+    world.remove(view.ids());
+    m_size = world.size();
+  });
 }
 
 void MovingBoxes::setProperties(const py::buffer& ids, const Properties& properties) {
@@ -138,9 +145,35 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
 }
 
+MovingBoxes::Ids MovingBoxes::ids() {
+  std::vector<BoxId> ids;
+  alone([&](World& world) {
+    ids.reserve(world.size());
+    for (BoxId id = 0; id < world.idBound(); ++id) {
+      if (world.contains(id)) ids.push_back(id);
+    }
+  });
+  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
+}
+
+py::tuple MovingBoxes::properties(const py::buffer& ids) {
+  const IdView view(ids);
+  std::vector<std::uint32_t> bits;
+  std::vector<double> margins;
+  alone([&](World& world) {
+    for (const BoxId id : view.ids()) {
+      const BoxProperties properties = world.properties(id);
+      bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U});
+      margins.push_back(properties.margin);
+    }
+  });
+  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 4),
+                        std::make_unique<NumberArray<double>>(std::move(margins)));
+}
+
 py::tuple MovingBoxes::step() {
   std::array<std::unique_ptr<PairArray>, 4> lists;
-  alone([&](World& world) {
+  search(0, [&](World& world) {
     const StepResult result = world.step();
     lists = {copyOf(result.pairs), copyOf(result.began), copyOf(result.persisted), copyOf(result.ended)};
   });
@@ -148,7 +181,7 @@ py::tuple MovingBoxes::step() {
 }
 
 std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const QueryFilter& filter) {
-  return alone([&](World& world) {
+  return search(boxes.set().size(), [&](World& world) {
     const ResultLists<BoxId> found = world.findOverlapping(boxes.set(), filter);
     std::vector<Pair> pairs;
     pairs.reserve(found.values.size());
@@ -162,7 +195,7 @@ std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const Qu
 py::tuple MovingBoxes::firstHits(const py::buffer& rays, const QueryFilter& filter) {
   const py::buffer_info info = requestBuffer(rays, {"d", 7});
   Found found;
-  alone([&](World& world) {
+  search(static_cast<std::size_t>(info.shape[0]), [&](World& world) {
     const std::vector<Ray> asked = raysOf(valuesOf<double>(info));
     std::vector<SweepHit> hits(asked.size());
     world.findFirst(asked, hits, filter);
@@ -177,7 +210,7 @@ py::tuple MovingBoxes::firstHits(const py::buffer& rays, const QueryFilter& filt
 py::tuple MovingBoxes::nearest(const py::buffer& points, std::size_t count, const QueryFilter& filter) {
   const py::buffer_info info = requestBuffer(points, {"d", 3});
   Found found;
-  alone([&](World& world) {
+  search(static_cast<std::size_t>(info.shape[0]), [&](World& world) {
     const std::vector<std::array<double, 3>> asked = pointsOf(valuesOf<double>(info));
     found.ids.assign(asked.size() * count, kNoBox);
     found.numbers.assign(asked.size() * count, std::numeric_limits<double>::infinity());

@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "Boxes.h"
+#include "Interrupts.h"
 #include "NumberArray.h"
 #include "PairArray.h"
 #include "allpairs/World.h"
@@ -51,6 +53,12 @@ class MovingBoxes {
   [[nodiscard]] bool contains(BoxId id);
   [[nodiscard]] Numbers boxes(const pybind11::buffer& ids);
 
+  /// All ids, ascending.
+  [[nodiscard]] Ids ids();
+
+  /// In each row category, mask, group, and whether the box is static; and the margins.
+  [[nodiscard]] pybind11::tuple properties(const pybind11::buffer& ids);
+
   /// Pairs, and those that began, persisted and ended.
   [[nodiscard]] pybind11::tuple step();
 
@@ -72,7 +80,19 @@ class MovingBoxes {
     return work(m_world);
   }
 
+  /// The same for a search, with as many boxes that it asks for, that a signal may interrupt.
+  template <class Work>
+  auto search(std::size_t queries, const Work& work) {
+    return interruptibly(m_size + queries, [&](Stopper& stopper) {
+      const std::lock_guard lock(m_mutex);
+      const Stopper::Hold hold(stopper, m_stop);
+      return work(m_world);
+    });
+  }
+
   std::mutex m_mutex;
+  StopFlag m_stop;
+  std::atomic<std::size_t> m_size = 0;
   std::unique_ptr<Executor> m_executor;
   World m_world;
 };

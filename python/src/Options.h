@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "Interrupts.h"
 #include "allpairs/OverlapOptions.h"
 
 namespace allpairs::python {
@@ -35,12 +36,24 @@ class Options {
   /// Settings for a search over that many boxes, with an executor if there is enough work.
   [[nodiscard]] OverlapOptions withExecutor(std::size_t boxes);
 
+  /// Runs a search over that many boxes, search(settings), without the GIL, until it ends or a signal interrupts it.
+  template <class Search>
+  auto run(std::size_t boxes, const Search& search) {
+    return interruptibly(boxes, [&](Stopper& stopper) {
+      const Stopper::Hold hold(stopper, m_stop);
+      OverlapOptions settings = withExecutor(boxes);
+      settings.stop = &m_stop;
+      return search(settings);
+    });
+  }
+
  private:
   [[nodiscard]] FilterBits& bits(Side side) { return side == Side::First ? engine.filter.first : engine.filter.second; }
   [[nodiscard]] std::span<const std::uint32_t> hold(const pybind11::buffer& values);
 
   std::vector<std::unique_ptr<pybind11::buffer_info>> m_held;
   std::unique_ptr<Executor> m_executor;
+  StopFlag m_stop;
 };
 
 }  // namespace allpairs::python

@@ -18,25 +18,25 @@ namespace py = pybind11;
 namespace {
 
 std::unique_ptr<PairArray> findPairs(const Boxes& boxes, Options& options) {
-  const py::gil_scoped_release release;
-  return toPython(overlaps(boxes.set(), options.withExecutor(boxes.set().size())));
+  const BoxView& set = boxes.set();
+  return options.run(set.size(), [&](const OverlapOptions& settings) { return toPython(overlaps(set, settings)); });
 }
 
 std::unique_ptr<PairArray> findPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
-  const py::gil_scoped_release release;
-  const std::size_t size = first.set().size() + second.set().size();
-  return toPython(overlaps(first.set(), second.set(), options.withExecutor(size)));
+  return options.run(first.set().size() + second.set().size(), [&](const OverlapOptions& settings) {
+    return toPython(overlaps(first.set(), second.set(), settings));
+  });
 }
 
 std::uint64_t countPairs(const Boxes& boxes, Options& options) {
-  const py::gil_scoped_release release;
-  return countOverlaps(boxes.set(), options.withExecutor(boxes.set().size()));
+  const BoxView& set = boxes.set();
+  return options.run(set.size(), [&](const OverlapOptions& settings) { return countOverlaps(set, settings); });
 }
 
 std::uint64_t countPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
-  const py::gil_scoped_release release;
-  const std::size_t size = first.set().size() + second.set().size();
-  return countOverlaps(first.set(), second.set(), options.withExecutor(size));
+  return options.run(first.set().size() + second.set().size(), [&](const OverlapOptions& settings) {
+    return countOverlaps(first.set(), second.set(), settings);
+  });
 }
 
 Box regionOf(const std::array<double, 6>& bounds) {

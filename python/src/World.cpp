@@ -52,6 +52,8 @@ void bindWorld(py::module_& module) {
       .def("size", &MovingBoxes::size)
       .def("contains", &MovingBoxes::contains)
       .def("boxes", &MovingBoxes::boxes)
+      .def("ids", &MovingBoxes::ids)
+      .def("properties", &MovingBoxes::properties)
       .def("step", &MovingBoxes::step)
       .def("overlapping", &MovingBoxes::overlapping)
       .def("first_hits", &MovingBoxes::firstHits)

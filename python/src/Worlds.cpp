@@ -50,14 +50,10 @@ py::tuple toTuple(WorldPairs found) {
 py::tuple findInWorlds(const Boxes& boxes, const py::buffer& begin, const py::buffer& ignored, const Boxes* shared,
                        Options& options) {
   const Division division(boxes, begin, ignored);
-  WorldPairs found;
-  {
-    const py::gil_scoped_release release;
-    const OverlapOptions engine = options.withExecutor(boxes.set().size());
-    found = shared == nullptr ? overlapsInWorlds(division.worlds(), engine)
-                              : overlapsInWorlds(division.worlds(), shared->set(), engine);
-  }
-  return toTuple(std::move(found));
+  return toTuple(options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
+    return shared == nullptr ? overlapsInWorlds(division.worlds(), settings)
+                             : overlapsInWorlds(division.worlds(), shared->set(), settings);
+  }));
 }
 
 }  // namespace

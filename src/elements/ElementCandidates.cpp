@@ -79,6 +79,7 @@ struct ElementCandidates::State {
     engine.distance = options.distance;
     engine.executor = options.executor;
     engine.memory = options.memory;
+    engine.stop = options.stop;
     return engine;
   }
 

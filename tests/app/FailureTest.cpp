@@ -21,7 +21,6 @@ std::size_t entriesOf(const std::filesystem::path& folder) {
 TEST(WrongUsage, IsOneLineAndStatusTwo) {
   const TempFolder folder;
   const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
-  expectFailure(runProgram({}), kWrongUsage, "no command given");
   expectFailure(runProgram({"find"}), kWrongUsage, "unknown command 'find'");
   expectFailure(runProgram({"detect"}), kWrongUsage, "no INPUT given");
   expectFailure(runProgram({"detect", path, "--frob"}), kWrongUsage, "--frob");

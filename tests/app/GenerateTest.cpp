@@ -63,6 +63,22 @@ TEST(Generate, OfAnUnknownSceneIsWrongUsage) {
   expectFailure(runProgram({"generate", "forest", "-o", "/dev/null"}), 2, "'forest'");
 }
 
+TEST(Generate, TakesNumbersOfBoxesWithAnExponent) {
+  const TempFolder folder;
+  const auto bytesOf = [&](const std::string& count) {
+    const std::string file = folder.path() / (count + ".npy");
+    expectSuccess(runProgram({"generate", "uniform", "-n", count, "-o", file}));
+    return readBytes(file);
+  };
+  const std::string expected = bytesOf("1200");
+  for (const char* count : {"1.2e3", "12e2", "1.2E+3", "1200.0", "12000e-1"})
+    EXPECT_EQ(bytesOf(count), expected) << count;
+  for (const char* count : {"1.5", "1e-3", "1e", "-1e3", "1e400", "nan", "1e3x"}) {
+    expectFailure(runProgram({"generate", "uniform", "-n", count, "-o", "/dev/null"}), 2, "--boxes");
+  }
+  expectFailure(runProgram({"generate", "uniform", "-n", "1e12", "-o", "/dev/null"}), 2, "4294967295");
+}
+
 TEST(Generate, OfMoreBoxesThanAnIndexCanNumberIsWrongUsage) {
   expectFailure(runProgram({"generate", "uniform", "-n", "4294967296", "-o", "/dev/null"}), 2, "4294967295");
 }

@@ -59,7 +59,42 @@ TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
   }
 }
 
+TEST(Help, OfACommandIsItsOwn) {
+  for (const char* command : {"detect", "generate", "bench"}) {
+    const ProgramRun run = runProgram({"help", command});
+    expectSuccess(run);
+    EXPECT_EQ(run.out, runProgram({command, "--help"}).out);
+  }
+  EXPECT_EQ(runProgram({"help"}).out, runProgram({"--help"}).out);
+  expectFailure(runProgram({"help", "find"}), kWrongUsage, "unknown command 'find'");
+}
+
+TEST(Help, IsWhatAProgramWithoutArgumentsPrints) {
+  const ProgramRun run = runProgram({});
+  EXPECT_EQ(run.status, kWrongUsage);
+  EXPECT_EQ(run.out, runProgram({"--help"}).out);
+  EXPECT_EQ(run.err, "allpairs: no command given (see 'allpairs --help')\n");
+}
+
+TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
+  const auto expectUsage = [](const std::vector<std::string>& words, const std::string& message) {
+    expectFailure(runProgram(words), kWrongUsage, message);
+  };
+  expectUsage({"detect", "--distnce", "1", "a.npy"}, "unknown option '--distnce' - did you mean --distance? (see");
+  expectUsage({"detect", "--margn", "1", "a.npy"}, "unknown option '--margn' - did you mean --margin? (see");
+  expectUsage({"detect", "a.npy", "--treads=2"}, "unknown option '--treads' - did you mean --threads? (see");
+  expectUsage({"track", "a.npy", "--verfy"}, "unknown option '--verfy' - did you mean --verify? (see");
+  expectUsage({"detect", "a.npy", "--colour"}, "unknown option '--colour' (see");
+  expectUsage({"detect", "a.npy", "-x"}, "unknown option '-x' (see");
+  expectUsage({"detect", "a.npy", "--" + std::string(5000, 'x')}, "unknown option '--xxx");
+  expectUsage({"detct", "a.npy"}, "unknown command 'detct' - did you mean detect? (see");
+  expectUsage({"find"}, "unknown command 'find' (see");
+  expectUsage({"--distance", "1"}, "a command comes first, not '--distance=1' (see");
+  expectUsage({"generate", "uniform", "city"}, "one argument too many: 'city'");
+}
+
 TEST(Version, IsOneLine) {
+  EXPECT_EQ(runProgram({"-V"}).out, runProgram({"--version"}).out);
   const ProgramRun run = runProgram({"--version"});
   expectSuccess(run);
   EXPECT_TRUE(std::regex_match(run.out, std::regex("allpairs [0-9]+\\.[0-9]+\\.[0-9]+\n"))) << run.out;

@@ -66,6 +66,22 @@ TEST(OutputFile, WithoutANameIsWrongUsage) {
   expectFailure(runProgram({"generate", "uniform", "-o", ""}), 2, "the name of a file is needed");
 }
 
+TEST(OutputFile, OfANameThatEndsInNoFormatIsWrongUsage) {
+  const TempFolder folder;
+  const std::string boxes = twoBoxes(folder);
+  for (const char* name : {"pairs.xml", "pairs.npz", "a.b/../pairs.txt.bak"}) {
+    const std::string file = folder.path() / name;
+    expectFailure(runProgram({"detect", boxes, "-o", file}), 2,
+                  "ends in no format that can be written, which are .txt and .csv");
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  expectFailure(runProgram({"view", boxes, "-o", folder.path() / "page.pdf"}), 2, "a page is written as .html");
+  for (const char* name : {"pairs", "pairs.txt", "pairs.CSV", ".pairs"}) {
+    expectSuccess(runProgram({"detect", boxes, "-o", folder.path() / name}));
+  }
+  expectSuccess(runProgram({"detect", boxes, "-o", folder.path() / "pairs.xml", "--format", "csv"}));
+}
+
 TEST(OutputFile, ThatMayNotBeWrittenIsNotReplaced) {
   if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write every file: a read-only one is not tried";
   const TempFolder folder;

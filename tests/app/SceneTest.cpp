@@ -97,6 +97,23 @@ TEST(DetectScene, APartialResultIsNotSilent) {
   EXPECT_NE(table.out.find("'allpairs info --partial' lists them"), std::string::npos) << table.out;
 }
 
+TEST(DetectScene, APartialResultOfNothingIsBadInput) {
+  const TempFolder folder;
+  const std::string scene = folder.write("none.scn", R"(<Node name="root"><CollisionPipeline/>
+<Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="-1"/></Node></Node>)");
+  expectFailure(runProgram({"detect", "--partial", scene}), 3, scene + ": no model of it can be placed or read");
+  EXPECT_EQ(runProgram({"info", "--partial", scene}).status, 0);
+  const std::string empty = folder.write("empty.scn", R"(<Node name="root"><CollisionPipeline/></Node>)");
+  EXPECT_EQ(runProgram({"detect", "--partial", empty}).status, 0);
+}
+
+TEST(DetectScene, AMeshThatIsNotThereTellsWhereElseToSay) {
+  const TempFolder folder;
+  const std::string scene = folder.write("mesh.scn", R"(<Node name="root"><CollisionPipeline/>
+<MeshOBJLoader name="l" filename="gone.obj"/><MeshTopology src="@l"/><MechanicalObject/><TriangleCollisionModel/></Node>)");
+  expectFailure(runProgram({"detect", scene}), 3, "the file 'gone.obj' is nowhere to be found; --data DIR");
+}
+
 /// Two spheres that touch, in two nodes with a pipeline each.
 const std::string kTwoPipelines = R"(<Node name="root">
 <Node name="A"><CollisionPipeline name="p"/><MinProximityIntersection alarmDistance="2"/>

@@ -1,7 +1,35 @@
-# Uses the source tree by FetchContent from another project, without installing it: the engine and the component.
+# Uses the source tree from another project, without installing it: the engine alone, by add_subdirectory; the engine and
+# the component, by FetchContent.
 
 include(${CMAKE_CURRENT_LIST_DIR}/Steps.cmake)
 file(REMOVE_RECURSE ${WORK})
+
+# Fails unless exactly these of our libraries and programs have been built in `folder`.
+function(expect_built folder)
+  file(GLOB_RECURSE built RELATIVE ${folder} ${folder}/liballpairs* ${folder}/allpairs ${folder}/example_* ${folder}/*_tests)
+  list(FILTER built EXCLUDE REGEX "CMakeFiles")
+  list(TRANSFORM built REPLACE ".*/(lib[a-z_]+)[^/]*$" "\\1")
+  list(REMOVE_DUPLICATES built)
+  list(SORT built)
+  if(NOT "${built}" STREQUAL "${ARGN}")
+    message(FATAL_ERROR "built in ${folder}: ${built}; expected: ${ARGN}")
+  endif()
+endfunction()
+
+# The settings are those that such a project has by default: it says nothing of ours.
+set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/subproject)
+configure_consumer(${WORK}/subproject -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D BUILD_SHARED_LIBS=${SHARED})
+build_and_run(${WORK}/subproject)
+expect_built(${WORK}/subproject liballpairs)
+foreach(package TBB assimp fcl Bullet SofaFramework GTest) # whose folders find_package would keep
+  file(STRINGS ${WORK}/subproject/CMakeCache.txt found REGEX "^${package}_DIR:")
+  if(found)
+    message(FATAL_ERROR "the engine alone was configured with a search for ${package}")
+  endif()
+endforeach()
+
+set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/consumer)
 configure_consumer(
   ${WORK}/build -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D PARTS=engine,collision -D BUILD_SHARED_LIBS=${SHARED})
 build_and_run(${WORK}/build)
+expect_built(${WORK}/build liballpairs liballpairs_collision)

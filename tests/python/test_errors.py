@@ -58,6 +58,9 @@ def test_a_label_that_does_not_fit_names_its_box():
         ({"lower": BOXES, "ignore": [1, 2, 3]}, r"ignore has shape \(3,\)"),
         ({"lower": BOXES, "region": [1, 2, 3]}, r"region has shape \(3,\)"),
         ({"lower": BOXES, "region": [[1, 1, 1], [0, 0, 0]]}, "region"),
+        ({"lower": BOXES, "region": [1, 2, 3, 4]}, r"for boxes of 3 axes it takes \(2, 3\) or \(6,\)"),
+        ({"lower": BOXES[:, :4], "region": range(6)}, r"for boxes of 2 axes it takes \(2, 2\) or \(4,\)"),
+        ({"lower": np.zeros((2, 2)), "upper": np.zeros((2, 3))}, r"upper has shape \(2, 3\); it takes \(n, 2\)"),
         ({"lower": BOXES, "distance": np.nan}, "distance"),
         ({"lower": BOXES, "order": "third"}, "'first', 'second', 'unordered'"),
         ({"lower": BOXES, "strategy": []}, "strategy"),
@@ -70,13 +73,85 @@ def test_arguments_that_make_no_sense_are_named(arguments, message):
         allpairs.overlaps(**arguments)
 
 
+WORLD = allpairs.World()
+MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: allpairs.overlaps(BOXES, max_pairs=2**70), "max_pairs is 1180591620717411303424; it is at most 18446744073709551615"),
+        (lambda: allpairs.overlaps(BOXES, threads=2**70), "threads is 1180591620717411303424; it is at most"),
+        (lambda: allpairs.overlaps(BOXES, threads=2**40), "threads is 1099511627776; it is at most 65535"),
+        (lambda: allpairs.overlaps(BOXES, max_pairs=10**5000), "max_pairs is a large integer; it is at most"),
+        (lambda: allpairs.overlaps(BOXES, distance=10**400), "distance is .*, which float64 does not hold"),
+        (lambda: allpairs.batches(BOXES, batch_size=0), "batch_size is 0; it is at least 1"),
+        (lambda: allpairs.batches(BOXES, batch_size=2**64), "batch_size is 18446744073709551616; it is at most"),
+        (lambda: WORLD.overlapping(BOXES, mask=2**40), "mask is 1099511627776; it is at most 4294967295"),
+        (lambda: WORLD.overlapping(BOXES, category=-1), "category is -1; it is at least 0"),
+        (lambda: WORLD.nearest([0, 0, 0], k=2**63), "k is 9223372036854775808; it is at most 4294967295"),
+        (lambda: WORLD.nearest([0, 0, 0], k=0), "k is 0; it is at least 1"),
+        (lambda: allpairs.World(threads=-1), "threads is -1; it is at least 0"),
+        (lambda: WORLD.add(BOXES, mask=2**40), "mask is 1099511627776; it is at most 4294967295"),
+        (lambda: WORLD.add(BOXES, margin="x"), "margin has dtype <U1"),
+        (lambda: WORLD.first_hits([0, 0, 0], [1, 0, 0], "far"), "length has dtype <U3"),
+        (lambda: allpairs.overlaps(BOXES, region=["a"] * 6), "region has dtype <U1"),
+        (lambda: allpairs.MeshCandidates([[0, 1, 2]], 2**70), "vertex_count is 1180591620717411303424"),
+        (lambda: allpairs.MeshCandidates(**MESH).set_positions(np.zeros((3, 3)), mesh=-1), "mesh is -1"),
+        (lambda: allpairs.load("a.scn", max_memory=-1), "max_memory is -1; it is at least 0"),
+        (lambda: allpairs.load("a.scn", sofa="21.06"), "sofa is '21.06'; it can be '', '20.06', '26.12'"),
+        (lambda: allpairs.overlaps(BOXES, order="x" * 1000), "order is 'xxx.*; it can be 'first'"),
+    ],
+)
+def test_numbers_out_of_range_are_named_on_one_line(call, message):
+    with pytest.raises(allpairs.Error, match="^" + message) as caught:
+        call()
+    assert len(str(caught.value)) < 200
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: allpairs.overlaps(BOXES, threads=1.5), "threads is 1.5; it takes an integer"),
+        (lambda: allpairs.overlaps(BOXES, max_pairs="many"), "max_pairs is 'many'; it takes an integer"),
+        (lambda: allpairs.overlaps(BOXES, distance="0.5"), "distance is '0.5'; it takes a number"),
+        (lambda: allpairs.overlaps(BOXES, distance=BOXES), r"distance is array\(.*; it takes a number"),
+        (lambda: allpairs.World(distance=None), "distance is None; it takes a number"),
+        (lambda: WORLD.nearest([0, 0, 0], k=1.0), "k is 1.0; it takes an integer"),
+        (lambda: WORLD.overlapping(BOXES, mask=0.5), "mask is 0.5; it takes an integer"),
+        (lambda: allpairs.MeshCandidates(**MESH, distance=[]), r"distance is \[\]; it takes a number"),
+        (lambda: allpairs.load("a.scn", max_memory="1G"), "max_memory is '1G'; it takes an integer"),
+    ],
+)
+def test_values_of_another_type_are_named_on_one_line(call, message):
+    with pytest.raises(TypeError, match="^" + message) as caught:
+        call()
+    assert len(str(caught.value)) < 200
+    assert "\n" not in str(caught.value)
+
+
+def test_what_is_no_id_is_in_no_world():
+    world = allpairs.World()
+    (id,) = world.add([[0, 0, 0, 1, 1, 1]])
+    assert id in world and int(id) in world
+    for other in (1, -1, 2**32 - 1, 2**40, 10**400, 0.0, "0", None):
+        assert other not in world
+
+
+def test_a_batch_may_be_of_any_size():
+    assert [len(batch) for batch in allpairs.batches(BOXES, batch_size=2**64 - 1)] == [6]
+
+
 def test_two_sets_take_their_settings_in_pairs():
-    with pytest.raises(allpairs.InvalidArgument, match="group takes a tuple of two"):
+    with pytest.raises(allpairs.InvalidArgument, match="group takes a number or a tuple of two"):
         allpairs.overlaps_between(BOXES, BOXES, group=[1, 2, 3, 4])
     with pytest.raises(allpairs.InvalidArgument, match="second set: group has shape"):
         allpairs.overlaps_between(BOXES, BOXES, group=(None, [1]))
     with pytest.raises(allpairs.InvalidArgument, match="a tuple of 3"):
         allpairs.overlaps_between((1, 2, 3), BOXES)
+    with pytest.raises(allpairs.InvalidArgument, match="the first set have 3 axes and those of the second 2"):
+        allpairs.overlaps_between(BOXES, BOXES[:, :4])
 
 
 def test_more_pairs_than_allowed_say_how_many():

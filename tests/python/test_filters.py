@@ -25,6 +25,20 @@ def test_each_box_must_accept_the_other(dtype, boxes):
     np.testing.assert_array_equal(found, np.stack([first, second], axis=1)[keep])
 
 
+@pytest.mark.parametrize("one", [int, np.uint32, np.int64, np.array])
+def test_one_number_is_for_all_boxes(one, boxes):
+    for name, number in (("group", 7), ("group", 0), ("mask", 6), ("mask", 0), ("category", 1)):
+        alone = {name: one(number)}
+        array = np.full(400, number)
+        np.testing.assert_array_equal(allpairs.overlaps(*boxes, **alone), allpairs.overlaps(*boxes, **{name: array}))
+        expected = allpairs.overlaps_between(boxes, boxes, **{name: (array, array)})
+        np.testing.assert_array_equal(allpairs.overlaps_between(boxes, boxes, **alone), expected)
+        expected = allpairs.overlaps_between(boxes, boxes, **{name: (None, array)})
+        np.testing.assert_array_equal(allpairs.overlaps_between(boxes, boxes, **{name: (None, one(number))}), expected)
+    wide = allpairs.overlaps_between(boxes, boxes, margin=(0.5, 0.5))
+    np.testing.assert_array_equal(allpairs.overlaps_between(boxes, boxes, margin=0.5), wide)
+
+
 def test_a_mask_alone_is_against_categories_of_all_bits(boxes):
     mask = (np.arange(400) % 2).astype(np.uint32)
     pairs = every_pair(*boxes)

@@ -75,7 +75,7 @@ def test_any_layout_gives_the_same_pairs(name, dtype):
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_any_strides_are_read_where_they_are(name, dtype):
     lower, upper = layouts(*random_boxes(50, seed=3, dtype=dtype))[name]
-    held = _arguments.boxes_of(lower, upper, None)
+    held = _arguments.box_set(lower, upper, None, float).boxes
     before = _core.count(held, _core.Options())
     for corner in (lower, upper):
         if corner is not None:

@@ -21,7 +21,15 @@ number: int = allpairs.count([[0.0] * 6])
 for batch in allpairs.batches_between(np.zeros((2, 6)), ([[0, 0, 0]], [[1, 1, 1]]), group=([1, 1], None)):
     print(batch.shape)
 name: str = allpairs.load("a.scn")[0].name
+world = allpairs.World(order="second")
+inside: bool = 3 in world
+plain = allpairs.count_between(np.zeros((2, 4)), np.zeros((2, 4)), mask=1, strategy="bvh")
 wrong: str = allpairs.count([])
+allpairs.overlaps([], order="third")
+allpairs.count([], strategy="brute")
+allpairs.World(order="unordered")
+allpairs.MeshCandidates([], 0).find("edge-face")
+allpairs.load("a.scn", sofa="21.06")
 """
 
 WITHOUT_NUMPY = """
@@ -38,14 +46,17 @@ def test_the_package_says_that_it_has_types():
     assert (PACKAGE / "py.typed").exists()
 
 
-def test_a_type_checker_finds_one_error_in_a_program_that_has_one(tmp_path):
+def test_a_type_checker_finds_the_errors_of_a_program_and_no_others(tmp_path):
     pytest.importorskip("mypy")
     (tmp_path / "use.py").write_text(USE)
     command = [sys.executable, "-m", "mypy", "--strict", f"--cache-dir={PACKAGE.parent}/.mypy_cache", str(tmp_path / "use.py")]
     result = subprocess.run(command, capture_output=True, text=True, check=False, cwd=PACKAGE.parent)
     errors = [line for line in result.stdout.splitlines() if ": error: " in line]
-    assert len(errors) == 1, result.stdout  # errors within the package would be here too
-    assert "use.py:9: error: Incompatible types" in errors[0]
+    assert len(errors) == 6, result.stdout  # errors within the package would be here too
+    assert "use.py:12: error: Incompatible types" in errors[0]
+    for line, error in enumerate(errors[1:], start=13):
+        assert f"use.py:{line}: error: Argument" in error
+        assert "expected \"Literal[" in error or "Union[Literal[" in error
 
 
 def test_what_the_package_exports_is_there_and_documented():

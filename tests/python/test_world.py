@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Moving boxes against the double loop, step by step."""
 
+import copy
+import pickle
 import threading
 
 import allpairs
@@ -162,3 +164,63 @@ def test_threads_that_share_a_world_wait_for_each_other():
         thread.join()
     assert len(world) == 0
     assert len(world.step().pairs) == 0
+
+
+def test_one_box_needs_no_list():
+    world = allpairs.World()
+    first = world.add([0, 0, 0, 1, 1, 1])
+    second = world.add([1, 1, 1], [2, 2, 2], mask=3, group=np.uint32(5))
+    assert (first.tolist(), second.tolist()) == ([0], [1])
+    assert world.step().pairs.tolist() == [[0, 1]]
+    world.move(first, np.array([5.0, 5, 5, 6, 6, 6], np.float32))
+    assert world.step().ended.tolist() == [[0, 1]]
+    assert world.overlapping([0, 0, 0, 9, 9, 9]).tolist() == [[0, 0], [0, 1]]
+    assert world.overlapping((2, 2, 2), (4, 4, 4)).tolist() == [[0, 1]]
+    with pytest.raises(allpairs.InvalidArgument, match=r"lower has shape \(4,\)"):
+        world.overlapping([0, 0, 1, 1])
+
+
+def crowd(n, rng):
+    lower = rng.integers(0, 12, (n, 3)).astype(float)
+    return np.hstack([lower, lower + rng.integers(0, 4, (n, 3))])
+
+
+@pytest.mark.parametrize(
+    "copied", [copy.copy, copy.deepcopy, *(lambda w, p=p: pickle.loads(pickle.dumps(w, p)) for p in range(2, pickle.HIGHEST_PROTOCOL + 1))]
+)
+@pytest.mark.parametrize("order", ["first", "second"])
+def test_a_copy_has_the_same_boxes_and_pairs(copied, order):
+    rng = np.random.default_rng(8)
+    world = allpairs.World(distance=0.5, order=order, threads=2)
+    ids = world.add(crowd(200, rng), mask=rng.integers(0, 8, 200), category=rng.integers(0, 8, 200))
+    world.add(crowd(80, rng), static=rng.integers(0, 2, 80), group=rng.integers(0, 4, 80), margin=rng.random(80) - 0.5)
+    world.add([[-np.inf] * 3 + [np.inf] * 3, [5, 5, 5, 4, 4, 4]])
+    world.step()
+    world.remove(ids[20:50])
+    world.step()
+    world.move(ids[:5], crowd(5, rng))  # not stepped yet
+    world.remove(ids[190:])
+    twin = copied(world)
+    assert len(twin) == len(world)
+    for id in range(300):
+        assert (id in twin) == (id in world)
+    there = [id for id in range(300) if id in world]
+    np.testing.assert_array_equal(twin.boxes(there), world.boxes(there))
+    step = twin.step()
+    assert len(step.pairs) > 100
+    np.testing.assert_array_equal(step.pairs, world.step().pairs)
+    np.testing.assert_array_equal(step.began, step.pairs)
+    assert (len(step.persisted), len(step.ended)) == (0, 0)
+    # Neither knows of the other.
+    world.move(there, crowd(len(there), rng))
+    np.testing.assert_array_equal(twin.step().persisted, step.pairs)
+    twin.move(there, world.boxes(there))
+    np.testing.assert_array_equal(twin.step().pairs, world.step().pairs)
+    assert set(twin.add(crowd(40, rng)).tolist()) == {*range(20, 50), *range(190, 200)}
+
+
+def test_a_copy_of_a_world_without_boxes_is_one():
+    twin = copy.copy(allpairs.World(distance=2))
+    assert len(twin) == 0
+    assert twin.add([[0, 0, 0, 1, 1, 1], [2, 2, 2, 3, 3, 3]]).tolist() == [0, 1]
+    assert twin.step().pairs.tolist() == [[0, 1]]

@@ -61,6 +61,14 @@ TEST(Csv, InfinitiesAreNumbers) {
             (std::vector<Named>{{"0", {{-kInfinity, 0, 0}, {kInfinity, kInfinity, kInfinity}}}}));
 }
 
+TEST(Csv, AQuotedNameMayHaveLineBreaks) {
+  EXPECT_EQ(
+      readText("\"a\nb\",0.5,1,2,3,4,50\r\n# \"c, \"d\n \"\"\"\n\n,\"\"\" ,0.5,1,2,3,4,50\ninch\",0.5,1,2,3,4,50"),
+      (std::vector<Named>{{"a\nb", kBox}, {"\"\n\n,\"", kBox}, {"inch\"", kBox}}));
+  expectCsvProblem("\"a\nb\",1,2,3,4,5,6\n1,2,x,4,5,6,c\n", "bad.csv:3:5: 'x' is not a number");
+  expectCsvProblem("a,1,2,3,4,5,6\n\"b,1,2,3,4,5,6\nc,1,2,3,4,5,6\n", "bad.csv:2:1: a quote is not closed");
+}
+
 TEST(Csv, AnEmptyFileHoldsNoBoxes) { EXPECT_EQ(readText("# nothing\n"), std::vector<Named>{}); }
 
 TEST(Csv, ErrorsNameLineAndColumn) {

@@ -234,13 +234,30 @@ TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
 TEST(Report, ThatCannotBeWrittenLeavesNothingBehind) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "out/index.html/x");  // no file can be put there
-  const ProgramRun run = runProgram({"report", kDemo, "-o", folder.path() / "out", "--pictures", "3"});
+  const ProgramRun run = runProgram({"report", kDemo, "-o", folder.path() / "out", "--pictures", "3", "--force"});
   expectFailure(run, 3, "index.html");
   EXPECT_EQ(filesIn(folder.path()), (Names{"out", "out/index.html", "out/index.html/x"}));
   expectFailure(runProgram({"report", "missing.obj", "-o", folder.path() / "a/b"}), 3, "missing.obj");
   EXPECT_FALSE(fs::exists(folder.path() / "a"));
   expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "a/b/", "--pictures", "1"}));
   EXPECT_TRUE(fs::exists(folder.path() / "a/b/pictures/0001.png"));
+}
+
+TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
+  const TempFolder folder;
+  const fs::path out = folder.path() / "out";
+  fs::create_directory(out);
+  expectSuccess(runProgram({"report", kDemo, "-o", out, "--pictures", "0"}));  // an empty one is taken
+  expectSuccess(runProgram({"report", kDemo, "-o", out, "--pictures", "0"}));  // and one of a report
+  const fs::path work = folder.path() / "work";
+  fs::create_directory(work);
+  folder.write("work/notes.txt", "mine");
+  expectFailure(runProgram({"report", kDemo, "-o", work}), 3, "work: is not empty and holds no report; --force");
+  EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
+  EXPECT_FALSE(fs::exists(work / "index.html"));
+  expectSuccess(runProgram({"report", kDemo, "-o", work, "--pictures", "0", "--force"}));
+  EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
+  EXPECT_TRUE(fs::exists(work / "index.html"));
 }
 
 TEST(Report, SaysWhatIsWrong) {

@@ -38,6 +38,9 @@ struct CandidateOptions {
   /// Allocates candidates and the memory of the search, as in OverlapOptions; the meshes and the boxes of their
   /// elements are allocated elsewhere. Null means aligned operator new. Not owned; must outlive the object.
   std::pmr::memory_resource* memory = nullptr;
+
+  /// If given, a search throws Stopped soon after this is set. Not owned.
+  const StopFlag* stop = nullptr;
 };
 
 /// Finds the pairs of elements of deforming triangle meshes that may touch during a step, for continuous collision

@@ -21,7 +21,7 @@ namespace allpairs::engine {
 /// Float64 boxes that are far only because of a few outliers in the sample keep the origin.
 [[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
   /// Boxes farther from the origin than this many times the extent of the sample lose more bits than this has.
-  constexpr double kFar = 16.0;
+  constexpr double kFarAway = 16.0;
   constexpr std::size_t kMostSamples = 32;
   std::array<double, 3> origin{};
   const BoxView& set = first.size() < second.size() ? second : first;
@@ -39,7 +39,7 @@ namespace allpairs::engine {
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double extent = bounds.max[axis] - bounds.min[axis];
-    if (extent > 0.0 && std::abs(bounds.min[axis]) > kFar * extent) origin[axis] = bounds.min[axis];
+    if (extent > 0.0 && std::abs(bounds.min[axis]) > kFarAway * extent) origin[axis] = bounds.min[axis];
   }
   return origin;
 }

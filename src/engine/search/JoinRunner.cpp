@@ -5,9 +5,22 @@
 #include <memory>
 #include <thread>
 
+#include "search/StoppableExecutor.h"
 #include "search/TaskCut.h"
 
 namespace allpairs::engine {
+namespace {
+
+/// The number of box and group tests, some milliseconds of them, between two looks at the flag that stops a run.
+constexpr std::uint64_t kTestsPerStretch = std::uint64_t{1} << 22;
+
+/// Units of a stretch: a multiple of the rows that are counted at once, and so many leaf blocks that their descent from
+/// the root is negligible.
+constexpr std::size_t kLeastUnits = 4;
+constexpr std::size_t kMostLeaves = 64;
+constexpr std::size_t kMostRows = 4096;
+
+}  // namespace
 
 JoinRunner::Job JoinRunner::Job::ofJoin(const BvhView& first, const BvhView& second) {
   Job job;
@@ -20,6 +33,7 @@ JoinRunner::Job JoinRunner::Job::ofJoin(const BvhView& first, const BvhView& sec
 
 std::size_t JoinRunner::start(const SinkOptions& options, const Executor& executor) {
   m_kernels = options.kernels;
+  m_stop = options.stop;
   while (m_workers.size() < executor.concurrency()) m_workers.push_back(makeOwned<Worker>(memory()));
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i]->sink.start(options, i);
   return m_workers.size();
@@ -62,16 +76,16 @@ void JoinRunner::run(const Job& job, Executor& executor) {
   executor.run(cut.tasks(), [&](std::size_t task) {
     withWorker([&](std::size_t index, Worker& worker) {
       const std::size_t begin = worker.sink.size();
-      NeighborLists* const lists = job.lists.empty() ? nullptr : &job.lists[index];
-      runPart(job, beginOf(task), beginOf(task + 1), worker, lists);
+      worker.lists = job.lists.empty() ? nullptr : &job.lists[index];
+      const auto part = m_stop == nullptr ? &JoinRunner::runPart : &JoinRunner::runInStretches;
+      (this->*part)(job, beginOf(task), beginOf(task + 1), worker);
       worker.sink.finish();
       m_segments[task] = {index, begin, worker.sink.size()};
     });
   });
 }
 
-void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker,
-                         NeighborLists* lists) const {
+void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
   if (begin == end) return;
   if (job.isFlat) {
     FlatSearch part = job.flat;
@@ -79,8 +93,26 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
     part.rowEnd = end;
     m_kernels->searchFlat(part, worker.sink.hits());
   } else {
-    const bool withItself = job.first == job.second && lists == nullptr;
-    m_kernels->join({job.first, job.second, withItself, begin, end, &worker.scratch, lists}, worker.sink.hits());
+    const bool withItself = job.first == job.second && worker.lists == nullptr;
+    m_kernels->join({job.first, job.second, withItself, begin, end, &worker.scratch, worker.lists}, worker.sink.hits());
+  }
+}
+
+/// Runs a part piece by piece, with a look at the flag before each. How many units make a piece depends on the tests that
+/// the last one took: a unit may have any number of partners.
+void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
+  const Hits& hits = worker.sink.hits();
+  const std::size_t most = job.isFlat ? kMostRows : kMostLeaves;
+  const std::size_t least = worker.lists == nullptr ? kLeastUnits : kFanOut;
+  std::size_t units = least;
+  while (begin < end) {
+    checkStop(m_stop);
+    const std::size_t next = std::min(end, begin + units);
+    const std::uint64_t before = hits.boxTests + hits.groupTests;
+    runPart(job, begin, next, worker);
+    const bool isLong = hits.boxTests + hits.groupTests - before > kTestsPerStretch;
+    units = isLong ? std::max(units / 2, least) : std::min(2 * units, most);
+    begin = next;
   }
 }
 

@@ -75,6 +75,7 @@ class JoinRunner {
 
     PairSink sink;
     JoinScratch scratch;
+    NeighborLists* lists = nullptr;  ///< Those of the running job.
     std::atomic_flag busy;
   };
 
@@ -89,9 +90,11 @@ class JoinRunner {
     use(index, *m_workers[index]);
   }
 
-  void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker, NeighborLists* lists) const;
+  void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
+  void runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
 
   const Kernels* m_kernels = nullptr;
+  const StopFlag* m_stop = nullptr;
   std::pmr::vector<Owned<Worker>> m_workers;
   std::pmr::vector<Segment> m_segments;
 };

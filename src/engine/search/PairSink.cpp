@@ -5,6 +5,7 @@
 #include <string>
 
 #include "allpairs/Error.h"
+#include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
 namespace {
@@ -70,6 +71,7 @@ void PairSink::take(std::size_t count) {
   m_size += count;
   m_count += count;
   checkLimit(*m_options, m_count);
+  checkStop(m_options->stop);
 }
 
 void PairSink::receive(Hits& hits) {
@@ -84,6 +86,7 @@ void PairSink::receive(Hits& hits) {
   m_count += m_size - begin;
   if (m_options->countOnly) m_size = begin;
   checkLimit(*m_options, m_count);
+  checkStop(m_options->stop);
   if (m_options->emit) emit();
 }
 

@@ -9,6 +9,7 @@
 
 #include "allpairs/FunctionRef.h"
 #include "allpairs/Pair.h"
+#include "allpairs/StopFlag.h"
 #include "kernels/Hits.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
@@ -39,6 +40,9 @@ struct SinkOptions {
 
   /// Keeps only pairs with first < second: for a part of a set against the whole set.
   bool ascendingOnly = false;
+
+  /// If set, runs throw Stopped soon after this is set.
+  const StopFlag* stop = nullptr;
 
   /// Receives the pairs of a worker, which it may change, whenever there are new ones; returns how many of them, from
   /// the first, the sink drops. Without it the sink keeps all pairs.

@@ -131,7 +131,7 @@ void Search::shrink() noexcept {
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
   checkOptions(sets, options);
   m_kernels = &chooseKernels(options);
-  m_executor = options.executor != nullptr ? options.executor : &m_serial;
+  m_executor = &m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop);
   m_statistics = {};
   m_pairs = {};
   m_taken = nullptr;
@@ -142,6 +142,7 @@ void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& pla
   plan.sink.test = &plan.test;
   plan.sink.lanesAreBounds = true;
   plan.sink.maxPairs = options.maxPairs;
+  plan.sink.stop = options.stop;
   Readers readers = Readers::of(sets, options, *m_kernels);
   if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;

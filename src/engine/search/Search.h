@@ -19,6 +19,7 @@
 #include "order/PairLists.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
+#include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
 
@@ -111,6 +112,7 @@ class Search {
   OverlapStatistics m_statistics;
   const Kernels* m_kernels = nullptr;
   SerialExecutor m_serial;
+  StoppableExecutor m_stoppable;
   Executor* m_executor = &m_serial;
 
   Buffer<LaneTile> m_rows;

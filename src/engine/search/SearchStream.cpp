@@ -99,6 +99,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   plan.sink.limitIsCallers = false;
   plan.sink.firstRow = static_cast<std::uint32_t>(begin);
   plan.sink.ascendingOnly = sets.one;
+  plan.sink.stop = options.stop;
   m_statistics = {};
   try {
     run(plan, *m_executor);

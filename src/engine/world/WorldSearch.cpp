@@ -100,6 +100,7 @@ void WorldSearch::joinAll(const BoxStore& store) {
     return pairs.size();
   };
   SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
+  sink.stop = m_options.stop;
   sink.emit.emplace(take);
   m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::All);
   const BvhView all = m_dynamic.levels().view();
@@ -119,6 +120,7 @@ void WorldSearch::joinChanged(const BoxStore& store) {
     return pairs.size();
   };
   SinkOptions sink{&m_kernels};
+  sink.stop = m_options.stop;
   sink.emit.emplace(take);
   m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::Changed);
   m_changedDynamic.gather(store.touched(), m_dynamic, m_kernels, executor());
@@ -149,6 +151,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
     return pairs.size();
   };
   SinkOptions sink{&m_kernels, &test};
+  sink.stop = m_options.stop;
   sink.emit.emplace(take);
   JoinRunner runner(defaultMemory());
   runner.start(sink, executor());

@@ -10,6 +10,7 @@
 #include "kernels/Kernels.h"
 #include "search/JoinRunner.h"
 #include "search/PairTest.h"
+#include "search/StoppableExecutor.h"
 #include "world/BoxStore.h"
 #include "world/ChangedBoxes.h"
 #include "world/DynamicBvh.h"
@@ -23,6 +24,7 @@ class WorldSearch {
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
       : m_options(options),
         m_kernels(kernels),
+        m_executor(m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop)),
         m_dynamic(memory, false),
         m_static(memory, true),
         m_changedDynamic(memory),
@@ -50,9 +52,7 @@ class WorldSearch {
   [[nodiscard]] const WorldStatistics& statistics() const noexcept { return m_statistics; }
   [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_runner.memory(); }
   [[nodiscard]] const Kernels& kernels() const noexcept { return m_kernels; }
-  [[nodiscard]] Executor& executor() const noexcept {
-    return m_options.executor != nullptr ? *m_options.executor : m_serial;
-  }
+  [[nodiscard]] Executor& executor() const noexcept { return m_executor; }
 
  private:
   [[nodiscard]] bool isExact() const noexcept { return m_dynamic.exact() && m_static.exact(); }
@@ -65,7 +65,9 @@ class WorldSearch {
 
   const WorldOptions& m_options;
   const Kernels& m_kernels;
-  mutable SerialExecutor m_serial;
+  SerialExecutor m_serial;
+  StoppableExecutor m_stoppable;
+  Executor& m_executor;
   DynamicBvh m_dynamic;
   DynamicBvh m_static;
   ChangedBoxes m_changedDynamic;

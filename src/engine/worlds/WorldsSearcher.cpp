@@ -27,6 +27,9 @@ constexpr std::size_t kManyBoxes = 4096;
 constexpr std::size_t kPartsPerThread = 16;
 constexpr std::size_t kLeastWork = std::size_t{1} << 16;
 
+/// The work, some milliseconds, between two looks at the flag that stops a search.
+constexpr std::uint64_t kWorkBetweenLooks = std::uint64_t{1} << 22;
+
 /// What a world takes, very roughly in vector tests.
 std::uint64_t workOf(std::size_t boxes, std::size_t mostBoxes) {
   constexpr std::uint64_t kPerWorld = 16;
@@ -89,7 +92,8 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_options = &options;
   m_statistics = {};
   m_kernels = &chooseKernels(options);
-  m_executor = options.executor != nullptr ? options.executor : &m_serial;
+  checkStop(options.stop);
+  m_executor = &m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop);
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && haveReadableCorners(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
@@ -112,13 +116,15 @@ void WorldsSearcher::cutParts() {
   m_parts.clear();
   const std::size_t worlds = m_worlds->size();
   const std::size_t threads = m_executor->concurrency();
-  if (threads <= 1) {
+  const bool mayStop = m_options->stop != nullptr;
+  if (threads <= 1 && !mayStop) {
     m_parts.push_back({0, worlds});
     return;
   }
   std::uint64_t all = 0;
   for (std::size_t world = 0; world < worlds; ++world) all += workOf(sizeOf(world), m_mostBoxes);
-  const std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kPartsPerThread * threads));
+  std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kPartsPerThread * threads));
+  if (mayStop) most = std::min(most, kWorkBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
     const bool takesAllThreads = sizeOf(world) > kManyBoxes;
@@ -154,6 +160,7 @@ void WorldsSearcher::forEachPart(const Use& use) {
     if (!m_parts[i].takesAllThreads) run(m_parts[i]);
   });
   for (Part& part : m_parts) {
+    checkStop(m_options->stop);
     if (part.takesAllThreads) run(part);
   }
 }

@@ -15,6 +15,7 @@
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
 #include "search/Search.h"
+#include "search/StoppableExecutor.h"
 #include "worlds/WorldsFilter.h"
 
 namespace allpairs::engine {
@@ -99,6 +100,7 @@ class WorldsSearcher {
   const Kernels* m_kernels = nullptr;
   Executor* m_executor = nullptr;
   SerialExecutor m_serial;
+  StoppableExecutor m_stoppable;
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
   bool m_isPlain = false;       ///< Boxes that the kernel reads from the caller's memory.
   WorldsFilter m_filter;

@@ -93,8 +93,9 @@ class CsvReader {
  public:
   CsvReader(const Path& path, ReadScope& scope) : m_place{path}, m_scope(scope) {}
 
+  /// A line, which has more than one of the file's where a quoted name breaks.
   void readLine(std::string_view line) {
-    ++m_place.line;
+    m_place.line += 1 + std::exchange(m_breaks, static_cast<std::size_t>(std::count(line.begin(), line.end(), '\n')));
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string_view::npos || line[first] == '#') return;
     splitCsvLine(line, m_place, m_fields);
@@ -127,6 +128,7 @@ class CsvReader {
   }
 
   TextPlace m_place;
+  std::size_t m_breaks = 0;  ///< In the last line.
   ReadScope& m_scope;
   CsvLayout m_layout;
   std::vector<CsvField> m_fields;
@@ -148,7 +150,7 @@ BoxArray readCsv(const Path& path, ReadScope& scope) {
   if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
   CsvReader reader(path, scope);
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::size_t end = csvLineEnd(rest);
     reader.readLine(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }

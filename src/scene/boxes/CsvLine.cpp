@@ -47,6 +47,25 @@ CsvField takeField(std::string_view line, std::size_t& position, const TextPlace
 
 }  // namespace
 
+std::size_t csvLineEnd(std::string_view text) {
+  const std::size_t lineEnd = std::min(text.find('\n'), text.size());
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first != std::string_view::npos && text[first] == '#') return lineEnd;
+  for (std::size_t position = 0;; ++position) {
+    const std::size_t start = text.find_first_not_of(kBlanks, position);
+    if (start != std::string_view::npos && text[start] == '"') {
+      position = text.find('"', start + 1);  // two in a row begin another stretch of the same field
+      while (position != std::string_view::npos && text.substr(position + 1).starts_with('"')) {
+        position = text.find('"', position + 2);
+      }
+      if (position == std::string_view::npos) return lineEnd;  // not closed, which splitting the line tells
+    }
+    position = text.find_first_of(",\n", position);
+    if (position == std::string_view::npos) return text.size();
+    if (text[position] == '\n') return position;
+  }
+}
+
 void splitCsvLine(std::string_view line, const TextPlace& place, std::vector<CsvField>& fields) {
   fields.clear();
   std::size_t position = 0;

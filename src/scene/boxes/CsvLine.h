@@ -27,6 +27,9 @@ struct CsvField {
   std::size_t column = 0;
 };
 
+/// Where the first line of a text ends: at a line break that is in no quotes, or at the end of the text.
+[[nodiscard]] std::size_t csvLineEnd(std::string_view text);
+
 /// Splits a line at its commas; a field in double quotes may hold commas, and "" stands for one quote.
 ///
 /// Bad input: a quote that isn't closed, or text behind one, throws FileError.

@@ -30,7 +30,7 @@ class ReadScope {
   static constexpr const char* kOutside =
       "lies outside of the input's folder and of those given with --data; --allow-outside allows it";
 
-  /// A file that was found, or else why it was not: "is nowhere to be found".
+  /// A file that was found, or else why it was not: "is nowhere to be found; ...".
   struct Found {
     std::filesystem::path path;
     std::string problem;  ///< Empty where the file was found.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "allpairs/Error.h"
+#include "allpairs/Executor.h"
+#include "allpairs/StopFlag.h"
+
+namespace allpairs::engine {
+
+/// Throws Stopped if there is a flag and it is set.
+inline void checkStop(const StopFlag* stop) {
+  if (stop != nullptr && stop->isSet()) throw Stopped();
+}
+
+/// Runs tasks on another executor until a flag is set: from then on they throw Stopped.
+class StoppableExecutor final : public Executor {
+ public:
+  /// Returns the executor to use: this one, or the other one if there is no flag.
+  [[nodiscard]] Executor& over(Executor& other, const StopFlag* stop) noexcept {
+    m_other = &other;
+    m_stop = stop;
+    return stop == nullptr ? other : *this;
+  }
+
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_other->concurrency(); }
+
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    m_other->run(count, [&](std::size_t i) {
+      checkStop(m_stop);
+      task(i);
+    });
+  }
+
+ private:
+  Executor* m_other = nullptr;
+  const StopFlag* m_stop = nullptr;
+};
+
+}  // namespace allpairs::engine

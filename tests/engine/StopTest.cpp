@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Searches that are stopped: soon, at whatever moment, and with objects that can be used on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "WorldOracle.h"
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/World.h"
+#include "allpairs/Worlds.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "support/Boxes.h"
+
+namespace allpairs {
+namespace {
+
+/// Sets a flag once so many tasks have run.
+class StoppingExecutor final : public Executor {
+ public:
+  explicit StoppingExecutor(std::size_t threads) : m_threads(threads) {}
+
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_threads; }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (left-- == 0) stop.set();
+      task(i);
+    }
+  }
+
+  StopFlag stop;
+  std::size_t left = 0;
+
+ private:
+  std::size_t m_threads;
+};
+
+/// Runs work with a stop at its first task, at its second, and so on, until there is none left; returns how often it was
+/// stopped. After each stop `check` runs without one.
+std::size_t stopAtEachTask(StoppingExecutor& executor, const std::function<void()>& work,
+                           const std::function<void()>& check) {
+  for (std::size_t tasks = 0;; ++tasks) {
+    executor.left = tasks;
+    executor.stop.clear();
+    bool stopped = false;
+    try {
+      work();
+    } catch (const Stopped&) {
+      stopped = true;
+    }
+    const bool wasSet = executor.stop.isSet();
+    executor.stop.clear();
+    executor.left = static_cast<std::size_t>(-1);
+    check();
+    if (!wasSet) return tasks;
+    EXPECT_TRUE(stopped) << "after " << tasks << " tasks";
+  }
+}
+
+TEST(Stop, AtAnyTaskLeavesASearchThatCanBeUsedOn) {
+  const std::vector<BoxF> boxes = test::randomBoxes(3000, 91);
+  for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+    for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
+      StoppingExecutor executor(3);
+      OverlapOptions options;
+      options.order = order;
+      options.strategy = strategy;
+      const std::vector<Pair> expected = overlaps(boxes, options);
+      options.executor = &executor;
+      options.stop = &executor.stop;
+      OverlapSearch search(options);
+      const auto check = [&] { ASSERT_EQ(test::toVector(search.find(boxes)), expected); };
+      const auto ignore = [](std::span<const Pair>) {};
+      EXPECT_GT(stopAtEachTask(
+                    executor, [&] { static_cast<void>(search.find(boxes)); }, check),
+                2U);
+      EXPECT_GT(stopAtEachTask(
+                    executor, [&] { static_cast<void>(search.count(boxes)); }, check),
+                2U);
+      static_cast<void>(stopAtEachTask(
+          executor, [&] { search.stream(boxes, ignore, 100); }, check));
+    }
+  }
+}
+
+TEST(Stop, AtAnyTaskOfASearchOfDenseBoxesOrOfManyWorldsIsHeeded) {
+  const std::vector<BoxF> dense = test::randomBoxes(3000, 96, 2.5F);
+  std::vector<std::size_t> begin{0};
+  while (begin.back() < dense.size()) begin.push_back(std::min(dense.size(), begin.back() + 7 * begin.size()));
+  const Worlds worlds(dense, begin);
+  for (const std::size_t threads : {std::size_t{1}, std::size_t{3}}) {
+    StoppingExecutor executor(threads);
+    OverlapOptions options;
+    const std::vector<Pair> expected = overlaps(dense, options);
+    const WorldPairs expectedInWorlds = overlapsInWorlds(worlds, options);
+    ASSERT_GT(expected.size(), 15 * dense.size()) << "too few for lists";
+    options.executor = &executor;
+    options.stop = &executor.stop;
+    OverlapSearch search(options);
+    EXPECT_GT(stopAtEachTask(
+                  executor, [&] { static_cast<void>(search.find(dense)); },
+                  [&] { ASSERT_EQ(test::toVector(search.find(dense)), expected); }),
+              2U);
+    WorldsSearch inWorlds(options);
+    const auto check = [&] {
+      const WorldPairsView found = inWorlds.find(worlds);
+      ASSERT_EQ(test::toVector(found.pairs), expectedInWorlds.pairs);
+      ASSERT_TRUE(std::equal(found.begin.begin(), found.begin.end(), expectedInWorlds.begin.begin(),
+                             expectedInWorlds.begin.end()));
+    };
+    EXPECT_GE(stopAtEachTask(
+                  executor, [&] { static_cast<void>(inWorlds.find(worlds)); }, check),
+              1U);
+    executor.stop.set();
+    EXPECT_THROW(static_cast<void>(inWorlds.count(worlds)), Stopped);
+    executor.stop.clear();
+    EXPECT_EQ(inWorlds.count(worlds).back(), expectedInWorlds.pairs.size());
+  }
+}
+
+TEST(Stop, AFlagThatIsNotSetChangesNothing) {
+  const std::vector<BoxF> boxes = test::randomBoxes(20000, 92);
+  const std::vector<BoxF> others = test::randomBoxes(5000, 93);
+  const StopFlag stop;
+  for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+    for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
+      OverlapOptions options;
+      options.order = order;
+      options.strategy = strategy;
+      const std::vector<Pair> one = overlaps(boxes, options);
+      const std::vector<Pair> two = overlaps(boxes, others, options);
+      options.stop = &stop;
+      EXPECT_EQ(overlaps(boxes, options), one);
+      EXPECT_EQ(overlaps(boxes, others, options), two);
+      EXPECT_EQ(countOverlaps(boxes, options), one.size());
+    }
+  }
+}
+
+/// A world some steps old that has moved since the last one.
+struct MovedWorld {
+  explicit MovedWorld(const WorldOptions& options) : world(options) {
+    const std::vector<Box> boxes = test::toDouble(test::randomBoxes(700, 94));
+    const std::vector<Box> moved = test::toDouble(test::randomBoxes(700, 95));
+    ids = world.add(BoxView(boxes));
+    static_cast<void>(world.step());
+    for (const BoxId id : ids) oracle.boxes[id] = {boxes[id], {}};
+    oracle.step();
+    for (std::size_t i = 0; i < boxes.size(); i += 20) {
+      world.move(ids[i], moved[i]);
+      oracle.boxes[ids[i]].box = moved[i];
+    }
+  }
+
+  void compareStep() {
+    const StepResult found = world.step();
+    oracle.step();
+    ASSERT_EQ(test::toVector(found.pairs), oracle.pairs);
+    ASSERT_EQ(test::toVector(found.began), oracle.began);
+    ASSERT_EQ(test::toVector(found.persisted), oracle.persisted);
+    ASSERT_EQ(test::toVector(found.ended), oracle.ended);
+  }
+
+  World world;
+  test::WorldOracle oracle;
+  std::vector<BoxId> ids;
+};
+
+TEST(Stop, OfAStepAtAnyTaskLeavesItsChangesToTheNext) {
+  for (const bool movesAll : {false, true}) {
+    std::size_t stops = 0;
+    for (std::size_t tasks = 0;; ++tasks) {
+      StoppingExecutor executor(3);
+      executor.left = static_cast<std::size_t>(-1);
+      WorldOptions options;
+      options.executor = &executor;
+      options.stop = &executor.stop;
+      MovedWorld moved(options);
+      if (movesAll) {
+        for (const BoxId id : moved.ids) {
+          Box box = moved.world.box(id);
+          box.max[0] += 0.5;
+          moved.world.move(id, box);
+          moved.oracle.boxes[id].box = box;
+        }
+      }
+      executor.left = tasks;
+      try {
+        const StepResult found = moved.world.step();
+        ASSERT_FALSE(executor.stop.isSet()) << "after " << tasks << " tasks";
+        ASSERT_GT(found.began.size(), 0U);
+        break;
+      } catch (const Stopped&) {
+        ++stops;
+      }
+      const std::vector<Box> queries(99, moved.world.box(1));
+      EXPECT_THROW(static_cast<void>(moved.world.findOverlapping(BoxView(queries))), Stopped);
+      executor.stop.clear();
+      executor.left = static_cast<std::size_t>(-1);
+      ASSERT_NO_FATAL_FAILURE(moved.compareStep()) << "after " << tasks << " tasks";
+      moved.world.move(moved.ids[3], moved.world.box(moved.ids[4]));
+      moved.oracle.boxes[moved.ids[3]].box = moved.world.box(moved.ids[4]);
+      ASSERT_NO_FATAL_FAILURE(moved.compareStep()) << "after " << tasks << " tasks";
+    }
+    EXPECT_GT(stops, 5U);
+  }
+}
+
+/// Boxes without any pair, or all at one place; a search for their pairs takes seconds.
+std::vector<BoxF> manyBoxes(std::size_t n, float step) {
+  std::vector<BoxF> boxes;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float at = step * static_cast<float>(i);
+    boxes.push_back({{at, 0, 0}, {at + 1, 1, 1}});
+  }
+  return boxes;
+}
+
+/// A search that does not look at its flag would end without an exception, seconds later.
+void stopInTheMiddle(const std::vector<BoxF>& boxes, OverlapOptions options) {
+  StopFlag stop;
+  options.stop = &stop;
+  std::jthread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop.set();
+  });
+  EXPECT_THROW(static_cast<void>(countOverlaps(boxes, options)), Stopped);
+}
+
+TEST(Stop, EndsOneLongTaskOfTheSearch) {
+  OverlapOptions options;
+  options.strategy = Strategy::Exhaustive;
+  stopInTheMiddle(manyBoxes(500'000, 2), options);
+  options.strategy = Strategy::Bvh;
+  stopInTheMiddle(manyBoxes(500'000, 0), options);
+  parallel::TbbExecutor two(2);
+  options.executor = &two;
+  stopInTheMiddle(manyBoxes(500'000, 0), options);
+}
+
+TEST(Stop, OfWhatIsReceivedComesBeforeMany) {
+  const std::vector<BoxF> boxes = manyBoxes(3000, 0);
+  StopFlag stop;
+  std::size_t calls = 0;
+  OverlapOptions options;
+  options.stop = &stop;
+  options.filter.accept = [&](std::uint32_t, std::uint32_t) {
+    ++calls;
+    stop.set();
+    return true;
+  };
+  EXPECT_THROW(static_cast<void>(overlaps(boxes, options)), Stopped);
+  EXPECT_LT(calls, 10'000U);  // of 4.5 million
+}
+
+}  // namespace
+}  // namespace allpairs

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""Ctrl-C ends a search soon, and signal handlers run during one; what was searching can be used on.
+
+Each search runs in a process of its own and would take a minute or more to its end. The limits are a small part of
+that, and a large multiple of the fifth of a second that an interrupt takes: the machine may be busy.
+"""
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+PRELUDE = """
+import signal, sys
+import allpairs
+import numpy as np
+
+heap = np.tile([0.0, 0, 0, 1, 1, 1], (1_000_000, 1))  # all in one place: 500 billion pairs
+row = heap + 2.0 * np.arange(len(heap))[:, None]  # none
+one = np.ones(len(heap), np.uint32)
+
+def interrupted(work):
+    print("begins", flush=True)
+    try:
+        work()
+    except KeyboardInterrupt:
+        print("interrupted", flush=True)
+    else:
+        sys.exit("ran to its end")
+"""
+
+SEARCHES = {
+    "count": "interrupted(lambda: allpairs.count(heap))",
+    "count on two threads": "interrupted(lambda: allpairs.count(heap, threads=2))",
+    "overlaps": "interrupted(lambda: allpairs.overlaps(row, strategy='exhaustive'))",
+    "overlaps on two threads": "interrupted(lambda: allpairs.overlaps(heap, group=one, threads=2))",
+    "overlaps of two sets": "interrupted(lambda: allpairs.overlaps_between(heap, heap, group=(one, one)))",
+    "count of two sets": "interrupted(lambda: allpairs.count_between(heap, heap))",
+    "batches": "interrupted(lambda: next(allpairs.batches(row, strategy='exhaustive')))",
+    "batches in order": "interrupted(lambda: next(allpairs.batches(heap, group=one, threads=2)))",
+    "batches that are left": """
+stream = allpairs.batches(np.vstack([heap[:100], row[100:]]), strategy="exhaustive", order="unordered", batch_size=1)
+next(stream)
+print("begins", flush=True)
+stream.close()
+print("interrupted", flush=True)
+""",
+    "a step": """
+for threads in (1, 2):
+    world = allpairs.World(threads=threads)
+    first = world.add([[0, 0, 0, 1, 1, 1], [1, 1, 1, 2, 2, 2]])
+    assert len(world.step().began) == 1
+    ids = world.add(heap, group=1)
+    interrupted(world.step)
+    world.remove(ids)
+    world.move(first[1:], [[5, 5, 5, 6, 6, 6]])
+    step = world.step()
+    assert (len(step.pairs), step.ended.tolist()) == (0, [[0, 1]])
+""",
+    "a query": """
+world = allpairs.World()
+world.add(heap[:50_000])
+interrupted(lambda: world.nearest(np.zeros((500_000, 3)), 10))
+assert len(world.overlapping(heap[:1])) == 50_000
+""",
+    "candidates": """
+mesh = allpairs.MeshCandidates(np.arange(600_000).reshape(-1, 3), 600_000)
+mesh.set_positions(np.tile([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], (200_000, 1)))
+interrupted(lambda: mesh.count("face-face"))
+mesh.set_positions(np.arange(1_800_000.0).reshape(-1, 3))
+assert mesh.count("face-face") == 0
+""",
+}
+
+
+def run(program):
+    """The process of a program; one that hangs ends after a while."""
+    process = subprocess.Popen([sys.executable, "-c", PRELUDE + program], stdout=subprocess.PIPE, text=True)
+    watch = threading.Timer(60, process.kill)
+    watch.daemon = True
+    watch.start()
+    return process
+
+
+@pytest.mark.parametrize("name", SEARCHES)
+def test_ctrl_c_ends(name):
+    with run(SEARCHES[name] + "\nassert allpairs.count(heap[:5]) == 10\nprint('usable')") as process:
+        while (line := process.stdout.readline()) == "begins\n":
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            begin = time.monotonic()
+            assert process.stdout.readline() == "interrupted\n"
+            assert time.monotonic() - begin < 5
+        assert line == "usable\n"
+        assert process.wait() == 0
+
+
+def test_a_handler_that_raises_nothing_runs_during_the_search_and_changes_nothing():
+    program = """
+seen = []
+world = allpairs.World()
+world.add(row[:100_000])
+signal.signal(signal.SIGALRM, lambda *_: seen.append(len(world)))
+signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+for strategy in ("bvh", "exhaustive"):
+    for threads in (1, 2):
+        assert allpairs.count(row[:100_000], strategy=strategy, threads=threads) == 0
+during = len(seen)
+for _ in range(5):
+    world.move(np.arange(100_000), row[:100_000] + 0.5)
+    assert len(world.step().pairs) == 0
+signal.setitimer(signal.ITIMER_REAL, 0)
+assert during > 1, seen
+assert set(seen) == {100_000}, seen
+print("usable")
+"""
+    with run(program) as process:
+        assert process.communicate()[0] == "usable\n"

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""Masked arrays: NumPy drops a mask without a word, so that what it hides would be found. Here it is refused."""
+
+import allpairs
+import numpy as np
+import pytest
+
+BOXES = np.tile([0.0, 0, 0, 1, 1, 1], (4, 1))
+MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
+
+
+def masked(values):
+    """The array with its second entry, or that of its second row, masked."""
+    array = np.ma.array(values)
+    array[(1, 0) if array.ndim == 2 else 1] = np.ma.masked
+    return array
+
+
+def world():
+    world = allpairs.World()
+    world.add(BOXES)
+    return world
+
+
+CALLS = {
+    "lower": [
+        lambda: allpairs.overlaps(masked(BOXES)),
+        lambda: allpairs.count(masked(BOXES.astype(np.float32))),
+        lambda: allpairs.count(masked(BOXES.astype(int))),
+        lambda: allpairs.overlaps(list(masked(BOXES))),
+        lambda: allpairs.batches(masked(BOXES)),
+        lambda: allpairs.overlaps(masked(BOXES[:, :3]), BOXES[:, 3:]),
+        lambda: allpairs.World().add(masked(BOXES)),
+        lambda: world().move(range(4), masked(BOXES)),
+        lambda: world().overlapping(masked(BOXES)),
+    ],
+    "upper": [lambda: allpairs.overlaps(BOXES[:, :3], masked(BOXES[:, 3:]))],
+    "second set: lower": [lambda: allpairs.count_between(BOXES, masked(BOXES))],
+    "starts: lower": [lambda: world().move_swept(range(4), masked(BOXES), BOXES)],
+    "margin": [lambda: allpairs.overlaps(BOXES, margin=masked(np.ones(4))), lambda: world().set_properties(range(4), margin=masked(np.ones(4)))],
+    "group": [lambda: allpairs.overlaps(BOXES, group=masked(range(4)))],
+    "mask": [lambda: allpairs.World().add(BOXES, mask=masked(range(4)))],
+    "static": [lambda: allpairs.World().add(BOXES, static=masked([True] * 4))],
+    "ignore": [lambda: allpairs.overlaps(BOXES, ignore=masked([[0, 1], [1, 2]]))],
+    "region": [lambda: allpairs.overlaps(BOXES, region=masked(range(6)))],
+    "ids": [lambda: world().remove(masked(range(4)))],
+    "origins": [lambda: world().first_hits(masked(BOXES[:, :3]), [1, 0, 0])],
+    "length": [lambda: world().first_hits(BOXES[:, :3], [1, 0, 0], masked(np.ones(4)))],
+    "points": [lambda: world().nearest(masked(BOXES[:, :3]))],
+    "triangles of mesh 0": [lambda: allpairs.MeshCandidates(masked([[0, 1, 2], [1, 2, 3]]), 4)],
+    "start": [lambda: allpairs.MeshCandidates(**MESH).set_positions(masked(BOXES[:3, :3]))],
+}
+
+
+@pytest.mark.parametrize("name, call", [(name, call) for name, calls in CALLS.items() for call in calls])
+def test_masked_entries_are_refused_by_name(name, call):
+    with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has masked entries"):
+        call()
+
+
+def test_a_masked_array_that_hides_nothing_is_an_array():
+    np.testing.assert_array_equal(allpairs.overlaps(np.ma.array(BOXES)), allpairs.overlaps(BOXES))
+    np.testing.assert_array_equal(allpairs.overlaps(np.ma.array(BOXES, mask=False)), allpairs.overlaps(BOXES))

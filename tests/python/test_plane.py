@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""Boxes in the plane: two axes, of which alone it depends what overlaps."""
+
+import allpairs
+import numpy as np
+import pytest
+from conftest import every_pair, random_boxes
+
+
+def plane_pairs(lower, upper, distance=0.0):
+    """The double loop over two axes; the third is one where all overlap, however much is asked for."""
+    n = len(lower)
+    return every_pair(np.hstack([lower, np.full((n, 1), -1e9)]), np.hstack([upper, np.full((n, 1), 1e9)]), distance)
+
+
+def plane_boxes(n=300, seed=21, dtype=np.float64):
+    lower, upper = random_boxes(n, seed, dtype)
+    return lower[:, :2], upper[:, :2]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int64])
+@pytest.mark.parametrize("distance", [0, 1, -1, -2.5])
+def test_pairs_are_those_of_the_double_loop(dtype, distance):
+    lower, upper = plane_boxes()
+    if dtype is np.int64:
+        upper[np.isinf(upper)] = 1000
+    lower, upper = lower.astype(dtype), upper.astype(dtype)
+    expected = plane_pairs(lower, upper, distance)
+    assert len(expected) > 50
+    for strategy in ("auto", "exhaustive", "bvh"):
+        settings = {"distance": distance, "strategy": strategy}
+        np.testing.assert_array_equal(allpairs.overlaps(lower, upper, **settings), expected)
+        np.testing.assert_array_equal(allpairs.overlaps(np.hstack([lower, upper]), **settings), expected)
+        assert allpairs.count(lower.tolist(), upper.tolist(), **settings) == len(expected)
+    np.testing.assert_array_equal(np.vstack(list(allpairs.batches(lower, upper, distance=distance))), expected)
+
+
+def test_without_negative_distances_it_is_as_if_they_had_no_depth():
+    lower, upper = plane_boxes(2000, seed=22)
+    none = np.zeros((2000, 1))
+    expected = allpairs.overlaps(np.hstack([lower, none]), np.hstack([upper, none]), distance=0.5)
+    np.testing.assert_array_equal(allpairs.overlaps(lower, upper, distance=0.5), expected)
+
+
+@pytest.mark.parametrize("margins", [(-1.0, -0.5), (-1.0, 2.0)])
+def test_negative_margins_ask_for_no_depth(margins):
+    lower, upper = plane_boxes()
+    margin = np.where(np.arange(300) % 2, *margins)
+    deep = np.full((300, 1), 1e9)
+    expected = allpairs.overlaps(np.hstack([lower, -deep]), np.hstack([upper, deep]), margin=margin)
+    np.testing.assert_array_equal(allpairs.overlaps(lower, upper, margin=margin), expected)
+    between = allpairs.overlaps_between((lower, upper), np.hstack([lower, upper]), margin=(margin, -0.25))
+    expected = allpairs.overlaps_between(
+        (np.hstack([lower, -deep]), np.hstack([upper, deep])),
+        (np.hstack([lower, -deep]), np.hstack([upper, deep])),
+        margin=(margin, -0.25),
+    )
+    assert len(expected) > 300
+    np.testing.assert_array_equal(between, expected)
+
+
+@pytest.mark.parametrize("distance", [0, -1])
+def test_a_region_is_in_the_plane_too(distance):
+    lower, upper = plane_boxes()
+    low, high = np.array([3.0, 4.0]), np.array([12.0, 9.0])
+    apart = (lower > high + distance) | (low > upper + distance)
+    inside = ~apart.any(axis=1) & (lower <= upper).all(axis=1)
+    expected = [pair for pair in plane_pairs(lower, upper, distance).tolist() if inside[pair].all()]
+    assert 0 < len(expected) < len(plane_pairs(lower, upper, distance))
+    for region in ([low, high], [*low, *high]):
+        assert allpairs.overlaps(lower, upper, distance=distance, region=region).tolist() == expected
+
+
+def test_a_set_without_boxes_has_any_number_of_axes():
+    plane, space = np.zeros((2, 4)), np.zeros((2, 6))
+    for some in (plane, space):
+        for none in ([], np.zeros((0, 4)), np.zeros((0, 6))):
+            assert allpairs.count_between(some, none) == allpairs.count_between(none, some) == 0
+    assert allpairs.count(np.zeros((0, 2)), np.zeros((0, 2))) == allpairs.count([], []) == 0
+    assert allpairs.count_between(plane, [], region=[0, 0, 1, 1]) == 0
+
+
+def test_a_nan_is_named_as_in_space():
+    with pytest.raises(allpairs.InvalidBox, match="^box 1: max y"):
+        allpairs.overlaps([[0, 0, 1, 1], [0, 0, 1, np.nan]])
