@@ -209,10 +209,11 @@ ALLPAIRS_C_API allpairs_status allpairs_stream_between(allpairs_search* search, 
 
 // Many worlds in one call.
 
-/// How the boxes of a set are divided into worlds: those of a world follow each other, and boxes of different worlds are
-/// never pairs. All fields except struct_size may be 0.
+/// The boxes of worlds: those of a world follow each other, and boxes of different worlds are never pairs. All fields except
+/// struct_size and boxes may be 0.
 typedef struct allpairs_worlds {
-  size_t struct_size;     ///< sizeof(allpairs_worlds)
+  size_t struct_size;  ///< sizeof(allpairs_worlds)
+  const allpairs_set* boxes;
   size_t count;           ///< The number of worlds.
   const uint64_t* begin;  ///< World k has the boxes [begin[k], begin[k + 1]): count + 1 offsets. Null: equally divided.
   const allpairs_pair* ignored;  ///< Boxes, numbered within a world, that are never a pair, in no world.
@@ -230,19 +231,18 @@ typedef struct allpairs_world_pairs {
 
 /// What allpairs_find() would find in each world alone, in the same order; with shared boxes, what allpairs_find_between()
 /// would. Valid until the next such search, allpairs_search_shrink() or the end of the handle.
-ALLPAIRS_C_API allpairs_status allpairs_find_in_worlds(allpairs_search* search, const allpairs_set* boxes,
-                                                       const allpairs_worlds* worlds, allpairs_world_pairs* pairs);
+ALLPAIRS_C_API allpairs_status allpairs_find_in_worlds(allpairs_search* search, const allpairs_worlds* worlds,
+                                                       allpairs_world_pairs* pairs);
 
 /// Where each world's pairs begin, without storing them: writes one number more than there are worlds.
-ALLPAIRS_C_API allpairs_status allpairs_count_in_worlds(allpairs_search* search, const allpairs_set* boxes,
-                                                        const allpairs_worlds* worlds, uint64_t* begin);
+ALLPAIRS_C_API allpairs_status allpairs_count_in_worlds(allpairs_search* search, const allpairs_worlds* worlds,
+                                                        uint64_t* begin);
 
 /// Writes the pairs to memory of the caller, where `begin` says, which allpairs_count_in_worlds() has written.
 ///
 /// Bad input: other numbers are an ALLPAIRS_INVALID_ARGUMENT; `pairs` may then have been written to.
-ALLPAIRS_C_API allpairs_status allpairs_list_in_worlds(allpairs_search* search, const allpairs_set* boxes,
-                                                       const allpairs_worlds* worlds, const uint64_t* begin,
-                                                       allpairs_pair* pairs);
+ALLPAIRS_C_API allpairs_status allpairs_list_in_worlds(allpairs_search* search, const allpairs_worlds* worlds,
+                                                       const uint64_t* begin, allpairs_pair* pairs);
 
 // Moving boxes.
 

@@ -148,5 +148,5 @@ def overlaps_in_worlds(
         if values[name] is not None:
             setter(_core.Side.FIRST, _labels(name, values[name], len(boxes), begin))
     others = None if shared is None else _arguments.boxes_between(shared, None, "shared: ")
-    pairs, places = _core.overlaps_in_worlds(boxes, begin, ignored, others, options)
+    pairs, places = _core.overlaps_in_worlds(_core.Worlds(boxes, begin, ignored), others, options)
     return np.asarray(pairs), np.asarray(places).view(np.int64)

@@ -25,12 +25,12 @@ using OffsetArray = NumberArray<std::uint64_t>;
 class Division {
  public:
   /// Offsets are a contiguous buffer of uint64, ignored pairs one of shape (k, 2), uint32.
-  Division(const Boxes& boxes, const py::buffer& begin, const py::buffer& ignored)
-      : m_begin(begin.request()), m_ignored(requestBuffer(ignored, {"I", 2})) {
+  Division(std::shared_ptr<Boxes> boxes, const py::buffer& begin, const py::buffer& ignored)
+      : m_boxes(std::move(boxes)), m_begin(begin.request()), m_ignored(requestBuffer(ignored, {"I", 2})) {
     if (m_begin.ndim != 1 || m_begin.itemsize != 8 || (m_begin.format != "L" && m_begin.format != "Q")) {
       throw InvalidArgument("offsets of another kind than the module takes");
     }
-    m_worlds = Worlds(boxes.set(), valuesOf<std::uint64_t>(m_begin));
+    m_worlds = Worlds(m_boxes->set(), valuesOf<std::uint64_t>(m_begin));
     const std::span<const std::uint32_t> numbers = valuesOf<std::uint32_t>(m_ignored);
     m_worlds.setIgnoredPairs({reinterpret_cast<const Pair*>(numbers.data()), numbers.size() / 2});
   }
@@ -38,6 +38,7 @@ class Division {
   [[nodiscard]] const Worlds& worlds() const noexcept { return m_worlds; }
 
  private:
+  std::shared_ptr<Boxes> m_boxes;
   py::buffer_info m_begin;
   py::buffer_info m_ignored;
   Worlds m_worlds;
@@ -47,12 +48,10 @@ py::tuple toTuple(WorldPairs found) {
   return py::make_tuple(toPython(std::move(found.pairs)), std::make_unique<OffsetArray>(std::move(found.begin)));
 }
 
-py::tuple findInWorlds(const Boxes& boxes, const py::buffer& begin, const py::buffer& ignored, const Boxes* shared,
-                       Options& options) {
-  const Division division(boxes, begin, ignored);
-  return toTuple(options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
-    return shared == nullptr ? overlapsInWorlds(division.worlds(), settings)
-                             : overlapsInWorlds(division.worlds(), shared->set(), settings);
+py::tuple findInWorlds(const Division& division, const Boxes* shared, Options& options) {
+  const Worlds& worlds = division.worlds();
+  return toTuple(options.run(worlds.boxes().size(), [&](const OverlapOptions& settings) {
+    return shared == nullptr ? overlapsInWorlds(worlds, settings) : overlapsInWorlds(worlds, shared->set(), settings);
   }));
 }
 
@@ -60,6 +59,7 @@ py::tuple findInWorlds(const Boxes& boxes, const py::buffer& begin, const py::bu
 
 void bindWorlds(py::module_& module) {
   const py::class_<OffsetArray> offsets(module, "OffsetArray", tableProtocol<OffsetArray>());
+  py::class_<Division>(module, "Worlds").def(py::init<std::shared_ptr<Boxes>, const py::buffer&, const py::buffer&>());
   module.def("overlaps_in_worlds", &findInWorlds);
 }
 

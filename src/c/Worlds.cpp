@@ -33,10 +33,10 @@ Worlds worldsOf(const BoxView& boxes, const allpairs_worlds& given) {
   return worlds;
 }
 
-Call prepared(allpairs_search* search, const allpairs_set* boxes, const allpairs_worlds* given) {
+Call prepared(allpairs_search* search, const allpairs_worlds* given) {
   allpairs_search& handle = required(search, "search");
   const allpairs_worlds known = c::known(&required(given, "worlds"));
-  const Worlds worlds = worldsOf(required(boxes, "boxes").boxes, known);
+  const Worlds worlds = worldsOf(required(known.boxes, "worlds.boxes").boxes, known);
   if (known.filter_is_of_one && !worlds.hasEqualSizes()) {
     throw InvalidArgument("a filter of one world for worlds that are not of equal size");
   }
@@ -60,29 +60,28 @@ Call prepared(allpairs_search* search, const allpairs_set* boxes, const allpairs
 // NOLINTBEGIN(readability-identifier-naming): names are C's.
 using namespace allpairs::c;
 
-allpairs_status allpairs_find_in_worlds(allpairs_search* search, const allpairs_set* boxes,
-                                        const allpairs_worlds* worlds, allpairs_world_pairs* pairs) {
+allpairs_status allpairs_find_in_worlds(allpairs_search* search, const allpairs_worlds* worlds,
+                                        allpairs_world_pairs* pairs) {
   return guarded([&] {
     allpairs_world_pairs& result = required(pairs, "pairs");
-    const allpairs::WorldPairsView found = prepared(search, boxes, worlds).find();
+    const allpairs::WorldPairsView found = prepared(search, worlds).find();
     result = {toC(found.pairs), found.begin.data()};
   });
 }
 
-allpairs_status allpairs_count_in_worlds(allpairs_search* search, const allpairs_set* boxes,
-                                         const allpairs_worlds* worlds, uint64_t* begin) {
+allpairs_status allpairs_count_in_worlds(allpairs_search* search, const allpairs_worlds* worlds, uint64_t* begin) {
   return guarded([&] {
     uint64_t* const to = &required(begin, "begin");
-    const std::span<const std::uint64_t> counted = prepared(search, boxes, worlds).count();
+    const std::span<const std::uint64_t> counted = prepared(search, worlds).count();
     std::copy(counted.begin(), counted.end(), to);
   });
 }
 
-allpairs_status allpairs_list_in_worlds(allpairs_search* search, const allpairs_set* boxes,
-                                        const allpairs_worlds* worlds, const uint64_t* begin, allpairs_pair* pairs) {
+allpairs_status allpairs_list_in_worlds(allpairs_search* search, const allpairs_worlds* worlds, const uint64_t* begin,
+                                        allpairs_pair* pairs) {
   return guarded([&] {
     const uint64_t* const from = &required(begin, "begin");
-    Call call = prepared(search, boxes, worlds);
+    Call call = prepared(search, worlds);
     const std::span<const std::uint64_t> offsets(from, call.worlds.size() + 1);
     const auto to = requiredSpan(pairs, static_cast<std::size_t>(offsets.back()), "pairs");
     call.list(offsets, {reinterpret_cast<allpairs::Pair*>(to.data()), to.size()});

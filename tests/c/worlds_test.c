@@ -33,17 +33,17 @@ static void findEach(allpairs_search* search, const allpairs_set* shared) {
   ALLPAIRS_CHECK(count > 0);
 }
 
-static void check(allpairs_search* search, const allpairs_set* boxes, const allpairs_worlds* worlds) {
+static void check(allpairs_search* search, const allpairs_worlds* worlds) {
   allpairs_world_pairs found;
   const size_t count = (size_t)expectedBegin[kWorlds];
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, worlds, &found) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, worlds, &found) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(found.pairs.count == count);
   ALLPAIRS_CHECK(memcmp(found.pairs.data, expected, count * sizeof(allpairs_pair)) == 0);
   ALLPAIRS_CHECK(memcmp(found.begin, expectedBegin, sizeof expectedBegin) == 0);
-  ALLPAIRS_CHECK(allpairs_count_in_worlds(search, boxes, worlds, begin) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_count_in_worlds(search, worlds, begin) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(memcmp(begin, expectedBegin, sizeof expectedBegin) == 0);
   memset(listed, 0, sizeof listed);
-  ALLPAIRS_CHECK(allpairs_list_in_worlds(search, boxes, worlds, begin, listed) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_list_in_worlds(search, worlds, begin, listed) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(memcmp(listed, expected, count * sizeof(allpairs_pair)) == 0);
 }
 
@@ -52,15 +52,16 @@ static void pairsAreThoseOfEachWorld(const allpairs_set* boxes) {
   uint64_t offsets[kWorlds + 1];
   allpairs_worlds worlds = {0};
   worlds.struct_size = sizeof worlds;
+  worlds.boxes = boxes;
   worlds.count = kWorlds;
   for (size_t k = 0; k <= kWorlds; ++k) offsets[k] = k * kBoxes;
   ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
   findEach(search, NULL);
-  check(search, boxes, &worlds);
+  check(search, &worlds);
   worlds.begin = offsets;
-  check(search, boxes, &worlds);
+  check(search, &worlds);
   ALLPAIRS_CHECK(allpairs_search_shrink(search) == ALLPAIRS_OK);
-  check(search, boxes, &worlds);
+  check(search, &worlds);
   allpairs_search_destroy(search);
 }
 
@@ -71,16 +72,17 @@ static void aFilterOfOneWorldHoldsForAll(const allpairs_set* boxes) {
   allpairs_world_pairs found;
   const allpairs_pair ignored = {1, 0};
   worlds.struct_size = sizeof worlds;
+  worlds.boxes = boxes;
   worlds.count = kWorlds;
   worlds.filter_is_of_one = true;
   options.first.groups = groups;
   options.threads = 2;
   ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
   findEach(search, NULL);
-  check(search, boxes, &worlds);
+  check(search, &worlds);
   worlds.ignored = &ignored;
   worlds.ignored_count = 1;
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, &worlds, &found) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, &worlds, &found) == ALLPAIRS_OK);
   for (size_t i = 0; i < found.pairs.count; ++i) {
     ALLPAIRS_CHECK(found.pairs.data[i].first != 0 || found.pairs.data[i].second != 1);
   }
@@ -95,10 +97,11 @@ static void sharedBoxesAreInEveryWorld(const allpairs_set* boxes) {
   ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_set_create_f64(ground, 2, &shared) == ALLPAIRS_OK);
   worlds.struct_size = sizeof worlds;
+  worlds.boxes = boxes;
   worlds.count = kWorlds;
   worlds.shared = shared;
   findEach(search, shared);
-  check(search, boxes, &worlds);
+  check(search, &worlds);
   allpairs_set_destroy(shared);
   allpairs_search_destroy(search);
 }
@@ -126,23 +129,24 @@ static void mistakesAreNamed(const allpairs_set* boxes) {
   struct Caller caller;
   allpairs_options options = allpairs_default_options();
   ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
   worlds.struct_size = sizeof worlds;
+  worlds.boxes = boxes;
   worlds.count = 7;
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(strcmp(allpairs_error_message(), "1200 boxes cannot be divided equally among 7 worlds") == 0);
   worlds.count = 2;
   worlds.begin = wrong;
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(strstr(allpairs_error_message(), "world 1") != NULL);
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, NULL, &found) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, NULL, &found) == ALLPAIRS_INVALID_ARGUMENT);
   worlds.begin = NULL;
   caller.search = search;
   caller.boxes = boxes;
   options.accept = callBack;
   options.accept_context = &caller;
   ALLPAIRS_CHECK(allpairs_search_set_options(search, &options) == ALLPAIRS_OK);
-  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, boxes, &worlds, &found) == ALLPAIRS_OK && found.pairs.count > 0);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(search, &worlds, &found) == ALLPAIRS_OK && found.pairs.count > 0);
   allpairs_search_destroy(search);
 }
 
