@@ -97,7 +97,7 @@ def is_one(value: object) -> bool:
     return bool(np.isscalar(value)) or (isinstance(value, np.ndarray) and value.ndim == 0)
 
 
-def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """The value as an array; NumPy would drop the mask of a masked one, and what it hides would count."""
     if type(value) is np.ndarray:
         return value
@@ -109,7 +109,7 @@ def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
 
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly."""
-    array = _array(name, value)
+    array = array_of(name, value)
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
         return array.astype(native, copy=False)
@@ -174,7 +174,7 @@ def _corners(
     return rows[:, :half], rows[:, half:]
 
 
-def _with_margins(boxes: _core.Boxes, margin: npt.ArrayLike | None, prefix: str) -> _core.Boxes:
+def with_margins(boxes: _core.Boxes, margin: npt.ArrayLike | None, prefix: str = "") -> _core.Boxes:
     if margin is not None:
         margins = floats(prefix + "margin", margin).astype(np.float64, copy=False)
         if margins.ndim == 0:
@@ -211,7 +211,7 @@ def box_set(
     if axes == 2:
         flat = np.full((len(low), 1), depth_of_plane(), low.dtype)
         low, high = np.hstack([low, -flat]), np.hstack([high, flat])
-    return BoxSet(_with_margins(_core.Boxes(low, high, prefix), margin, prefix), axes)
+    return BoxSet(with_margins(_core.Boxes(low, high, prefix), margin, prefix), axes)
 
 
 def depth_of(distance: float, margins: Iterable[npt.ArrayLike | None]) -> float:
@@ -242,7 +242,7 @@ def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[A
 
 def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """Integers as uint32, the same memory where they are."""
-    array = _array(name, value)
+    array = array_of(name, value)
     if array.size == 0:
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iub":

@@ -9,19 +9,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core, _search
-from ._arguments import BoxesLike
+from ._arguments import BoxesLike, Order, Strategy
 from ._errors import InvalidArgument
 
 #: Where each world's pairs, or boxes, begin: one more than there are worlds.
 Offsets = npt.NDArray[np.int64]
 
 
-def _array(value: Any) -> npt.NDArray[Any]:
+def _array(name: str, value: Any) -> npt.NDArray[Any]:
     """An array of what is one, in the same memory where it can be."""
     if not isinstance(value, np.ndarray) and not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):
         array: npt.NDArray[Any] = np.from_dlpack(value)
         return array
-    return np.asarray(value)
+    return _arguments.array_of(name, value)
 
 
 def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
@@ -31,7 +31,7 @@ def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
 
 def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
     """Integers as uint64, the same memory where they are of 64 bits."""
-    array = _array(value)
+    array = _array("offsets", value)
     if array.ndim != 1:
         raise InvalidArgument(f"offsets has shape {array.shape}; it takes (worlds + 1,)")
     if array.dtype.kind not in "iu":
@@ -47,8 +47,8 @@ def _divided(
     lower: npt.ArrayLike, upper: npt.ArrayLike | None, offsets: npt.ArrayLike | None
 ) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None, npt.NDArray[np.uint64]]:
     """Boxes as tables, and where each world begins."""
-    low = _array(lower)
-    high = None if upper is None else _array(upper)
+    low = _array("lower", lower)
+    high = None if upper is None else _array("upper", upper)
     if offsets is not None:
         return low, high, _given_offsets(offsets)
     columns = 6 if high is None else 3
@@ -64,7 +64,9 @@ def _divided(
 
 def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint32]:
     """A filter's array: for each box of all worlds, or, if they are of equal size, of one."""
-    array = _array(value).ravel()
+    if _arguments.is_one(value):
+        return _arguments.labels(name, value, boxes)
+    array = _array(name, value).ravel()
     sizes = np.diff(begin)
     one = int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else boxes
     return _arguments.labels(name, array, one if array.size == one else boxes)
@@ -83,8 +85,8 @@ def overlaps_in_worlds(
     category: npt.ArrayLike | None = None,
     mask: npt.ArrayLike | None = None,
     ignore: npt.ArrayLike | None = None,
-    order: str = "first",
-    strategy: str = "auto",
+    order: Order = "first",
+    strategy: Strategy = "auto",
     threads: int = 1,
     max_pairs: int | None = None,
 ) -> tuple[_search.Pairs, Offsets]:
@@ -105,7 +107,7 @@ def overlaps_in_worlds(
         these, as `overlaps_between` returns them.
     margin : float or array_like, one for each box of all worlds
         As in `overlaps`. Shared boxes have none.
-    group, category, mask : array_like of integers 0 to 2**32 - 1
+    group, category, mask : int or array_like of integers 0 to 2**32 - 1
         As in `overlaps`: one for each box of all worlds, or, if worlds are of equal size, of one world for all. Shared
         boxes have no group, and every category and mask.
     ignore : array_like, shape (k, 2), integers
@@ -134,19 +136,18 @@ def overlaps_in_worlds(
     ([[0, 0], [0, 0]], [0, 1, 2])
     """
     low, high, begin = _divided(lower, upper, offsets)
-    margins = None if margin is None else np.asarray(margin, dtype=np.float64)
-    if margins is not None and margins.ndim != 0:
-        margins = margins.ravel()
-    boxes = _arguments.boxes_of(low, high, margins)
+    if margin is not None and not _arguments.is_one(margin):
+        margin = _array("margin", margin).ravel()
+    boxes = _arguments.with_margins(_arguments.boxes_of(low, high), margin)
     values = dict(locals())
     nothing = np.empty((0, 2), dtype=np.uint32)
     ignored = nothing
     if shared is None and ignore is not None:
         ignored, values["ignore"] = _arguments.index_rows("ignore", ignore, 2), None
-    options = _search._settings(values, one_set=shared is None)
+    options = _search._settings(values, 3, one_set=shared is None)
     for name, setter in (("group", options.set_groups), ("category", options.set_categories), ("mask", options.set_masks)):
         if values[name] is not None:
             setter(_core.Side.FIRST, _labels(name, values[name], len(boxes), begin))
-    others = None if shared is None else _arguments.boxes_between(shared, None, "shared: ")
+    others = None if shared is None else _arguments.boxes_of(*_arguments.two_corners(shared, "shared: "), "shared: ")
     pairs, places = _core.overlaps_in_worlds(_core.Worlds(boxes, begin, ignored), others, options)
     return np.asarray(pairs), np.asarray(places).view(np.int64)

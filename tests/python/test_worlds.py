@@ -147,3 +147,17 @@ def test_wrong_shapes_are_named():
         allpairs.overlaps_in_worlds(np.zeros((10, 2, 6)), ignore=[[0, 2]])
     with pytest.raises(allpairs.InvalidBox, match="box 7"):
         allpairs.overlaps_in_worlds(np.where(np.arange(60).reshape(5, 2, 6) == 43, np.nan, 0.0))
+
+
+def test_masked_entries_are_refused_and_one_number_holds_for_all_boxes():
+    hidden = np.ma.masked_less(np.zeros((10, 2, 6)), 1)
+    with pytest.raises(allpairs.InvalidArgument, match="lower has masked entries"):
+        allpairs.overlaps_in_worlds(hidden)
+    with pytest.raises(allpairs.InvalidArgument, match="offsets has masked entries"):
+        allpairs.overlaps_in_worlds(np.zeros((10, 6)), offsets=np.ma.masked_equal([0, 10], 10))
+    boxes = np.zeros((10, 2, 6))
+    assert len(allpairs.overlaps_in_worlds(boxes)[0]) == 10
+    assert len(allpairs.overlaps_in_worlds(boxes, group=3)[0]) == 0
+    assert len(allpairs.overlaps_in_worlds(boxes, group=0, mask=1, category=3)[0]) == 10
+    with pytest.raises(allpairs.InvalidArgument, match="mask is"):
+        allpairs.overlaps_in_worlds(boxes, mask=2**40)
