@@ -359,11 +359,11 @@ HWY_INLINE void readWorld(const WorldsRun& run, std::size_t firstBox, const Worl
 HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t boxes) {
   constexpr std::size_t kAhead = 4096 / sizeof(float);
   constexpr std::size_t kLine = 64 / sizeof(float);
-  const float* const min = run.min + box * run.stride + kAhead;
-  const float* const max = run.max + box * run.stride + kAhead;
-  for (std::size_t i = 0; i < boxes * run.stride; i += kLine) {
-    hwy::Prefetch(min + i);
-    if (run.stride == 3) hwy::Prefetch(max + i);
+  const std::size_t begin = box * run.stride + kAhead;
+  const std::size_t end = std::min(begin + boxes * run.stride, std::size_t{run.offsets[run.end]} * run.stride);
+  for (std::size_t i = begin; i < end; i += kLine) {
+    hwy::Prefetch(run.min + i);
+    if (run.stride == 3) hwy::Prefetch(run.max + i);
   }
 }
 

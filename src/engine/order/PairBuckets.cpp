@@ -125,7 +125,9 @@ void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
   const std::size_t keys = rule.buckets << rule.keyBits;
   const bool isAmple = m_isDefaultMemory && keys <= kMostBuckets << kLeastKeyBits;
   const std::size_t likelyPairs = (isAmple ? 4 : 1) * kPairsPerKey * keys / workers;
-  makeRoom(2 * rule.buckets + likelyPairs / kChunk);
+  const std::size_t chunks = 2 * rule.buckets + likelyPairs / kChunk;
+  m_numbers.require(chunks * kChunk);
+  m_following.require(chunks);
 }
 
 void PairBuckets::makeRoom(std::size_t chunks) {

@@ -65,13 +65,13 @@ double JoinRunner::partnersPerBox(const Job& job) {
 
 void JoinRunner::run(const Job& job, Executor& executor) {
   const std::size_t threads = executor.concurrency();
-  const TaskCut cut = job.isFlat ? TaskCut::ofRows(job.units, job.flat.columns.size, threads)
-                                 : TaskCut::ofLeaves(job.units, job.firstLarge, threads);
-  m_segments.resize(cut.tasks());
   // Lists are made for all leaf blocks of a node at once.
-  const std::size_t whole = job.lists.empty() ? 1 : kFanOut;
+  const std::size_t unit = job.lists.empty() ? 1 : kFanOut;
+  const TaskCut cut = job.isFlat ? TaskCut::ofRows(job.units, job.flat.columns.size, threads)
+                                 : TaskCut::ofLeaves((job.units + unit - 1) / unit, job.firstLarge / unit, threads);
+  m_segments.resize(cut.tasks());
   const auto beginOf = [&](std::size_t task) {
-    return task == cut.tasks() ? job.units : cut.begin(task) / whole * whole;
+    return task == cut.tasks() ? job.units : std::min(cut.begin(task) * unit, job.units);
   };
   executor.run(cut.tasks(), [&](std::size_t task) {
     withWorker([&](std::size_t index, Worker& worker) {
