@@ -164,7 +164,7 @@ TYPED_TEST(WorldsOf, OneToEightThreadsGiveTheSame) {
 }
 
 TYPED_TEST(WorldsOf, MarginsDistanceAndRegionHoldInEachWorld) {
-  const Scene<TypeParam> scene(mixedSizes(50, 9), 11);
+  const Scene<TypeParam> scene(mixedSizes(16, 9), 11);
   std::vector<double> margins(scene.boxes.size());
   for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 0.07 * static_cast<double>(i % 5) - 0.1;
   margins[4] = test::kInfinity;
