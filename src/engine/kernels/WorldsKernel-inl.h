@@ -42,7 +42,7 @@ class FloatTest {
  public:
   using D = FloatTag;
 
-  HWY_INLINE explicit FloatTest(const WorldTile<float>& tile) : m_tile(tile) {}
+  HWY_INLINE explicit FloatTest(const WorldTile<float>& tile) : m_tile(tile), m_columns(broadcast(kNeverLanes)) {}
 
   /// The boxes that rows are tested against.
   HWY_INLINE void setColumns(std::size_t place) {
