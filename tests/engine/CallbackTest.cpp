@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "CompareStep.h"
 #include "WorldOracle.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
@@ -226,14 +227,7 @@ class CallbackOfWorld : public ::testing::Test {
     for (std::size_t i = 0; i < count; ++i) oracle.boxes[ids[i]].box = boxes[i];
   }
 
-  void compareStep() {
-    const StepResult found = world.step();
-    oracle.step();
-    ASSERT_EQ(test::toVector(found.pairs), oracle.pairs);
-    ASSERT_EQ(test::toVector(found.began), oracle.began);
-    ASSERT_EQ(test::toVector(found.persisted), oracle.persisted);
-    ASSERT_EQ(test::toVector(found.ended), oracle.ended);
-  }
+  void compareStep() { test::compareStep(world, oracle); }
 
   /// After each step that threw, the next one tells what has changed since the last that returned.
   void throwInEachStep(Thrower& thrower) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "CompareStep.h"
 #include "WorldOracle.h"
 #include "allpairs/World.h"
 #include "support/Boxes.h"
@@ -55,14 +56,7 @@ class Twins {
     }
   }
 
-  void compareStep() {
-    const StepResult found = world.step();
-    oracle.step();
-    ASSERT_EQ(test::toVector(found.pairs), oracle.pairs);
-    ASSERT_EQ(test::toVector(found.began), oracle.began);
-    ASSERT_EQ(test::toVector(found.persisted), oracle.persisted);
-    ASSERT_EQ(test::toVector(found.ended), oracle.ended);
-  }
+  void compareStep() { test::compareStep(world, oracle); }
 
   void compareQueries() {
     const Box query = test::cube(1, 1, 1, 2.5);

@@ -49,8 +49,7 @@ std::vector<Box> inDouble(const std::vector<BasicBox<T>>& boxes) {
 
 std::vector<Pair> inOrder(std::vector<Pair> pairs, Order order) {
   if (order == Order::BySecond) {
-    std::sort(pairs.begin(), pairs.end(),
-              [](Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; });
+    std::sort(pairs.begin(), pairs.end(), test::isLessBySecond);
   }
   return pairs;
 }

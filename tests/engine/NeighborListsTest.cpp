@@ -34,8 +34,7 @@ constexpr std::size_t kDenseBoxes = 1500;
 
 /// The pairs as they come by (second, first).
 std::vector<Pair> bySecond(std::vector<Pair> pairs) {
-  std::sort(pairs.begin(), pairs.end(),
-            [](Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; });
+  std::sort(pairs.begin(), pairs.end(), test::isLessBySecond);
   return pairs;
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "CompareStep.h"
 #include "WorldOracle.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
@@ -157,14 +158,7 @@ struct MovedWorld {
     }
   }
 
-  void compareStep() {
-    const StepResult found = world.step();
-    oracle.step();
-    ASSERT_EQ(test::toVector(found.pairs), oracle.pairs);
-    ASSERT_EQ(test::toVector(found.began), oracle.began);
-    ASSERT_EQ(test::toVector(found.persisted), oracle.persisted);
-    ASSERT_EQ(test::toVector(found.ended), oracle.ended);
-  }
+  void compareStep() { test::compareStep(world, oracle); }
 
   World world;
   test::WorldOracle oracle;

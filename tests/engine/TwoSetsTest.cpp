@@ -80,9 +80,7 @@ TEST(TwoSets, ThatMeetAnywhereGiveTheOraclesPairs) {
       ASSERT_EQ(countOverlaps(meeting.first, meeting.second, options), expected.size());
       options.order = Order::BySecond;
       std::vector<Pair> bySecond = overlaps(meeting.first, meeting.second, options);
-      ASSERT_TRUE(std::is_sorted(bySecond.begin(), bySecond.end(), [](Pair a, Pair b) {
-        return a.second != b.second ? a.second < b.second : a.first < b.first;
-      }));
+      ASSERT_TRUE(std::is_sorted(bySecond.begin(), bySecond.end(), test::isLessBySecond));
       std::sort(bySecond.begin(), bySecond.end());
       ASSERT_EQ(bySecond, expected);
     }

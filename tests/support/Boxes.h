@@ -55,6 +55,9 @@ inline std::vector<Box> toDouble(std::span<const BoxF> boxes) {
 /// A cube by its minimum and its side.
 inline Box cube(double x, double y, double z, double side = 1.0) { return {{x, y, z}, {x + side, y + side, z + side}}; }
 
+/// The order by (second, first).
+inline bool isLessBySecond(Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; }
+
 template <class Pairs>
 std::vector<Pair> toVector(const Pairs& pairs) {
   return {pairs.begin(), pairs.end()};

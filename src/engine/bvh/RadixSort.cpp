@@ -2,7 +2,9 @@
 #include "bvh/RadixSort.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 namespace allpairs::engine {
@@ -18,13 +20,74 @@ constexpr unsigned kRunBits = 12;
 /// A chunk smaller than this is not worth a task.
 constexpr std::size_t kMinChunk = std::size_t{1} << 13;
 
+/// Runs up to this length are sorted by insertion.
+constexpr std::size_t kShortRun = 24;
+
+/// The most bits of a digit: its counters then stay in the first-level cache beside the numbers.
+constexpr unsigned kMaxDigitBits = 11;
+
+/// From this length on the places that a pass writes to, one for each digit, have to lie in the first-level cache.
+constexpr unsigned kFewDigitBits = 8;
+constexpr std::size_t kLongRun = 65536;
+
+template <class Number>
+void insertionSort(Number* values, std::size_t size, unsigned begin) noexcept {
+  for (std::size_t i = 1; i < size; ++i) {
+    const Number value = values[i];
+    std::size_t hole = i;
+    for (; hole > 0 && values[hole - 1] >> begin > value >> begin; --hole) values[hole] = values[hole - 1];
+    values[hole] = value;
+  }
+}
+
+/// How many bits a digit has; with more counters than numbers, a pass would spend its time on those.
+unsigned digitBits(std::size_t size, unsigned bits) noexcept {
+  const unsigned most =
+      std::min(static_cast<unsigned>(std::bit_width(size)) - 1, size < kLongRun ? kMaxDigitBits : kFewDigitBits);
+  const unsigned passes = (bits + most - 1) / most;
+  return (bits + passes - 1) / passes;
+}
+
 }  // namespace
 
 template <class Number>
 Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, unsigned end) noexcept {
-  const bool isWritten =
-      radixSortTo(from, to, size, begin, end, [&to](std::size_t place, Number number) { to[place] = number; });
-  return isWritten ? to : from;
+  if (size <= kShortRun) insertionSort(from, size, begin);
+  if (size <= kShortRun || begin >= end) return from;
+  const unsigned bits = digitBits(size, end - begin);
+  const std::size_t values = std::size_t{1} << bits;
+  const auto mask = static_cast<Number>(values - 1);
+  std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>
+      memory[2];  // counts by digit, then places; this pass's, the next's
+  std::uint32_t* places = memory[0].data();
+  std::uint32_t* next = memory[1].data();
+  const auto count = [=, &from](unsigned shift, std::uint32_t* counts) {
+    std::fill_n(counts, values, 0U);
+    for (const Number* number = from; number != from + size; ++number) ++counts[*number >> shift & mask];
+  };
+  count(begin, places);
+  for (unsigned shift = begin;; shift += bits, std::swap(places, next)) {
+    const bool isEqual = places[from[0] >> shift & mask] == size;
+    std::exclusive_scan(places, places + values, places, 0U);
+    const Number* const numbers = from;
+    if (shift + bits >= end) {
+      if (isEqual) return from;
+      for (std::size_t i = 0; i < size; ++i) to[places[numbers[i] >> shift & mask]++] = numbers[i];
+      return to;
+    }
+    if (isEqual) {
+      count(shift + bits, next);
+      continue;
+    }
+    std::fill_n(next, values, 0U);
+    Number* const moved = to;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Number number = numbers[i];
+      ++next[number >> (shift + bits) & mask];
+      moved[places[number >> shift & mask]++] = number;
+    }
+    std::swap(from, to);
+  }
 }
 
 template std::uint32_t* radixSort(std::uint32_t*, std::uint32_t*, std::size_t, unsigned, unsigned) noexcept;

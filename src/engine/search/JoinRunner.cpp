@@ -2,8 +2,6 @@
 #include "search/JoinRunner.h"
 
 #include <algorithm>
-#include <memory>
-#include <thread>
 
 #include "search/StoppableExecutor.h"
 #include "search/TaskCut.h"
@@ -34,18 +32,9 @@ JoinRunner::Job JoinRunner::Job::ofJoin(const BvhView& first, const BvhView& sec
 std::size_t JoinRunner::start(const SinkOptions& options, const Executor& executor) {
   m_kernels = options.kernels;
   m_stop = options.stop;
-  while (m_workers.size() < executor.concurrency()) m_workers.push_back(makeOwned<Worker>(memory()));
-  for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i]->sink.start(options, i);
+  m_workers.require(executor.concurrency());
+  for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].sink.start(options, i);
   return m_workers.size();
-}
-
-std::size_t JoinRunner::claimWorker() {
-  for (;;) {
-    for (std::size_t i = 0; i < m_workers.size(); ++i) {
-      if (!m_workers[i]->busy.test_and_set(std::memory_order_acquire)) return i;
-    }
-    std::this_thread::yield();
-  }
 }
 
 double JoinRunner::partnersPerBox(const Job& job) {
@@ -57,7 +46,7 @@ double JoinRunner::partnersPerBox(const Job& job) {
   std::size_t boxes = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const std::size_t leaf = job.units * (2 * i + 1) / (2 * samples);
-    m_kernels->join({job.first, job.second, false, leaf, leaf + 1, &m_workers[0]->scratch}, hits);
+    m_kernels->join({job.first, job.second, false, leaf, leaf + 1, &m_workers[0].scratch}, hits);
     boxes += job.first->level[0].fill(leaf);
   }
   return static_cast<double>(hits.count) / static_cast<double>(boxes);
@@ -74,7 +63,7 @@ void JoinRunner::run(const Job& job, Executor& executor) {
     return task == cut.tasks() ? job.units : std::min(cut.begin(task) * unit, job.units);
   };
   executor.run(cut.tasks(), [&](std::size_t task) {
-    withWorker([&](std::size_t index, Worker& worker) {
+    m_workers.withOne([&](std::size_t index, Worker& worker) {
       const std::size_t begin = worker.sink.size();
       worker.lists = job.lists.empty() ? nullptr : &job.lists[index];
       const auto part = m_stop == nullptr ? &JoinRunner::runPart : &JoinRunner::runInStretches;
@@ -118,11 +107,12 @@ void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t e
 
 OverlapStatistics JoinRunner::totals() const noexcept {
   OverlapStatistics totals;
-  for (const Owned<Worker>& worker : m_workers) {
-    totals.pairs += worker->sink.count();
-    totals.exactTests += worker->sink.exactTests();
-    totals.boxTests += worker->sink.hits().boxTests;
-    totals.groupTests += worker->sink.hits().groupTests;
+  for (std::size_t i = 0; i < m_workers.size(); ++i) {
+    PairSink& sink = m_workers[i].sink;
+    totals.pairs += sink.count();
+    totals.exactTests += sink.exactTests();
+    totals.boxTests += sink.hits().boxTests;
+    totals.groupTests += sink.hits().groupTests;
   }
   return totals;
 }

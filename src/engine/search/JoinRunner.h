@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
 #include "search/PairSink.h"
+#include "search/Workers.h"
 
 namespace allpairs::engine {
 
@@ -58,12 +57,12 @@ class JoinRunner {
   /// Calls use(scratch), between runs, with memory of a worker that no other task has meanwhile.
   template <class Use>
   void withScratch(const Use& use) {
-    withWorker([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory()); });
+    m_workers.withOne([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory()); });
   }
 
-  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.get_allocator().resource(); }
+  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.memory(); }
   [[nodiscard]] std::size_t workers() const noexcept { return m_workers.size(); }
-  [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker]->sink; }
+  [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker].sink; }
   [[nodiscard]] std::span<const Segment> segments() const noexcept { return m_segments; }
 
   /// The statistics of all workers since start().
@@ -76,26 +75,14 @@ class JoinRunner {
     PairSink sink;
     JoinScratch scratch;
     NeighborLists* lists = nullptr;  ///< Those of the running job.
-    std::atomic_flag busy;
   };
-
-  std::size_t claimWorker();
-
-  /// Calls use(index, worker) with a worker that no other task has meanwhile.
-  template <class Use>
-  void withWorker(const Use& use) {
-    const std::size_t index = claimWorker();
-    const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
-    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&m_workers[index]->busy, clear);
-    use(index, *m_workers[index]);
-  }
 
   void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
   void runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
 
   const Kernels* m_kernels = nullptr;
   const StopFlag* m_stop = nullptr;
-  std::pmr::vector<Owned<Worker>> m_workers;
+  Workers<Worker> m_workers;
   std::pmr::vector<Segment> m_segments;
 };
 

@@ -2,9 +2,7 @@
 #include "worlds/WorldsSearcher.h"
 
 #include <algorithm>
-#include <memory>
 #include <string>
-#include <thread>
 
 #include "allpairs/Error.h"
 #include "input/Options.h"
@@ -99,12 +97,10 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
   if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, kMostInDouble);
   m_filter.prepare(worlds, options, m_mostBoxes);
-  while (m_workers.size() < m_executor->concurrency()) {
-    m_workers.push_back(makeOwned<Worker>(m_workers.get_allocator().resource()));
-  }
-  for (const Owned<Worker>& worker : m_workers) {
-    worker->size = 0;
-    worker->statistics = {};
+  m_workers.require(m_executor->concurrency());
+  for (std::size_t i = 0; i < m_workers.size(); ++i) {
+    m_workers[i].size = 0;
+    m_workers[i].statistics = {};
   }
   m_begin.resize(worlds.size() + 1);
   m_begin[0] = 0;
@@ -137,24 +133,14 @@ void WorldsSearcher::cutParts() {
   }
 }
 
-std::size_t WorldsSearcher::claimWorker() {
-  for (;;) {
-    for (std::size_t i = 0; i < m_workers.size(); ++i) {
-      if (!m_workers[i]->busy.test_and_set(std::memory_order_acquire)) return i;
-    }
-    std::this_thread::yield();
-  }
-}
-
 /// Calls use(part, worker) for each part, with a worker that no other part has meanwhile.
 template <class Use>
 void WorldsSearcher::forEachPart(const Use& use) {
   const auto run = [&](Part& part) {
-    part.worker = claimWorker();
-    const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
-    Worker& worker = *m_workers[part.worker];
-    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&worker.busy, clear);
-    use(part, worker);
+    m_workers.withOne([&](std::size_t index, Worker& worker) {
+      part.worker = index;
+      use(part, worker);
+    });
   };
   m_executor->run(m_parts.size(), [&](std::size_t i) {
     if (!m_parts[i].takesAllThreads) run(m_parts[i]);
@@ -166,7 +152,7 @@ void WorldsSearcher::forEachPart(const Use& use) {
 }
 
 void WorldsSearcher::sumStatistics() {
-  for (const Owned<Worker>& worker : m_workers) add(m_statistics, worker->statistics);
+  for (std::size_t i = 0; i < m_workers.size(); ++i) add(m_statistics, m_workers[i].statistics);
   m_statistics.pairs = m_begin.back();
 }
 
@@ -198,13 +184,13 @@ WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& 
   placeParts();
   sumStatistics();
   if (m_parts.size() <= 1) {
-    const Pair* const pairs = m_parts.empty() ? nullptr : m_workers[m_parts[0].worker]->pairs.data();
+    const Pair* const pairs = m_parts.empty() ? nullptr : m_workers[m_parts[0].worker].pairs.data();
     return {{pairs, m_begin.back()}, m_begin};
   }
   m_joined.require(m_begin.back());
   m_executor->run(m_parts.size(), [&](std::size_t i) {
     const Part& part = m_parts[i];
-    std::copy_n(m_workers[part.worker]->pairs.data() + part.firstPair, part.pairs, m_joined.data() + part.place);
+    std::copy_n(m_workers[part.worker].pairs.data() + part.firstPair, part.pairs, m_joined.data() + part.place);
   });
   return {{m_joined.data(), m_begin.back()}, m_begin};
 }

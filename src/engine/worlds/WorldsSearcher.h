@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -16,6 +15,7 @@
 #include "memory/Memory.h"
 #include "search/Search.h"
 #include "search/StoppableExecutor.h"
+#include "search/Workers.h"
 #include "worlds/WorldsFilter.h"
 
 namespace allpairs::engine {
@@ -64,7 +64,6 @@ class WorldsSearcher {
     Buffer<Pair> scratch;  ///< Of a world whose pairs cannot be written to their place at once.
     Buffer<WideBoxes> wide;
     OverlapStatistics statistics;
-    std::atomic_flag busy;
   };
 
   /// Worlds that follow each other, searched by one thread, or one world searched by all.
@@ -82,7 +81,6 @@ class WorldsSearcher {
   void cutParts();
   template <class Use>
   void forEachPart(const Use& use);
-  std::size_t claimWorker();
   void sumStatistics();
   void placeParts();
 
@@ -104,7 +102,7 @@ class WorldsSearcher {
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
   bool m_isPlain = false;       ///< Boxes that the kernel reads from the caller's memory.
   WorldsFilter m_filter;
-  std::pmr::vector<Owned<Worker>> m_workers;
+  Workers<Worker> m_workers;
   std::pmr::vector<Part> m_parts;
   std::pmr::vector<std::uint64_t> m_begin;
   Buffer<Pair> m_joined;

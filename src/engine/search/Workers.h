@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <memory_resource>
+#include <thread>
+#include <vector>
+
+#include "memory/Memory.h"
+
+namespace allpairs::engine {
+
+/// What the tasks of an executor work with, as many as it has threads; kept from run to run.
+template <class Worker>
+class Workers {
+ public:
+  explicit Workers(std::pmr::memory_resource* memory) : m_slots(memory) {}
+
+  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_slots.get_allocator().resource(); }
+  [[nodiscard]] std::size_t size() const noexcept { return m_slots.size(); }
+  [[nodiscard]] Worker& operator[](std::size_t i) const noexcept { return m_slots[i]->worker; }
+
+  /// Makes sure that there are so many.
+  void require(std::size_t count) {
+    while (m_slots.size() < count) m_slots.push_back(makeOwned<Slot>(memory()));
+  }
+
+  /// Calls use(index, worker) with a worker that no other task has meanwhile.
+  template <class Use>
+  void withOne(const Use& use) {
+    const std::size_t index = claim();
+    const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
+    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&m_slots[index]->busy, clear);
+    use(index, m_slots[index]->worker);
+  }
+
+ private:
+  struct Slot {
+    explicit Slot(std::pmr::memory_resource* memory) : worker(memory) {}
+
+    Worker worker;
+    std::atomic_flag busy;
+  };
+
+  std::size_t claim() {
+    for (;;) {
+      for (std::size_t i = 0; i < m_slots.size(); ++i) {
+        if (!m_slots[i]->busy.test_and_set(std::memory_order_acquire)) return i;
+      }
+      std::this_thread::yield();
+    }
+  }
+
+  std::pmr::vector<Owned<Slot>> m_slots;
+};
+
+}  // namespace allpairs::engine
