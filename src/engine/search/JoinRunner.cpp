@@ -92,15 +92,16 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
 void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
   const Hits& hits = worker.sink.hits();
   const std::size_t most = job.isFlat ? kMostRows : kMostLeaves;
-  const std::size_t least = worker.lists == nullptr ? kLeastUnits : kFanOut;
-  std::size_t units = least;
+  std::size_t units = kLeastUnits;
   while (begin < end) {
     checkStop(m_stop);
-    const std::size_t next = std::min(end, begin + units);
+    // Lists are made for all leaf blocks of a node at once, unless they are so long that only some are between two looks.
+    const bool isWhole = worker.lists != nullptr && units >= kFanOut;
+    const std::size_t next = std::min(end, isWhole ? (begin + units) / kFanOut * kFanOut : begin + units);
     const std::uint64_t before = hits.boxTests + hits.groupTests;
     runPart(job, begin, next, worker);
     const bool isLong = hits.boxTests + hits.groupTests - before > kTestsPerStretch;
-    units = isLong ? std::max(units / 2, least) : std::min(2 * units, most);
+    units = isLong ? std::max(units / 2, kLeastUnits) : std::min(2 * units, most);
     begin = next;
   }
 }

@@ -54,11 +54,13 @@ struct ListReceiver {
     lists.grow = [](NeighborLists& of, std::size_t more) {
       const auto& self = *static_cast<const ListReceiver*>(of.receiver);
       checkLimit(self.sink, of.size);
+      checkStop(self.sink.stop);
       self.memory.grow(of, more);
     };
   }
 
   std::size_t select(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const {
+    checkStop(sink.stop);
     if (test.exactTestNeeded()) lists.exactTests += partners.size();
     std::size_t kept = 0;
     for (const std::uint32_t partner : partners) {
