@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/BoxView.h"
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Overlaps.h"
+
+namespace allpairs::partition {
+
+using Point = std::array<double, 3>;
+
+/// Two boxes by the caller's 64-bit ids.
+struct IdPair {
+  std::uint64_t first = 0;
+  std::uint64_t second = 0;
+
+  friend constexpr auto operator<=>(const IdPair&, const IdPair&) = default;
+};
+
+/// A part of space: the points p with min[a] <= p[a] < max[a] on each axis. A max of infinity includes infinity, so that
+/// cells which tile space hold every point once. The default is all of space.
+struct Cell {
+  Point min{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity()};
+  Point max{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+            std::numeric_limits<double>::infinity()};
+
+  [[nodiscard]] constexpr bool holds(const Point& point) const noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool isBelow = point[axis] < max[axis] || max[axis] == std::numeric_limits<double>::infinity();
+      if (!(min[axis] <= point[axis]) || !isBelow) return false;
+    }
+    return true;
+  }
+
+  friend constexpr bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// The point by which a pair belongs to a cell: on each axis the greater of the two minima. Of cells that tile space
+/// exactly one holds it.
+[[nodiscard]] constexpr Point pairPoint(const Box& a, const Box& b) noexcept {
+  Point point{};
+  for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = a.min[axis] < b.min[axis] ? b.min[axis] : a.min[axis];
+  return point;
+}
+
+/// Where the points of all pairs of a box lie: from its minimum to its maximum widened by the greatest distance at which
+/// it can be in a pair. A box goes to each cell that this touches.
+///
+/// `maxMargin` is the greatest margin of any box that it may be paired with. Only sums that the test of a pair makes
+/// itself are made, or greater ones, and rounding is monotonic: no pair is lost.
+[[nodiscard]] Box reachOf(const Box& box, double margin = 0.0, double distance = 0.0, double maxMargin = 0.0) noexcept;
+
+/// Whether a reach has points in the cell. An empty box touches none.
+[[nodiscard]] bool touches(const Cell& cell, const Box& reach) noexcept;
+
+/// Searches the boxes of one cell after the other, and keeps its working memory in between.
+///
+/// A pair belongs to the cell that holds its pairPoint(). Cells that tile space, each searched with the boxes whose reach
+/// touches it, give every pair exactly once, however space is cut.
+///
+/// Options:   order and maxPairs are those of the pairs of a cell, distance and filter as in OverlapSearch; `first` and
+///            `second` of a filter, and the numbers that `accept` receives, are indices into the given boxes.
+/// Bad input: as OverlapSearch.
+/// Threads:   one search at a time per object.
+class CellSearch {
+ public:
+  explicit CellSearch(OverlapOptions options = {});
+  ~CellSearch();
+  CellSearch(CellSearch&&) noexcept;
+  CellSearch& operator=(CellSearch&&) noexcept;
+
+  /// Passes the pairs that belong to the cell to the visitor, by index into the given boxes, in batches and in bounded
+  /// memory: at most as many at once as OverlapSearch::stream() passes.
+  void stream(const BoxView& boxes, const Cell& cell, PairVisitor visitor);
+  void stream(const BoxView& first, const BoxView& second, const Cell& cell, PairVisitor visitor);
+
+ private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+/// The pairs among the boxes of a set that belong to the cell, by the boxes' ids: first < second.
+///
+/// `boxes` are those whose reach touches the cell; more do no harm.
+/// Bad input: as overlaps(); ids of another number than boxes, or one id of two boxes that are a pair, throw
+///            InvalidArgument.
+[[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& boxes, std::span<const std::uint64_t> ids,
+                                                 const Cell& cell, const OverlapOptions& options = {});
+
+/// The pairs of a box of `first` and a box of `second` that belong to the cell.
+[[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& first, std::span<const std::uint64_t> firstIds,
+                                                 const BoxView& second, std::span<const std::uint64_t> secondIds,
+                                                 const Cell& cell, const OverlapOptions& options = {});
+
+/// The number of pairs of overlapsInCell().
+[[nodiscard]] std::uint64_t countOverlapsInCell(const BoxView& boxes, const Cell& cell,
+                                                const OverlapOptions& options = {});
+[[nodiscard]] std::uint64_t countOverlapsInCell(const BoxView& first, const BoxView& second, const Cell& cell,
+                                                const OverlapOptions& options = {});
+
+}  // namespace allpairs::partition

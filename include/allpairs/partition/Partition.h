@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Box.h"
+#include "allpairs/BoxView.h"
+#include "allpairs/partition/Cell.h"
+
+namespace allpairs::partition {
+
+/// One cut of a partition: points below `at` on the axis are on its low side, all others on its high side. A side is
+/// another cut, by index, or a cell: the complement (~) of its number.
+struct Cut {
+  double at = 0.0;
+  std::uint32_t axis = 0;
+  std::int32_t low = 0;
+  std::int32_t high = 0;
+
+  friend bool operator==(const Cut&, const Cut&) = default;
+};
+
+/// Cells that tile space, made by cutting it in two again and again where a sample of boxes says so.
+///
+/// Threads: const use from any number of threads.
+class Partition {
+ public:
+  /// One cell: all of space.
+  Partition() = default;
+
+  /// About `cells` cells of about as many boxes each. Each cut is at a minimum of a box, on the axis on which the fewest
+  /// boxes lie on both sides; what no cut divides stays one cell.
+  ///
+  /// The sample stands for all boxes: some hundred for each cell suffice. Its margins count.
+  /// Cost: O(s log(cells)) for a sample of s boxes.
+  Partition(const BoxView& sample, std::size_t cells, double distance = 0.0);
+
+  /// The partition that has these cuts.
+  ///
+  /// Bad input: cuts that are no tree, or a cut that is not at a number, throw InvalidArgument.
+  [[nodiscard]] static Partition fromCuts(std::span<const Cut> cuts);
+
+  [[nodiscard]] std::span<const Cut> cuts() const noexcept { return m_cuts; }
+
+  /// The number of cells, at least 1.
+  [[nodiscard]] std::size_t size() const noexcept { return m_cuts.size() + 1; }
+
+  /// The bounds of a cell; what cellsOf() says agrees with them.
+  ///
+  /// Bad input: a number that no cell has throws InvalidArgument.
+  [[nodiscard]] Cell cell(std::size_t number) const;
+
+  /// The cell that holds a point.
+  [[nodiscard]] std::uint32_t cellOf(const Point& point) const noexcept;
+
+  /// Replaces `cells` by the numbers of all cells that a reach (see reachOf()) touches; none if it is empty.
+  void cellsOf(const Box& reach, std::vector<std::uint32_t>& cells) const;
+
+  /// Cuts one cell again, into about `parts`; the new cells are numbered after all others. Returns whether a cut divides
+  /// the boxes of the sample that touch it.
+  bool cutAgain(std::size_t number, const BoxView& sample, std::size_t parts, double distance = 0.0);
+
+ private:
+  class Cutter;
+
+  void addCells(std::int32_t side, const Box& reach, std::vector<std::uint32_t>& cells) const;
+
+  std::vector<Cut> m_cuts;
+};
+
+/// How many of the boxes go to each cell: the copies that a partition makes are the sum less their number.
+///
+/// `maxMargin` is the greatest margin of any box that they may be paired with; the boxes' own count by themselves.
+[[nodiscard]] std::vector<std::uint64_t> boxesPerCell(const Partition& partition, const BoxView& boxes,
+                                                      double distance = 0.0, double maxMargin = 0.0);
+
+}  // namespace allpairs::partition

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/partition/Partition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "allpairs/Error.h"
+
+namespace allpairs::partition {
+namespace {
+
+constexpr double kGreatestShare = 0.9;  // of the boxes on one side: a cut that divides less only makes copies
+
+double greatestMargin(const BoxView& boxes) {
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < boxes.size(); ++i) greatest = std::max(greatest, boxes.margin(i));
+  return boxes.empty() ? 0.0 : greatest;
+}
+
+std::vector<Box> reachesOf(const BoxView& boxes, double distance) {
+  const double maxMargin = greatestMargin(boxes);
+  std::vector<Box> reaches;
+  reaches.reserve(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box reach = reachOf(boxes[i], boxes.margin(i), distance, maxMargin);
+    if (!isEmpty(reach)) reaches.push_back(reach);
+  }
+  return reaches;
+}
+
+/// Where to cut some boxes in two, and how many are on either side.
+struct Division {
+  std::uint32_t axis = 0;
+  double at = 0.0;
+  std::size_t low = 0;
+  std::size_t high = 0;
+};
+
+Division divisionAt(std::span<const Box> reaches, std::uint32_t axis, double at) {
+  Division division{axis, at};
+  for (const Box& reach : reaches) {
+    division.low += reach.min[axis] < at ? 1U : 0U;
+    division.high += reach.max[axis] >= at ? 1U : 0U;
+  }
+  return division;
+}
+
+/// The minimum with the share `low` of all before it; the next greater one where no box is below it. None at infinity,
+/// which belongs to the outermost cell.
+std::optional<double> cutOf(std::span<const Box> reaches, std::uint32_t axis, double low, std::vector<double>& minima) {
+  minima.clear();
+  for (const Box& reach : reaches) minima.push_back(reach.min[axis]);
+  const auto rank = static_cast<std::ptrdiff_t>(low * static_cast<double>(minima.size()));
+  const auto middle = minima.begin() + std::min<std::ptrdiff_t>(rank, std::ssize(minima) - 1);
+  std::nth_element(minima.begin(), middle, minima.end());
+  const double least = *std::min_element(minima.begin(), middle + 1);
+  double at = *middle;
+  if (at == least) {
+    at = std::numeric_limits<double>::infinity();
+    for (const double minimum : minima) {
+      if (minimum > least) at = std::min(at, minimum);
+    }
+  }
+  return std::isfinite(at) ? std::optional(at) : std::nullopt;
+}
+
+std::optional<Division> divide(std::span<const Box> reaches, double low, std::vector<double>& minima) {
+  std::optional<Division> best;
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const std::optional<double> at = cutOf(reaches, axis, low, minima);
+    if (!at) continue;
+    const Division division = divisionAt(reaches, axis, *at);
+    const auto most = static_cast<double>(std::max(division.low, division.high));
+    if (most > kGreatestShare * static_cast<double>(reaches.size())) continue;
+    if (!best || division.low + division.high < best->low + best->high) best = division;
+  }
+  return best;
+}
+
+std::int32_t sideOfCell(std::size_t number) { return ~static_cast<std::int32_t>(number); }
+
+void checkCuts(std::span<const Cut> cuts) {
+  std::vector<bool> isCutSeen(cuts.size());
+  std::vector<bool> isCellSeen(cuts.size() + 1);
+  if (!cuts.empty()) isCutSeen[0] = true;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    bool isRight = cuts[i].axis < 3 && std::isfinite(cuts[i].at);
+    for (const std::int32_t side : {cuts[i].low, cuts[i].high}) {
+      const auto number = static_cast<std::size_t>(side < 0 ? ~side : side);
+      std::vector<bool>& seen = side < 0 ? isCellSeen : isCutSeen;
+      isRight = isRight && number < seen.size() && !seen[number] && (side < 0 || number > i);
+      if (isRight) seen[number] = true;
+    }
+    if (!isRight) throw InvalidArgument("cut " + std::to_string(i) + " of a partition does not fit the others");
+  }
+}
+
+}  // namespace
+
+/// Makes the cuts of a part of space.
+class Partition::Cutter {
+ public:
+  explicit Cutter(std::vector<Cut>& cuts, std::size_t cells) : m_cuts(cuts), m_cells(cells) {}
+
+  /// Cuts cell `number`, whose boxes these are, into about `parts`, and returns what stands in its place. New cells are
+  /// numbered on from those there are.
+  std::int32_t cut(std::span<Box> reaches, std::size_t number, std::size_t parts) {
+    if (parts < 2 || reaches.size() < 2) return sideOfCell(number);
+    const std::size_t lowParts = parts / 2;
+    const double share = static_cast<double>(lowParts) / static_cast<double>(parts);
+    const std::optional<Division> division = divide(reaches, share, m_minima);
+    if (!division) return sideOfCell(number);
+    const std::size_t place = m_cuts.size();
+    const std::size_t highNumber = m_cells++;
+    m_cuts.push_back({division->at, division->axis, 0, 0});
+    const std::size_t axis = division->axis;
+    const std::size_t lowFor = partsFor(*division, parts);
+    // Those on the low side stand in front, and then those on the high side; some are on both.
+    const auto lowEnd = std::partition(reaches.begin(), reaches.end(),
+                                       [&](const Box& reach) { return reach.min[axis] < division->at; });
+    const std::int32_t low = cut({reaches.begin(), lowEnd}, number, lowFor);
+    const auto highBegin = std::partition(reaches.begin(), reaches.end(),
+                                          [&](const Box& reach) { return reach.max[axis] < division->at; });
+    for (auto reach = highBegin; reach != reaches.end(); ++reach) {  // a cut below the cell would divide nothing
+      reach->min[axis] = std::max(reach->min[axis], division->at);
+    }
+    const std::int32_t high = cut({highBegin, reaches.end()}, highNumber, parts - lowFor);
+    m_cuts[place].low = low;
+    m_cuts[place].high = high;
+    return static_cast<std::int32_t>(place);
+  }
+
+ private:
+  static std::size_t partsFor(const Division& division, std::size_t parts) {
+    const double share = static_cast<double>(division.low) / static_cast<double>(division.low + division.high);
+    const auto low = static_cast<std::size_t>(std::lround(share * static_cast<double>(parts)));
+    return std::clamp<std::size_t>(low, 1, parts - 1);
+  }
+
+  std::vector<Cut>& m_cuts;
+  std::size_t m_cells;
+  std::vector<double> m_minima;
+};
+
+Partition::Partition(const BoxView& sample, std::size_t cells, double distance) {
+  std::vector<Box> reaches = reachesOf(sample, distance);
+  Cutter(m_cuts, 1).cut(reaches, 0, cells);
+}
+
+Partition Partition::fromCuts(std::span<const Cut> cuts) {
+  checkCuts(cuts);
+  Partition partition;
+  partition.m_cuts.assign(cuts.begin(), cuts.end());
+  return partition;
+}
+
+Cell Partition::cell(std::size_t number) const {
+  if (number >= size()) throw InvalidArgument("cell " + std::to_string(number) + " of " + std::to_string(size()));
+  Cell cell;
+  std::int32_t side = sideOfCell(number);
+  while (!m_cuts.empty() && side != 0) {  // from the cell up to the first cut
+    const auto isOver = [side](const Cut& cut) { return cut.low == side || cut.high == side; };
+    const auto found = std::find_if(m_cuts.begin(), m_cuts.end(), isOver);
+    double& max = cell.max[found->axis];
+    double& min = cell.min[found->axis];
+    if (found->low == side) {
+      max = std::min(max, found->at);
+    } else {
+      min = std::max(min, found->at);
+    }
+    side = static_cast<std::int32_t>(found - m_cuts.begin());
+  }
+  return cell;
+}
+
+std::uint32_t Partition::cellOf(const Point& point) const noexcept {
+  std::int32_t side = m_cuts.empty() ? sideOfCell(0) : 0;
+  while (side >= 0) {
+    const Cut& cut = m_cuts[static_cast<std::size_t>(side)];
+    side = point[cut.axis] < cut.at ? cut.low : cut.high;
+  }
+  return static_cast<std::uint32_t>(~side);
+}
+
+void Partition::cellsOf(const Box& reach, std::vector<std::uint32_t>& cells) const {
+  cells.clear();
+  if (!isEmpty(reach)) addCells(m_cuts.empty() ? sideOfCell(0) : 0, reach, cells);
+}
+
+void Partition::addCells(std::int32_t side, const Box& reach, std::vector<std::uint32_t>& cells) const {
+  while (side >= 0) {
+    const Cut& cut = m_cuts[static_cast<std::size_t>(side)];
+    const bool isHigh = reach.max[cut.axis] >= cut.at;
+    if (isHigh && reach.min[cut.axis] < cut.at) addCells(cut.low, reach, cells);
+    side = isHigh ? cut.high : cut.low;
+  }
+  cells.push_back(static_cast<std::uint32_t>(~side));
+}
+
+bool Partition::cutAgain(std::size_t number, const BoxView& sample, std::size_t parts, double distance) {
+  const Cell bounds = cell(number);
+  std::vector<Box> reaches = reachesOf(sample, distance);
+  std::erase_if(reaches, [&bounds](const Box& reach) { return !touches(bounds, reach); });
+  for (Box& reach : reaches) {  // as where the cell was made
+    for (std::size_t axis = 0; axis < 3; ++axis) reach.min[axis] = std::max(reach.min[axis], bounds.min[axis]);
+  }
+  const std::size_t before = m_cuts.size();
+  const std::int32_t side = Cutter(m_cuts, size()).cut(reaches, number, parts);
+  if (m_cuts.size() == before) return false;
+  for (std::size_t i = 0; i < before; ++i) {
+    if (m_cuts[i].low == sideOfCell(number)) m_cuts[i].low = side;
+    if (m_cuts[i].high == sideOfCell(number)) m_cuts[i].high = side;
+  }
+  return true;
+}
+
+std::vector<std::uint64_t> boxesPerCell(const Partition& partition, const BoxView& boxes, double distance,
+                                        double maxMargin) {
+  const double greatest = std::max(maxMargin, greatestMargin(boxes));
+  std::vector<std::uint64_t> counts(partition.size());
+  std::vector<std::uint32_t> cells;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    partition.cellsOf(reachOf(boxes[i], boxes.margin(i), distance, greatest), cells);
+    for (const std::uint32_t cell : cells) ++counts[cell];
+  }
+  return counts;
+}
+
+}  // namespace allpairs::partition

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/partition/Cell.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "support/Boxes.h"
+#include "support/Numbers.h"
+
+namespace allpairs::partition {
+namespace {
+
+using test::cube;
+using test::kInfinity;
+using ::testing::ElementsAre;
+
+const std::vector<Box> kRow = {cube(0, 0, 0), cube(1, 0, 0), cube(1.5, 0, 0), cube(4, 0, 0)};
+const std::vector<std::uint64_t> kIds = {50, std::uint64_t{1} << 40, 7, 8};
+
+TEST(Cell, HoldsItsMinimumAndNotItsMaximum) {
+  const Cell cell{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_TRUE(cell.holds({0, 0, 0}));
+  EXPECT_TRUE(cell.holds({0.5, 0.5, 0.5}));
+  EXPECT_FALSE(cell.holds({1, 0, 0}));
+  EXPECT_FALSE(cell.holds({0, 0, -0.1}));
+}
+
+TEST(Cell, TheOutermostHoldInfinity) {
+  EXPECT_TRUE(Cell().holds({kInfinity, -kInfinity, 0}));
+  EXPECT_TRUE((Cell{{1, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}}).holds({kInfinity, 0, 0}));
+  EXPECT_FALSE((Cell{{-kInfinity, 0, 0}, {1, 1, 1}}).holds({kInfinity, 0, 0}));
+}
+
+TEST(Cell, APairBelongsToTheGreaterMinima) { EXPECT_EQ(pairPoint(cube(0, 3, -2), cube(1, 2, -5)), (Point{1, 3, -2})); }
+
+TEST(Cell, ReachIsWidenedAboveOnlyAndByTheGreatestMargin) {
+  const Box reach = reachOf(cube(0, 0, 0), 0.5, 1.0, 2.0);
+  EXPECT_EQ(reach, (Box{{0, 0, 0}, {4.5, 4.5, 4.5}}));
+  EXPECT_EQ(reachOf(cube(0, 0, 0), 0.0, -3.0, 0.0), cube(0, 0, 0)) << "a pair may begin anywhere in the box";
+  EXPECT_TRUE(isEmpty(reachOf({{1, 0, 0}, {0, 0, 0}}, 0.0, 10.0)));
+  EXPECT_EQ(reachOf({{-kInfinity, 0, 0}, {-kInfinity, 1, 1}}, 0.0, kInfinity).max[0], kInfinity);
+}
+
+TEST(Cell, EachPairIsFoundInItsOwnCellOnly) {
+  const Cell left{{-kInfinity, -kInfinity, -kInfinity}, {1.5, kInfinity, kInfinity}};
+  const Cell right{{1.5, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  EXPECT_THAT(overlapsInCell(kRow, kIds, left), ElementsAre(IdPair{50, std::uint64_t{1} << 40}));
+  EXPECT_THAT(overlapsInCell(kRow, kIds, right), ElementsAre(IdPair{7, std::uint64_t{1} << 40}));
+  EXPECT_EQ(countOverlapsInCell(kRow, left) + countOverlapsInCell(kRow, right), 2U);
+}
+
+TEST(Cell, OrderIsThatOfTheIds) {
+  EXPECT_THAT(overlapsInCell(kRow, kIds, Cell()),
+              ElementsAre(IdPair{7, std::uint64_t{1} << 40}, IdPair{50, std::uint64_t{1} << 40}));
+  EXPECT_THAT(overlapsInCell(kRow, std::vector<std::uint64_t>{9, 5, 8, 1}, Cell(), {.order = Order::BySecond}),
+              ElementsAre(IdPair{5, 8}, IdPair{5, 9}));
+}
+
+TEST(Cell, IdsThatDoNotFitAreNamed) {
+  EXPECT_THROW((void)overlapsInCell(kRow, std::vector<std::uint64_t>{1, 2, 3}, Cell()), InvalidArgument);
+  EXPECT_THROW((void)overlapsInCell(kRow, std::vector<std::uint64_t>{4, 4, 2, 3}, Cell()), InvalidArgument);
+}
+
+TEST(Cell, TheLimitCountsPairsOfTheCellOnly) {
+  const Cell left{{-kInfinity, -kInfinity, -kInfinity}, {1.5, kInfinity, kInfinity}};
+  EXPECT_EQ(overlapsInCell(kRow, kIds, left, {.maxPairs = 1}).size(), 1U);
+  EXPECT_THROW((void)overlapsInCell(kRow, kIds, Cell(), {.maxPairs = 1}), LimitExceeded);
+}
+
+TEST(Cell, FiltersKnowBoxesByIndex) {
+  OverlapOptions options;
+  const std::array<std::uint32_t, 4> groups{1, 1, 0, 0};
+  options.filter.first.groups = groups;
+  EXPECT_THAT(overlapsInCell(kRow, kIds, Cell(), options), ElementsAre(IdPair{7, std::uint64_t{1} << 40}));
+  options.filter.first.groups = {};
+  options.filter.accept = [](std::uint32_t first, std::uint32_t second) { return first == 0 && second == 1; };
+  EXPECT_THAT(overlapsInCell(kRow, kIds, Cell(), options), ElementsAre(IdPair{50, std::uint64_t{1} << 40}));
+}
+
+}  // namespace
+}  // namespace allpairs::partition

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/partition/Partition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "support/Boxes.h"
+#include "support/Numbers.h"
+
+namespace allpairs::partition {
+namespace {
+
+using test::cube;
+using test::kInfinity;
+
+std::uint64_t sumOf(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+TEST(Partition, OfBoxesThatAreSpreadHasCellsOfLikeSize) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(20'000, 4));
+  const Partition partition(boxes, 32);
+  const std::vector<std::uint64_t> counts = boxesPerCell(partition, boxes);
+  EXPECT_GE(partition.size(), 24U);
+  EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 2U * 20'000U / 32U);
+  EXPECT_LT(sumOf(counts), 30'000U) << "copies";
+}
+
+TEST(Partition, CutsAreWhereFewBoxesAreOnBothSides) {
+  std::vector<Box> needles;
+  for (int i = 0; i < 1000; ++i) needles.push_back({{-50.0, 0.1 * i, 0}, {50.0 + i, 0.1 * i + 0.05, 0.01}});
+  const Partition partition(needles, 8);
+  EXPECT_EQ(sumOf(boxesPerCell(partition, needles)), 1000U) << "along the needles every cut would copy all";
+}
+
+TEST(Partition, WhatNoCutDividesStaysOneCell) {
+  EXPECT_EQ(Partition(test::lent(std::vector<Box>(100, cube(1, 2, 3))), 16).size(), 1U);
+  EXPECT_EQ(Partition(BoxView(), 16).size(), 1U);
+  std::vector<Box> nested;
+  for (int i = 0; i < 100; ++i) nested.push_back({{-1.0 * i, -1.0 * i, -1.0 * i}, {1.0 * i, 1.0 * i, 1.0 * i}});
+  const Partition partition(nested, 16);
+  EXPECT_LE(sumOf(boxesPerCell(partition, nested)), 100U * partition.size());
+}
+
+TEST(Partition, ACellIsCutAgainAndTheOthersStay) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(5'000, 5));
+  Partition partition(boxes, 4);
+  const std::size_t before = partition.size();
+  const Cell other = partition.cell(0);
+  ASSERT_TRUE(partition.cutAgain(2, boxes, 4));
+  EXPECT_EQ(partition.cell(0), other);
+  EXPECT_EQ(partition.size(), before + 3);
+  const std::vector<std::uint64_t> counts = boxesPerCell(partition, boxes);
+  EXPECT_TRUE(std::all_of(counts.begin(), counts.end(), [](std::uint64_t count) { return count > 100; }));
+  EXPECT_FALSE(partition.cutAgain(2, BoxView(), 4)) << "nothing to go by";
+}
+
+TEST(Partition, ComesBackFromItsCuts) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(1'000, 6));
+  const Partition partition(boxes, 9);
+  const Partition again = Partition::fromCuts(partition.cuts());
+  ASSERT_EQ(again.size(), partition.size());
+  for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again.cell(i), partition.cell(i));
+}
+
+TEST(Partition, CutsThatAreNoTreeAreRefused) {
+  const auto refused = [](std::vector<Cut> cuts) { EXPECT_THROW((void)Partition::fromCuts(cuts), InvalidArgument); };
+  refused({{0.0, 3, ~0, ~1}});
+  refused({{std::nan(""), 0, ~0, ~1}});
+  refused({{kInfinity, 0, ~0, ~1}});
+  refused({{0.0, 0, ~0, ~0}});
+  refused({{0.0, 0, ~0, ~2}});
+  refused({{0.0, 0, 0, ~0}});
+  refused({{0.0, 0, ~0, ~1}, {0.0, 0, ~2, ~3}});
+  refused({{0.0, 0, 1, ~0}, {0.0, 0, 0, ~1}});
+  EXPECT_THROW((void)Partition().cell(1), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace allpairs::partition
