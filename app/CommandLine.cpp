@@ -174,6 +174,8 @@ int runProgram(int count, char** arguments) {
   program.require_subcommand(1);
   program.footer(kProgramExamples);
   allpairs::app::addDetect(program);
+  allpairs::app::addJoin(program);
+  allpairs::app::addPlan(program);
   allpairs::app::addInfo(program);
   allpairs::app::addElements(program);
   allpairs::app::addTrack(program);

@@ -13,6 +13,8 @@ void addDetect(CLI::App& program);
 void addElements(CLI::App& program);
 void addGenerate(CLI::App& program);
 void addInfo(CLI::App& program);
+void addJoin(CLI::App& program);
+void addPlan(CLI::App& program);
 void addTrack(CLI::App& program);
 void addReport(CLI::App& program);
 void addView(CLI::App& program);

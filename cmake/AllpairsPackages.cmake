@@ -39,7 +39,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src/engine" "${PROJECT_BINARY_DIR}/src/collision"
-    "${PROJECT_BINARY_DIR}/src/elements" "${PROJECT_BINARY_DIR}/src/parallel" "${PROJECT_BINARY_DIR}/src/scene" "${PROJECT_BINARY_DIR}/src/generate")
+    "${PROJECT_BINARY_DIR}/src/elements" "${PROJECT_BINARY_DIR}/src/parallel" "${PROJECT_BINARY_DIR}/src/scene" "${PROJECT_BINARY_DIR}/src/generate"
+    "${PROJECT_BINARY_DIR}/src/partition" "${PROJECT_BINARY_DIR}/src/join")
 
 # Other packages' shlibdeps find our libraries, and the loader's cache learns of them.
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)

@@ -11,23 +11,23 @@ _allpairs() {
       words='table csv json npy'
       [[ $command != elements ]] || words='table json'
       ;;
-    --data)
+    --data | --work)
       compopt -o filenames 2>/dev/null
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
       return
       ;;
-    --distance | --box | --max-memory | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
+    --distance | --box | --max-memory | --memory | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
   esac
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
     return
   fi
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench help --help -h --version -V' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect join plan info track elements view report generate bench help --help -h --version -V' -- "$current")
     return
   fi
   if [[ $command == help ]]; then
-    mapfile -t COMPREPLY < <(compgen -W 'detect info track elements view report generate bench' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W 'detect join plan info track elements view report generate bench' -- "$current")
     return
   fi
   if [[ $current == -* ]]; then
@@ -36,6 +36,8 @@ _allpairs() {
         words='--distance --box --strategy --threads --verify --exact --worlds --format -o --output --partial --data --sofa
           --allow-outside --max-memory -h --help'
         ;;
+      join) words='--memory --distance --work --threads --resume --count -o --output -h --help' ;;
+      plan) words='--memory --distance -h --help' ;;
       info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
       view) words='--sequence --distance --box --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
       report) words='--distance --box --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;

@@ -77,7 +77,7 @@ std::size_t parseThreads(const std::string& text) {
   return static_cast<std::size_t>(std::stoul(text));
 }
 
-std::uint64_t parseMemory(const std::string& text) {
+std::uint64_t parseMemory(const std::string& option, const std::string& text) {
   constexpr std::string_view kUnits = "KMGT";
   std::uint64_t value = 0;
   const char* last = text.data() + text.size();
@@ -86,7 +86,7 @@ std::uint64_t parseMemory(const std::string& text) {
   const auto shift = unit == std::string_view::npos ? 0 : 10 * (unit + 1);
   const bool isWhole = end == last || shift != 0;
   if (problem != std::errc() || !isWhole || value == 0 || value > std::numeric_limits<std::uint64_t>::max() >> shift) {
-    throw UsageError("--max-memory: '" + text + "' is not a size, such as 512M or 8G");
+    throw UsageError(option + ": '" + text + "' is not a size, such as 512M or 8G");
   }
   return value << shift;
 }

@@ -25,10 +25,10 @@ namespace allpairs::app {
 /// Bad input: throws UsageError.
 [[nodiscard]] std::size_t parseThreads(const std::string& text);
 
-/// The bytes that follow --max-memory: a whole number above 0, with K, M, G or T behind it for powers of 1024.
+/// The bytes that follow an option such as --max-memory: a whole number above 0, with K, M, G or T behind it for powers of 1024.
 ///
 /// Bad input: throws UsageError.
-[[nodiscard]] std::uint64_t parseMemory(const std::string& text);
+[[nodiscard]] std::uint64_t parseMemory(const std::string& option, const std::string& text);
 
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///

@@ -74,7 +74,7 @@ void warn(const scene::Scene& scene, ProgressLine& line) {
 scene::ReadOptions readOptions(const ReadLimits& limits) {
   scene::ReadOptions options;
   options.allowOutside = limits.allowOutside;
-  if (!limits.maxMemory.empty()) options.maxMemory = parseMemory(limits.maxMemory);
+  if (!limits.maxMemory.empty()) options.maxMemory = parseMemory("--max-memory", limits.maxMemory);
   return options;
 }
 

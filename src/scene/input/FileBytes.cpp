@@ -32,7 +32,13 @@ InputFile::InputFile(const std::filesystem::path& path) : m_path(path) {
   const auto size = static_cast<std::streamoff>(m_stream.tellg());
   m_stream.seekg(0);
   if (!m_stream || size < 0) throw FileError(path, "is not a regular file");
-  m_remaining = static_cast<std::uint64_t>(size);
+  m_size = static_cast<std::uint64_t>(size);
+  m_remaining = m_size;
+}
+
+void InputFile::seek(std::uint64_t position) {
+  m_stream.seekg(static_cast<std::streamoff>(position));
+  m_remaining = m_size - position;
 }
 
 void InputFile::read(void* target, std::size_t count) {

@@ -9,7 +9,7 @@
 
 namespace allpairs::scene {
 
-/// A file that is read from front to back and says with FileError what went wrong.
+/// A file that is read from front to back, or from where seek() goes, and says with FileError what went wrong.
 class InputFile {
  public:
   /// Bad input: a file that is missing, a folder, or unreadable throws FileError.
@@ -18,12 +18,19 @@ class InputFile {
   /// How many bytes are left to read.
   [[nodiscard]] std::uint64_t remaining() const noexcept { return m_remaining; }
 
+  /// How many bytes lie before the next that is read.
+  [[nodiscard]] std::uint64_t position() const noexcept { return m_size - m_remaining; }
+
+  /// Goes on at `position`, which is within the file.
+  void seek(std::uint64_t position);
+
   /// Reads exactly `count` bytes; fewer in the file throw FileError.
   void read(void* target, std::size_t count);
 
  private:
   std::filesystem::path m_path;
   std::ifstream m_stream;
+  std::uint64_t m_size = 0;
   std::uint64_t m_remaining = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <system_error>
 
 #include "allpairs/scene/FileError.h"
@@ -33,14 +34,6 @@ bool mayLeave(const fs::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
 }
 
-/// Half of what the machine has.
-std::uint64_t halfOfMemory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long pageSize = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || pageSize <= 0) return UINT64_MAX;
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageSize) / 2;
-}
-
 std::string bytesText(std::uint64_t bytes) {
   static constexpr std::array<const char*, 5> kUnits{" bytes", " KiB", " MiB", " GiB", " TiB"};
   std::size_t unit = 0;
@@ -49,6 +42,13 @@ std::string bytesText(std::uint64_t bytes) {
 }
 
 }  // namespace
+
+std::uint64_t halfOfMemory() noexcept {
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long pageSize = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || pageSize <= 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageSize) / 2;
+}
 
 ReadScope::ReadScope(const fs::path& input, const ReadOptions& options)
     : m_input(input),

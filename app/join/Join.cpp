@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Commands.h"
+#include "allpairs/join/Join.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/FileError.h"
+#include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
+#include "cli/Options.h"
+#include "cli/Output.h"
+#include "cli/Progress.h"
+#include "cli/Text.h"
+#include "cli/Timer.h"
+#include "join/JoinArguments.h"
+
+namespace allpairs::app {
+namespace {
+
+struct JoinSettings {
+  JoinArguments shared;
+  std::string output;
+  std::string work;
+  std::string threads = "0";
+  bool resume = false;
+  bool count = false;
+};
+
+constexpr const char* kJoinExamples =
+    R"(Boxes are .npy arrays (n, 6), float32 or float64: minx miny minz maxx maxy maxz.
+Several files are one set, numbered on from file to file. The result is a .npy
+array (m, 2), uint32, or uint64 of more than 2^32 boxes, ordered by (first,
+second): the same bytes as 'allpairs detect -o' where that fits in memory.
+
+Examples:
+  allpairs join boxes.npy -o pairs.npy --memory 4G
+  allpairs join part0.npy part1.npy -o pairs.npy --work /scratch/join
+  allpairs join boxes.npy -o pairs.npy --resume     after a kill or a full disk
+  allpairs join boxes.npy --count
+
+'allpairs plan' says before how much disk and memory it takes.)";
+
+/// Shows the step that a join is in, how far it is, and the time that is left of it.
+class JoinLine {
+ public:
+  void show(const join::JoinProgress& progress) {
+    if (progress.step != m_step) {
+      m_step = progress.step;
+      m_sinceStep = Timer();
+    }
+    if (!m_line.isTerminal() || progress.total == 0) return;
+    const double share = static_cast<double>(progress.done) / static_cast<double>(progress.total);
+    std::string text = fmt::format("{}: {:.0f} %", m_step, 100.0 * share);
+    const double seconds = m_sinceStep.seconds();
+    if (share > 0.0 && seconds > 1.0) text += fmt::format(", {:.0f} s left of this step", seconds / share - seconds);
+    m_line.show(text);
+  }
+
+ private:
+  ProgressLine m_line;
+  std::string m_step;
+  Timer m_sinceStep;
+};
+
+std::string summaryText(const join::JoinSummary& summary, const std::string& output) {
+  std::string text = fmt::format("{} among {}", counted(summary.pairs, "pair"), counted(summary.boxes, "box", "boxes"));
+  if (!output.empty()) text += " -> " + printable(output);
+  text += fmt::format("\n{}", counted(summary.cells, "cell"));
+  if (summary.resumedCells != 0) text += fmt::format(", {} of them from before", grouped(summary.resumedCells));
+  text += fmt::format(", {}", counted(summary.copies, "copy of a box", "copies of boxes"));
+  if (summary.wideBoxes != 0) text += fmt::format(", {} in many cells", counted(summary.wideBoxes, "box", "boxes"));
+  return text + '\n';
+}
+
+void runJoin(const JoinSettings& settings) {
+  if (settings.output.empty() && !settings.count) throw UsageError("join takes -o FILE, or --count");
+  if (!settings.output.empty() && settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
+  const std::string extension = lowerExtension(settings.output);
+  if (!extension.empty() && extension != ".npy") {
+    throw UsageError("join writes .npy files; the name of its output ends in something else");
+  }
+  join::JoinOptions options = joinOptions(settings.shared);
+  const std::size_t threads = parseThreads(settings.threads);
+  const std::unique_ptr<Executor> executor = threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
+  options.executor = executor.get();
+  options.resume = settings.resume;
+  options.work = settings.work;
+  if (options.work.empty()) options.work = (settings.count ? settings.shared.paths.front() : settings.output) + ".work";
+  JoinLine line;
+  options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
+  join::JoinSummary summary;
+  const std::vector<std::filesystem::path> inputs = inputsOf(settings.shared);
+  try {
+    if (settings.count) {
+      summary = join::countFiles(inputs, options);
+    } else {
+      Output output(settings.output);
+      summary = join::joinFiles(
+          inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
+      output.commit();
+    }
+  } catch (const FileError& problem) {
+    if (problem.path() == options.work || !std::filesystem::exists(options.work / "manifest")) throw;
+    throw FileError(problem.path(),
+                    problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
+  }
+  Output(std::nullopt).write(summaryText(summary, settings.output));
+}
+
+}  // namespace
+
+void addJoin(CLI::App& program) {
+  const auto settings = std::make_shared<JoinSettings>();
+  CLI::App* command = program.add_subcommand("join", "Find the pairs of more boxes than memory holds");
+  command->footer(kJoinExamples);
+  addJoinArguments(*command, settings->shared);
+  command->add_option("--work", settings->work, "The folder of its own files; default: the output's name and .work")
+      ->type_name("DIR");
+  command->add_flag("--resume", settings->resume, "Go on with a join that was stopped");
+  command->add_flag("--count", settings->count, "Only count the pairs");
+  addThreads(*command, settings->threads);
+  addOutput(*command, settings->output);
+  command->callback([settings] { runJoin(*settings); });
+}
+
+}  // namespace allpairs::app

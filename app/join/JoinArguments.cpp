@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "join/JoinArguments.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "cli/Arguments.h"
+#include "cli/Options.h"
+
+namespace allpairs::app {
+
+void addJoinArguments(CLI::App& command, JoinArguments& arguments) {
+  command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
+  command.add_option("--memory", arguments.memory, "Never take more; by default half of the machine's, least 64M")
+      ->type_name("SIZE");
+  addDistance(command, arguments.distance, "Pairs up to D apart on every axis");
+}
+
+join::JoinOptions joinOptions(const JoinArguments& arguments) {
+  join::JoinOptions options;
+  if (!arguments.memory.empty()) options.memory = parseMemory("--memory", arguments.memory);
+  if (!arguments.distance.empty()) options.distance = parseDistance(arguments.distance);
+  return options;
+}
+
+std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments) {
+  return {arguments.paths.begin(), arguments.paths.end()};
+}
+
+}  // namespace allpairs::app

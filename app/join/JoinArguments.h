@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "allpairs/join/Join.h"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
+class App;
+}
+
+namespace allpairs::app {
+
+/// What join and plan have in common.
+struct JoinArguments {
+  std::vector<std::string> paths;
+  std::string memory;
+  std::string distance;
+};
+
+/// Declares BOXES..., --memory and --distance.
+void addJoinArguments(CLI::App& command, JoinArguments& arguments);
+
+/// Bad input: throws UsageError.
+[[nodiscard]] join::JoinOptions joinOptions(const JoinArguments& arguments);
+
+[[nodiscard]] std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments);
+
+}  // namespace allpairs::app

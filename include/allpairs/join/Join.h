@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "allpairs/Executor.h"
+#include "allpairs/FunctionRef.h"
+#include "allpairs/StopFlag.h"
+
+namespace allpairs::join {
+
+/// The least memory that a join can be given, 64 MiB; each thread after the first is used where there are 32 MiB more.
+inline constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 20;
+inline constexpr std::uint64_t kMemoryPerThread = std::uint64_t{32} << 20;
+
+/// How far a join is: `done` of `total` boxes, cells or pairs in one of its steps.
+struct JoinProgress {
+  std::string_view step;
+  std::uint64_t done = 0;
+  std::uint64_t total = 0;
+};
+
+struct JoinOptions {
+  /// As OverlapOptions::distance.
+  double distance = 0.0;
+
+  /// The memory in bytes that the process may have in the end, of which a join leaves 32 MiB to what it does not
+  /// allocate itself. 0 means half of the machine's.
+  std::uint64_t memory = 0;
+
+  /// The folder of the join's own files, which is created. It stays after a failure, for `resume`, and goes otherwise.
+  std::filesystem::path work{};
+
+  /// Goes on with what is in the work folder; starts from the beginning if there is nothing.
+  bool resume = false;
+
+  /// Searches several cells at once, each with its share of the memory, as far as that suffices; null means one after the other. Not owned.
+  Executor* executor = nullptr;
+
+  /// If given, a join throws Stopped soon after this is set; it can be resumed. Not owned.
+  const StopFlag* stop = nullptr;
+
+  /// Called now and then, by one thread at a time; may be empty.
+  std::function<void(const JoinProgress&)> progress{};
+};
+
+/// What a join did, or is expected to do.
+struct JoinSummary {
+  std::uint64_t boxes = 0;
+  std::uint64_t pairs = 0;      ///< Estimated from a sample in a plan.
+  std::uint64_t cells = 0;      ///< The parts of space that are searched one by one.
+  std::uint64_t copies = 0;     ///< Boxes that are written to more than one cell, counted once for each cell but one.
+  std::uint64_t wideBoxes = 0;  ///< Boxes in too many cells: kept apart, and searched with each cell.
+  std::uint64_t boxBytes = 0;   ///< Written to the work folder, and read again.
+  std::uint64_t pairBytes = 0;  ///< Likewise; and as many once more for the result.
+  std::uint64_t resumedCells = 0;  ///< Cells whose pairs were found before, of a join that was resumed.
+};
+
+/// Receives the bytes of a result, in order.
+using ResultSink = FunctionRef<void(std::string_view)>;
+
+/// Finds the overlapping pairs of boxes that do not fit in memory, and writes a .npy array of shape (m, 2) to the sink:
+/// uint32, of more than 2^32 boxes uint64, ordered by (first, second). These are the bytes that a search in memory
+/// gives.
+///
+/// Inputs:    .npy files of shape (n, 6), numbered as one set in the order given; see scene::BoxRows.
+/// Bad input: a file that is none, or a box with a NaN, throws FileError, which names it; so does a work folder that is
+///            full, in use, or another join's. Too little memory, or a distance that is none, throws InvalidArgument.
+///            What was complete stays in the work folder.
+/// Cost:      the inputs are read three times; options.memory; on disk 32 bytes per box and copy (56 in float64) and 8
+///            per pair (16 of more than 2^32 boxes). Where the disk is estimated to be too small it throws before it
+///            writes.
+/// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
+///            was damaged is made again. Inputs that have changed throw FileError. The result's bytes are the same.
+JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
+
+/// The same into a file, which appears when it is complete. The default work folder is `output` with ".work" behind it.
+JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, const std::filesystem::path& output,
+                      const JoinOptions& options = {});
+
+/// Counts the pairs: no pairs are written, so that only the boxes take room on the disk.
+JoinSummary countFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
+
+/// What joinFiles() would do: all but the pairs is exact. Reads the inputs twice, and writes nothing.
+[[nodiscard]] JoinSummary planFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
+
+}  // namespace allpairs::join

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "BoxInput.h"
+
+#include <algorithm>
+#include <string>
+
+#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
+
+namespace allpairs::join {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 14;  // boxes that are read at once: they stay in the cache
+constexpr std::size_t kNeighbors = 4;                 // boxes of a sample that are read at one place
+
+template <class Number>
+BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const Number> rows) {
+  try {
+    return BoxView::fromRows(rows);
+  } catch (const InvalidBox& problem) {
+    throw FileError(file.path(), "box " + std::to_string(begin + problem.index()) + " has a NaN");
+  }
+}
+
+}  // namespace
+
+BoxInput::BoxInput(std::span<const std::filesystem::path> paths) {
+  for (const auto& path : paths) {
+    m_files.emplace_back(path);
+    m_size += m_files.back().size();
+    m_isFloat64 = m_isFloat64 || m_files.back().isFloat64();
+  }
+}
+
+void BoxInput::forEachBlock(Visitor visit) {
+  std::vector<float> float32;
+  std::vector<double> float64;
+  if (m_isFloat64) {
+    readBlocks(float64, visit);
+  } else {
+    readBlocks(float32, visit);
+  }
+}
+
+template <class Number>
+void BoxInput::readBlocks(std::vector<Number>& rows, Visitor visit) {
+  std::uint64_t before = 0;
+  for (scene::BoxRows& file : m_files) {
+    for (std::uint64_t begin = 0; begin < file.size(); begin += kBlock) {
+      rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, file.size() - begin)));
+      file.read(begin, std::span(rows));
+      visit(before + begin, viewOf(file, begin, std::span<const Number>(rows)));
+    }
+    before += file.size();
+  }
+}
+
+std::vector<Box> BoxInput::sample(std::size_t count) {
+  return m_isFloat64 ? sampleAs<double>(count) : sampleAs<float>(count);
+}
+
+template <class Number>
+std::vector<Box> BoxInput::sampleAs(std::size_t count) {
+  std::vector<Box> boxes;
+  std::vector<Number> rows;
+  const std::uint64_t step = m_size <= count ? kNeighbors : m_size / (count / kNeighbors);
+  for (scene::BoxRows& file : m_files) {
+    for (std::uint64_t begin = 0; begin < file.size(); begin += step) {
+      rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kNeighbors, file.size() - begin)));
+      file.read(begin, std::span(rows));
+      const BoxView view = viewOf(file, begin, std::span<const Number>(rows));
+      for (std::size_t i = 0; i < view.size(); ++i) boxes.push_back(view[i]);
+    }
+  }
+  return boxes;
+}
+
+}  // namespace allpairs::join

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace allpairs::join {
+
+/// How much of everything is in memory at once. Steps follow one another, so each may take all there is.
+struct Budget {
+  std::size_t workers = 1;
+  std::size_t cellBoxes = 0;    ///< Boxes that a worker searches at once, of one set or of both together.
+  std::size_t bufferPairs = 0;  ///< Pairs that a worker gathers before it writes them.
+  std::size_t bufferBytes = 0;  ///< All cells' buffers while boxes are distributed.
+  std::size_t sampleBoxes = 0;  ///< Boxes in a sample.
+  std::size_t mergeBytes = 0;   ///< Pairs that are put in order at once, with all that this takes.
+
+  /// Of `memory` bytes, for `workers` threads.
+  [[nodiscard]] static Budget of(std::uint64_t memory, std::size_t workers, std::size_t recordSize,
+                                 std::size_t pairSize) {
+    constexpr std::uint64_t kProgram = std::uint64_t{32} << 20;
+    constexpr std::uint64_t kMostSample = std::uint64_t{1} << 20;
+    constexpr std::size_t kSearch = 56;   // bytes per box that a search takes at most, and what a cell adds
+    constexpr std::size_t kSample = 160;  // likewise of a sample in double, with what cutting and counting take
+    constexpr std::uint64_t kBatch = std::uint64_t{4} << 20;  // what a worker has besides
+    const std::uint64_t all = memory - kProgram;
+    const std::uint64_t each = all / workers - kBatch;
+    Budget budget;
+    budget.workers = workers;
+    budget.cellBoxes = static_cast<std::size_t>(each * 6 / 10 / (recordSize + kSearch));
+    budget.bufferPairs = static_cast<std::size_t>(each * 4 / 10 / (2 * pairSize));  // as found, and by range
+    budget.bufferBytes = static_cast<std::size_t>(all / 2);
+    budget.sampleBoxes = static_cast<std::size_t>(std::min(all / 2 / kSample, kMostSample));
+    budget.mergeBytes = static_cast<std::size_t>(all * 9 / 10);
+    return budget;
+  }
+};
+
+}  // namespace allpairs::join

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "DiskJoin.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <exception>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "CellJoin.h"
+#include "PairMerge.h"
+#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/WriteResult.h"
+
+namespace allpairs::join {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostRanges = 4096;  // of first boxes: pairs are put in order some ranges at a time
+constexpr double kSaveInterval = 0.5;      // seconds of searching that a kill may cost
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+template <class Id>
+std::string headerFor(std::uint64_t pairs) {
+  const std::string order = std::endian::native == std::endian::little ? "<" : ">";
+  return scene::npyHeader(order + (sizeof(Id) == 4 ? "u4" : "u8"), std::array<std::uint64_t, 2>{pairs, 2});
+}
+
+/// A step's memory is the next one's: what was freed goes back to the system where the C library would keep it.
+void releaseFreedMemory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
+std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; }
+
+}  // namespace
+
+DiskJoin::DiskJoin(BoxInput& input, std::vector<InputState> states, const JoinOptions& options, const Budget& budget,
+                   bool isCount)
+    : m_input(input),
+      m_options(options),
+      m_budget(budget),
+      m_ranges(KeyRanges::of(0, input.size(), false, kMostRanges)) {
+  m_manifest.inputs = std::move(states);
+  m_manifest.distance = options.distance;
+  m_manifest.isCount = isCount;
+}
+
+JoinSummary DiskJoin::run(const ResultSink* sink) {
+  openFolder();
+  try {
+    readManifest();
+    if (m_manifest.extents.empty()) distribute();
+    if (pairSize() == sizeof(StoredPair<std::uint32_t>)) {
+      finish<std::uint32_t>(sink);
+    } else {
+      finish<std::uint64_t>(sink);
+    }
+  } catch (...) {
+    if (!fs::exists(file("manifest"))) clearFolder();  // there is nothing to go on with
+    throw;
+  }
+  clearFolder();
+  return summary();
+}
+
+void DiskJoin::clearFolder() {
+  m_spill.reset();
+  m_runs.file = {};
+  std::error_code ignored;
+  for (const char* name : {"boxes", "pairs", "manifest", "lock"}) fs::remove(file(name), ignored);
+  fs::remove(m_options.work, ignored);  // if it is empty: it may be the user's
+}
+
+void DiskJoin::openFolder() {
+  std::error_code problem;
+  fs::create_directories(m_options.work, problem);
+  if (problem) throw FileError(m_options.work, "cannot be made: " + problem.message());
+  const fs::path lock = file("lock");
+  m_lock = WorkFile(lock, fs::exists(lock) ? WorkFile::Mode::Open : WorkFile::Mode::Create);
+  if (!m_lock.lock()) throw FileError(m_options.work, "is in use by another join");
+}
+
+void DiskJoin::readManifest() {
+  std::optional<Manifest> found = Manifest::read(file("manifest"));
+  if (!found) return;
+  if (!m_options.resume) {
+    throw FileError(m_options.work, "has a join that did not end: resume it, or remove the folder");
+  }
+  if (found->inputs != m_manifest.inputs) throw FileError(m_options.work, "has a join of other files, or they changed");
+  if (found->distance != m_manifest.distance || found->isCount != m_manifest.isCount) {
+    throw FileError(m_options.work, "has a join with other options");
+  }
+  m_manifest = std::move(*found);
+  m_cells = partition::Partition::fromCuts(m_manifest.cuts);
+  m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
+  dropDamaged();
+}
+
+/// Forgets what is not as it was written, so that it is made again.
+void DiskJoin::dropDamaged() {
+  for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
+    report("checking", cell, m_manifest.extents.size());
+    if (m_spill->isIntact(cell)) continue;
+    m_manifest.extents.clear();  // all boxes are distributed again, as the cells have been cut
+    m_manifest.cells.clear();
+    m_spill.reset();
+    return;
+  }
+  if (!m_manifest.isCount && !m_manifest.cells.empty()) {
+    m_runs.file = WorkFile(file("pairs"), WorkFile::Mode::Open);
+    std::erase_if(m_manifest.cells, [this](const auto& cell) {
+      const std::vector<Run>& runs = cell.second.runs;
+      return !std::all_of(runs.begin(), runs.end(), [this](const Run& run) {
+        return checksumOf(m_runs.file, run.position, bytesOf(run, m_ranges, pairSize())) == run.checksum;
+      });
+    });
+    for (const auto& [number, result] : m_manifest.cells) {
+      for (const Run& run : result.runs) {
+        m_runs.end = std::max(m_runs.end.load(), run.position + bytesOf(run, m_ranges, pairSize()));
+      }
+    }
+  }
+  m_resumed = m_manifest.cells.size();
+}
+
+void DiskJoin::requireRoom(const Division& division) const {
+  const std::uint64_t boxes =
+      std::accumulate(division.counts.begin(), division.counts.end(), std::uint64_t{0}) * recordType().size();
+  const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairs * pairSize();
+  std::error_code problem;
+  const fs::space_info space = fs::space(m_options.work, problem);
+  if (problem || boxes + pairs <= space.available) return;
+  throw FileError(m_options.work, "its disk has " + megabytes(space.available) + " left, and this join needs " +
+                                      megabytes(boxes) + " for boxes and about " + megabytes(pairs) + " for pairs");
+}
+
+void DiskJoin::distribute() {
+  const Division division = Divider(m_input, m_options, m_budget).divide();
+  requireRoom(division);
+  m_cells = division.cells;
+  m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
+  CellFinder finder(m_cells, m_options.distance);
+  m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
+    if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (const std::uint32_t cell : finder.cellsOf(boxes[i])) m_spill->add(cell, begin + i, boxes, i);
+    }
+    report("distributing", begin + boxes.size(), m_input.size());
+  });
+  m_spill->finish();
+  m_manifest.cuts.assign(m_cells.cuts().begin(), m_cells.cuts().end());
+  m_manifest.extents = m_spill->extents();
+  m_manifest.write(file("manifest"));
+}
+
+template <class Id>
+void DiskJoin::finish(const ResultSink* sink) {
+  releaseFreedMemory();
+  searchCells<Id>();
+  releaseFreedMemory();
+  if (sink != nullptr) writePairs<Id>(*sink);
+}
+
+/// Workers take the next cell until there is none; where one fails, the others end after theirs.
+template <class Id>
+void DiskJoin::searchCells() {
+  if (!m_manifest.isCount && m_runs.end == 0) m_runs.file = WorkFile(file("pairs"), WorkFile::Mode::Create);
+  std::vector<std::size_t> left;
+  for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
+    if (!m_manifest.cells.contains(cell)) left.push_back(cell);
+  }
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> hasFailed = false;
+  const auto work = [&](std::size_t) {
+    CellJoin join(*m_spill, m_cells, recordType(), m_budget.cellBoxes,
+                  {.distance = m_options.distance, .stop = m_options.stop});
+    std::optional<RunWriter<Id>> writer;
+    if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs);
+    try {
+      for (std::size_t i = next++; i < left.size() && !hasFailed; i = next++) {
+        searchCell(left[i], join, writer ? &*writer : nullptr);
+      }
+    } catch (...) {
+      hasFailed = true;
+      throw;
+    }
+  };
+  SerialExecutor serial;
+  Executor& executor = m_options.executor != nullptr ? *m_options.executor : serial;
+  try {
+    executor.run(std::min(m_budget.workers, left.size()), work);
+  } catch (...) {
+    m_manifest.write(file("manifest"));  // cells that are complete are not searched again
+    throw;
+  }
+  m_manifest.write(file("manifest"));
+}
+
+template <class Id>
+void DiskJoin::searchCell(std::size_t cell, CellJoin& join, RunWriter<Id>* writer) {
+  CellResult result;
+  join.search(cell, [&](std::span<const Pair> pairs, const Records& first, const Records& second) {
+    result.pairs += pairs.size();
+    if (writer == nullptr) return;
+    for (const Pair pair : pairs) {
+      const std::uint64_t a = first.id(pair.first);
+      const std::uint64_t b = second.id(pair.second);
+      writer->add(std::min(a, b), std::max(a, b));
+    }
+  });
+  if (writer != nullptr) result.runs = writer->finish();
+  keep(cell, std::move(result));
+}
+
+void DiskJoin::keep(std::size_t cell, CellResult result) {
+  const std::lock_guard lock(m_mutex);
+  m_manifest.cells[cell] = std::move(result);
+  if (now() - m_lastSaved > kSaveInterval) {
+    m_manifest.write(file("manifest"));
+    m_lastSaved = now();
+  }
+  report("searching", m_manifest.cells.size(), m_manifest.extents.size());
+}
+
+template <class Id>
+void DiskJoin::writePairs(ResultSink sink) {
+  std::vector<Run> runs;
+  std::uint64_t pairs = 0;
+  for (const auto& [number, result] : m_manifest.cells) {
+    pairs += result.pairs;
+    runs.insert(runs.end(), result.runs.begin(), result.runs.end());
+  }
+  sink(headerFor<Id>(pairs));
+  std::uint64_t written = 0;
+  PairMerge<Id> merge(m_ranges, m_input.size(), m_budget.mergeBytes, m_runs.file, file("divided"));
+  merge.merge(runs, [&](std::span<const StoredPair<Id>> batch) {
+    if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+    sink({reinterpret_cast<const char*>(batch.data()), batch.size_bytes()});
+    written += batch.size();
+    report("writing", written, pairs);
+  });
+}
+
+JoinSummary DiskJoin::summary() const {
+  JoinSummary summary{.boxes = m_input.size(), .cells = m_cells.size()};
+  std::uint64_t records = 0;
+  for (const Extent& extent : m_manifest.extents) records += extent.count;
+  for (const auto& [number, result] : m_manifest.cells) summary.pairs += result.pairs;
+  summary.copies = records > summary.boxes ? records - summary.boxes : 0;
+  summary.wideBoxes = m_manifest.extents.back().count;
+  summary.boxBytes = records * recordType().size();
+  summary.pairBytes = m_manifest.isCount ? 0 : summary.pairs * pairSize();
+  summary.resumedCells = m_resumed;
+  return summary;
+}
+
+void DiskJoin::report(std::string_view step, std::uint64_t done, std::uint64_t total) {
+  if (m_options.progress) m_options.progress({step, done, total});
+}
+
+}  // namespace allpairs::join

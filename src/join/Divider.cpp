@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "DiskJoin.h"
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+
+namespace allpairs::join {
+namespace {
+
+constexpr std::size_t kCutSample = std::size_t{1} << 16;  // boxes that decide where to cut
+constexpr double kLoad = 0.7;                             // of what fits: samples err
+constexpr int kRounds = 3;                                // of cutting cells again, each of which reads the input
+constexpr std::size_t kFewCells = 16;                     // a box in no more than these is never wide
+constexpr std::size_t kWideShare = 4;                     // one in more than a fourth of more cells is
+constexpr std::size_t kCellsPerWorker = 4;
+constexpr std::uint64_t kWorthCutting = 100'000;  // boxes; fewer are searched sooner than cut
+
+/// A sample with fewer pairs says little about the whole.
+constexpr std::uint64_t kEnoughPairs = 2'000;
+
+std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
+  const double full = kLoad * static_cast<double>(std::max<std::size_t>(budget.cellBoxes, 1));
+  const auto forMemory = boxes <= budget.cellBoxes
+                             ? std::size_t{1}
+                             : static_cast<std::size_t>(std::ceil(static_cast<double>(boxes) / full));
+  const std::size_t forWorkers = budget.workers > 1 && boxes > kWorthCutting ? kCellsPerWorker * budget.workers : 1;
+  return std::max(forMemory, forWorkers);
+}
+
+}  // namespace
+
+std::uint64_t Division::copies(std::uint64_t boxes) const {
+  const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  return all > boxes ? all - boxes : 0;  // empty boxes go nowhere
+}
+
+CellFinder::CellFinder(const partition::Partition& cells, double distance)
+    : m_cells(cells), m_distance(distance), m_most(std::max(kFewCells, cells.size() / kWideShare)) {}
+
+std::span<const std::uint32_t> CellFinder::cellsOf(const Box& box) {
+  m_cells.cellsOf(partition::reachOf(box, 0.0, m_distance), m_found);
+  if (m_found.size() > m_most) m_found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
+  return m_found;
+}
+
+Divider::Divider(BoxInput& input, const JoinOptions& options, const Budget& budget)
+    : m_input(input), m_options(options), m_budget(budget) {}
+
+Division Divider::divide() {
+  Division division;
+  const std::vector<Box> sample = m_input.sample(std::min(kCutSample, m_budget.sampleBoxes));
+  division.cells = partition::Partition(sample, cellsFor(m_input.size(), m_budget), m_options.distance);
+  count(division);
+  for (int round = 0; round < kRounds && cutFullCells(division, sample); ++round) count(division);
+  division.pairs = estimatePairs();
+  return division;
+}
+
+void Divider::count(Division& division) {
+  division.counts.assign(division.cells.size() + 1, 0);
+  const std::uint64_t step = m_input.size() / std::max<std::size_t>(m_budget.sampleBoxes, 1) + 1;
+  m_evenSample.clear();
+  CellFinder finder(division.cells, m_options.distance);
+  m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
+    if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Box box = boxes[i];
+      for (const std::uint32_t cell : finder.cellsOf(box)) ++division.counts[cell];
+      if ((begin + i) % step == 0) m_evenSample.push_back(box);
+    }
+    if (m_options.progress) m_options.progress({"counting", begin + boxes.size(), m_input.size()});
+  });
+}
+
+/// Returns whether anything was cut.
+bool Divider::cutFullCells(Division& division, const std::vector<Box>& sample) const {
+  bool isCut = false;
+  const std::size_t before = division.cells.size();
+  for (std::size_t cell = 0; cell < before; ++cell) {
+    if (division.counts[cell] <= m_budget.cellBoxes) continue;
+    isCut |= division.cells.cutAgain(cell, sample, 2 * cellsFor(division.counts[cell], m_budget), m_options.distance);
+  }
+  return isCut;
+}
+
+/// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long.
+std::uint64_t Divider::estimatePairs() const {
+  std::uint64_t pairs = 0;
+  std::size_t size = 0;
+  for (std::size_t step = 256; step > 0 && pairs < kEnoughPairs; step /= 4) {
+    std::vector<Box> part;
+    for (std::size_t i = 0; i < m_evenSample.size(); i += step) part.push_back(m_evenSample[i]);
+    if (part.size() < 2) continue;
+    size = part.size();
+    pairs = countOverlaps(part, {.distance = m_options.distance});
+  }
+  if (size < 2) return 0;
+  const double share = static_cast<double>(m_input.size()) / static_cast<double>(size);
+  const double shareOfOthers = static_cast<double>(m_input.size() - 1) / static_cast<double>(size - 1);
+  return static_cast<std::uint64_t>(static_cast<double>(pairs) * share * shareOfOthers);
+}
+
+}  // namespace allpairs::join

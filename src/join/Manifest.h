@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "BoxSpill.h"
+#include "PairRuns.h"
+#include "allpairs/partition/Partition.h"
+
+namespace allpairs::join {
+
+/// An input as it was when the join began.
+struct InputState {
+  std::uint64_t path = 0;  ///< The checksum of its name, which need not be text.
+  std::uint64_t bytes = 0;
+  std::int64_t changed = 0;  ///< The time of its last change, in the file system's unit.
+
+  friend bool operator==(const InputState&, const InputState&) = default;
+};
+
+/// The pairs of a cell that was searched.
+struct CellResult {
+  std::uint64_t pairs = 0;
+  std::vector<Run> runs{};
+};
+
+/// What is complete of a join: enough to go on with it.
+struct Manifest {
+  std::vector<InputState> inputs{};
+  double distance = 0.0;
+  bool isCount = false;
+  std::vector<partition::Cut> cuts{};
+  std::vector<Extent> extents{};              ///< Of the boxes of each cell, and of the wide ones.
+  std::map<std::size_t, CellResult> cells{};  ///< Those that were searched.
+
+  /// Replaces the file: whoever reads it finds the one before or this one, whole.
+  void write(const std::filesystem::path& path) const;
+
+  /// None if there is no file.
+  ///
+  /// Bad input: a file that is not what was written throws FileError.
+  [[nodiscard]] static std::optional<Manifest> read(const std::filesystem::path& path);
+};
+
+/// The state of inputs, to compare with that of a manifest.
+[[nodiscard]] std::vector<InputState> statesOf(std::span<const std::filesystem::path> paths);
+
+}  // namespace allpairs::join

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "PairMerge.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace allpairs::join {
+namespace {
+
+constexpr std::size_t kBatch = std::size_t{1} << 16;  // pairs that are passed on, or read of a large range, at once
+constexpr std::size_t kParts = std::size_t{1} << 8;   // of a range that is divided
+
+template <class T>
+void release(std::vector<T>& values) {
+  std::vector<T>().swap(values);
+}
+
+}  // namespace
+
+template <class Id>
+PairMerge<Id>::PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
+                         std::filesystem::path scratch)
+    : m_ranges(ranges), m_boxes(boxes), m_memory(memory), m_file(file), m_scratch(std::move(scratch)) {}
+
+template <class Id>
+void PairMerge<Id>::merge(std::span<const Run> runs, Receiver receive) {
+  const std::vector<std::uint64_t> pairs = pairsPerRange(runs);
+  const std::vector<Group> groups = groupsOf(pairs);
+  for (const Group& group : groups) {
+    if (group.pairs == 0) continue;
+    if (!fits(group)) {
+      divideRange(runs, group.begin, receive);
+      continue;
+    }
+    reserve(groups);
+    mergeGroup(runs, group, receive);
+  }
+}
+
+/// As many ranges in a group as fit, at least one.
+template <class Id>
+auto PairMerge<Id>::groupsOf(std::span<const std::uint64_t> pairs) const -> std::vector<Group> {
+  std::vector<Group> groups;
+  for (std::size_t range = 0; range < pairs.size(); ++range) {
+    if (!groups.empty()) {
+      const Group longer{groups.back().begin, range + 1, groups.back().pairs + pairs[range]};
+      if (fits(longer)) {
+        groups.back() = longer;
+        continue;
+      }
+    }
+    groups.push_back({range, range + 1, pairs[range]});
+  }
+  return groups;
+}
+
+/// Once for all groups: memory that grows leaves holes.
+template <class Id>
+void PairMerge<Id>::reserve(std::span<const Group> groups) {
+  Group most;
+  std::uint64_t rows = 0;
+  for (const Group& group : groups) {
+    if (!fits(group)) continue;
+    most.pairs = std::max(most.pairs, group.pairs);
+    rows = std::max(rows, rowsOf(group));
+  }
+  m_pairs.reserve(static_cast<std::size_t>(most.pairs));
+  if (m_ranges.isBySecond) return;
+  m_seconds.reserve(static_cast<std::size_t>(most.pairs));
+  m_begins.reserve(static_cast<std::size_t>(rows));
+}
+
+template <class Id>
+std::vector<std::uint64_t> PairMerge<Id>::pairsPerRange(std::span<const Run> runs) const {
+  std::vector<std::uint64_t> begins(m_ranges.count() + 1);
+  std::vector<std::uint64_t> pairs(m_ranges.count());
+  for (const Run& run : runs) {
+    const std::uint64_t position = run.position + run.pairs * sizeof(StoredPair<Id>);
+    m_file.read(position, begins.data(), begins.size() * sizeof(std::uint64_t));
+    for (std::size_t range = 0; range < pairs.size(); ++range) pairs[range] += begins[range + 1] - begins[range];
+  }
+  return pairs;
+}
+
+/// The numbers that say where rows begin.
+template <class Id>
+std::uint64_t PairMerge<Id>::rowsOf(const Group& group) const {
+  return m_ranges.isBySecond ? 0 : m_ranges.beginOf(group.end) - m_ranges.beginOf(group.begin) + 1;
+}
+
+/// Pairs as they are read and their seconds in order take three fourths of the memory, where each row begins the rest:
+/// one group may have the most pairs and another the most rows.
+template <class Id>
+bool PairMerge<Id>::fits(const Group& group) const {
+  const std::size_t forRows = m_ranges.isBySecond ? 0 : m_memory / 4;
+  return group.pairs <= (m_memory - forRows) / (sizeof(StoredPair<Id>) + sizeof(Id)) &&
+         rowsOf(group) <= forRows / sizeof(std::uint64_t);
+}
+
+template <class Id>
+void PairMerge<Id>::mergeGroup(std::span<const Run> runs, const Group& group, Receiver receive) {
+  m_pairs.resize(static_cast<std::size_t>(group.pairs));
+  readGroup(runs, group);
+  if (m_ranges.isBySecond) {
+    giveOneRow(receive);
+  } else {
+    giveRows(m_ranges.beginOf(group.begin), m_ranges.beginOf(group.end), receive);
+  }
+}
+
+template <class Id>
+template <class Use>
+void PairMerge<Id>::forEachPart(std::span<const Run> runs, std::size_t begin, std::size_t end, const Use& use) const {
+  for (const Run& run : runs) {
+    const std::uint64_t begins = run.position + run.pairs * sizeof(StoredPair<Id>);
+    std::array<std::uint64_t, 2> bounds{};
+    m_file.read(begins + begin * sizeof(std::uint64_t), &bounds[0], sizeof(std::uint64_t));
+    m_file.read(begins + end * sizeof(std::uint64_t), &bounds[1], sizeof(std::uint64_t));
+    use(run.position + bounds[0] * sizeof(StoredPair<Id>), bounds[1] - bounds[0]);
+  }
+}
+
+template <class Id>
+void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
+  std::size_t filled = 0;
+  forEachPart(runs, group.begin, group.end, [&](std::uint64_t position, std::uint64_t count) {
+    m_file.read(position, m_pairs.data() + filled, static_cast<std::size_t>(count) * sizeof(StoredPair<Id>));
+    filled += static_cast<std::size_t>(count);
+  });
+}
+
+/// Rows by counting; each row is sorted by itself.
+template <class Id>
+void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Receiver receive) {
+  const auto rows = static_cast<std::size_t>(endKey - firstKey);
+  m_begins.assign(rows + 1, 0);
+  for (const auto& pair : m_pairs) ++m_begins[static_cast<std::size_t>(pair.first - firstKey)];
+  std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
+  m_seconds.resize(m_pairs.size());
+  for (const auto& pair : m_pairs) m_seconds[m_begins[static_cast<std::size_t>(pair.first - firstKey)]++] = pair.second;
+  std::size_t begin = 0;  // each begin has become the end of its row
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto end = static_cast<std::size_t>(m_begins[row]);
+    std::sort(m_seconds.begin() + static_cast<std::ptrdiff_t>(begin),
+              m_seconds.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::size_t i = begin; i < end; ++i) m_pairs[i] = {static_cast<Id>(firstKey + row), m_seconds[i]};
+    begin = end;
+  }
+  receive(m_pairs);
+}
+
+/// All pairs have the same first.
+template <class Id>
+void PairMerge<Id>::giveOneRow(Receiver receive) {
+  std::sort(m_pairs.begin(), m_pairs.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  receive(m_pairs);
+}
+
+template <class Id>
+void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Receiver receive) {
+  const std::uint64_t begin = m_ranges.beginOf(range);
+  const std::uint64_t end = m_ranges.beginOf(range + 1);
+  const bool isOneKey = end - begin == 1;
+  const KeyRanges parts = isOneKey && !m_ranges.isBySecond ? KeyRanges::of(0, m_boxes, true, kParts)
+                                                           : KeyRanges::of(begin, end, m_ranges.isBySecond, kParts);
+  release(m_pairs);
+  release(m_seconds);
+  release(m_begins);
+  RunFile file{WorkFile(m_scratch, WorkFile::Mode::Create)};
+  std::vector<Run> divided;
+  {
+    RunWriter<Id> writer(parts, m_memory / (2 * sizeof(StoredPair<Id>)), file);
+    m_batch.resize(kBatch);
+    forEachPart(runs, range, range + 1, [&](std::uint64_t position, std::uint64_t count) {
+      while (count > 0) {
+        const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBatch));
+        m_file.read(position, m_batch.data(), part * sizeof(StoredPair<Id>));
+        for (std::size_t i = 0; i < part; ++i) writer.add(m_batch[i].first, m_batch[i].second);
+        position += part * sizeof(StoredPair<Id>);
+        count -= part;
+      }
+    });
+    for (const Run& run : writer.finish()) divided.push_back(run);
+  }
+  PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-");
+  inner.merge(divided, receive);
+  std::filesystem::remove(m_scratch);
+}
+
+template class PairMerge<std::uint32_t>;
+template class PairMerge<std::uint64_t>;
+
+}  // namespace allpairs::join

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "PairRuns.h"
+#include "allpairs/FunctionRef.h"
+
+namespace allpairs::join {
+
+/// Puts the pairs of many runs in order, as many ranges of keys at once as fit in memory.
+template <class Id>
+class PairMerge {
+ public:
+  using Receiver = FunctionRef<void(std::span<const StoredPair<Id>>)>;
+
+  /// `file` has the runs; `boxes` is one more than the greatest number of a box. A range that is too large by itself is divided again, by way
+  /// of `scratch`.
+  PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
+            std::filesystem::path scratch);
+
+  /// Passes all pairs on, ordered by (first, second), in batches.
+  void merge(std::span<const Run> runs, Receiver receive);
+
+ private:
+  /// Ranges [begin, end), and how many pairs they have.
+  struct Group {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::uint64_t pairs = 0;
+  };
+
+  [[nodiscard]] std::vector<std::uint64_t> pairsPerRange(std::span<const Run> runs) const;
+  [[nodiscard]] std::vector<Group> groupsOf(std::span<const std::uint64_t> pairs) const;
+  [[nodiscard]] std::uint64_t rowsOf(const Group& group) const;
+  [[nodiscard]] bool fits(const Group& group) const;
+  void reserve(std::span<const Group> groups);
+  void mergeGroup(std::span<const Run> runs, const Group& group, Receiver receive);
+  void readGroup(std::span<const Run> runs, const Group& group);
+  void giveRows(std::uint64_t firstKey, std::uint64_t endKey, Receiver receive);
+  void giveOneRow(Receiver receive);
+  void divideRange(std::span<const Run> runs, std::size_t range, Receiver receive);
+
+  /// Calls use(position, count) for the pairs of ranges [begin, end) in each run.
+  template <class Use>
+  void forEachPart(std::span<const Run> runs, std::size_t begin, std::size_t end, const Use& use) const;
+
+  KeyRanges m_ranges;
+  std::uint64_t m_boxes;
+  std::size_t m_memory;
+  const WorkFile& m_file;
+  std::filesystem::path m_scratch;
+  std::vector<StoredPair<Id>> m_pairs;
+  std::vector<Id> m_seconds;
+  std::vector<std::uint64_t> m_begins;
+  std::vector<StoredPair<Id>> m_batch;
+};
+
+extern template class PairMerge<std::uint32_t>;
+extern template class PairMerge<std::uint64_t>;
+
+}  // namespace allpairs::join

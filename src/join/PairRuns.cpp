@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "PairRuns.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "Checksum.h"
+
+namespace allpairs::join {
+
+KeyRanges KeyRanges::of(std::uint64_t begin, std::uint64_t end, bool isBySecond, std::size_t most) {
+  KeyRanges ranges{begin, end, 0, isBySecond};
+  while (ranges.count() > most) ++ranges.shift;
+  return ranges;
+}
+
+template <class Id>
+RunWriter<Id>::RunWriter(const KeyRanges& ranges, std::size_t bufferPairs, RunFile& file)
+    : m_ranges(ranges), m_capacity(std::max<std::size_t>(bufferPairs, 1)), m_file(file) {
+  m_found.reserve(m_capacity);  // never moved; pages that are not written to are no memory
+  m_grouped.reserve(m_capacity);
+}
+
+template <class Id>
+std::vector<Run> RunWriter<Id>::finish() {
+  if (!m_found.empty()) flush();
+  return std::exchange(m_runs, {});
+}
+
+template <class Id>
+void RunWriter<Id>::flush() {
+  m_begins.assign(m_ranges.count() + 1, 0);
+  for (const auto& pair : m_found) ++m_begins[m_ranges.rangeOf(pair.first, pair.second)];
+  std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
+  m_grouped.resize(m_found.size());
+  for (const auto& pair : m_found) m_grouped[m_begins[m_ranges.rangeOf(pair.first, pair.second)]++] = pair;
+  // Each begin has become the end of its range, which is the next one's begin.
+  std::rotate(m_begins.begin(), m_begins.end() - 1, m_begins.end());
+  m_begins.front() = 0;
+  m_begins.back() = m_grouped.size();
+  const std::size_t pairBytes = m_grouped.size() * sizeof(StoredPair<Id>);
+  const std::size_t beginBytes = m_begins.size() * sizeof(std::uint64_t);
+  Checksum checksum;
+  checksum.add(m_grouped.data(), pairBytes);
+  checksum.add(m_begins.data(), beginBytes);
+  const std::uint64_t position = m_file.end.fetch_add(pairBytes + beginBytes);
+  m_file.file.write(position, m_grouped.data(), pairBytes);
+  m_file.file.write(position + pairBytes, m_begins.data(), beginBytes);
+  m_runs.push_back({position, m_grouped.size(), checksum.value()});
+  m_found.clear();
+}
+
+template class RunWriter<std::uint32_t>;
+template class RunWriter<std::uint64_t>;
+
+}  // namespace allpairs::join

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "WorkFile.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "Checksum.h"
+#include "allpairs/scene/FileError.h"
+
+namespace allpairs::join {
+
+WorkFile::WorkFile(const std::filesystem::path& path, Mode mode) : m_path(path) {
+  constexpr mode_t kPermissions = 0666;  // less what the umask takes away
+  const int flags = mode == Mode::Create ? O_RDWR | O_CREAT | O_TRUNC : O_RDWR;
+  m_descriptor = ::open(path.c_str(), flags | O_CLOEXEC, kPermissions);
+  if (m_descriptor < 0) fail("opened");
+}
+
+WorkFile::~WorkFile() {
+  if (m_descriptor >= 0) ::close(m_descriptor);
+}
+
+WorkFile::WorkFile(WorkFile&& other) noexcept
+    : m_path(std::move(other.m_path)), m_descriptor(std::exchange(other.m_descriptor, -1)) {}
+
+WorkFile& WorkFile::operator=(WorkFile&& other) noexcept {
+  std::swap(m_path, other.m_path);
+  std::swap(m_descriptor, other.m_descriptor);
+  return *this;
+}
+
+void WorkFile::write(std::uint64_t position, const void* bytes, std::size_t count) const {
+  const char* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = ::pwrite(m_descriptor, next, count, static_cast<off_t>(position));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("written");
+    next += written;
+    position += static_cast<std::uint64_t>(written);
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
+void WorkFile::read(std::uint64_t position, void* bytes, std::size_t count) const {
+  char* next = static_cast<char*>(bytes);
+  while (count > 0) {
+    const ssize_t done = ::pread(m_descriptor, next, count, static_cast<off_t>(position));
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) fail("read");
+    if (done == 0) throw FileError(m_path, "ends too early");
+    next += done;
+    position += static_cast<std::uint64_t>(done);
+    count -= static_cast<std::size_t>(done);
+  }
+}
+
+bool WorkFile::lock() const {
+  if (::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+  if (errno == EWOULDBLOCK) return false;
+  fail("locked");
+}
+
+void WorkFile::fail(const char* action) const {
+  throw FileError(m_path, std::string("cannot be ") + action + ": " + std::generic_category().message(errno));
+}
+
+std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count) {
+  constexpr std::size_t kAtOnce = std::size_t{1} << 20;
+  Checksum checksum;
+  std::vector<std::byte> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, kAtOnce)));
+  try {
+    while (count > 0) {
+      const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, bytes.size()));
+      file.read(position, bytes.data(), part);
+      checksum.add(bytes.data(), part);
+      position += part;
+      count -= part;
+    }
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+  return checksum.value();
+}
+
+}  // namespace allpairs::join

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace allpairs::join {
+
+/// A file of the work folder, written and read at any position.
+///
+/// Bad input: what the system refuses throws FileError, a full disk among it.
+/// Threads:   read() and write() from any number of threads, of different parts.
+class WorkFile {
+ public:
+  enum class Mode { Create, Open };
+
+  WorkFile() = default;
+  WorkFile(const std::filesystem::path& path, Mode mode);
+  ~WorkFile();
+  WorkFile(WorkFile&& other) noexcept;
+  WorkFile& operator=(WorkFile&& other) noexcept;
+  WorkFile(const WorkFile&) = delete;
+  WorkFile& operator=(const WorkFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return m_path; }
+
+  void write(std::uint64_t position, const void* bytes, std::size_t count) const;
+
+  /// A file that ends before throws FileError.
+  void read(std::uint64_t position, void* bytes, std::size_t count) const;
+
+  /// Takes the lock of the file, which ends with it, also where the process is killed; false if another has it.
+  [[nodiscard]] bool lock() const;
+
+ private:
+  [[noreturn]] void fail(const char* action) const;
+
+  std::filesystem::path m_path;
+  int m_descriptor = -1;
+};
+
+/// The checksum of a part of a file; none if the file ends before.
+[[nodiscard]] std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position,
+                                                      std::uint64_t count);
+
+}  // namespace allpairs::join

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "Expect.h"
+#include "support/Boxes.h"
+#include "support/Npy.h"
+#include "support/Oracle.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class JoinCommand : public ::testing::Test {
+ protected:
+  /// Enough boxes that the least memory holds them in three cells.
+  void writeMany(const std::string& scene = "clusters") {
+    many = folder.path() / "many.npy";
+    const ProgramRun run = runProgram({"generate", scene, "-n", "300000", "-o", many});
+    expectSuccess(run);
+  }
+
+  [[nodiscard]] std::string in(const char* name) const { return (folder.path() / name).string(); }
+  [[nodiscard]] std::string bytes(const char* name) const {
+    std::ifstream file(folder.path() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  TempFolder folder;
+  std::vector<Box> boxes = toDouble(randomBoxes(400, 31));
+  std::string few = folder.write("few.npy", npyBytes(boxes, {.descr = "<f4"})).string();
+  std::string many;
+};
+
+TEST_F(JoinCommand, WritesTheBytesThatDetectWrites) {
+  writeMany();
+  expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));
+  for (const char* memory : {"64M", "1G"}) {
+    const ProgramRun run = runProgram({"join", many, "-o", in("join.npy"), "--memory", memory, "--threads", "1"});
+    expectSuccess(run);
+    EXPECT_NE(run.out.find("among 300,000 boxes -> "), std::string::npos) << run.out;
+    EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy")) << memory;
+  }
+  expectSuccess(runProgram({"join", many, "-o", in("join.npy"), "--threads", "2"}));
+  EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy"));
+  EXPECT_FALSE(fs::exists(in("join.npy.work")));
+}
+
+TEST_F(JoinCommand, TakesADistanceAndCounts) {
+  const ProgramRun run = runProgram({"join", few, "--count", "--distance", "-0.1"});
+  expectSuccess(run);
+  EXPECT_TRUE(run.out.starts_with(std::to_string(oracle(boxes, -0.1).size()) + " pairs among 400 boxes\n")) << run.out;
+  expectSuccess(runProgram({"join", few, few, "-o", in("both.npy"), "--distance=0.5"}));
+  std::vector<Box> both = boxes;
+  both.insert(both.end(), boxes.begin(), boxes.end());
+  EXPECT_EQ(pairsOfNpy(bytes("both.npy")), oracle(both, 0.5));
+}
+
+TEST_F(JoinCommand, KilledAtAnyMomentItGoesOnToTheSameBytes) {
+  writeMany();
+  expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));
+  const std::string script = "cd '" + folder.path().string() +
+                             "' && for delay in 0.02 0.05 0.09 0.13 0.2 0.3; do "
+                             "\"$0\" join many.npy -o join.npy --memory 64M --threads 1 --resume >/dev/null 2>&1 & "
+                             "sleep $delay; kill -9 $! 2>/dev/null; wait $! 2>/dev/null; "
+                             "done; \"$0\" join many.npy -o join.npy --memory 64M --threads 1 --resume";
+  const ProgramRun run = runScript(script);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy"));
+  EXPECT_FALSE(fs::exists(in("join.npy.work")));
+}
+
+TEST_F(JoinCommand, AFullDiskIsAnErrorAndWhatWasDoneStays) {
+  writeMany("needles");
+  // The shell counts blocks of 512 bytes: the boxes fit, and the pairs do not.
+  const std::string enter = "cd '" + folder.path().string() + "' && ";
+  const ProgramRun full =
+      runScript(enter + "ulimit -f 20000 && exec \"$0\" join many.npy -o join.npy --memory 1G --threads 1 --work w");
+  expectFailure(full, kBadInput, "cannot be written: File too large");
+  EXPECT_NE(full.err.find("; what is complete is in w, and --resume goes on"), std::string::npos) << full.err;
+  EXPECT_FALSE(fs::exists(in("join.npy")));
+  expectSuccess(runProgram({"join", many, "-o", in("join.npy"), "--memory", "1G", "--work", in("w"), "--resume"}));
+  expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));
+  EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy"));
+}
+
+TEST_F(JoinCommand, WrongUsageIsSaid) {
+  expectFailure(runProgram({"join", few}), kWrongUsage, "join takes -o FILE, or --count");
+  expectFailure(runProgram({"join", few, "--count", "-o", in("x.npy")}), kWrongUsage, "--count writes no pairs");
+  expectFailure(runProgram({"join", few, "-o", in("x.csv")}), kWrongUsage, ".npy");
+  expectFailure(runProgram({"join", few, "-o", in("x.npy"), "--memory", "much"}), kWrongUsage,
+                "--memory: 'much' is not a size");
+  expectFailure(runProgram({"join", few, "-o", in("x.npy"), "--memory", "63M"}), kBadInput, "at least 64 MiB");
+  expectFailure(runProgram({"join", in("missing.npy"), "--count"}), kBadInput, "missing.npy: no such file");
+  EXPECT_FALSE(fs::exists(in("missing.npy.work")));
+}
+
+TEST_F(JoinCommand, APlanWritesNothing) {
+  writeMany();
+  const ProgramRun run = runProgram({"plan", many, "--memory", "64M"});
+  expectSuccess(run);
+  EXPECT_TRUE(run.out.starts_with("boxes    300,000\ncells    ")) << run.out;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
+}
+
+}  // namespace
+}  // namespace allpairs::test

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Joins in so little memory that each way of cutting, dividing and merging is taken, against the double loop.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "JoinCase.h"
+#include "PairMerge.h"
+#include "allpairs/Error.h"
+#include "support/Numbers.h"
+#include "support/PoolExecutor.h"
+
+namespace allpairs::test {
+namespace {
+
+std::vector<Box> uniform(std::size_t n = 700) { return toDouble(randomBoxes(n, 3)); }
+
+/// As float32 holds them.
+std::vector<Box> rounded(std::vector<Box> boxes) {
+  for (Box& box : boxes) {
+    for (double& bound : box.min) bound = static_cast<double>(static_cast<float>(bound));
+    for (double& bound : box.max) bound = static_cast<double>(static_cast<float>(bound));
+  }
+  return boxes;
+}
+
+std::vector<Box> clusters() {
+  std::vector<Box> boxes = uniform(200);
+  for (int i = 0; i < 150; ++i) boxes.push_back(cube(3, 3, 3));
+  return boxes;
+}
+
+/// Faces, edges and corners on one another, and on every cut.
+std::vector<Box> lattice() {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 512; ++i) boxes.push_back(cube(i % 8, i / 8 % 8, i / 64));
+  return boxes;
+}
+
+std::vector<Box> needles() {
+  std::vector<Box> boxes;
+  std::mt19937 random(8);
+  const auto number = [&random](double scale) { return scale * static_cast<double>(random()) * 0x1p-32; };
+  for (int i = 0; i < 400; ++i) {
+    Box box = cube(number(40), number(40), number(40), 0.1);
+    box.max[static_cast<std::size_t>(i % 3)] += 30.0;
+    boxes.push_back(box);
+  }
+  return rounded(boxes);
+}
+
+/// Some boxes in so many cells that they are kept apart.
+std::vector<Box> giants() {
+  std::vector<Box> boxes = uniform(3'000);
+  for (std::size_t i = 0; i < 30; ++i)
+    boxes.insert(boxes.begin() + static_cast<std::ptrdiff_t>(90 * i), cube(-1, -1, -1, 30));
+  return boxes;
+}
+
+std::vector<Box> oddOnes() {
+  std::vector<Box> boxes = uniform(300);
+  boxes.push_back({{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}});
+  boxes.push_back({{kInfinity, kInfinity, kInfinity}, {kInfinity, kInfinity, kInfinity}});
+  boxes.push_back({{-kInfinity, 0, 0}, {-kInfinity, 9, 9}});
+  boxes.push_back({{2, 2, 2}, {1, 3, 3}});  // empty
+  boxes.push_back({{5, 5, 5}, {5, 5, 5}});
+  return boxes;
+}
+
+void expectOracle(const std::vector<Box>& boxes, double distance = 0.0) {
+  JoinCase with(boxes);
+  join::JoinOptions options = with.options();
+  options.distance = distance;
+  EXPECT_TRUE(with.run(options) == expectedBytes(boxes, distance));
+  EXPECT_FALSE(std::filesystem::exists(options.work));
+  EXPECT_EQ(with.count(options), oracle(boxes, distance).size());
+}
+
+TEST(DiskJoin, GivesTheBytesOfTheDoubleLoop) {
+  for (const auto& boxes : {uniform(), clusters(), lattice(), needles(), oddOnes()}) expectOracle(boxes);
+}
+
+TEST(DiskJoin, GivesThemAtADistance) {
+  for (const double distance : {0.5, -0.25, 3.0, kInfinity}) expectOracle(uniform(300), distance);
+  expectOracle(oddOnes(), 1.0);
+}
+
+TEST(DiskJoin, BoxesInManyCellsAreKeptApart) {
+  const std::vector<Box> boxes = giants();
+  JoinCase with(boxes);
+  EXPECT_TRUE(with.run(with.options()) == expectedBytes(boxes));
+  EXPECT_EQ(with.summary.wideBoxes, 30U);
+  EXPECT_GT(with.summary.cells, 16U);
+}
+
+TEST(DiskJoin, MoreOfThemThanAreSearchedAtOnceToo) {
+  std::vector<Box> boxes = giants();
+  JoinCase with(boxes);
+  join::Budget budget = tinyBudget();
+  budget.cellBoxes = 20;
+  EXPECT_TRUE(with.run(with.options(), budget) == expectedBytes(boxes));
+  EXPECT_EQ(with.summary.wideBoxes, 30U);
+}
+
+TEST(DiskJoin, WhatNoCutDividesIsSearchedInParts) {
+  const std::vector<Box> boxes(250, cube(0, 0, 0));
+  JoinCase with(boxes);
+  EXPECT_TRUE(with.run(with.options()) == expectedBytes(boxes));
+  EXPECT_EQ(with.summary.cells, 1U);
+}
+
+TEST(DiskJoin, ARangeThatDoesNotFitIsDividedDownToOneRow) {
+  const std::vector<Box> boxes(60, cube(0, 0, 0));
+  JoinCase with(boxes);
+  join::Budget budget = tinyBudget();
+  for (const std::size_t bytes : {12U, 100U, 500U, 3'000U}) {
+    budget.mergeBytes = bytes;
+    EXPECT_TRUE(with.run(with.options(), budget) == expectedBytes(boxes)) << bytes;
+  }
+}
+
+TEST(DiskJoin, OfFewBoxesOrNone) {
+  expectOracle({});
+  expectOracle({cube(0, 0, 0)});
+  expectOracle({cube(0, 0, 0), cube(1, 1, 1)});
+  expectOracle({{{2, 2, 2}, {1, 3, 3}}, {{2, 2, 2}, {1, 3, 3}}});
+}
+
+TEST(DiskJoin, SeveralFilesAreOneSetInAnyOfTheirForms) {
+  const std::vector<Box> boxes = uniform(500);
+  const auto part = [&boxes](std::size_t begin, std::size_t end) {
+    return std::vector<Box>(boxes.begin() + static_cast<std::ptrdiff_t>(begin),
+                            boxes.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  JoinCase with(part(0, 120));
+  with.add({});
+  with.add(part(120, 121), {.descr = "<f8"});
+  with.add(part(121, 400), {.descr = ">f4", .fortran = true});
+  with.add(part(400, 500), {.descr = ">f8", .fortran = true, .version = 2});
+  EXPECT_TRUE(with.run(with.options()) == expectedBytes(boxes));
+}
+
+TEST(DiskJoin, Float64FarFromTheOriginIsExact) {
+  std::vector<Box> boxes = uniform(500);
+  for (Box& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = box.min[axis] / 3.0 + 1e9;
+      box.max[axis] = box.max[axis] / 3.0 + 1e9;
+    }
+  }
+  JoinCase with(boxes, {.descr = "<f8"});
+  EXPECT_TRUE(with.run(with.options()) == expectedBytes(boxes));
+}
+
+TEST(DiskJoin, ThreadsGiveTheSameBytes) {
+  const std::vector<Box> boxes = giants();
+  JoinCase with(boxes);
+  const std::string expected = expectedBytes(boxes);
+  for (const std::size_t threads : {2U, 5U}) {
+    PoolExecutor executor(threads);
+    join::JoinOptions options = with.options();
+    options.executor = &executor;
+    join::Budget budget = tinyBudget();
+    budget.workers = threads;
+    EXPECT_TRUE(with.run(options, budget) == expected) << threads;
+  }
+}
+
+TEST(DiskJoin, NumbersOf64BitsAreWrittenWhole) {
+  constexpr std::uint64_t kFar = std::uint64_t{1} << 33;
+  const TempFolder folder;
+  const join::KeyRanges ranges = join::KeyRanges::of(0, kFar + 10, false, 16);
+  join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+  join::RunWriter<std::uint64_t> writer(ranges, 4, file);
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> expected;
+  for (std::uint64_t i = 0; i < 9; ++i) expected.emplace_back(kFar - 4 + i, kFar + i);
+  for (auto pair = expected.rbegin(); pair != expected.rend(); ++pair) writer.add(pair->first, pair->second);
+  const std::vector<join::Run> runs = writer.finish();
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> found;
+  join::PairMerge<std::uint64_t> merge(ranges, kFar + 10, 500, file.file, folder.path() / "divided");
+  merge.merge(runs, [&found](std::span<const join::StoredPair<std::uint64_t>> batch) {
+    for (const auto& pair : batch) found.emplace_back(pair.first, pair.second);
+  });
+  EXPECT_EQ(found, expected);
+}
+
+}  // namespace
+}  // namespace allpairs::test

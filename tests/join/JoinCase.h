@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "Budget.h"
+#include "DiskJoin.h"
+#include "Manifest.h"
+#include "allpairs/join/Join.h"
+#include "support/Boxes.h"
+#include "support/Npy.h"
+#include "support/Oracle.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+
+/// So little that everything is cut, divided and done in parts.
+inline join::Budget tinyBudget() {
+  return {.workers = 1, .cellBoxes = 60, .bufferPairs = 50, .bufferBytes = 1, .sampleBoxes = 300, .mergeBytes = 40'000};
+}
+
+/// The pairs of the double loop as the bytes of the file that they must be.
+inline std::string expectedBytes(const std::vector<Box>& boxes, double distance = 0.0) {
+  const std::vector<Pair> pairs = oracle(boxes, distance);
+  std::string bytes =
+      npyHeaderBytes("{'descr': '<u4', 'fortran_order': False, 'shape': (" + std::to_string(pairs.size()) + ", 2), }");
+  for (const Pair pair : pairs) {
+    appendNumber(bytes, pair.first, false);
+    appendNumber(bytes, pair.second, false);
+  }
+  return bytes;
+}
+
+inline std::string bytesOfFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A join of some files in a folder of its own.
+class JoinCase {
+ public:
+  explicit JoinCase(const std::vector<Box>& boxes, const NpyStyle& style = {.descr = "<f4"}) { add(boxes, style); }
+
+  void add(const std::vector<Box>& boxes, const NpyStyle& style = {.descr = "<f4"}) {
+    const std::string name = "boxes" + std::to_string(paths.size()) + ".npy";
+    paths.push_back(folder.write(name, npyBytes(boxes, style)));
+  }
+
+  [[nodiscard]] join::JoinOptions options() const {
+    join::JoinOptions options;
+    options.work = folder.path() / "work";
+    return options;
+  }
+
+  /// The result's bytes, in the budget.
+  std::string run(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
+    join::BoxInput input(paths);
+    std::string bytes;
+    const auto append = [&bytes](std::string_view part) { bytes += part; };
+    const join::ResultSink sink(append);
+    summary = join::DiskJoin(input, join::statesOf(paths), options, budget, false).run(&sink);
+    return bytes;
+  }
+
+  std::uint64_t count(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
+    join::BoxInput input(paths);
+    summary = join::DiskJoin(input, join::statesOf(paths), options, budget, true).run(nullptr);
+    return summary.pairs;
+  }
+
+  TempFolder folder;
+  std::vector<std::filesystem::path> paths;
+  join::JoinSummary summary{};
+};
+
+}  // namespace allpairs::test

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// What users call: whole files within real limits.
+#include "allpairs/join/Join.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "JoinCase.h"
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/FileError.h"
+#include "support/Numbers.h"
+
+namespace allpairs::test {
+namespace {
+
+using join::countFiles;
+using join::joinFiles;
+using join::kLeastMemory;
+using join::planFiles;
+
+TEST(Join, WritesAFileAndLeavesNothingElse) {
+  const std::vector<Box> boxes = toDouble(randomBoxes(2'000, 11));
+  const JoinCase with(boxes);
+  const std::filesystem::path output = with.folder.path() / "pairs.npy";
+  const join::JoinSummary summary = joinFiles(with.paths, output);
+  EXPECT_TRUE(bytesOfFile(output) == expectedBytes(boxes));
+  EXPECT_EQ(summary.pairs, oracle(boxes).size());
+  EXPECT_EQ(summary.boxes, 2'000U);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(with.folder.path()), {}), 2);
+}
+
+TEST(Join, InTheLeastMemoryAndWithThreadsItIsTheSearchInMemory) {
+  const std::vector<Box> boxes = toDouble(randomBoxes(300'000, 12));
+  const JoinCase with(boxes);
+  join::JoinOptions options = with.options();
+  options.memory = kLeastMemory;
+  const std::vector<Pair> expected = overlaps(boxes);
+  const std::filesystem::path output = with.folder.path() / "pairs.npy";
+  EXPECT_GT(joinFiles(with.paths, output, options).cells, 1U);
+  EXPECT_TRUE(pairsOfNpy(bytesOfFile(output)) == expected);
+  parallel::TbbExecutor executor(3);
+  options.executor = &executor;
+  EXPECT_LT(joinFiles(with.paths, output, options).cells, 4U) << "memory for one thread";
+  EXPECT_TRUE(pairsOfNpy(bytesOfFile(output)) == expected);
+  options.memory = kLeastMemory + 2 * join::kMemoryPerThread;
+  EXPECT_GT(joinFiles(with.paths, output, options).cells, 3U);
+  EXPECT_TRUE(pairsOfNpy(bytesOfFile(output)) == expected);
+}
+
+TEST(Join, APlanSaysWhatAJoinThenDoes) {
+  const std::vector<Box> boxes = toDouble(randomBoxes(300'000, 13));
+  const JoinCase with(boxes);
+  join::JoinOptions options = with.options();
+  options.memory = kLeastMemory;
+  const join::JoinSummary plan = planFiles(with.paths, options);
+  EXPECT_FALSE(std::filesystem::exists(options.work));
+  const join::JoinSummary done = countFiles(with.paths, options);
+  EXPECT_EQ(plan.boxes, done.boxes);
+  EXPECT_EQ(plan.cells, done.cells);
+  EXPECT_EQ(plan.copies, done.copies);
+  EXPECT_EQ(plan.wideBoxes, done.wideBoxes);
+  EXPECT_EQ(plan.boxBytes, done.boxBytes);
+  EXPECT_NEAR(static_cast<double>(plan.pairs), static_cast<double>(done.pairs), 0.1 * static_cast<double>(done.pairs));
+}
+
+TEST(Join, BadInputIsNamedAndNothingIsWritten) {
+  std::vector<Box> boxes = toDouble(randomBoxes(100, 14));
+  boxes[42].max[1] = kNan;
+  JoinCase with(toDouble(randomBoxes(10, 15)));
+  with.add(boxes);
+  const std::filesystem::path output = with.folder.path() / "pairs.npy";
+  try {
+    joinFiles(with.paths, output);
+    FAIL();
+  } catch (const FileError& problem) {
+    EXPECT_NE(std::string(problem.what()).find("boxes1.npy: box 42 has a NaN"), std::string::npos) << problem.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(output));
+  EXPECT_FALSE(std::filesystem::exists(output.string() + ".part"));
+  const std::filesystem::path text = with.folder.write("text.npy", "no array");
+  EXPECT_THROW(joinFiles(std::vector{text}, output), FileError);
+  EXPECT_THROW(joinFiles(std::vector{with.folder.path() / "missing.npy"}, output), FileError);
+}
+
+TEST(Join, OptionsThatMakeNoSenseAreRefused) {
+  const JoinCase with(toDouble(randomBoxes(10, 16)));
+  join::JoinOptions options = with.options();
+  const auto refused = [&] { EXPECT_THROW(countFiles(with.paths, options), InvalidArgument); };
+  options.memory = kLeastMemory - 1;
+  refused();
+  options = with.options();
+  options.distance = kNan;
+  refused();
+  options.distance = -kInfinity;
+  refused();
+  options = {};
+  refused();
+  EXPECT_THROW(countFiles({}, with.options()), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace allpairs::test

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Joins that end in the middle, and go on.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "JoinCase.h"
+#include "WorkFile.h"
+#include "allpairs/Error.h"
+#include "allpairs/scene/FileError.h"
+
+namespace allpairs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Box> someBoxes() {
+  std::vector<Box> boxes = toDouble(randomBoxes(500, 21));
+  for (std::size_t i = 0; i < 20; ++i) boxes.push_back(cube(-1, -1, -1, 30));
+  return boxes;
+}
+
+/// Counts the steps of a join and calls `end` at one of them.
+template <class End>
+join::JoinOptions endingAt(const JoinCase& with, std::size_t step, const End& end) {
+  join::JoinOptions options = with.options();
+  options.resume = true;
+  options.progress = [step, end, calls = std::size_t{0}](const join::JoinProgress&) mutable {
+    if (calls++ == step) end();
+  };
+  return options;
+}
+
+/// Runs in a process of its own, which is gone at that step without a word; whether it came that far.
+bool runKilledAt(JoinCase& with, std::size_t step) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    try {
+      (void)with.run(endingAt(with, step, [] { ::_exit(9); }));
+    } catch (...) {
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) != 1);
+  return WEXITSTATUS(status) == 9;
+}
+
+join::JoinOptions resuming(const JoinCase& with) {
+  join::JoinOptions options = with.options();
+  options.resume = true;
+  return options;
+}
+
+TEST(Resume, AfterAKillAtAnyStepTheBytesAreTheSame) {
+  const std::vector<Box> boxes = someBoxes();
+  JoinCase with(boxes);
+  const std::string expected = expectedBytes(boxes);
+  std::size_t kills = 0;
+  for (std::size_t step = 0; runKilledAt(with, step); ++step, ++kills) {
+    ASSERT_TRUE(with.run(resuming(with)) == expected) << step;
+  }
+  EXPECT_GT(kills, 20U) << "steps";
+}
+
+TEST(Resume, AfterOneKillUponTheOtherToo) {
+  const std::vector<Box> boxes = someBoxes();
+  JoinCase with(boxes);
+  for (std::size_t step = 0; runKilledAt(with, step); step += 3) {
+  }
+  EXPECT_TRUE(with.run(with.options()) == expectedBytes(boxes)) << "the last run was to its end, and nothing is left";
+}
+
+TEST(Resume, AfterAnErrorAtAnyStepTheBytesAreTheSame) {
+  const std::vector<Box> boxes = someBoxes();
+  JoinCase with(boxes);
+  const std::string expected = expectedBytes(boxes);
+  std::size_t resumed = 0;
+  bool isComplete = false;
+  for (std::size_t step = 0; !isComplete; ++step) {
+    try {
+      isComplete = with.run(endingAt(with, step, [] { throw std::runtime_error("enough"); })) == expected;
+      ASSERT_TRUE(isComplete);
+    } catch (const std::runtime_error& problem) {
+      ASSERT_STREQ(problem.what(), "enough");
+      ASSERT_TRUE(with.run(resuming(with)) == expected) << step;
+      resumed = std::max<std::size_t>(resumed, with.summary.resumedCells);
+    }
+  }
+  EXPECT_GT(resumed, 5U) << "cells that were not searched again";
+}
+
+/// Leaves a join that has found the pairs of all cells.
+JoinCase& stoppedWhileWriting(JoinCase& with) {
+  const auto failing = [](std::string_view) { throw std::runtime_error("no room"); };
+  const join::ResultSink sink(failing);
+  join::BoxInput input(with.paths);
+  EXPECT_THROW(join::DiskJoin(input, join::statesOf(with.paths), with.options(), tinyBudget(), false).run(&sink),
+               std::runtime_error);
+  return with;
+}
+
+void flipByte(const fs::path& path, std::streamoff at) {
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekg(at);
+  const int byte = file.get();
+  file.seekp(at);
+  file.put(static_cast<char>(byte ^ 1));
+}
+
+TEST(Resume, NothingIsDoneAgainThatIsComplete) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
+  EXPECT_EQ(with.summary.resumedCells, with.summary.cells + 1) << "and the boxes in many cells";
+}
+
+TEST(Resume, DamagedFilesAreMadeAgain) {
+  for (const char* name : {"boxes", "pairs"}) {
+    for (const bool isCut : {false, true}) {
+      JoinCase with(someBoxes());
+      stoppedWhileWriting(with);
+      const fs::path file = with.options().work / name;
+      if (isCut) fs::resize_file(file, fs::file_size(file) / 2);
+      flipByte(file, 100);
+      EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes())) << name << isCut;
+      EXPECT_LT(with.summary.resumedCells, with.summary.cells + 1);
+    }
+  }
+}
+
+TEST(Resume, ADamagedManifestIsAnError) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  flipByte(with.options().work / "manifest", 20);
+  EXPECT_THROW((void)with.run(resuming(with)), FileError);
+}
+
+TEST(Resume, WithoutItAJoinThatDidNotEndIsAnError) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  EXPECT_THROW((void)with.run(with.options()), FileError);
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes())) << "nothing was lost";
+}
+
+TEST(Resume, OfAnotherJoinIsAnError) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  join::JoinOptions farther = resuming(with);
+  farther.distance = 1.0;
+  EXPECT_THROW((void)with.run(farther), FileError);
+  EXPECT_THROW((void)with.count(resuming(with)), FileError);
+  fs::last_write_time(with.paths[0], fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  EXPECT_THROW((void)with.run(resuming(with)), FileError);
+}
+
+TEST(Resume, OneJoinAtATime) {
+  JoinCase with(someBoxes());
+  fs::create_directories(with.options().work);
+  const join::WorkFile other(with.options().work / "lock", join::WorkFile::Mode::Create);
+  ASSERT_TRUE(other.lock());
+  EXPECT_THROW((void)with.run(with.options()), FileError);
+}
+
+TEST(Resume, AJoinThatIsStoppedGoesOn) {
+  JoinCase with(someBoxes());
+  StopFlag stop;
+  join::JoinOptions options = endingAt(with, 15, [&stop] { stop.set(); });
+  options.stop = &stop;
+  EXPECT_THROW((void)with.run(options), Stopped);
+  stop.clear();
+  EXPECT_TRUE(with.run(options) == expectedBytes(someBoxes()));
+}
+
+}  // namespace
+}  // namespace allpairs::test
