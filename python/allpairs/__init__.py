@@ -13,6 +13,7 @@ array([[0, 1],
 from ._core import version as __version__
 from ._elements import MeshCandidates
 from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded
+from ._partition import JoinSummary, Partition, join, overlaps_in_cell
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
 from ._world import NO_BOX, Step, World
@@ -24,10 +25,12 @@ __all__ = [
     "FileError",
     "InvalidArgument",
     "InvalidBox",
+    "JoinSummary",
     "LimitExceeded",
     "MeshCandidates",
     "Model",
     "NO_BOX",
+    "Partition",
     "Remark",
     "Scene",
     "Step",
@@ -39,8 +42,10 @@ __all__ = [
     "count_between",
     "detect",
     "instruction_sets",
+    "join",
     "load",
     "overlaps",
     "overlaps_between",
+    "overlaps_in_cell",
     "overlaps_in_worlds",
 ]

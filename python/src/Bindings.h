@@ -8,6 +8,7 @@ namespace allpairs::python {
 /// The parts of the module _core.
 void bindErrors(pybind11::module_& module);
 void bindArguments(pybind11::module_& module);
+void bindPartition(pybind11::module_& module);
 void bindSearch(pybind11::module_& module);
 void bindElements(pybind11::module_& module);
 void bindScene(pybind11::module_& module);

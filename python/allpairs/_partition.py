@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: MIT
+"""Boxes beyond memory: joins of files, and cells for drivers of your own."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _core, _search
+from ._errors import InvalidArgument
+
+Path = Union[str, "os.PathLike[str]"]
+
+#: Pairs by 64-bit ids: shape (m, 2).
+IdPairs = npt.NDArray[np.uint64]
+
+
+class JoinSummary(NamedTuple):
+    """What a join of files did."""
+
+    pairs: int
+    boxes: int
+    cells: int
+    """The parts of space that were searched one by one."""
+    copies: int
+    """Boxes that went to more than one cell, counted once for each cell but one."""
+    wide_boxes: int
+    """Boxes in so many cells that they were kept apart."""
+    box_bytes: int
+    """Written to the work folder, and read again."""
+    pair_bytes: int
+    resumed_cells: int
+    """Cells whose pairs were found before, by a join that was resumed."""
+
+
+def join(
+    inputs: Path | Iterable[Path],
+    output: Path | None = None,
+    *,
+    distance: float = 0.0,
+    memory: int = 0,
+    work: Path | None = None,
+    threads: int = 1,
+    resume: bool = False,
+) -> JoinSummary:
+    """Finds the overlapping pairs of boxes in files that need not fit in memory, by way of files on disk.
+
+    Parameters
+    ----------
+    inputs : path, or iterable of paths
+        .npy files of shape (n, 6), float32 or float64, as one set: numbered on from file to file.
+    output : path
+        A .npy file of shape (m, 2), uint32, or uint64 of more than 2**32 boxes, ordered by (first, second): what
+        `overlaps` returns where that fits in memory. Without it the pairs are only counted.
+    distance : float
+        As in `overlaps`.
+    memory : int
+        The bytes that the process may have, at least 64 MiB; 0 means half of the machine's. The interpreter, and what
+        else the process has loaded, should leave 32 MiB at most, or be added.
+    work : path
+        The folder of the join's own files; by default the name of the output, or of the first input, and ".work". It
+        takes 32 bytes for each box and copy (56 in float64) and 8 for each pair. It stays after a failure.
+    resume : bool
+        Go on with what is complete in that folder.
+
+    Raises
+    ------
+    FileError
+        If an input is none, or has a NaN, or a disk is full: with the file. It is a ValueError and an OSError.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import allpairs
+    >>> folder = tempfile.mkdtemp()
+    >>> np.save(folder + "/boxes.npy", np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]], np.float32))
+    >>> allpairs.join(folder + "/boxes.npy", folder + "/pairs.npy").pairs
+    1
+    >>> np.load(folder + "/pairs.npy")
+    array([[0, 1]], dtype=uint32)
+    """
+    paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
+    names = [os.fsdecode(path) for path in paths]
+    if not names:
+        raise InvalidArgument("inputs names no file")
+    target = None if output is None else os.fsdecode(output)
+    options = _core.JoinOptions()
+    options.distance = _arguments.number("distance", distance)
+    options.memory = _arguments.whole("memory", memory)
+    options.resume = bool(resume)
+    options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
+    return JoinSummary(*_core.join_files(names, target, options, _arguments.threads_of(threads)))
+
+
+def _cell_of(cell: npt.ArrayLike) -> list[float]:
+    bounds = _arguments.floats("cell", cell)
+    if bounds.shape not in ((6,), (2, 3)):
+        raise InvalidArgument(f"cell has shape {bounds.shape}; it takes (2, 3) or (6,)")
+    return [float(bound) for bound in bounds.ravel()]
+
+
+def _ids_of(value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint64]:
+    array = _arguments.array_of("ids", value)
+    if array.shape != (length,):
+        raise InvalidArgument(f"ids has shape {array.shape}; for {length} boxes it takes ({length},)")
+    if array.size and (array.dtype.kind not in "iu" or (array.dtype.kind == "i" and (array < 0).any())):
+        raise InvalidArgument("ids takes integers 0 to 2**64 - 1")
+    return np.ascontiguousarray(array, dtype=np.uint64)
+
+
+def overlaps_in_cell(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None,
+    ids: npt.ArrayLike,
+    cell: npt.ArrayLike,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    threads: int = 1,
+) -> IdPairs:
+    """The overlapping pairs of boxes that belong to one cell of space, by the boxes' 64-bit ids.
+
+    A pair belongs to the cell that holds the greater of its two minima, axis by axis. Cells that tile space, each
+    searched with the boxes that `Partition.cells_of` says, have every pair exactly once: on one machine or many.
+
+    Parameters
+    ----------
+    lower, upper : array_like, shape (n, 3)
+        As in `overlaps`; or ``lower`` of shape (n, 6) and ``upper`` None.
+    ids : array_like, shape (n,), integers 0 to 2**64 - 1
+    cell : array_like, shape (2, 3) or (6,)
+        Its least corner, which is in it, and its greatest, which is not, unless it is infinity: one of
+        `Partition.cells`.
+    distance, margin
+        As in `overlaps`.
+
+    Returns
+    -------
+    ndarray, shape (m, 2), uint64
+        first < second, ordered by (first, second).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> boxes = np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [2, 2, 2, 4, 4, 4]], dtype=np.float32)
+    >>> space = np.array([[-np.inf] * 3, [np.inf] * 3])
+    >>> allpairs.overlaps_in_cell(boxes, None, [70, 50, 60], space)
+    array([[50, 60],
+           [50, 70],
+           [60, 70]], dtype=uint64)
+    """
+    boxes = _arguments.with_margins(_arguments.boxes_of(lower, upper), margin)
+    values: dict[str, Any] = {"distance": distance, "strategy": "auto", "threads": threads, "region": None, "ignore": None}
+    options = _search._settings(values, 3, one_set=True)
+    return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(ids, len(boxes)), _cell_of(cell), options))
+
+
+class Partition:
+    """Cells that tile space, about equally full, made from a sample of the boxes.
+
+    Parameters
+    ----------
+    lower, upper : array_like
+        A sample of the boxes, as in `overlaps`: some hundred for each cell suffice.
+    cells : int
+        About how many cells. What no cut divides stays one cell.
+    distance, margin
+        As in `overlaps`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> lower = np.random.default_rng(1).random((1000, 3), dtype=np.float32)
+    >>> upper = lower + np.float32(0.1)
+    >>> partition = allpairs.Partition(lower, upper, cells=4)
+    >>> len(partition)
+    4
+    >>> found = []
+    >>> for number, cell in enumerate(partition.cells):
+    ...     here = [box for box, where in partition.cells_of(lower, upper) if where == number]
+    ...     found.append(allpairs.overlaps_in_cell(lower[here], upper[here], here, cell))
+    >>> sum(map(len, found)) == allpairs.count(lower, upper)
+    True
+    """
+
+    def __init__(
+        self,
+        lower: npt.ArrayLike,
+        upper: npt.ArrayLike | None = None,
+        *,
+        cells: int,
+        distance: float = 0.0,
+        margin: npt.ArrayLike | None = None,
+    ) -> None:
+        sample = _arguments.with_margins(_arguments.boxes_of(lower, upper), margin)
+        count = _arguments.whole("cells", cells, least=1)
+        self._cells = _core.Partition(sample, count, _arguments.number("distance", distance))
+
+    def __len__(self) -> int:
+        return len(self._cells)
+
+    @property
+    def cells(self) -> npt.NDArray[np.float64]:
+        """The least and the greatest corner of each cell: shape (cells, 2, 3)."""
+        return np.asarray(self._cells.cells()).reshape(-1, 2, 3)
+
+    def cells_of(
+        self,
+        lower: npt.ArrayLike,
+        upper: npt.ArrayLike | None = None,
+        *,
+        distance: float = 0.0,
+        margin: npt.ArrayLike | None = None,
+        max_margin: float = 0.0,
+    ) -> npt.NDArray[np.int64]:
+        """Which cells each box goes to: rows of a box, by index, and a cell; shape (k, 2).
+
+        ``max_margin`` is the greatest margin of any box that these may be paired with, here or elsewhere.
+        """
+        boxes = _arguments.with_margins(_arguments.boxes_of(lower, upper), margin)
+        apart, greatest = _arguments.number("distance", distance), _arguments.number("max_margin", max_margin)
+        rows = np.asarray(self._cells.cells_of(boxes, apart, greatest)).reshape(-1, 2)
+        return rows.view(np.int64)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _from_cuts, (np.asarray(self._cells.cuts()).reshape(-1, 4).tolist(),)
+
+
+def _from_cuts(cuts: list[list[float]]) -> Partition:
+    partition = Partition.__new__(Partition)
+    partition._cells = _core.Partition.from_cuts(cuts)
+    return partition

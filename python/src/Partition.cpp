@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/partition/Partition.h"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "Arguments.h"
+#include "Bindings.h"
+#include "Boxes.h"
+#include "BufferProtocol.h"
+#include "Interrupts.h"
+#include "NumberArray.h"
+#include "Options.h"
+#include "allpairs/Error.h"
+#include "allpairs/join/Join.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/partition/Cell.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+using partition::Cell;
+using partition::Cut;
+using partition::IdPair;
+using partition::Partition;
+using Bounds = std::array<double, 6>;
+using OffsetArray = NumberArray<std::uint64_t>;
+using RealArray = NumberArray<double>;
+
+Cell cellOf(const Bounds& bounds) { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
+
+std::unique_ptr<OffsetArray> overlapsInCell(const Boxes& boxes, const py::buffer& ids, const Bounds& cell,
+                                            Options& options) {
+  const py::buffer_info held = ids.request();
+  if (held.ndim != 1 || held.itemsize != 8) throw InvalidArgument("ids of another kind than the module takes");
+  const std::vector<IdPair> pairs = options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
+    return partition::overlapsInCell(boxes.set(), valuesOf<std::uint64_t>(held), cellOf(cell), settings);
+  });
+  std::vector<std::uint64_t> numbers;
+  numbers.reserve(2 * pairs.size());
+  for (const IdPair& pair : pairs) numbers.insert(numbers.end(), {pair.first, pair.second});
+  return std::make_unique<OffsetArray>(std::move(numbers), 2);
+}
+
+std::unique_ptr<RealArray> cellsOf(const Partition& partition) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < partition.size(); ++i) {
+    const Cell cell = partition.cell(i);
+    numbers.insert(numbers.end(), cell.min.begin(), cell.min.end());
+    numbers.insert(numbers.end(), cell.max.begin(), cell.max.end());
+  }
+  return std::make_unique<RealArray>(std::move(numbers), 6);
+}
+
+/// Rows of at, axis, low and high: small integers are exact in float64.
+std::unique_ptr<RealArray> cutsOf(const Partition& partition) {
+  std::vector<double> numbers;
+  for (const Cut& cut : partition.cuts()) {
+    numbers.insert(numbers.end(), {cut.at, static_cast<double>(cut.axis), static_cast<double>(cut.low),
+                                   static_cast<double>(cut.high)});
+  }
+  return std::make_unique<RealArray>(std::move(numbers), 4);
+}
+
+Partition fromCuts(const std::vector<std::array<double, 4>>& rows) {
+  std::vector<Cut> cuts;
+  for (const auto& row : rows) {
+    cuts.push_back({row[0], static_cast<std::uint32_t>(row[1]), static_cast<std::int32_t>(row[2]),
+                    static_cast<std::int32_t>(row[3])});
+  }
+  return Partition::fromCuts(cuts);
+}
+
+/// Rows of a box and a cell that it goes to.
+std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxes& boxes, double distance,
+                                          double maxMargin) {
+  std::vector<std::uint64_t> rows;
+  {
+    const py::gil_scoped_release release;
+    const BoxView& set = boxes.set();
+    std::vector<std::uint32_t> cells;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      partition.cellsOf(partition::reachOf(set[i], set.margin(i), distance, maxMargin), cells);
+      std::sort(cells.begin(), cells.end());
+      for (const std::uint32_t cell : cells) rows.insert(rows.end(), {i, cell});
+    }
+  }
+  return std::make_unique<OffsetArray>(std::move(rows), 2);
+}
+
+/// The fields of the package's JoinSummary, in its order.
+py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
+                    const std::optional<std::filesystem::path>& output, join::JoinOptions& options,
+                    std::size_t threads) {
+  constexpr std::size_t kLong = std::size_t{1} << 30;  // as many boxes: it may take long
+  StopFlag stop;
+  options.stop = &stop;
+  const join::JoinSummary summary = interruptibly(kLong, [&](Stopper& stopper) {
+    const Stopper::Hold hold(stopper, stop);
+    std::unique_ptr<Executor> executor;
+    if (threads != 1) executor = std::make_unique<parallel::TbbExecutor>(threads);
+    options.executor = executor.get();
+    return output ? join::joinFiles(inputs, *output, options) : join::countFiles(inputs, options);
+  });
+  return py::make_tuple(summary.pairs, summary.boxes, summary.cells, summary.copies, summary.wideBoxes,
+                        summary.boxBytes, summary.pairBytes, summary.resumedCells);
+}
+
+}  // namespace
+
+void bindPartition(py::module_& module) {
+  py::class_<Partition>(module, "Partition")
+      .def(py::init([](const Boxes& sample, std::size_t cells, double distance) {
+        return Partition(sample.set(), cells, distance);
+      }))
+      .def_static("from_cuts", &fromCuts)
+      .def("cuts", &cutsOf)
+      .def("cells", &cellsOf)
+      .def("cells_of", &cellsOfBoxes)
+      .def("__len__", &Partition::size);
+  module.def("overlaps_in_cell", &overlapsInCell);
+  py::class_<join::JoinOptions>(module, "JoinOptions")
+      .def(py::init<>())
+      .def_readwrite("distance", &join::JoinOptions::distance)
+      .def_readwrite("memory", &join::JoinOptions::memory)
+      .def_readwrite("work", &join::JoinOptions::work)
+      .def_readwrite("resume", &join::JoinOptions::resume);
+  module.def("join_files", &joinFiles);
+}
+
+}  // namespace allpairs::python

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""Cells, and joins of files, against the double loop."""
+
+import itertools
+import pickle
+
+import numpy as np
+import pytest
+
+import allpairs
+
+
+def some_boxes(count=300, seed=1, dtype=np.float32):
+    rng = np.random.default_rng(seed)
+    lower = rng.random((count, 3)).astype(dtype) * 5
+    return np.hstack([lower, lower + rng.random((count, 3)).astype(dtype)])
+
+
+def double_loop(boxes, distance=0.0):
+    wide = boxes.astype(np.float64)
+    low, high = wide[:, :3], wide[:, 3:] + distance
+    return [
+        [i, j]
+        for i, j in itertools.combinations(range(len(boxes)), 2)
+        if (low[i] <= high[j]).all() and (low[j] <= high[i]).all()
+    ]
+
+
+@pytest.mark.parametrize("distance", [0.0, 0.25, -0.125])
+def test_cells_have_each_pair_once(distance):
+    boxes = some_boxes()
+    partition = allpairs.Partition(boxes, cells=9, distance=distance)
+    assert len(partition) > 6
+    homes = partition.cells_of(boxes, distance=distance)
+    assert homes.dtype == np.int64 and len(homes) > len(boxes)
+    found = []
+    for number, cell in enumerate(partition.cells):
+        here = homes[homes[:, 1] == number, 0]
+        pairs = allpairs.overlaps_in_cell(boxes[here], None, here + 2**40, cell, distance=distance)
+        assert pairs.dtype == np.uint64
+        found += (pairs - np.uint64(2**40)).tolist()
+    assert sorted(found) == double_loop(boxes, distance)
+
+
+def test_margins_widen_and_are_seen():
+    boxes = some_boxes(80)
+    margins = np.linspace(0, 0.5, 80)
+    partition = allpairs.Partition(boxes, cells=4, margin=margins)
+    homes = partition.cells_of(boxes, margin=margins, max_margin=0.5)
+    found = []
+    for number, cell in enumerate(partition.cells):
+        here = homes[homes[:, 1] == number, 0]
+        found += allpairs.overlaps_in_cell(boxes[here], None, here, cell, margin=margins[here]).tolist()
+    assert sorted(found) == allpairs.overlaps(boxes, margin=margins).tolist()
+
+
+def test_a_partition_pickles():
+    boxes = some_boxes()
+    partition = allpairs.Partition(boxes, cells=5)
+    again = pickle.loads(pickle.dumps(partition))
+    assert (again.cells == partition.cells).all()
+    assert (again.cells_of(boxes) == partition.cells_of(boxes)).all()
+
+
+def test_bad_arguments_are_named():
+    boxes = some_boxes(3)
+    space = [[-np.inf] * 3, [np.inf] * 3]
+    with pytest.raises(allpairs.InvalidArgument, match=r"ids has shape \(2,\); for 3 boxes it takes \(3,\)"):
+        allpairs.overlaps_in_cell(boxes, None, [1, 2], space)
+    with pytest.raises(allpairs.InvalidArgument, match="ids takes integers"):
+        allpairs.overlaps_in_cell(boxes, None, [1, 2, -3], space)
+    with pytest.raises(allpairs.InvalidArgument, match=r"cell has shape \(3,\)"):
+        allpairs.overlaps_in_cell(boxes, None, [1, 2, 3], [1, 2, 3])
+    with pytest.raises(allpairs.InvalidArgument, match="two boxes have the id 7"):
+        allpairs.overlaps_in_cell(boxes * 0, None, [7, 7, 3], space)
+    with pytest.raises(allpairs.InvalidArgument, match="cells is 0"):
+        allpairs.Partition(boxes, cells=0)
+
+
+def test_a_join_of_files_is_the_search_in_memory(tmp_path):
+    boxes = some_boxes(400)
+    np.save(tmp_path / "a.npy", boxes[:150])
+    np.save(tmp_path / "b.npy", boxes[150:].astype(np.float64))
+    summary = allpairs.join([tmp_path / "a.npy", tmp_path / "b.npy"], tmp_path / "pairs.npy", distance=0.125)
+    expected = double_loop(boxes, 0.125)
+    assert np.load(tmp_path / "pairs.npy").tolist() == expected
+    assert summary.pairs == len(expected) and summary.boxes == 400
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.npy", "b.npy", "pairs.npy"]
+    assert allpairs.join(str(tmp_path / "a.npy"), threads=2).pairs == len(double_loop(boxes[:150]))
+
+
+def test_join_says_what_is_wrong(tmp_path):
+    boxes = some_boxes(10)
+    boxes[4, 2] = np.nan
+    np.save(tmp_path / "nan.npy", boxes)
+    with pytest.raises(allpairs.FileError, match="nan.npy: box 4 has a NaN"):
+        allpairs.join(tmp_path / "nan.npy", tmp_path / "pairs.npy")
+    with pytest.raises(allpairs.InvalidArgument, match="64 MiB"):
+        allpairs.join(tmp_path / "nan.npy", memory=1)
+    with pytest.raises(allpairs.InvalidArgument, match="no file"):
+        allpairs.join([])
+    assert [path.name for path in tmp_path.iterdir()] == ["nan.npy"]
