@@ -124,12 +124,17 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     return array.astype(np.float64)
 
 
+def contiguous(array: npt.ArrayLike, dtype: npt.DTypeLike = None) -> npt.NDArray[Any]:
+    """The numbers one after the other and aligned; NumPy's ascontiguousarray leaves what lies at an odd address there."""
+    return np.require(array, dtype, ["C", "A"])
+
+
 def _plain(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """The array itself where its strides are whole elements, else a copy."""
     size = array.itemsize
     if array.flags.aligned and all(stride % size == 0 for stride in array.strides):
         return array
-    return np.ascontiguousarray(array)
+    return contiguous(array)
 
 
 def _table(name: str, value: npt.ArrayLike, columns: Sequence[int], kind: str = "it", single: bool = False) -> npt.NDArray[Any]:
@@ -180,7 +185,7 @@ def with_margins(boxes: _core.Boxes, margin: npt.ArrayLike | None, prefix: str =
         if margins.ndim == 0:
             boxes.set_margin(float(margins))
         else:
-            boxes.set_margins(np.ascontiguousarray(of_length(prefix + "margin", margins, len(boxes))))
+            boxes.set_margins(contiguous(of_length(prefix + "margin", margins, len(boxes))))
     return boxes
 
 
@@ -252,7 +257,7 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
         if outside.any():
             index = int(np.argwhere(outside)[0][0])
             raise InvalidBox(f"{name}[{index}] is {array[index]}; it takes 0 to {_UINT32_MAX}", index)
-    return np.ascontiguousarray(array, dtype=np.uint32)
+    return contiguous(array, np.uint32)
 
 
 def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:

@@ -103,7 +103,7 @@ class MeshCandidates:
         """
         begin, finish = _arguments.corner_pair("start", start, "end", start if end is None else end)
         number = _arguments.whole("mesh", mesh)
-        self._core.set_positions(number, np.ascontiguousarray(begin), np.ascontiguousarray(finish))
+        self._core.set_positions(number, _arguments.contiguous(begin), _arguments.contiguous(finish))
 
     def find(self, kind: Kind) -> Pairs:
         """All candidates of a kind, each once.

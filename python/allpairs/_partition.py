@@ -110,7 +110,7 @@ def _ids_of(value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint64]:
         raise InvalidArgument(f"ids has shape {array.shape}; for {length} boxes it takes ({length},)")
     if array.size and (array.dtype.kind not in "iu" or (array.dtype.kind == "i" and (array < 0).any())):
         raise InvalidArgument("ids takes integers 0 to 2**64 - 1")
-    return np.ascontiguousarray(array, dtype=np.uint64)
+    return _arguments.contiguous(array, dtype=np.uint64)
 
 
 def overlaps_in_cell(

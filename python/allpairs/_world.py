@@ -44,7 +44,7 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
             setter(_arguments.labels(name, values[name], size))
     if values["margin"] is not None:
         margins = _arguments.floats("margin", _spread(values["margin"], size))
-        properties.set_margin(np.ascontiguousarray(_arguments.of_length("margin", margins, size), dtype=np.float64))
+        properties.set_margin(_arguments.contiguous(_arguments.of_length("margin", margins, size), dtype=np.float64))
     return properties
 
 
@@ -321,5 +321,5 @@ class World:
         """
         query = _query_filter(locals())
         count = _arguments.whole("k", k, least=1, most=NO_BOX)
-        ids, distances = self._core.nearest(np.ascontiguousarray(_arguments.points("points", points)), count, query)
+        ids, distances = self._core.nearest(_arguments.contiguous(_arguments.points("points", points)), count, query)
         return np.asarray(ids), np.asarray(distances)

@@ -39,7 +39,7 @@ def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
     if array.dtype.kind == "i" and (array < 0).any():
         world = int(np.argmax(array < 0))
         raise InvalidArgument(f"offsets[{world}] is {array[world]}; it is at least 0")
-    native = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+    native = _arguments.contiguous(array, dtype=array.dtype.newbyteorder("="))
     return native.view(np.uint64) if native.dtype == np.int64 else native.astype(np.uint64, copy=False)
 
 

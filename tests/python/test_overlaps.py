@@ -170,3 +170,17 @@ def test_no_pairs_is_an_array_of_no_rows():
     for arguments in ([], []), (np.zeros((0, 6)),), (np.zeros((1, 6)),):
         found = allpairs.overlaps(*arguments)
         assert (found.shape, found.dtype) == ((0, 2), np.uint32)
+
+
+def test_arrays_at_odd_addresses_are_read():
+    boxes = np.sort(np.random.default_rng(3).random((50, 2, 3)), axis=1).reshape(50, 6)
+    odd = np.frombuffer(b"x" + boxes.tobytes(), dtype=np.float64, offset=1).reshape(50, 6)
+    groups = np.frombuffer(b"x" + np.arange(50, dtype=np.uint32).tobytes(), dtype=np.uint32, offset=1)
+    assert not odd.flags.aligned and not groups.flags.aligned
+    assert allpairs.overlaps(odd, group=groups).tolist() == allpairs.overlaps(boxes).tolist()
+    assert allpairs.overlaps(odd[:, :3], odd[:, 3:], margin=odd[:, 0]).tolist() == (
+        allpairs.overlaps(boxes, margin=boxes[:, 0]).tolist()
+    )
+    world = allpairs.World()
+    world.add(odd[:, :3], odd[:, 3:], margin=odd[:, 0])
+    assert len(world.step().pairs) == allpairs.count(boxes, margin=boxes[:, 0])
