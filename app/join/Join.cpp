@@ -13,9 +13,7 @@
 
 #include "Commands.h"
 #include "allpairs/join/Join.h"
-#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/FileError.h"
-#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -90,8 +88,7 @@ void runJoin(const JoinSettings& settings) {
     throw UsageError("join writes .npy files; the name of its output ends in something else");
   }
   join::JoinOptions options = joinOptions(settings.shared);
-  const std::size_t threads = parseThreads(settings.threads);
-  const std::unique_ptr<Executor> executor = threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
+  const std::unique_ptr<Executor> executor = executorOf(settings.threads);
   options.executor = executor.get();
   options.resume = settings.resume;
   options.work = settings.work;

@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "allpairs/parallel/TbbExecutor.h"
 #include "cli/Arguments.h"
 #include "cli/Options.h"
 
@@ -22,6 +23,11 @@ join::JoinOptions joinOptions(const JoinArguments& arguments) {
   if (!arguments.memory.empty()) options.memory = parseMemory("--memory", arguments.memory);
   if (!arguments.distance.empty()) options.distance = parseDistance(arguments.distance);
   return options;
+}
+
+std::unique_ptr<Executor> executorOf(const std::string& threads) {
+  const std::size_t count = parseThreads(threads);
+  return count == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(count);
 }
 
 std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 
 /// Bad input: throws UsageError.
 [[nodiscard]] join::JoinOptions joinOptions(const JoinArguments& arguments);
+
+/// What --threads says; null for one.
+[[nodiscard]] std::unique_ptr<Executor> executorOf(const std::string& threads);
 
 [[nodiscard]] std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments);
 

@@ -10,22 +10,32 @@
 
 #include "Commands.h"
 #include "allpairs/join/Join.h"
+#include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
 #include "cli/Text.h"
+#include "join/Calibration.h"
 #include "join/JoinArguments.h"
 
 namespace allpairs::app {
 namespace {
 
-constexpr const char* kPlanExamples = R"(Reads the boxes twice and writes nothing. All but the number of pairs, which is
-estimated from a sample, is exact.
+struct PlanSettings {
+  JoinArguments shared;
+  std::string work;
+  std::string threads = "0";
+};
+
+constexpr const char* kPlanExamples =
+    R"(Reads the boxes twice. Cells, copies and room for boxes are exact; the number of
+pairs is estimated from a sample, and the time from two million boxes that are
+joined for it in a folder within --work, which is gone afterwards.
 
 Examples:
   allpairs plan boxes.npy
-  allpairs plan part*.npy --memory 4G)";
+  allpairs plan part*.npy --memory 4G --work /scratch)";
 
-std::string planText(const join::JoinSummary& plan) {
+std::string planText(const join::JoinSummary& plan, double seconds) {
   std::string text = fmt::format("boxes    {}\n", grouped(plan.boxes));
   text += fmt::format("cells    {}\n", grouped(plan.cells));
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
@@ -33,22 +43,33 @@ std::string planText(const join::JoinSummary& plan) {
   text += fmt::format("pairs    about {}\n", grouped(plan.pairs));
   text += fmt::format("disk     {} MiB for boxes, about {} MiB for pairs\n", grouped((plan.boxBytes >> 20) + 1),
                       grouped((plan.pairBytes >> 20) + 1));
-  return text + fmt::format("result   about {} MiB\n", grouped((plan.pairBytes >> 20) + 1));
+  text += fmt::format("result   about {} MiB\n", grouped((plan.pairBytes >> 20) + 1));
+  return text + fmt::format("time     about {:.{}f} s\n", seconds, seconds < 10.0 ? 1 : 0);
+}
+
+void runPlan(const PlanSettings& settings) {
+  join::JoinOptions options = joinOptions(settings.shared);
+  const std::unique_ptr<Executor> executor = executorOf(settings.threads);
+  options.executor = executor.get();
+  std::optional<ProgressClock> clock(std::in_place, "counting");
+  const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
+  clock.emplace("measuring the time of a join");
+  const JoinCost cost = measureJoinCost(settings.work.empty() ? "." : settings.work, options);
+  clock.reset();
+  Output(std::nullopt).write(planText(plan, cost.secondsFor(plan)));
 }
 
 }  // namespace
 
 void addPlan(CLI::App& program) {
-  const auto arguments = std::make_shared<JoinArguments>();
-  CLI::App* command = program.add_subcommand("plan", "What a join would take: cells, copies, disk, memory");
+  const auto settings = std::make_shared<PlanSettings>();
+  CLI::App* command = program.add_subcommand("plan", "What a join would take: cells, copies, disk, time");
   command->footer(kPlanExamples);
-  addJoinArguments(*command, *arguments);
-  command->callback([arguments] {
-    std::optional<ProgressClock> clock(std::in_place, "counting");
-    const join::JoinSummary plan = join::planFiles(inputsOf(*arguments), joinOptions(*arguments));
-    clock.reset();
-    Output(std::nullopt).write(planText(plan));
-  });
+  addJoinArguments(*command, settings->shared);
+  command->add_option("--work", settings->work, "The folder that a join would work in; default: this one")
+      ->type_name("DIR");
+  addThreads(*command, settings->threads);
+  command->callback([settings] { runPlan(*settings); });
 }
 
 }  // namespace allpairs::app

@@ -102,11 +102,12 @@ TEST_F(JoinCommand, WrongUsageIsSaid) {
   EXPECT_FALSE(fs::exists(in("missing.npy.work")));
 }
 
-TEST_F(JoinCommand, APlanWritesNothing) {
+TEST_F(JoinCommand, APlanLeavesNothing) {
   writeMany();
-  const ProgramRun run = runProgram({"plan", many, "--memory", "64M"});
+  const ProgramRun run = runProgram({"plan", many, "--memory", "64M", "--work", folder.path()});
   expectSuccess(run);
   EXPECT_TRUE(run.out.starts_with("boxes    300,000\ncells    ")) << run.out;
+  EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
 }
 
