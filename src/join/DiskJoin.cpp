@@ -28,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRanges = 4096;  // of first boxes: pairs are put in order some ranges at a time
-constexpr double kSaveInterval = 0.5;      // seconds of searching that a kill may cost
+constexpr const char* kLock = "allpairs-join.lock";
+constexpr double kSaveInterval = 0.5;  // seconds of searching that a kill may cost
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -82,16 +83,24 @@ void DiskJoin::clearFolder() {
   m_spill.reset();
   m_runs.file = {};
   std::error_code ignored;
-  for (const char* name : {"boxes", "pairs", "manifest", "lock"}) fs::remove(file(name), ignored);
+  std::string divided = "divided";  // a join that was killed leaves them, one for each time that a range was divided
+  for (; fs::remove(file(divided.c_str()), ignored); divided += '-') {
+  }
+  for (const char* name : {"boxes", "pairs", "manifest", kLock}) fs::remove(file(name), ignored);
   fs::remove(m_options.work, ignored);  // if it is empty: it may be the user's
 }
 
+/// Takes a folder that is empty, or that a join left.
 void DiskJoin::openFolder() {
   std::error_code problem;
   fs::create_directories(m_options.work, problem);
   if (problem) throw FileError(m_options.work, "cannot be made: " + problem.message());
-  const fs::path lock = file("lock");
-  m_lock = WorkFile(lock, fs::exists(lock) ? WorkFile::Mode::Open : WorkFile::Mode::Create);
+  const bool isOurs = fs::exists(file(kLock), problem);
+  if (!isOurs && !fs::is_empty(m_options.work, problem)) {
+    throw FileError(m_options.work, "is not empty, and not the work folder of a join");
+  }
+  if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message());
+  m_lock = WorkFile(file(kLock), isOurs ? WorkFile::Mode::Open : WorkFile::Mode::Create);
   if (!m_lock.lock()) throw FileError(m_options.work, "is in use by another join");
 }
 
@@ -107,35 +116,53 @@ void DiskJoin::readManifest() {
   }
   m_manifest = std::move(*found);
   m_cells = partition::Partition::fromCuts(m_manifest.cuts);
-  m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
+  const std::size_t parts = m_manifest.extents.size();
+  if (parts != m_cells.size() + 1 || (!m_manifest.cells.empty() && m_manifest.cells.rbegin()->first >= parts)) {
+    throw FileError(file("manifest"), "is damaged: remove its folder and join anew");
+  }
   dropDamaged();
 }
 
 /// Forgets what is not as it was written, so that it is made again.
 void DiskJoin::dropDamaged() {
-  for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
-    report("checking", cell, m_manifest.extents.size());
-    if (m_spill->isIntact(cell)) continue;
-    m_manifest.extents.clear();  // all boxes are distributed again, as the cells have been cut
+  if (!hasAllBoxes()) {
+    m_manifest.extents.clear();  // all boxes are distributed again
     m_manifest.cells.clear();
     m_spill.reset();
+  }
+  if (!m_manifest.isCount && !m_manifest.cells.empty()) dropDamagedCells();
+  m_resumed = m_manifest.cells.size();
+}
+
+bool DiskJoin::hasAllBoxes() {
+  if (!fs::exists(file("boxes"))) return false;
+  m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
+  for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
+    report("checking", cell, m_manifest.extents.size());
+    if (!m_spill->isIntact(cell)) return false;
+  }
+  return true;
+}
+
+/// Forgets cells of whose pairs not all are there. New runs go behind those that stay.
+void DiskJoin::dropDamagedCells() {
+  if (!fs::exists(file("pairs"))) {
+    m_manifest.cells.clear();
     return;
   }
-  if (!m_manifest.isCount && !m_manifest.cells.empty()) {
-    m_runs.file = WorkFile(file("pairs"), WorkFile::Mode::Open);
-    std::erase_if(m_manifest.cells, [this](const auto& cell) {
-      const std::vector<Run>& runs = cell.second.runs;
-      return !std::all_of(runs.begin(), runs.end(), [this](const Run& run) {
-        return checksumOf(m_runs.file, run.position, bytesOf(run, m_ranges, pairSize())) == run.checksum;
-      });
-    });
-    for (const auto& [number, result] : m_manifest.cells) {
-      for (const Run& run : result.runs) {
-        m_runs.end = std::max(m_runs.end.load(), run.position + bytesOf(run, m_ranges, pairSize()));
-      }
+  m_runs.file = WorkFile(file("pairs"), WorkFile::Mode::Open);
+  const auto isIntact = [this](const Run& run) {
+    return checksumOf(m_runs.file, run.position, bytesOf(run, m_ranges, pairSize())) == run.checksum;
+  };
+  std::erase_if(m_manifest.cells, [&isIntact](const auto& cell) {
+    const std::vector<Run>& runs = cell.second.runs;
+    return !std::all_of(runs.begin(), runs.end(), isIntact);
+  });
+  for (const auto& [number, result] : m_manifest.cells) {
+    for (const Run& run : result.runs) {
+      m_runs.end = std::max(m_runs.end.load(), run.position + bytesOf(run, m_ranges, pairSize()));
     }
   }
-  m_resumed = m_manifest.cells.size();
 }
 
 void DiskJoin::requireRoom(const Division& division) const {

@@ -80,6 +80,8 @@ class DiskJoin {
   void requireRoom(const Division& division) const;
   void distribute();
   void dropDamaged();
+  [[nodiscard]] bool hasAllBoxes();
+  void dropDamagedCells();
   template <class Id>
   void searchCells();
   template <class Id>

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "allpairs/scene/FileError.h"
+
 namespace allpairs::join {
 namespace {
 
@@ -118,6 +120,7 @@ void PairMerge<Id>::forEachPart(std::span<const Run> runs, std::size_t begin, st
     std::array<std::uint64_t, 2> bounds{};
     m_file.read(begins + begin * sizeof(std::uint64_t), &bounds[0], sizeof(std::uint64_t));
     m_file.read(begins + end * sizeof(std::uint64_t), &bounds[1], sizeof(std::uint64_t));
+    if (bounds[0] > bounds[1] || bounds[1] > run.pairs) throw FileError(m_file.path(), "is damaged: a run's ranges");
     use(run.position + bounds[0] * sizeof(StoredPair<Id>), bounds[1] - bounds[0]);
   }
 }
@@ -136,7 +139,10 @@ template <class Id>
 void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Receiver receive) {
   const auto rows = static_cast<std::size_t>(endKey - firstKey);
   m_begins.assign(rows + 1, 0);
-  for (const auto& pair : m_pairs) ++m_begins[static_cast<std::size_t>(pair.first - firstKey)];
+  for (const auto& pair : m_pairs) {
+    if (pair.first < firstKey || pair.first >= endKey) throw FileError(m_file.path(), kForeignBox);
+    ++m_begins[static_cast<std::size_t>(pair.first - firstKey)];
+  }
   std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
   m_seconds.resize(m_pairs.size());
   for (const auto& pair : m_pairs) m_seconds[m_begins[static_cast<std::size_t>(pair.first - firstKey)]++] = pair.second;

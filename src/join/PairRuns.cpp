@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Checksum.h"
+#include "allpairs/scene/FileError.h"
 
 namespace allpairs::join {
 
@@ -31,7 +32,11 @@ std::vector<Run> RunWriter<Id>::finish() {
 template <class Id>
 void RunWriter<Id>::flush() {
   m_begins.assign(m_ranges.count() + 1, 0);
-  for (const auto& pair : m_found) ++m_begins[m_ranges.rangeOf(pair.first, pair.second)];
+  for (const auto& pair : m_found) {
+    const std::uint64_t key = m_ranges.isBySecond ? pair.second : pair.first;
+    if (key < m_ranges.begin || key >= m_ranges.end) throw FileError(m_file.file.path(), kForeignBox);
+    ++m_begins[m_ranges.rangeOf(pair.first, pair.second)];
+  }
   std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
   m_grouped.resize(m_found.size());
   for (const auto& pair : m_found) m_grouped[m_begins[m_ranges.rangeOf(pair.first, pair.second)]++] = pair;

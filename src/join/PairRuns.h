@@ -22,6 +22,9 @@ struct StoredPair {
   return boxes > (std::uint64_t{1} << 32) ? sizeof(StoredPair<std::uint64_t>) : sizeof(StoredPair<std::uint32_t>);
 }
 
+/// What is wrong with a file in which there is another box than those of the join: the disk gave back other bytes.
+inline constexpr const char* kForeignBox = "is damaged: it names a box that is not of this join";
+
 /// Which range of keys a pair is put into. The key is the first box, or where a range has only one of them, the second.
 struct KeyRanges {
   std::uint64_t begin = 0;  ///< The least key.

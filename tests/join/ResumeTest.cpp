@@ -139,6 +139,23 @@ TEST(Resume, DamagedFilesAreMadeAgain) {
   }
 }
 
+TEST(Resume, FilesThatAreGoneAreMadeAgain) {
+  for (const char* name : {"boxes", "pairs"}) {
+    JoinCase with(someBoxes());
+    stoppedWhileWriting(with);
+    fs::remove(with.options().work / name);
+    EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes())) << name;
+  }
+}
+
+TEST(Resume, AFolderWithOtherFilesIsLeftAlone) {
+  JoinCase with(someBoxes());
+  fs::create_directories(with.options().work);
+  std::ofstream(with.options().work / "boxes") << "mine";
+  EXPECT_THROW((void)with.run(resuming(with)), FileError);
+  EXPECT_EQ(bytesOfFile(with.options().work / "boxes"), "mine");
+}
+
 TEST(Resume, ADamagedManifestIsAnError) {
   JoinCase with(someBoxes());
   stoppedWhileWriting(with);
@@ -167,7 +184,7 @@ TEST(Resume, OfAnotherJoinIsAnError) {
 TEST(Resume, OneJoinAtATime) {
   JoinCase with(someBoxes());
   fs::create_directories(with.options().work);
-  const join::WorkFile other(with.options().work / "lock", join::WorkFile::Mode::Create);
+  const join::WorkFile other(with.options().work / "allpairs-join.lock", join::WorkFile::Mode::Create);
   ASSERT_TRUE(other.lock());
   EXPECT_THROW((void)with.run(with.options()), FileError);
 }
