@@ -86,7 +86,7 @@ void DiskJoin::clearFolder() {
   std::string divided = "divided";  // a join that was killed leaves them, one for each time that a range was divided
   for (; fs::remove(file(divided.c_str()), ignored); divided += '-') {
   }
-  for (const char* name : {"boxes", "pairs", "manifest", kLock}) fs::remove(file(name), ignored);
+  for (const char* name : {"boxes", "pairs", "manifest.next", "manifest", kLock}) fs::remove(file(name), ignored);
   fs::remove(m_options.work, ignored);  // if it is empty: it may be the user's
 }
 

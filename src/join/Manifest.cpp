@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "Manifest.h"
 
+#include <algorithm>
 #include <bit>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
+#include <charconv>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -17,86 +18,107 @@
 namespace allpairs::join {
 namespace {
 
-using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kVersion = 1;  // of the form of the file
+constexpr std::string_view kFirstLine = "allpairs join 1";  // the form of the file
 
-/// A double as its bits: JSON has no infinities.
-std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value); }
-double ofBits(const Json& bits) { return std::bit_cast<double>(bits.get<std::uint64_t>()); }
-
-Json inputsOf(const Manifest& manifest) {
-  Json inputs = Json::array();
-  for (const InputState& input : manifest.inputs) inputs.push_back({input.path, input.bytes, input.changed});
-  return inputs;
-}
-
-Json cutsOf(const Manifest& manifest) {
-  Json cuts = Json::array();
-  for (const partition::Cut& cut : manifest.cuts) cuts.push_back({bitsOf(cut.at), cut.axis, cut.low, cut.high});
-  return cuts;
-}
-
-Json extentsOf(const Manifest& manifest) {
-  Json extents = Json::array();
-  for (const Extent& extent : manifest.extents) extents.push_back({extent.begin, extent.count, extent.checksum});
-  return extents;
-}
-
-Json cellsOf(const Manifest& manifest) {
-  Json cells = Json::array();
-  for (const auto& [number, result] : manifest.cells) {
-    Json runs = Json::array();
-    for (const Run& run : result.runs) runs.push_back({run.position, run.pairs, run.checksum});
-    cells.push_back({number, result.pairs, std::move(runs)});
-  }
-  return cells;
-}
-
-std::string textOf(const Manifest& manifest) {
-  return Json({{"version", kVersion},
-               {"inputs", inputsOf(manifest)},
-               {"distance", bitsOf(manifest.distance)},
-               {"count", manifest.isCount},
-               {"cuts", cutsOf(manifest)},
-               {"extents", extentsOf(manifest)},
-               {"cells", cellsOf(manifest)}})
-      .dump();
-}
-
-Manifest manifestOf(const std::string& text) {
-  const Json json = Json::parse(text);
-  Manifest manifest;
-  if (json.at("version") != kVersion) throw InvalidArgument("it is of another version");
-  for (const Json& input : json.at("inputs")) manifest.inputs.push_back({input.at(0), input.at(1), input.at(2)});
-  manifest.distance = ofBits(json.at("distance"));
-  manifest.isCount = json.at("count");
-  for (const Json& cut : json.at("cuts")) manifest.cuts.push_back({ofBits(cut.at(0)), cut.at(1), cut.at(2), cut.at(3)});
-  for (const Json& extent : json.at("extents")) {
-    manifest.extents.push_back({extent.at(0), extent.at(1), extent.at(2)});
-  }
-  for (const Json& cell : json.at("cells")) {
-    CellResult& result = manifest.cells[cell.at(0)];
-    result.pairs = cell.at(1);
-    for (const Json& run : cell.at(2)) result.runs.push_back({run.at(0), run.at(1), run.at(2)});
-  }
-  return manifest;
-}
-
-std::uint64_t checksumOf(const std::string& text) {
+std::uint64_t checksumOf(std::string_view text) {
   Checksum checksum;
   checksum.add(text.data(), text.size());
   return checksum.value();
 }
 
-std::string checksumLine(const std::string& text) { return '\n' + std::to_string(checksumOf(text)) + '\n'; }
+/// A line of a word and whole numbers; doubles are their bits, signed numbers in two's complement.
+template <class... Numbers>
+void addLine(std::string& text, std::string_view word, Numbers... numbers) {
+  text += word;
+  ((text += ' ', text += std::to_string(static_cast<std::uint64_t>(numbers))), ...);
+  text += '\n';
+}
+
+std::string textOf(const Manifest& manifest) {
+  std::string text(kFirstLine);
+  text += '\n';
+  for (const InputState& input : manifest.inputs) addLine(text, "input", input.path, input.bytes, input.changed);
+  addLine(text, "options", std::bit_cast<std::uint64_t>(manifest.distance), manifest.isCount);
+  for (const partition::Cut& cut : manifest.cuts) {
+    addLine(text, "cut", std::bit_cast<std::uint64_t>(cut.at), cut.axis, cut.low, cut.high);
+  }
+  for (const Extent& extent : manifest.extents) addLine(text, "boxes", extent.begin, extent.count, extent.checksum);
+  for (const auto& [number, result] : manifest.cells) {
+    addLine(text, "cell", number, result.pairs);
+    for (const Run& run : result.runs) addLine(text, "run", run.position, run.pairs, run.checksum);
+  }
+  addLine(text, "checksum", checksumOf(text));
+  return text;
+}
+
+/// The lines of a manifest, one after the other. Braces call number() from left to right.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : m_text(text) {}
+
+  [[nodiscard]] bool next() {
+    if (m_text.empty()) return false;
+    const std::size_t end = std::min(m_text.find('\n'), m_text.size() - 1);
+    m_line = m_text.substr(0, end);
+    m_text.remove_prefix(end + 1);
+    m_word = m_line.substr(0, m_line.find(' '));
+    m_line.remove_prefix(m_word.size());
+    return true;
+  }
+
+  [[nodiscard]] std::string_view word() const { return m_word; }
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    if (m_line.empty()) throw InvalidArgument("a number is missing");
+    m_line.remove_prefix(1);
+    const auto [end, problem] = std::from_chars(m_line.data(), m_line.data() + m_line.size(), value);
+    if (problem != std::errc()) throw InvalidArgument("what should be a number is none");
+    m_line.remove_prefix(static_cast<std::size_t>(end - m_line.data()));
+    return value;
+  }
+
+ private:
+  std::string_view m_text;
+  std::string_view m_line;
+  std::string_view m_word;
+};
+
+void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
+  if (line.word() == "input") {
+    manifest.inputs.push_back({line.number(), line.number(), static_cast<std::int64_t>(line.number())});
+  } else if (line.word() == "options") {
+    manifest.distance = std::bit_cast<double>(line.number());
+    manifest.isCount = line.number() != 0;
+  } else if (line.word() == "cut") {
+    manifest.cuts.push_back({std::bit_cast<double>(line.number()), static_cast<std::uint32_t>(line.number()),
+                             static_cast<std::int32_t>(line.number()), static_cast<std::int32_t>(line.number())});
+  } else if (line.word() == "boxes") {
+    manifest.extents.push_back({line.number(), line.number(), line.number()});
+  } else if (line.word() == "cell") {
+    cell = &manifest.cells[static_cast<std::size_t>(line.number())];
+    cell->pairs = line.number();
+  } else if (line.word() == "run" && cell != nullptr) {
+    cell->runs.push_back({line.number(), line.number(), line.number()});
+  } else {
+    throw InvalidArgument("a line of another kind");
+  }
+}
+
+Manifest manifestOf(std::string_view text) {
+  Manifest manifest;
+  CellResult* cell = nullptr;
+  Lines lines(text);
+  while (lines.next()) readLine(lines, manifest, cell);
+  return manifest;
+}
 
 }  // namespace
 
 void Manifest::write(const fs::path& path) const {
-  std::string text = textOf(*this);
-  text += checksumLine(text);
+  const std::string text = textOf(*this);
   const fs::path next = path.string() + ".next";
   WorkFile(next, WorkFile::Mode::Create).write(0, text.data(), text.size());
   std::error_code problem;
@@ -106,14 +128,19 @@ void Manifest::write(const fs::path& path) const {
 
 std::optional<Manifest> Manifest::read(const fs::path& path) {
   if (!fs::exists(path)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(file), {}};
-  const std::string text = all.substr(0, all.find('\n'));
-  if (all != text + checksumLine(text)) throw FileError(path, "is damaged: remove its folder and join anew");
+  const WorkFile file(path, WorkFile::Mode::Open);
+  std::string text(static_cast<std::size_t>(fs::file_size(path)), '\0');
+  file.read(0, text.data(), text.size());
+  const std::size_t end = text.rfind("checksum ");
+  const std::string_view content = std::string_view(text).substr(0, end == std::string::npos ? 0 : end);
+  std::string last;
+  addLine(last, "checksum", checksumOf(content));
+  const bool isWhole = content.starts_with(kFirstLine) && text.substr(content.size()) == last;
   try {
-    return manifestOf(text);
-  } catch (const std::exception& problem) {
-    throw FileError(path, std::string("cannot be used: remove its folder and join anew (") + problem.what() + ")");
+    if (!isWhole) throw InvalidArgument("its checksum is another");
+    return manifestOf(content.substr(kFirstLine.size() + 1));
+  } catch (const InvalidArgument& problem) {
+    throw FileError(path, std::string("is damaged: remove its folder and join anew (") + problem.what() + ")");
   }
 }
 

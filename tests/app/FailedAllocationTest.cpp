@@ -251,6 +251,12 @@ TEST(FailedAllocationOfTheProgram, Generate) {
   scene.check({"generate", "brownian", "-n", "50", "--frames", "3", "-o", scene.results() / "boxes.npy"});
 }
 
+TEST(FailedAllocationOfTheProgram, Join) {
+  Scene scene;  // each run goes on with what the one before has left
+  scene.check({"join", someBoxes(scene), "--threads", "1", "--memory", "64M", "--resume", "--work",
+               scene.folder().path() / "work", "-o", scene.results() / "pairs.npy"});
+}
+
 TEST(FailedAllocationOfTheProgram, ALinkStaysALink) {
   Scene scene;  // where the file isn't there yet, the link leads nowhere
   const std::string boxes = someBoxes(scene);
