@@ -107,10 +107,14 @@ bool testsShapes(const scene::Scene& scene, ShapeTest test, view::ViewScene& to)
 }
 
 void addExact(const scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
-  constexpr std::size_t kMostLines = 2000;  // of a contact: more are not told apart in a picture
+  constexpr std::size_t kMostLines = 2000;     // of a contact: more are not told apart in a picture
+  constexpr std::size_t kMostInAll = 200'000;  // five megabytes of a page
+  constexpr std::size_t kLeastLines = 32;
   if (!testsShapes(from, request.shapes, to)) return;
+  const std::vector<Pair>& pairs = to.frames.front().pairs;
   const double clearance = request.detection.clearance;
-  ExactReport report = examine(from, to.frames.front().pairs, {.clearance = clearance, .lineLimit = kMostLines});
+  const std::size_t lines = std::clamp(kMostInAll / (pairs.size() + 1), kLeastLines, kMostLines);
+  ExactReport report = examine(from, pairs, {.clearance = clearance, .lineLimit = lines});
   for (ExactPair& pair : report.pairs) pair.first = pair.second = nullptr;  // which end with the scene that was read
   to.isExact = true;
   to.exact = std::move(report.pairs);
@@ -129,6 +133,8 @@ void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   to.addsContactDistances = from.intersection->addsContactDistances();
   to.region = from.region;
   to.modelCount = from.models.size();
+  if (from.up != 0) to.up = from.up;
+  to.metresPerUnit = from.metresPerUnit;
   to.ignored = from.remarks;
   to.statistics = detection.statistics;
   addColumns(from, to);

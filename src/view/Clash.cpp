@@ -20,23 +20,6 @@ std::uint64_t hashOf(const std::vector<std::string>& texts, std::uint64_t seed) 
   return hash;
 }
 
-Clash clashOf(const ViewScene& scene, const Pair& pair) {
-  const Box& a = scene.frames.front().boxes[pair.first];
-  const Box& b = scene.frames.front().boxes[pair.second];
-  Clash clash;
-  clash.first = pair.first;
-  clash.second = pair.second;
-  clash.volume = 1.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    clash.overlap[axis] = std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
-    clash.volume *= std::max(0.0, clash.overlap[axis]);
-  }
-  if (std::any_of(clash.overlap.begin(), clash.overlap.end(), [](double extent) { return extent <= 0.0; })) {
-    clash.volume = 0.0;  // and not infinity times zero
-  }
-  return clash;
-}
-
 /// What touches itself comes last: its boxes always share all.
 bool comesBefore(const Clash& a, const Clash& b) {
   if (a.exact != nullptr && b.exact != nullptr) {
@@ -114,6 +97,25 @@ std::string exactFinding(const ViewScene& scene, const Clash& clash) {
 
 }  // namespace
 
+Clash clashOf(const ViewScene& scene, std::size_t index) {
+  const Pair& pair = scene.frames.front().pairs[index];
+  const Box& a = scene.frames.front().boxes[pair.first];
+  const Box& b = scene.frames.front().boxes[pair.second];
+  Clash clash;
+  clash.first = pair.first;
+  clash.second = pair.second;
+  if (scene.isExact) clash.exact = &scene.exact[index];
+  clash.volume = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    clash.overlap[axis] = std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
+    clash.volume *= std::max(0.0, clash.overlap[axis]);
+  }
+  if (std::any_of(clash.overlap.begin(), clash.overlap.end(), [](double extent) { return extent <= 0.0; })) {
+    clash.volume = 0.0;  // and not infinity times zero
+  }
+  return clash;
+}
+
 std::string shortNumber(double value) {
   const double magnitude = std::abs(value);
   if (magnitude < 1e-300) return "0";
@@ -145,12 +147,8 @@ std::string headlineOf(const ViewScene& scene) {
 
 std::vector<Clash> clashesOf(const ViewScene& scene) {
   std::vector<Clash> clashes;
-  const std::vector<Pair>& pairs = scene.frames.front().pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ExactPair* exact = scene.isExact ? &scene.exact[i] : nullptr;
-    if (exact != nullptr && exact->state == ExactState::Apart) continue;
-    clashes.push_back(clashOf(scene, pairs[i]));
-    clashes.back().exact = exact;
+  for (std::size_t i = 0; i < scene.frames.front().pairs.size(); ++i) {
+    if (!scene.isExact || scene.exact[i].state != ExactState::Apart) clashes.push_back(clashOf(scene, i));
   }
   std::stable_sort(clashes.begin(), clashes.end(), comesBefore);
   for (std::size_t i = 0; i < clashes.size(); ++i) {

@@ -26,6 +26,9 @@ struct Clash {
 /// overlap first, those of equal volume as they were found; self pairs last.
 [[nodiscard]] std::vector<Clash> clashesOf(const ViewScene& scene);
 
+/// The pair at one place of the first frame's, without number and GUID.
+[[nodiscard]] Clash clashOf(const ViewScene& scene, std::size_t pair);
+
 /// Where to look: the contact, or the nearest points; of boxes what both share, or where they are apart the gap between.
 [[nodiscard]] Box placeOf(const ViewScene& scene, const Clash& clash);
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/Expect.h"
+#include "support/IfcText.h"
 #include "support/Numbers.h"
 #include "support/TempFolder.h"
 
@@ -197,6 +198,42 @@ TEST(Report, ControlCharactersInANameAreReplacedInBcf) {
     ++topics;
   }
   EXPECT_EQ(topics, 1U);
+}
+
+/// Three numbers below an element.
+std::array<double, 3> vectorOf(const pugi::xml_node& element) {
+  return {element.child("X").text().as_double(), element.child("Y").text().as_double(),
+          element.child("Z").text().as_double()};
+}
+
+TEST(Report, TheCameraOfAnIfcLooksAtTheContactInMetresAndStandsUpright) {
+  const TempFolder folder;
+  const std::string input = folder.write("two.ifc", kIfc);
+  const auto cameraOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"report", input, "-o", folder.path() / "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    expectSuccess(runProgram(words));
+    for (const auto& [file, bytes] : filesOf(folder.path() / "out/clashes.bcf")) {
+      if (file.ends_with("viewpoint.bcfv")) return parse(bytes);
+    }
+    return pugi::xml_document();
+  };
+  for (const bool isBoxes : {false, true}) {
+    const pugi::xml_document document = cameraOf(isBoxes ? Names{"--boxes"} : Names{});
+    const pugi::xml_node camera = document.child("VisualizationInfo").child("OrthogonalCamera");
+    const auto eye = vectorOf(camera.child("CameraViewPoint"));
+    const auto direction = vectorOf(camera.child("CameraDirection"));
+    EXPECT_GT(vectorOf(camera.child("CameraUpVector"))[2], 0.4) << "z is up";
+    const double scale = camera.child("ViewToWorldScale").text().as_double();
+    EXPECT_LT(scale, 10.0) << "metres";
+    // What it looks at, twice its height ahead, lies in the two models.
+    EXPECT_NEAR(eye[0] + 2.0 * scale * direction[0], 3.0, 2.0);
+    EXPECT_NEAR(eye[1] + 2.0 * scale * direction[1], 0.5, 0.5);
+    EXPECT_NEAR(eye[2] + 2.0 * scale * direction[2], 2.5, 2.5);
+  }
+  const pugi::xml_document turned = cameraOf({"--up", "y"});
+  const pugi::xml_node camera = turned.child("VisualizationInfo").child("OrthogonalCamera");
+  EXPECT_GT(vectorOf(camera.child("CameraUpVector"))[1], 0.4);
 }
 
 std::vector<std::string> filesIn(const fs::path& folder) {
