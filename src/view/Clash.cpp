@@ -117,10 +117,18 @@ Clash clashOf(const ViewScene& scene, std::size_t index) {
 }
 
 std::string shortNumber(double value) {
-  const double magnitude = std::abs(value);
-  if (magnitude < 1e-300) return "0";
-  if (magnitude >= 1e4 && magnitude < 1e15) return fmt::format("{:.0f}", value);
-  return fmt::format("{:.5g}", value);
+  constexpr int kFewestDigits = 5;
+  constexpr int kMostDigits = 15;
+  constexpr int kSmallestWithoutExponent = -6;
+  if (value == 0.0) return "0";
+  if (!std::isfinite(value)) return value > 0.0 ? "∞" : "-∞";
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const int digits = std::clamp(exponent + 1, kFewestDigits, kMostDigits);
+  if (exponent < kSmallestWithoutExponent || exponent >= kMostDigits) return fmt::format("{:.{}g}", value, digits);
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
 }
 
 std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point) {

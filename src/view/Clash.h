@@ -38,7 +38,7 @@ struct Clash {
 /// What was found in all, in a few words: "3 clashes (1 duplicate), 6 apart", or "12 pairs of boxes".
 [[nodiscard]] std::string headlineOf(const ViewScene& scene);
 
-/// A number with few digits, the same wherever it is written: 0.125, 102360.
+/// A number with few digits, and all before the point; measure() in web/src/format.js writes the same: 0.125, 102361.
 [[nodiscard]] std::string shortNumber(double value);
 
 /// The coordinates of a point as short numbers; what is nothing beside the largest of them is 0.

@@ -147,7 +147,8 @@ ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash) {
   for (const Vec3& parts : kDirections) {
     ParallelCamera camera = lookAlong(parts, upright);
     frame(scene, clash, camera);
-    const double rating = Sighting(scene, camera).rate(clash);
+    constexpr double kFromBelow = 0.7;  // which is how nobody stands before a thing
+    const double rating = Sighting(scene, camera).rate(clash) * (parts[2] > 0.0 ? kFromBelow : 1.0);
     if (rating <= most * kBetter) continue;
     most = rating;
     best = camera;

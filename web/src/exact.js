@@ -71,8 +71,8 @@ export function contactCorners({ state: is, box, first, second }) {
 /** What a row of the list says behind the names. */
 export function shortFinding(pair) {
   if (pair.state === state.notExamined) return "";
-  if (pair.state >= state.undecided) return `${measure(pair.distance, 4)} apart`;
-  return pair.depth > 0 ? `${measure(pair.depth, 4)} deep` : "";
+  if (pair.state >= state.undecided) return `${measure(pair.distance)} apart`;
+  return pair.depth > 0 ? `${measure(pair.depth)} deep` : "";
 }
 
 export const headingOf = (pair) => headings[pair.state];

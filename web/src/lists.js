@@ -95,6 +95,7 @@ export class PairPanel extends Panel {
     if (app.scene.exact !== null) {
       this.sort.prepend(new Option("worst first", "worst", true, true));
       this.filter(stateFilter(state.apart)).on = false;
+      this.filter(kind.excluded).on = false;
       byId("pairs-value").textContent = "depth or gap";
     }
     this.renew();
@@ -169,7 +170,7 @@ export class PairPanel extends Panel {
     const finding = table.exact !== null && entry < table.found ? table.exact.of(entry) : null;
     row.classList.add(finding ? states[finding.state] : kindNames[is]);
     const names = first === second ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
-    row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", finding ? shortFinding(finding) : measure(table.volume(entry))));
+    row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
     row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
   }
 }

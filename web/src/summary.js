@@ -39,7 +39,7 @@ function exactFacts({ scene }) {
   const worst = exact.worstFirst(Array.from({ length: exact.count }, (_, e) => e));
   const deepest = worst.reduce((most, e) => (exact.stateOf(e) <= state.clash ? Math.max(most, exact.of(e).depth ?? 0) : most), 0);
   const notes = kindsOfClashes(counts);
-  if (deepest > 0) notes.push(`deepest ${measure(deepest, 4)}`);
+  if (deepest > 0) notes.push(`deepest ${measure(deepest)}`);
   const others = [[state.touching, "Touching", "touching"], [state.undecided, "Undecided", "undecided"], [state.clearance, "Near", "clearance"], [state.notExamined, "Not examined", "unknown"]];
   return [
     fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ") || (clashes === 0 ? "no two models share space" : "")),
@@ -74,6 +74,7 @@ export function showSummary(app) {
       ...found,
       fact("Models", grouped(scene.models), "fact-models"),
     );
+    byId("fact-clashes")?.classList.toggle("none", clashCount(scene.exact.counts()) === 0);
   };
   app.addEventListener("frame", update);
   update();
