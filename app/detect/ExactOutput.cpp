@@ -29,7 +29,7 @@ std::string gapText(const ExactPair& pair) {
 
 /// What a line of the table says behind the names.
 std::string finding(const ExactPair& pair) {
-  const std::string place = "at " + pointText(placeOf(pair));
+  std::string place = "at " + pointText(placeOf(pair));
   switch (pair.state) {
     case ExactState::NotExamined:
       return {};

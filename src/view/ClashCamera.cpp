@@ -147,8 +147,8 @@ ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash) {
   for (const Vec3& parts : kDirections) {
     ParallelCamera camera = lookAlong(parts, upright);
     frame(scene, clash, camera);
-    constexpr double kFromBelow = 0.7;  // which is how nobody stands before a thing
-    const double rating = Sighting(scene, camera).rate(clash) * (parts[2] > 0.0 ? kFromBelow : 1.0);
+    constexpr double kFromBelow = 0.7;  // or along the ground: nobody looks at things so
+    const double rating = Sighting(scene, camera).rate(clash) * (parts[2] > -0.3 ? kFromBelow : 1.0);
     if (rating <= most * kBetter) continue;
     most = rating;
     best = camera;

@@ -128,6 +128,17 @@ export class Stage extends EventTarget {
     const half = Math.min(Math.max(1.6 * sizeOf(contact), 0.75 * Math.min(...sizes)), 0.6 * (sizes[0] + (sizes[1] ?? 0))) / 2 || 1;
     const corners = [-1, 1].flatMap((sign) => [0, 1, 2].map((k) => (contact[k] + contact[k + 3]) / 2 + (sign * half) / Math.sqrt(3)));
     this.lookAt(corners, view ? new Vector3(...view).negate() : undefined);
+    this.backOutOf(models);
+  }
+
+  /** Moves the camera back until it is in neither box: from within a large part one sees nothing but that part. */
+  backOutOf(models) {
+    const { position } = this.camera;
+    const { target } = this.controls;
+    const isWithin = (box) => [0, 1, 2].every((k) => position.getComponent(k) > box[k] && position.getComponent(k) < box[k + 3]);
+    const isIn = () => models.some((model) => isWithin(this.boxOf(model)));
+    for (let step = 0; step < 24 && isIn(); ++step) position.sub(target).multiplyScalar(1.2).add(target);
+    this.controls.update();
   }
 
   placeOverlap(a, b) {
