@@ -33,14 +33,14 @@ _allpairs() {
   if [[ $current == -* ]]; then
     case $command in
       detect)
-        words='--distance --box --strategy --threads --verify --exact --worlds --format -o --output --partial --data --sofa
+        words='--distance --box --strategy --threads --verify --exact --clearance --worlds --format -o --output --partial --data --sofa
           --allow-outside --max-memory -h --help'
         ;;
       join) words='--memory --distance --work --threads --resume --count -o --output -h --help' ;;
       plan) words='--memory --distance --work --threads -h --help' ;;
       info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
-      view) words='--sequence --distance --box --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
-      report) words='--distance --box --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;
+      view) words='--sequence --distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
+      report) words='--distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;
       track) words='--distance --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
       elements) words='--distance --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
       generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;

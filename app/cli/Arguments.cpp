@@ -52,7 +52,7 @@ std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
       break;
     }
     joined.push_back(byTodaysName(argument));
-    const bool takesNumbers = joined.back() == "--distance" || argument == "--box";
+    const bool takesNumbers = joined.back() == "--distance" || argument == "--box" || argument == "--clearance";
     if (takesNumbers && i + 1 < count && !std::string_view(arguments[i + 1]).starts_with("--")) {
       joined.back() += '=';
       joined.back() += arguments[++i];
@@ -66,6 +66,13 @@ double parseDistance(const std::string& text) {
   if (!value || *value == -std::numeric_limits<double>::infinity()) {
     throw UsageError("--distance: '" + text + "' is not a distance");
   }
+  return *value;
+}
+
+double parseClearance(const std::string& text) {
+  const std::optional<double> value = parseNumber(text);
+  if (!value || !std::isfinite(*value) || *value < 0.0)
+    throw UsageError("--clearance: '" + text + "' is not a distance from 0 on");
   return *value;
 }
 

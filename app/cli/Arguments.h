@@ -20,6 +20,11 @@ namespace allpairs::app {
 /// Bad input: anything but a number, NaN and -infinity throw UsageError.
 [[nodiscard]] double parseDistance(const std::string& text);
 
+/// The number that follows --clearance.
+///
+/// Bad input: anything but a finite number that is not negative throws UsageError.
+[[nodiscard]] double parseClearance(const std::string& text);
+
 /// The number that follows --threads.
 ///
 /// Bad input: throws UsageError.

@@ -54,7 +54,7 @@ Examples:
   allpairs detect scene.scn
   allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
   allpairs detect parts/ --distance 0.5
-  allpairs detect parts/ --exact
+  allpairs detect parts/ --exact --clearance 0.5
   allpairs detect boxes.npy -o pairs.npy
   allpairs detect robots.npy --worlds -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
@@ -151,7 +151,7 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
 Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
   warnOfPart(scene, settings.input);
   Outcome outcome{.detection = withClock(scene.models.size(), [&] { return detectScene(scene, options); })};
-  if (settings.exact) outcome.exact = examine(scene, outcome.detection.pairs);
+  if (settings.exact) outcome.exact = examine(scene, outcome.detection.pairs, {.clearance = options.clearance});
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
   outcome.notes.remarkCount = scene.remarks.size();
@@ -181,6 +181,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
     return;
   }
   if (settings.exact) requireExact();
+  if (settings.search.clearance && !settings.exact)
+    throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
   const Timer timer;
   Inputs inputs = readInputs(settings.input);
   if (settings.exact) makeScene(inputs);
@@ -213,7 +215,7 @@ void addDetect(CLI::App& program) {
   addThreads(*command, settings->threads);
   command->add_flag("--verify", settings->verify, "Also search exhaustively; fail on any difference");
   command->add_flag("--exact", settings->exact,
-                    "Test the shapes too: contacts with depth and position, distances of the other pairs");
+                    "Test the shapes too: clashes with depth and position, distances of the other pairs");
   command->add_flag("--worlds", settings->worlds, "A .npy array (w, n, 6): pairs of boxes of the same world only");
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);

@@ -22,11 +22,17 @@ void append(const std::vector<collision::CollisionModelPair>& pairs, const scene
   for (const auto& [first, second] : pairs) to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
 }
 
+void applyTo(collision::Intersection& method, const DetectionOptions& options) {
+  if (options.distance) method.setAlarmDistance(*options.distance);
+  if (options.clearance > 0.0 && options.clearance > method.getAlarmDistance())
+    method.setAlarmDistance(options.clearance);
+}
+
 void applyTo(scene::Scene& scene, const DetectionOptions& options) {
-  if (options.distance) scene.intersection->setAlarmDistance(*options.distance);
+  applyTo(*scene.intersection, options);
   if (options.region) scene.region = options.region;
   for (scene::ScenePipeline& pipeline : scene.pipelines) {
-    if (options.distance) pipeline.intersection->setAlarmDistance(*options.distance);
+    applyTo(*pipeline.intersection, options);
     if (options.region) pipeline.region = options.region;
   }
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "allpairs/Pair.h"
-#include "allpairs/fcl/FclNarrowPhase.h"
+#include "allpairs/collision/ExactPair.h"
 #include "allpairs/scene/Scene.h"
 #include "allpairs/scene/WriteResult.h"
 #include "cli/Table.h"
@@ -19,35 +19,26 @@ struct ExactReport {
   double seconds = 0.0;
 };
 
-/// How many pairs came out how.
-struct ExactCounts {
-  std::uint64_t apart = 0;
-  std::uint64_t touching = 0;
-  std::uint64_t overlapping = 0;
-  std::uint64_t contained = 0;
-  std::uint64_t notExamined = 0;
-
-  [[nodiscard]] std::uint64_t inContact() const { return touching + overlapping + contained; }
-
-  /// The part of the examined pairs that only their boxes had in common; 0 where none was examined.
-  [[nodiscard]] double falseShare() const;
-};
-
-[[nodiscard]] ExactCounts countStates(std::span<const ExactPair> pairs);
-
-/// The word that results use for a state: apart, touching, overlapping, contained, not-examined.
-[[nodiscard]] const char* stateName(ExactState state);
-
 /// Throws UsageError if this program was built without the library that looks at shapes.
 void requireExact();
 
+/// Whether this program was built with that library.
+[[nodiscard]] bool hasExact();
+
+/// What a look at shapes is asked for.
+struct ExactRequest {
+  double clearance = 0.0;     ///< Pairs that are apart by no more are within it.
+  std::size_t lineLimit = 0;  ///< The maximum number of lines where surfaces cross, of each pair.
+};
+
 /// Looks at the shapes of pairs of a scene's models, given by their indices.
-[[nodiscard]] ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates);
+[[nodiscard]] ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates,
+                                  const ExactRequest& request);
 
 /// The candidates that are not known to be apart.
 [[nodiscard]] std::vector<Pair> withoutFalse(std::span<const Pair> candidates, const ExactReport& report);
 
-/// For people: the deepest contacts first, then the nearest of the others.
+/// For people: the worst first, as isWorse() says.
 void writeExactTable(const scene::ResultView& result, const ExactReport& report, const TableNotes& notes,
                      scene::ByteSink sink);
 

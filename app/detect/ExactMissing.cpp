@@ -9,7 +9,9 @@ void requireExact() {
   throw UsageError("--exact needs FCL, and this program was built without it (Debian's libfcl-dev, ALLPAIRS_FCL=ON)");
 }
 
-ExactReport examine(const scene::Scene&, std::span<const Pair>) {
+bool hasExact() { return false; }
+
+ExactReport examine(const scene::Scene&, std::span<const Pair>, const ExactRequest&) {
   requireExact();
   return {};
 }

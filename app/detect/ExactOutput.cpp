@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -17,33 +16,37 @@ using collision::Vec3;
 
 std::string pointText(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]); }
 
-Vec3 middle(const Vec3& a, const Vec3& b) { return {(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0, (a[2] + b[2]) / 2.0}; }
+/// Which of the two is an open surface, so that something is not known.
+std::string openText(const ExactPair& pair) {
+  if (pair.isFirstOpen && pair.isSecondOpen) return "neither is closed";
+  return pair.isFirstOpen ? "the first is not closed" : "the second is not closed";
+}
+
+std::string gapText(const ExactPair& pair) {
+  return fmt::format("{:.6g} between {} and {}", pair.distance, pointText(pair.pointOnFirst),
+                     pointText(pair.pointOnSecond));
+}
 
 /// What a line of the table says behind the names.
 std::string finding(const ExactPair& pair) {
-  if (pair.state == ExactState::NotExamined) return {};
-  if (pair.state == ExactState::Apart) {
-    return fmt::format("{:.6g} between {} and {}", pair.distance, pointText(pair.pointOnFirst),
-                       pointText(pair.pointOnSecond));
+  std::string place = "at " + pointText(placeOf(pair));
+  switch (pair.state) {
+    case ExactState::NotExamined:
+      return {};
+    case ExactState::Apart:
+    case ExactState::WithinClearance:
+      return gapText(pair);
+    case ExactState::Undecided:
+      return gapText(pair) + "; one may lie in the other: " + openText(pair);
+    case ExactState::Duplicate:
+      return "the same shape " + place;
+    case ExactState::Touching:
+      return place;
+    default:
+      break;
   }
-  const bool isDeep = pair.depth.value_or(0.0) > 0.0;
-  const bool isArea = !isDeep && !isEmpty(pair.contactBox);
-  const std::string place = pointText(isArea ? middle(pair.contactBox.min, pair.contactBox.max)
-                                             : middle(pair.pointOnFirst, pair.pointOnSecond));
-  return (isDeep ? fmt::format("{:.6g} deep at ", *pair.depth) : std::string("at ")) + place;
-}
-
-/// The deepest contacts first, then those that only touch, then the others from near to far.
-std::vector<std::size_t> byWeight(std::span<const ExactPair> pairs) {
-  const auto key = [&pairs](std::size_t i) {
-    const ExactPair& pair = pairs[i];
-    const int rank = isContact(pair.state) ? 0 : (pair.state == ExactState::Apart ? 1 : 2);
-    return std::tuple(rank, -pair.depth.value_or(0.0), pair.distance);
-  };
-  std::vector<std::size_t> order(pairs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&key](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  return order;
+  if (!pair.depth) return place + ", of unknown depth: " + openText(pair);
+  return fmt::format("{:.6g} deep {}", *pair.depth, place);
 }
 
 std::pair<std::string, std::string> namesOf(const scene::ResultView& result, std::size_t i) {
@@ -52,7 +55,7 @@ std::pair<std::string, std::string> namesOf(const scene::ResultView& result, std
 }
 
 std::string pairLines(const scene::ResultView& result, const ExactReport& report) {
-  std::vector<std::size_t> order = byWeight(report.pairs);
+  std::vector<std::size_t> order = worstFirst(report.pairs);
   const std::size_t left = order.size() - std::min(order.size(), kPairsShown);
   order.resize(order.size() - left);
   std::size_t firstWidth = 0;
@@ -74,12 +77,9 @@ std::string pairLines(const scene::ResultView& result, const ExactReport& report
   return text.empty() ? text : text + '\n';
 }
 
-std::string countLine(const ExactCounts& counts, std::size_t candidates) {
-  std::string text = fmt::format("pairs    {} by their boxes; by their shapes {} in contact, {} apart",
-                                 grouped(candidates), grouped(counts.inContact()), grouped(counts.apart));
-  if (counts.apart != 0) text += fmt::format(" ({:.1f} %)", 100.0 * counts.falseShare());
-  if (counts.notExamined != 0) text += fmt::format(", {} not examined", grouped(counts.notExamined));
-  return text + "\n\n";
+std::string countLine(const ExactCounts& counts) {
+  return fmt::format("pairs    {} by their boxes; by their shapes {}\n\n", grouped(counts.candidates()),
+                     countText(counts));
 }
 
 std::string vectorText(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
@@ -96,18 +96,22 @@ std::string contactsText(const ExactPair& pair) {
 
 std::string jsonOf(const ExactPair& pair) {
   if (pair.state == ExactState::NotExamined) return R"({"state": "not-examined"})";
-  return fmt::format(R"({{"state": "{}", "distance": {}, "depth": {}, "points": [{}, {}], "normal": {}, {}}})",
-                     stateName(pair.state), pair.distance, pair.depth ? fmt::format("{}", *pair.depth) : "null",
-                     vectorText(pair.pointOnFirst), vectorText(pair.pointOnSecond), vectorText(pair.normal),
-                     contactsText(pair));
+  return fmt::format(
+      R"({{"state": "{}", "distance": {}, "depth": {}, "points": [{}, {}], "normal": {}, {}, "open": [{}, {}]}})",
+      stateName(pair.state), pair.distance, pair.depth ? fmt::format("{}", *pair.depth) : "null",
+      vectorText(pair.pointOnFirst), vectorText(pair.pointOnSecond), vectorText(pair.normal), contactsText(pair),
+      pair.isFirstOpen, pair.isSecondOpen);
 }
 
 std::string statisticsText(const ExactReport& report) {
   const ExactCounts counts = countStates(report.pairs);
-  return fmt::format(R"({{"apart": {}, "touching": {}, "overlapping": {}, "contained": {}, "notExamined": {}, )"
-                     R"("falseShare": {}, "exactSeconds": {}}})",
-                     counts.apart, counts.touching, counts.overlapping, counts.contained, counts.notExamined,
-                     counts.falseShare(), report.seconds);
+  std::string text = fmt::format(R"({{"clashes": {})", counts.clashes());
+  for (std::size_t i = 0; i < kExactStates; ++i) {
+    const auto state = static_cast<ExactState>(i);
+    const std::string_view name = state == ExactState::NotExamined ? "notExamined" : stateName(state);
+    text += fmt::format(R"(, "{}": {})", name, counts.of(state));
+  }
+  return text + fmt::format(R"(, "falseShare": {}, "exactSeconds": {}}})", counts.falseShare(), report.seconds);
 }
 
 std::string csvLine(const ExactPair& pair) {
@@ -125,7 +129,7 @@ std::string csvLine(const ExactPair& pair) {
 void writeExactTable(const scene::ResultView& result, const ExactReport& report, const TableNotes& notes,
                      scene::ByteSink sink) {
   std::string text = tableHead(result, notes);
-  text += countLine(countStates(report.pairs), report.pairs.size());
+  text += countLine(countStates(report.pairs));
   text += pairLines(result, report);
   text += tableFoot(result, report.seconds);
   sink(text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
+#include "allpairs/fcl/FclNarrowPhase.h"
 #include "cli/Progress.h"
 #include "cli/Timer.h"
 #include "detect/Exact.h"
@@ -9,10 +10,12 @@ namespace allpairs::app {
 
 void requireExact() {}
 
-ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates) {
+bool hasExact() { return true; }
+
+ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates, const ExactRequest& request) {
   const Timer timer;
   ProgressLine line;
-  FclNarrowPhase phase;
+  FclNarrowPhase phase({.clearance = request.clearance, .lineLimit = request.lineLimit});
   phase.beginNarrowPhase();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     line.show("examining pair " + std::to_string(i + 1) + " of " + std::to_string(candidates.size()));

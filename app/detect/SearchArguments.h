@@ -13,9 +13,10 @@ namespace allpairs::app {
 struct SearchArguments {
   std::optional<std::string> distance;
   std::optional<std::string> box;
+  std::optional<std::string> clearance;
 };
 
-/// Declares --distance and --box.
+/// Declares --distance, --box and --clearance.
 void addSearchOptions(CLI::App& command, SearchArguments& arguments);
 
 /// Bad input: UsageError if the distance is not a number or the box is not a region.

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,28 +24,30 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Progress.h"
-#include "detect/SearchArguments.h"
 #include "report/ReportFolder.h"
 #include "view/MakeViewScene.h"
+#include "view/ViewRequest.h"
 
 namespace allpairs::app {
 namespace {
 
 struct ReportSettings {
   InputSettings input;
-  SearchArguments search;
+  ViewArguments view;
   std::string folder;
   std::size_t pictures = 500;
-  double metresPerUnit = 1.0;
+  std::optional<double> metresPerUnit;
   bool force = false;
 };
 
 constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
-and a folder of pictures. Pairs with the largest shared volume come first.
+and a folder of pictures. Shapes are tested where the input has any: clashes come
+first, the worst before all, and pairs that are apart are only counted. With
+--boxes all pairs of boxes are listed, those with the largest shared volume first.
 
 Examples:
   allpairs report parts/ -o report
-  allpairs report assembly.glb --distance 0.01 -o report --pictures 100
+  allpairs report assembly.glb --clearance 0.01 -o report --pictures 100
   allpairs report parts/ --metres-per-unit 0.001 -o report)";
 
 /// Now, or the moment that builds which must repeat exactly give in SOURCE_DATE_EPOCH.
@@ -83,7 +86,8 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
   const std::vector<view::Clash> clashes = view::clashesOf(scene);
   const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
   const std::vector<std::string> pictures = drawPictures(scene, pictured);
-  const std::string bcf = bcfOf(scene, pictured, pictures, settings.metresPerUnit);
+  const std::string bcf =
+      bcfOf(scene, pictured, pictures, settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0)));
   ReportFolder folder(settings.folder);
   for (const view::Clash& clash : pictured) folder.write(view::pictureName(clash.number), pictures[clash.number - 1]);
   folder.write("clashes.bcf", bcf);
@@ -95,9 +99,9 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
 
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
-  if (!(settings.metresPerUnit > 0.0)) throw UsageError("--metres-per-unit must be above 0");
+  if (!(settings.metresPerUnit.value_or(1.0) > 0.0)) throw UsageError("--metres-per-unit must be above 0");
   checkReportFolder(settings.folder, settings.force);
-  const view::ViewScene scene = makeViewScene(settings.input, detectionOptions(settings.search));
+  const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
   if (scene.frames.size() > 1) throw UsageError("a report shows one frame: the input has several");
   writeReport(scene, settings);
 }
@@ -110,16 +114,17 @@ void addReport(CLI::App& program) {
       program.add_subcommand("report", "Write a folder with a page, a table and a BCF file of the pairs");
   command->footer(kReportExamples);
   addInputs(*command, settings->input);
-  addSearchOptions(*command, settings->search);
+  addViewOptions(*command, settings->view);
   command->add_option("-o,--output", settings->folder, "Write to the folder DIR; it is created if missing")
       ->type_name("DIR");
   command->add_flag("--force", settings->force, "Write to DIR although it holds other files");
   command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--metres-per-unit", settings->metresPerUnit, "Length of a unit of the input, for BCF's cameras")
-      ->type_name("M")
-      ->capture_default_str();
+  command
+      ->add_option("--metres-per-unit", settings->metresPerUnit,
+                   "Length of a unit of the input, for BCF's cameras; by default as the format says, else 1")
+      ->type_name("M");
   command->callback([settings] { runReport(*settings); });
 }
 

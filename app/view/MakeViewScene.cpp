@@ -9,9 +9,11 @@
 #include "ModelMesh.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/scene/ReadInput.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
+#include "detect/Exact.h"
 #include "view/ViewBoxes.h"
 #include "view/ViewFrames.h"
 
@@ -90,22 +92,55 @@ view::ViewFrame frameOf(const scene::Scene& scene, const Detection& detection) {
   return frame;
 }
 
-void fill(scene::Scene& from, const DetectionOptions& options, view::ViewScene& to) {
+bool hasShapes(const scene::Scene& scene) {
+  return std::any_of(scene.models.begin(), scene.models.end(), [](const auto& model) {
+    return dynamic_cast<const collision::BoxModel*>(model->getLast()) == nullptr && !model->getLast()->empty();
+  });
+}
+
+/// Whether shapes are to be tested; the page says so where they are not because this program cannot.
+bool testsShapes(const scene::Scene& scene, ShapeTest test, view::ViewScene& to) {
+  if (test != ShapeTest::WhereShapesAre) return test == ShapeTest::Always;
+  if (!hasShapes(scene)) return false;
+  if (!hasExact()) to.method += "; shapes are not tested, because this program was built without FCL";
+  return hasExact();
+}
+
+void addExact(const scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
+  constexpr std::size_t kMostLines = 2000;     // of a contact: more are not told apart in a picture
+  constexpr std::size_t kMostInAll = 200'000;  // five megabytes of a page
+  constexpr std::size_t kLeastLines = 32;
+  if (!testsShapes(from, request.shapes, to)) return;
+  const std::vector<Pair>& pairs = to.frames.front().pairs;
+  const double clearance = request.detection.clearance;
+  const std::size_t lines = std::clamp(kMostInAll / (pairs.size() + 1), kLeastLines, kMostLines);
+  ExactReport report = examine(from, pairs, {.clearance = clearance, .lineLimit = lines});
+  for (ExactPair& pair : report.pairs) pair.first = pair.second = nullptr;  // which end with the scene that was read
+  to.isExact = true;
+  to.exact = std::move(report.pairs);
+  to.exactSeconds = report.seconds;
+  to.clearance = clearance;
+}
+
+void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   if (!from.pipelines.empty())
     throw UsageError(
         "this scene has several collision pipelines, of which a page would show one; 'allpairs detect' finds "
         "the pairs of all");
-  const Detection detection = detectScene(from, options);
+  const Detection detection = detectScene(from, request.detection);
   to.method = methodText(from);
   to.distance = from.intersection->getAlarmDistance();
   to.addsContactDistances = from.intersection->addsContactDistances();
   to.region = from.region;
   to.modelCount = from.models.size();
+  if (from.up != 0) to.up = from.up;
+  to.metresPerUnit = from.metresPerUnit;
   to.ignored = from.remarks;
   to.statistics = detection.statistics;
   addColumns(from, to);
   to.frames.push_back(frameOf(from, detection));
   to.frames.front().excluded = view::excludedPairs(to, to.frames.front());
+  addExact(from, request, to);
 }
 
 /// Names that are only indices are left out: the page knows them.
@@ -118,7 +153,13 @@ void addBoxNames(const scene::BoxArray& boxes, view::ViewScene& to) {
   if (areIndices) to.names.clear();
 }
 
-void fill(scene::BoxArray& from, const DetectionOptions& options, view::ViewScene& to) {
+void fill(scene::BoxArray& from, const ViewRequest& request, view::ViewScene& to) {
+  if (request.shapes == ShapeTest::Always) {
+    scene::Scene scene = scene::toScene(from);
+    fill(scene, request, to);
+    return;
+  }
+  const DetectionOptions& options = request.detection;
   to.method = boxMethod(options);
   to.distance = options.distance.value_or(0.0);
   to.region = options.region;
@@ -133,15 +174,21 @@ void fill(scene::BoxArray& from, const DetectionOptions& options, view::ViewScen
 
 }  // namespace
 
-view::ViewScene makeViewScene(const InputSettings& input, const DetectionOptions& options) {
-  if (isAnyBoxFrames(input.paths)) return makeViewFrames(input, options);
+view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& request) {
+  if (isAnyBoxFrames(input.paths)) {
+    if (request.shapes == ShapeTest::Always) throw UsageError("shapes are tested at one moment: the input has several");
+    view::ViewScene frames = makeViewFrames(input, request.detection);
+    frames.up = request.up.value_or(frames.up);
+    return frames;
+  }
   view::ViewScene result;
   result.title = titleOf(input.paths);
   const Timer timer;
   Inputs inputs = readInputs(input);
   const double readSeconds = timer.seconds();
-  std::visit([&](auto& content) { fill(content, options, result); }, inputs);
+  std::visit([&](auto& content) { fill(content, request, result); }, inputs);
   result.statistics.readSeconds = readSeconds;
+  result.up = request.up.value_or(result.up);
   return result;
 }
 

@@ -20,18 +20,18 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
-#include "detect/SearchArguments.h"
 #include "view/MakeViewScene.h"
 #include "view/OpenFile.h"
 #include "view/ServePage.h"
 #include "view/ViewFrames.h"
+#include "view/ViewRequest.h"
 
 namespace allpairs::app {
 namespace {
 
 struct ViewSettings {
   InputSettings input;
-  SearchArguments search;
+  ViewArguments view;
   std::string output;
   bool sequence = false;
   bool open = false;
@@ -44,7 +44,8 @@ constexpr const char* kViewExamples =
 
 Examples:
   allpairs view scene.scn -o scene.html
-  allpairs view parts/ --distance 0.5 --open
+  allpairs view parts/ --clearance 0.5 --open
+  allpairs view parts/ --boxes -o boxes.html
   allpairs view --sequence cloth_*.ply -o cloth.html
   allpairs view boxes.npy --serve)";
 
@@ -83,10 +84,17 @@ void serve(const view::ViewScene& scene, const ViewSettings& settings) {
   });
 }
 
+view::ViewScene sceneOf(const ViewSettings& settings) {
+  const ViewRequest request = viewRequest(settings.view);
+  if (!settings.sequence) return makeViewScene(settings.input, request);
+  if (request.shapes == ShapeTest::Always) throw UsageError("--exact and --clearance do not apply to --sequence");
+  view::ViewScene scene = makeViewFrames(settings.input, request.detection);
+  scene.up = request.up.value_or(scene.up);
+  return scene;
+}
+
 void runView(const ViewSettings& settings) {
-  const DetectionOptions options = detectionOptions(settings.search);
-  const view::ViewScene scene =
-      settings.sequence ? makeViewFrames(settings.input, options) : makeViewScene(settings.input, options);
+  const view::ViewScene scene = sceneOf(settings);
   std::optional<std::filesystem::path> path;
   if (!settings.output.empty()) path = settings.output;
   if (!path && settings.open && !settings.serve) path = temporaryFile();
@@ -102,7 +110,7 @@ void addView(CLI::App& program) {
   CLI::App* command = program.add_subcommand("view", "Write an HTML page that shows models and pairs in 3D");
   command->footer(kViewExamples);
   addInputs(*command, settings->input);
-  addSearchOptions(*command, settings->search);
+  addViewOptions(*command, settings->view);
   command->add_flag("--sequence", settings->sequence,
                     "Each INPUT is one frame of the same meshes: show pairs of triangles, frame by frame");
   addOutput(*command, settings->output);

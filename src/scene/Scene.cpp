@@ -82,6 +82,8 @@ void append(Scene& scene, Scene more) {
   moveBehind(scene.warnings, more.warnings);
   chooseMethod(scene, more);
   chooseRegion(scene, more);
+  if (scene.up == 0) scene.up = more.up;
+  if (!scene.metresPerUnit) scene.metresPerUnit = more.metresPerUnit;
   moveBehind(scene.models, more.models);
   moveBehind(scene.owners, more.owners);
 }

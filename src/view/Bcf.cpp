@@ -17,12 +17,6 @@ using Node = pugi::xml_node;
 
 std::string viewpointGuid(const Clash& clash) { return guidOf({clash.guid, "viewpoint"}); }
 
-std::string descriptionOf(const Clash& clash) {
-  if (clash.isSelf()) return "The model may touch itself.";
-  return fmt::format("The bounding boxes overlap by {:.6g}, {:.6g}, {:.6g}; they share a volume of {:.6g}.",
-                     clash.overlap[0], clash.overlap[1], clash.overlap[2], clash.volume);
-}
-
 void addText(Node parent, const char* name, const std::string& text) {
   parent.append_child(name).text().set(printable(text).c_str());
 }
@@ -62,7 +56,7 @@ std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions&
   addText(topic, "Index", std::to_string(clash.number));
   addText(topic, "CreationDate", options.date);
   addText(topic, "CreationAuthor", "Allpairs");
-  addText(topic, "Description", descriptionOf(clash));
+  addText(topic, "Description", findingOf(scene, clash));
   Node viewpoints = addElement(root, "Viewpoints", "Guid", viewpointGuid(clash));
   addText(viewpoints, "Viewpoint", "viewpoint.bcfv");
   addText(viewpoints, "Snapshot", "snapshot.png");

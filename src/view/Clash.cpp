@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace allpairs::view {
 namespace {
@@ -19,12 +20,91 @@ std::uint64_t hashOf(const std::vector<std::string>& texts, std::uint64_t seed) 
   return hash;
 }
 
-Clash clashOf(const ViewScene& scene, const Pair& pair) {
+/// What touches itself comes last: its boxes always share all.
+bool comesBefore(const Clash& a, const Clash& b) {
+  if (a.exact != nullptr && b.exact != nullptr) {
+    if (isWorse(*a.exact, *b.exact)) return true;
+    if (isWorse(*b.exact, *a.exact)) return false;
+  }
+  if (a.isSelf() != b.isSelf()) return b.isSelf();
+  return a.volume > b.volume;
+}
+
+/// Of surfaces that meet all of it, and the deepest or the nearest points.
+Box regionOf(const ExactPair& pair) {
+  Box box = pair.contactBox;
+  const bool hasPoints = pair.state != ExactState::Touching || isEmpty(box);
+  if (hasPoints)
+    box = merge(box, merge(Box{pair.pointOnFirst, pair.pointOnFirst}, Box{pair.pointOnSecond, pair.pointOnSecond}));
+  return box;
+}
+
+std::string pointText(const collision::Vec3& p) {
+  const auto [x, y, z] = coordinatesOf(p);
+  return fmt::format("({}, {}, {})", x, y, z);
+}
+
+/// Why something is not known.
+std::string openText(const ViewScene& scene, const Clash& clash) {
+  if (clash.exact->isFirstOpen && clash.exact->isSecondOpen) return "the surfaces of both are not closed";
+  return fmt::format("the surface of {} is not closed",
+                     scene.name(clash.exact->isFirstOpen ? clash.first : clash.second));
+}
+
+/// The one of which the box is the smaller is the one that is contained.
+std::string containedText(const ViewScene& scene, const Clash& clash) {
+  const auto size = [&scene](std::uint32_t model) {
+    const Box& box = scene.frames.front().boxes[model];
+    return std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
+  };
+  const bool isFirst = size(clash.first) < size(clash.second);
+  return fmt::format("{} lies wholly in {}, {} deep at {}.", scene.name(isFirst ? clash.first : clash.second),
+                     scene.name(isFirst ? clash.second : clash.first), shortNumber(clash.exact->depth.value_or(0.0)),
+                     pointText(allpairs::placeOf(*clash.exact)));
+}
+
+std::string gapText(const ExactPair& pair) {
+  return fmt::format("{} apart, between {} and {}", shortNumber(pair.distance), pointText(pair.pointOnFirst),
+                     pointText(pair.pointOnSecond));
+}
+
+std::string exactFinding(const ViewScene& scene, const Clash& clash) {
+  const ExactPair& pair = *clash.exact;
+  const std::string place = pointText(allpairs::placeOf(pair));
+  switch (pair.state) {
+    case ExactState::Duplicate:
+      return fmt::format("The same shape in the same place, around {}.", place);
+    case ExactState::Contained:
+      return containedText(scene, clash);
+    case ExactState::Clash:
+      if (!pair.depth)
+        return fmt::format("Surfaces cross at {}. How deep is not known: {}.", place, openText(scene, clash));
+      return fmt::format("{} deep at {}, the nearest way out of {} is {}.", shortNumber(*pair.depth), place,
+                         scene.name(clash.second), pointText(pair.normal));
+    case ExactState::Touching:
+      return fmt::format("They touch at {}.", place);
+    case ExactState::Undecided:
+      return fmt::format("Surfaces are {}. Whether one lies in the other is not known: {}.", gapText(pair),
+                         openText(scene, clash));
+    case ExactState::WithinClearance:
+    case ExactState::Apart:
+      return fmt::format("They are {}.", gapText(pair));
+    case ExactState::NotExamined:
+      break;
+  }
+  return clash.isSelf() ? "The model may touch itself." : "Their shapes could not be examined.";
+}
+
+}  // namespace
+
+Clash clashOf(const ViewScene& scene, std::size_t index) {
+  const Pair& pair = scene.frames.front().pairs[index];
   const Box& a = scene.frames.front().boxes[pair.first];
   const Box& b = scene.frames.front().boxes[pair.second];
   Clash clash;
   clash.first = pair.first;
   clash.second = pair.second;
+  if (scene.isExact) clash.exact = &scene.exact[index];
   clash.volume = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     clash.overlap[axis] = std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
@@ -36,17 +116,48 @@ Clash clashOf(const ViewScene& scene, const Pair& pair) {
   return clash;
 }
 
-/// What touches itself comes last: its boxes always share all.
-bool comesBefore(const Clash& a, const Clash& b) {
-  if (a.isSelf() != b.isSelf()) return b.isSelf();
-  return a.volume > b.volume;
+std::string shortNumber(double value) {
+  constexpr int kFewestDigits = 5;
+  constexpr int kMostDigits = 15;
+  constexpr int kSmallestWithoutExponent = -6;
+  if (value == 0.0) return "0";
+  if (!std::isfinite(value)) return value > 0.0 ? "∞" : "-∞";
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const int digits = std::clamp(exponent + 1, kFewestDigits, kMostDigits);
+  if (exponent < kSmallestWithoutExponent || exponent >= kMostDigits) return fmt::format("{:.{}g}", value, digits);
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
 }
 
-}  // namespace
+std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point) {
+  constexpr double kNothing = 1e-9;
+  const double largest = std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+  std::array<std::string, 3> texts;
+  for (std::size_t i = 0; i < 3; ++i) texts[i] = shortNumber(std::abs(point[i]) <= kNothing * largest ? 0.0 : point[i]);
+  return texts;
+}
+
+std::string findingOf(const ViewScene& scene, const Clash& clash) {
+  if (clash.exact != nullptr) return exactFinding(scene, clash);
+  if (clash.isSelf()) return "The model may touch itself.";
+  return fmt::format("The bounding boxes overlap by {}, {}, {}; they share a volume of {}.",
+                     shortNumber(clash.overlap[0]), shortNumber(clash.overlap[1]), shortNumber(clash.overlap[2]),
+                     shortNumber(clash.volume));
+}
+
+std::string headlineOf(const ViewScene& scene) {
+  if (scene.isExact) return countText(countStates(scene.exact));
+  const std::size_t count = scene.frames.front().pairs.size();
+  return fmt::format("{} {} of boxes", count, count == 1 ? "pair" : "pairs");
+}
 
 std::vector<Clash> clashesOf(const ViewScene& scene) {
   std::vector<Clash> clashes;
-  for (const Pair& pair : scene.frames.front().pairs) clashes.push_back(clashOf(scene, pair));
+  for (std::size_t i = 0; i < scene.frames.front().pairs.size(); ++i) {
+    if (!scene.isExact || scene.exact[i].state != ExactState::Apart) clashes.push_back(clashOf(scene, i));
+  }
   std::stable_sort(clashes.begin(), clashes.end(), comesBefore);
   for (std::size_t i = 0; i < clashes.size(); ++i) {
     Clash& clash = clashes[i];
@@ -58,6 +169,7 @@ std::vector<Clash> clashesOf(const ViewScene& scene) {
 }
 
 Box placeOf(const ViewScene& scene, const Clash& clash) {
+  if (clash.exact != nullptr && clash.exact->state != ExactState::NotExamined) return regionOf(*clash.exact);
   const Box& a = scene.frames.front().boxes[clash.first];
   const Box& b = scene.frames.front().boxes[clash.second];
   Box result;

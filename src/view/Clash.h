@@ -11,22 +11,38 @@ namespace allpairs::view {
 
 /// One pair of a report, and what its boxes have in common.
 struct Clash {
-  std::size_t number = 0;  ///< From 1, largest overlap first.
+  std::size_t number = 0;  ///< From 1, the worst first.
   std::uint32_t first = 0;
   std::uint32_t second = 0;
-  std::array<double, 3> overlap{};  ///< Per axis; negative where the boxes are apart.
-  double volume = 0.0;              ///< Of what both boxes share.
-  std::string guid;                 ///< The same for the same scene and models, so that a later report renews a topic.
+  std::array<double, 3> overlap{};   ///< Per axis; negative where the boxes are apart.
+  double volume = 0.0;               ///< Of what both boxes share.
+  const ExactPair* exact = nullptr;  ///< What the shapes say, in the scene; null where only boxes were asked.
+  std::string guid;                  ///< The same for the same scene and models, so that a later report renews a topic.
 
   [[nodiscard]] bool isSelf() const { return first == second; }
 };
 
-/// The pairs of the scene's first frame, largest overlap first, those of equal volume as they were found; self pairs
-/// last.
+/// The pairs of the scene's first frame. Where shapes were asked: those that are not apart, the worst first. Else the largest
+/// overlap first, those of equal volume as they were found; self pairs last.
 [[nodiscard]] std::vector<Clash> clashesOf(const ViewScene& scene);
 
-/// What both boxes of a clash share, or where they are apart the gap between them.
+/// The pair at one place of the first frame's, without number and GUID.
+[[nodiscard]] Clash clashOf(const ViewScene& scene, std::size_t pair);
+
+/// Where to look: the contact, or the nearest points; of boxes what both share, or where they are apart the gap between.
 [[nodiscard]] Box placeOf(const ViewScene& scene, const Clash& clash);
+
+/// What was found, as a sentence or two.
+[[nodiscard]] std::string findingOf(const ViewScene& scene, const Clash& clash);
+
+/// What was found in all, in a few words: "3 clashes (1 duplicate), 6 apart", or "12 pairs of boxes".
+[[nodiscard]] std::string headlineOf(const ViewScene& scene);
+
+/// A number with few digits, and all before the point; measure() in web/src/format.js writes the same: 0.125, 102361.
+[[nodiscard]] std::string shortNumber(double value);
+
+/// The coordinates of a point as short numbers; what is nothing beside the largest of them is 0.
+[[nodiscard]] std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point);
 
 /// "A and B", or "A with itself".
 [[nodiscard]] std::string titleOf(const ViewScene& scene, const Clash& clash);

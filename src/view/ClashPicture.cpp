@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "MeshPart.h"
 #include "VectorMath.h"
 
 namespace allpairs::view {
@@ -17,12 +18,8 @@ constexpr Colour kBackground{246, 248, 250};
 constexpr Colour kFirst{0, 114, 178};  // colours that people with any colour vision tell apart
 constexpr Colour kSecond{230, 159, 0};
 constexpr Colour kShared{213, 50, 15};
+constexpr Colour kHalo{255, 244, 238};
 constexpr double kInFront = 1e4;  // heights of the picture: nearer than anything in it
-
-double sizeOf(const Box& box) {
-  const Vec3 extent = minus(box.max, box.min);
-  return std::sqrt(dot(extent, extent));
-}
 
 /// Corner 0 to 7: bit k says whether it is at the maximum of axis k.
 Vec3 cornerOf(const Box& box, unsigned corner) {
@@ -52,6 +49,39 @@ class Drawing {
         m_right(cross(camera.direction, camera.up)),
         m_raster(2 * kWidth, 2 * kHeight, kBackground) {}
 
+  /// A model by its shape alone, if it has one.
+  void shape(std::uint32_t model, Colour colour) {
+    drawTriangles(model, colour);
+    drawLines(model, colour);
+    if (!hasShape(model)) this->model(model, colour);
+  }
+
+  /// A model through which one sees what lies in it.
+  void ghost(std::uint32_t model, Colour colour) {
+    const auto indices = partOf(m_scene.mesh.triangles, m_scene.mesh.triangleEnds, model);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      m_raster.veil({project(vertex(indices[i])), project(vertex(indices[i + 1])), project(vertex(indices[i + 2]))},
+                    colour, 0.14);
+    }
+    if (indices.empty()) this->model(model, colour);
+  }
+
+  /// The contact, in front of everything: where surfaces cross, and how deep one reaches into the other.
+  void contact(const ExactPair& pair) {
+    for (const double width : {9.0, 5.0}) {  // light around it, so that it is seen on any colour
+      const Colour colour = width > 5.0 ? kHalo : kShared;
+      for (const auto& [from, to] : pair.contactLines) inFront(from, to, colour, width);
+      const bool hasDepth = pair.depth.value_or(0.0) > 0.0 || !isContact(pair.state);
+      if (hasDepth) inFront(pair.pointOnFirst, pair.pointOnSecond, colour, width);
+      if (!hasDepth && pair.contactLines.empty() && pair.state != ExactState::Duplicate) {
+        for (const Vec3& point : pair.contactPoints) inFront(point, point, colour, width + 6.0);
+      }
+    }
+    for (const Vec3& end : {pair.pointOnFirst, pair.pointOnSecond}) {
+      if (pair.depth.value_or(0.0) > 0.0 || !isContact(pair.state)) inFront(end, end, kShared, 11.0);
+    }
+  }
+
   void model(std::uint32_t model, Colour colour) {
     drawTriangles(model, colour);
     drawLines(model, colour);
@@ -78,18 +108,7 @@ class Drawing {
             dot(from, m_camera.direction) / m_camera.height};
   }
 
-  [[nodiscard]] Vec3 vertex(std::uint32_t i) const {
-    const double* p = &m_scene.mesh.vertices[std::size_t{i} * 3];
-    return {p[0], p[1], p[2]};
-  }
-
-  [[nodiscard]] static std::span<const std::uint32_t> partOf(const std::vector<std::uint32_t>& indices,
-                                                             const std::vector<std::uint32_t>& ends,
-                                                             std::uint32_t model) {
-    if (ends.empty()) return {};
-    const std::size_t begin = model == 0 ? 0 : ends[model - 1];
-    return std::span(indices).subspan(begin, ends[model] - begin);
-  }
+  [[nodiscard]] Vec3 vertex(std::uint32_t i) const { return vertexOf(m_scene.mesh, i); }
 
   [[nodiscard]] bool hasShape(std::uint32_t model) const {
     const ViewMesh& mesh = m_scene.mesh;
@@ -119,10 +138,20 @@ class Drawing {
   [[nodiscard]] Colour lit(const std::array<Vec3, 3>& corners, Colour colour) const {
     const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double length = std::sqrt(dot(normal, normal));
-    const Vec3 light{0.27, -0.53, 0.80};
-    const double brightness = 0.5 + 0.5 * (length > 0.0 ? std::abs(dot(normal, light)) / length : 1.0);
+    Vec3 light{};
+    for (std::size_t i = 0; i < 3; ++i)
+      light[i] = 0.30 * m_right[i] + 0.50 * m_camera.up[i] - 0.81 * m_camera.direction[i];
+    const double brightness = 0.45 + 0.55 * (length > 0.0 ? std::abs(dot(normal, light)) / length : 1.0);
     for (std::uint8_t& part : colour) part = static_cast<std::uint8_t>(std::lround(part * brightness));
     return colour;
+  }
+
+  void inFront(const Vec3& from, const Vec3& to, Colour colour, double width) {
+    RasterPoint begin = project(from);
+    RasterPoint end = project(to);
+    begin.depth -= kInFront;
+    end.depth -= kInFront;
+    m_raster.line(begin, end, colour, width);
   }
 
   void veil(const Box& box, Colour colour, double opacity) {
@@ -157,41 +186,40 @@ class Drawing {
   Raster m_raster;
 };
 
-/// What a picture is of: both boxes, or what is shared and the smaller of two that differ much in size.
-Box subjectOf(const ViewScene& scene, const Clash& clash) {
-  constexpr double kMuchLarger = 4.0;
-  const Box& a = scene.frames.front().boxes[clash.first];
-  const Box& b = scene.frames.front().boxes[clash.second];
-  const double sizeA = sizeOf(a);
-  const double sizeB = sizeOf(b);
-  if (sizeA > kMuchLarger * sizeB) return merge(placeOf(scene, clash), b);
-  if (sizeB > kMuchLarger * sizeA) return merge(placeOf(scene, clash), a);
-  return merge(a, b);
+bool isFirstSmaller(const ViewScene& scene, const Clash& clash) {
+  const auto size = [&scene](std::uint32_t model) {
+    const Box& box = scene.frames.front().boxes[model];
+    const Vec3 extent = minus(box.max, box.min);
+    return dot(extent, extent);
+  };
+  return size(clash.first) < size(clash.second);
+}
+
+/// By their shapes: what contains the other is see-through, and of two that are the same the second is.
+Raster pictureOfShapes(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera) {
+  Drawing drawing(scene, camera);
+  const ExactState state = clash.exact->state;
+  const bool isGhost =
+      state == ExactState::Contained || state == ExactState::Duplicate || state == ExactState::Undecided;
+  if (!isGhost) {
+    drawing.shape(clash.first, kFirst);
+    drawing.shape(clash.second, kSecond);
+  } else if (state == ExactState::Duplicate || isFirstSmaller(scene, clash)) {
+    drawing.shape(clash.first, kFirst);
+    drawing.ghost(clash.second, kSecond);
+  } else {
+    drawing.shape(clash.second, kSecond);
+    drawing.ghost(clash.first, kFirst);
+  }
+  drawing.contact(*clash.exact);
+  return drawing.finish();
 }
 
 }  // namespace
 
-ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash) {
-  ParallelCamera camera;
-  camera.direction = {-0.48, 0.72, -0.50};
-  const double length = std::sqrt(dot(camera.direction, camera.direction));
-  for (double& part : camera.direction) part /= length;
-  const Vec3 right = cross(camera.direction, {0.0, 0.0, 1.0});
-  camera.up = cross(right, camera.direction);
-  const double upLength = std::sqrt(dot(camera.up, camera.up));
-  for (double& part : camera.up) part /= upLength;
-  const Box subject = subjectOf(scene, clash);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double middle = subject.min[axis] / 2.0 + subject.max[axis] / 2.0;
-    camera.centre[axis] = std::isfinite(middle) ? middle : 0.0;
-  }
-  constexpr double kRoom = 1.15;
-  const double size = sizeOf(subject) * kRoom;
-  if (size > 0.0 && std::isfinite(size)) camera.height = size;
-  return camera;
-}
-
 Raster pictureOf(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera) {
+  if (clash.exact != nullptr && clash.exact->state != ExactState::NotExamined)
+    return pictureOfShapes(scene, clash, camera);
   Drawing drawing(scene, camera);
   drawing.model(clash.first, kFirst);
   if (clash.isSelf()) return drawing.finish();

@@ -91,6 +91,14 @@ void Raster::line(const RasterPoint& begin, const RasterPoint& end, Colour colou
   }
 }
 
+bool Raster::isSeen(const RasterPoint& point) const {
+  const bool isIn = point.x >= 0.0 && point.y >= 0.0 && point.x < static_cast<double>(m_width) &&
+                    point.y < static_cast<double>(m_height);
+  if (!isIn) return false;
+  const std::size_t pixel = static_cast<std::size_t>(point.y) * m_width + static_cast<std::size_t>(point.x);
+  return point.depth <= static_cast<double>(m_depths[pixel]);
+}
+
 Raster Raster::halved() const {
   Raster result(m_width / 2, m_height / 2, {});
   for (std::size_t y = 0; y < result.m_height; ++y) {

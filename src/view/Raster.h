@@ -37,6 +37,9 @@ class Raster {
   /// A line of a width in pixels. Where something else is in front of it, it is faint.
   void line(const RasterPoint& begin, const RasterPoint& end, Colour colour, double width);
 
+  /// Whether nothing that was drawn is in front of a point, which is in the picture.
+  [[nodiscard]] bool isSeen(const RasterPoint& point) const;
+
   /// Half as wide and high, each pixel the mean of four.
   [[nodiscard]] Raster halved() const;
 

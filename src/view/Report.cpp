@@ -18,7 +18,12 @@ constexpr const char* kStyle = R"(
 *{box-sizing:border-box}body{margin:0;background:var(--ground);color:var(--ink);
 font:1rem/1.45 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
 main{max-width:90rem;margin:0 auto;padding:1.5rem}h1{margin:0;overflow-wrap:anywhere}
-p{color:var(--soft);max-width:60rem}.clashes{display:grid;gap:1rem;
+p{color:var(--soft);max-width:60rem}.headline{color:var(--ink);font-size:1.6rem;font-weight:600;line-height:1.25;
+margin:.6rem 0 .3rem}.worst{color:var(--ink);margin:.3rem 0}
+.state{display:inline-block;border-radius:.3rem;padding:0 .4rem;font-size:.85em;font-weight:600;color:#fff;background:#5a6672}
+.state.duplicate{background:#7a0f5a}.state.contained{background:#a3123a}.state.clash{background:#c2330f}
+.state.touching{background:#7d6e00}.state.clearance{background:#1f6f8b}
+.clashes{display:grid;gap:1rem;
 grid-template-columns:repeat(auto-fill,minmax(min(20rem,100%),1fr))}
 figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:.5rem;overflow:hidden}
 figure img{display:block;width:100%;height:auto;aspect-ratio:4/3}figcaption{padding:.6rem .9rem;overflow-wrap:anywhere}
@@ -39,32 +44,46 @@ std::string namesOf(const ViewScene& scene, const Clash& clash) {
   return text + fmt::format("<br><span class=\"second\">{}</span>", escapeHtml(scene.name(clash.second)));
 }
 
-/// Four digits, and no exponent before a number has ten.
-std::string shortNumber(double value) {
-  return std::abs(value) >= 1000.0 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
-                                                            : fmt::format("{:.4g}", value);
+/// The state as a word with a colour.
+std::string badgeOf(const Clash& clash) {
+  if (clash.exact == nullptr) return {};
+  const std::string_view name = stateName(clash.exact->state);
+  return fmt::format("<span class=\"state {}\">{}</span> ", name, name);
 }
 
 std::string figureOf(const ViewScene& scene, const Clash& clash) {
   std::string text = fmt::format("<figure id=\"clash-{}\"><img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" ",
                                  clash.number, pictureName(clash.number), escapeHtml(titleOf(scene, clash)));
   text += fmt::format("loading=\"lazy\"><figcaption>{}. {}", clash.number, namesOf(scene, clash));
-  if (!clash.isSelf()) {
-    text +=
-        fmt::format("<br><span class=\"fact\">overlap {} × {} × {}, volume {}</span>", shortNumber(clash.overlap[0]),
-                    shortNumber(clash.overlap[1]), shortNumber(clash.overlap[2]), shortNumber(clash.volume));
-  }
+  text += fmt::format("<br><span class=\"fact\">{}{}</span>", badgeOf(clash), escapeHtml(findingOf(scene, clash)));
   return text + "</figcaption></figure>\n";
+}
+
+std::string numberCell(const std::string& text) { return fmt::format("<td class=\"number\">{}</td>", text); }
+
+/// The cells behind the names: of shapes depth, distance and place, of boxes what they share.
+std::string measuresOf(const Clash& clash) {
+  std::string text;
+  if (clash.exact != nullptr) {
+    const ExactPair& pair = *clash.exact;
+    const bool isKnown = pair.state != ExactState::NotExamined;
+    text += numberCell(pair.depth ? shortNumber(*pair.depth) : "");
+    text += numberCell(isKnown && !isContact(pair.state) ? shortNumber(pair.distance) : "");
+    for (const std::string& coordinate : coordinatesOf(allpairs::placeOf(pair)))
+      text += numberCell(isKnown ? coordinate : "");
+    return text;
+  }
+  for (const double extent : clash.overlap) text += numberCell(shortNumber(extent));
+  return text + numberCell(shortNumber(clash.volume));
 }
 
 std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
   const std::string number =
       hasPicture ? fmt::format("<a href=\"#clash-{0}\">{0}</a>", clash.number) : std::to_string(clash.number);
-  std::string text =
-      fmt::format("<tr><td class=\"number\">{}</td><td>{}</td><td>{}</td>", number, escapeHtml(scene.name(clash.first)),
-                  clash.isSelf() ? "itself" : escapeHtml(scene.name(clash.second)));
-  for (const double extent : clash.overlap) text += fmt::format("<td class=\"number\">{}</td>", shortNumber(extent));
-  return text + fmt::format("<td class=\"number\">{}</td></tr>\n", shortNumber(clash.volume));
+  const std::string state = clash.exact == nullptr ? "" : "<td>" + badgeOf(clash) + "</td>";
+  return fmt::format("<tr>{}{}<td>{}</td><td>{}</td>{}</tr>\n", numberCell(number), state,
+                     escapeHtml(scene.name(clash.first)),
+                     clash.isSelf() ? "itself" : escapeHtml(scene.name(clash.second)), measuresOf(clash));
 }
 
 std::string quoted(const std::string& text) {
@@ -81,18 +100,64 @@ std::string cellOf(const std::string& name) {
   return quoted(isLikeFormula ? "'" + name : name);
 }
 
+std::string csvMeasuresOf(const Clash& clash) {
+  if (clash.exact == nullptr)
+    return fmt::format("{},{},{},{}", clash.overlap[0], clash.overlap[1], clash.overlap[2], clash.volume);
+  const ExactPair& pair = *clash.exact;
+  if (pair.state == ExactState::NotExamined) return fmt::format("{},,,,,,,,,", stateName(pair.state));
+  const auto [x, y, z] = allpairs::placeOf(pair);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}", stateName(pair.state),
+                     pair.depth ? fmt::to_string(*pair.depth) : "", pair.distance, x, y, z, pair.normal[0],
+                     pair.normal[1], pair.normal[2], pair.contactCount);
+}
+
 bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-std::string introduction(const ViewScene& scene, std::size_t count, std::size_t pictured) {
-  std::string text = fmt::format("<h1>{}</h1>\n<p>{} models, {} pairs. {}.</p>\n", escapeHtml(scene.title),
-                                 scene.modelCount, count, escapeHtml(scene.method));
-  if (count == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
-  text +=
-      "<p>A pair is two models whose axis-aligned bounding boxes are near enough: they may touch, and only a look at "
-      "their shapes says whether they do. Red is what the two boxes share. The largest comes first; models that may "
-      "touch themselves come last.</p>\n";
+std::string counted(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// How bad it is: the first clash.
+std::string worstOf(const ViewScene& scene, std::span<const Clash> clashes) {
+  if (!scene.isExact || clashes.empty() || !isClash(clashes.front().exact->state)) return {};
+  return fmt::format("<p class=\"worst\">The worst: {}. {}</p>\n", escapeHtml(titleOf(scene, clashes.front())),
+                     escapeHtml(findingOf(scene, clashes.front())));
+}
+
+/// What was left out, and of what.
+std::string scopeOf(const ViewScene& scene, std::size_t candidates) {
+  std::string text = fmt::format("<p>{}, {} by their boxes. {}.", counted(scene.modelCount, "model"),
+                                 counted(candidates, "candidate"), escapeHtml(scene.method));
+  if (scene.clearance > 0.0) text += fmt::format(" Clearance {}.", shortNumber(scene.clearance));
+  const std::uint64_t apart = scene.isExact ? countStates(scene.exact).of(ExactState::Apart) : 0;
+  if (apart != 0)
+    text += fmt::format(" {} that {} apart by {} {} not shown.", counted(apart, "candidate"), apart == 1 ? "is" : "are",
+                        apart == 1 ? "its shapes" : "their shapes", apart == 1 ? "is" : "are");
+  if (!scene.ignored.empty())
+    text += fmt::format(" {} of the input left out: 'allpairs info' lists {}.", counted(scene.ignored.size(), "part"),
+                        scene.ignored.size() == 1 ? "it" : "them");
+  return text + "</p>\n";
+}
+
+constexpr const char* kOfShapes =
+    "<p>Shapes were tested. Duplicates come first, then contained parts, then clashes, the deepest first. Red is where "
+    "surfaces cross, and a line with two ends is the depth, or the gap.</p>\n";
+constexpr const char* kOfBoxes =
+    "<p>A pair is two models whose axis-aligned bounding boxes are near enough: they may touch, and only a look at "
+    "their shapes says whether they do. Red is what the two boxes share. The largest comes first; models that may "
+    "touch themselves come last.</p>\n";
+
+std::string introduction(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured) {
+  const std::size_t candidates = scene.frames.front().pairs.size();
+  const std::size_t count = clashes.size();
+  std::string text =
+      fmt::format("<h1>{}</h1>\n<p class=\"headline\">{}</p>\n", escapeHtml(scene.title), headlineOf(scene));
+  text += worstOf(scene, clashes) + scopeOf(scene, candidates);
+  if (candidates == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
+  if (count == 0) return text + "<p>No two models touch: there is nothing to look at.</p>\n";
+  text += scene.isExact ? kOfShapes : kOfBoxes;
   text += "<p>Also in this folder: <a href=\"clashes.csv\">clashes.csv</a>, <a href=\"clashes.bcf\">clashes.bcf</a>.";
   if (pictured < count) text += fmt::format(" The first {} have pictures and are in the BCF file.", pictured);
   if (kMostRows < count) text += fmt::format(" The table here has the first {}, clashes.csv has all.", kMostRows);
@@ -101,9 +166,17 @@ std::string introduction(const ViewScene& scene, std::size_t count, std::size_t 
 
 void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured, scene::ByteSink sink) {
   if (clashes.empty()) return;
-  sink("<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th><th>first</th><th>second</th>");
-  sink("<th class=\"number\">overlap x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
-  sink("<th class=\"number\">shared volume</th></tr></thead>\n<tbody>\n");
+  sink("<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th>");
+  if (scene.isExact) sink("<th>state</th>");
+  sink("<th>first</th><th>second</th>");
+  if (scene.isExact) {
+    sink("<th class=\"number\">depth</th><th class=\"number\">distance</th>");
+    sink("<th class=\"number\">at x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
+  } else {
+    sink("<th class=\"number\">overlap x</th><th class=\"number\">y</th><th class=\"number\">z</th>");
+    sink("<th class=\"number\">shared volume</th>");
+  }
+  sink("</tr></thead>\n<tbody>\n");
   for (const Clash& clash : clashes) sink(rowOf(scene, clash, clash.number <= pictured));
   sink("</tbody>\n</table></div>\n");
 }
@@ -120,7 +193,7 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
   sink("style-src 'unsafe-inline'\">\n");
   sink(fmt::format("<title>{} – clashes</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", escapeHtml(scene.title),
                    kStyle));
-  sink(introduction(scene, clashes.size(), pictured));
+  sink(introduction(scene, clashes, pictured));
   sink("<section class=\"clashes\">\n");
   for (const Clash& clash : clashes.first(pictured)) sink(figureOf(scene, clash));
   sink("</section>\n");
@@ -131,11 +204,11 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
 void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
   if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
-  sink("number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
+  sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts,guid\n"
+                     : "number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
   for (const Clash& clash : clashes) {
-    sink(fmt::format("{},{},{},{},{},{},{},{}\n", clash.number, cellOf(scene.name(clash.first)),
-                     cellOf(scene.name(clash.second)), clash.overlap[0], clash.overlap[1], clash.overlap[2],
-                     clash.volume, clash.guid));
+    sink(fmt::format("{},{},{},{},{}\n", clash.number, cellOf(scene.name(clash.first)),
+                     cellOf(scene.name(clash.second)), csvMeasuresOf(clash), clash.guid));
   }
 }
 

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "SceneData.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 
 #include "Base64.h"
+#include "ClashPicture.h"
 #include "PageSize.h"
+#include "VectorMath.h"
 
 namespace allpairs::view {
 namespace {
@@ -127,6 +131,47 @@ void addPositions(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("corners", scene.corners);
 }
 
+/// From where the worst contacts are seen best: directions, three numbers a pair, all zero for others.
+std::vector<float> viewsOf(const ViewScene& scene) {
+  constexpr std::size_t kMostViews = 500;  // each takes milliseconds to choose
+  std::vector<float> views(3 * scene.exact.size(), 0.0F);
+  std::vector<std::size_t> order = worstFirst(scene.exact);
+  order.resize(std::min(order.size(), kMostViews));
+  for (const std::size_t i : order) {
+    if (!isContact(scene.exact[i].state)) break;
+    const Vec3 direction = cameraOf(scene, clashOf(scene, i)).direction;
+    for (std::size_t axis = 0; axis < 3; ++axis) views[3 * i + axis] = static_cast<float>(direction[axis]);
+  }
+  return views;
+}
+
+/// What shapes say of each pair: its state, which model is open, 17 numbers, and where surfaces cross.
+void addExact(const ViewScene& scene, const std::vector<double>& origin, ArrayWriter& arrays) {
+  std::vector<std::uint8_t> states;
+  std::vector<double> numbers;
+  std::vector<float> lines;
+  std::vector<std::uint32_t> lineEnds;
+  for (const ExactPair& pair : scene.exact) {
+    states.push_back(static_cast<std::uint8_t>(static_cast<unsigned>(pair.state) | (pair.isFirstOpen ? 16U : 0U) |
+                                               (pair.isSecondOpen ? 32U : 0U)));
+    numbers.insert(numbers.end(), {pair.distance, pair.depth.value_or(std::numeric_limits<double>::quiet_NaN())});
+    for (const auto* vector : {&pair.pointOnFirst, &pair.pointOnSecond, &pair.normal})
+      numbers.insert(numbers.end(), vector->begin(), vector->end());
+    append(numbers, pair.contactBox);
+    for (const auto& line : pair.contactLines) {
+      for (const auto& end : line) {
+        for (std::size_t axis = 0; axis < 3; ++axis) lines.push_back(static_cast<float>(end[axis] - origin[axis]));
+      }
+    }
+    lineEnds.push_back(static_cast<std::uint32_t>(lines.size() / 6));
+  }
+  arrays.add("exactStates", states);
+  arrays.add("exactNumbers", numbers);
+  arrays.add("contactLines", lines);
+  arrays.add("contactLineEnds", lineEnds);
+  arrays.add("exactViews", viewsOf(scene));
+}
+
 void addModels(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("types", scene.types);
   arrays.add("groups", scene.groups);
@@ -178,6 +223,7 @@ SceneData::SceneData(const ViewScene& scene) {
   arrays.add("region", region);
   arrays.add("origin", origin);
   addModels(scene, arrays);
+  addExact(scene, origin, arrays);
   addFrames(scene, arrays);
   addMesh(scene.mesh, origin, arrays);
   addPositions(scene, arrays);
@@ -187,6 +233,10 @@ SceneData::SceneData(const ViewScene& scene) {
             {"method", scene.method},
             {"addsContactDistances", scene.addsContactDistances},
             {"models", scene.modelCount},
+            {"isExact", scene.isExact},
+            {"exactSeconds", scene.exactSeconds},
+            {"clearance", scene.clearance},
+            {"up", scene.up},
             {"frames", scene.frames.size()},
             {"meshIsShortened", scene.mesh.isShortened},
             {"names", scene.names},

@@ -9,6 +9,7 @@
 
 #include "allpairs/Box.h"
 #include "allpairs/Pair.h"
+#include "allpairs/collision/ExactPair.h"
 #include "allpairs/scene/WriteResult.h"
 
 namespace allpairs::view {
@@ -66,6 +67,14 @@ struct ViewScene {
   std::vector<ViewFrame> frames;       ///< At least one.
   std::vector<scene::Remark> ignored;
   scene::DetectionStatistics statistics;
+  std::vector<ExactPair>
+      exact{};  ///< What the shapes of the first frame's pairs say, in their order; empty: not asked.
+  double exactSeconds = 0.0;
+  double clearance = 0.0;
+  int up = 3;                             ///< The axis that points up, 1 to 3 for x to z; below 0: it points down.
+  std::optional<double> metresPerUnit{};  ///< Where the input says so.
+
+  bool isExact = false;  ///< Whether shapes were asked.
 
   [[nodiscard]] std::string name(std::size_t model) const {
     return names.empty() ? std::to_string(model) : names[model];

@@ -31,7 +31,7 @@ auto depthOf(double depth) { return Optional(DoubleNear(depth, kClose)); }
 
 TEST(FclNarrowPhase, AlignedCubesThatShareATenthAreATenthDeep) {
   const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({0.9, 0.0, 0.0}));
-  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_THAT(pair.depth, depthOf(0.1));
   EXPECT_EQ(pair.distance, 0.0);
   EXPECT_THAT(pair.normal, near(-1.0, 0.0, 0.0));
@@ -39,7 +39,7 @@ TEST(FclNarrowPhase, AlignedCubesThatShareATenthAreATenthDeep) {
 
 TEST(FclNarrowPhase, ShiftedCubesMeetWhereTheirFacesCross) {
   const auto pair = examine(*unitCube({0.0, 0.0, 0.0}), *unitCube({0.9, 0.3, 0.2}));
-  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_THAT(pair.depth, depthOf(0.1));
   EXPECT_THAT(pair.normal, near(-1.0, 0.0, 0.0));
   EXPECT_GT(pair.contactCount, 4U);
@@ -134,11 +134,11 @@ TEST(FclNarrowPhase, AVertexPerTriangleClosesASolidToo) {
   EXPECT_EQ(examine(soup, *cuboid({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6})).state, ExactState::Contained);
 }
 
-TEST(FclNarrowPhase, SheetsThatCrossTouchAndHaveNoDepth) {
+TEST(FclNarrowPhase, SheetsThatCrossClashAndHaveNoDepth) {
   TriangleModel floor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
   TriangleModel wall("wall", {{1, 1, -1}, {1, 1, 1}, {1, 2, 1}}, {{0, 1, 2}});
   const auto pair = examine(floor, wall);
-  EXPECT_EQ(pair.state, ExactState::Touching);
+  EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_EQ(pair.depth, std::nullopt);
   ASSERT_EQ(pair.contactPoints.size(), 1U);
   EXPECT_THAT(pair.contactPoints.front(), near(1.0, 1.25, 0.0));
@@ -147,7 +147,7 @@ TEST(FclNarrowPhase, SheetsThatCrossTouchAndHaveNoDepth) {
 TEST(FclNarrowPhase, ASheetThatReachesIntoASolidIsAsDeepAsItsVertex) {
   TriangleModel sheet("sheet", {{0.5, 0.5, 0.8}, {0.5, 0.4, 3.0}, {0.5, 0.6, 3.0}}, {{0, 1, 2}});
   const auto pair = examine(sheet, *unitCube({0.0, 0.0, 0.0}));
-  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_THAT(pair.depth, depthOf(0.2));
   EXPECT_THAT(pair.pointOnFirst, near(0.5, 0.5, 0.8));
   EXPECT_THAT(pair.pointOnSecond, near(0.5, 0.5, 1.0));
@@ -158,14 +158,14 @@ TEST(FclNarrowPhase, CrossedBeamsAreAsDeepAsTheirFacesAreBelowEachOther) {
   const auto along = cuboid({-5.0, -0.5, 0.0}, {5.0, 0.5, 1.0});
   const auto across = cuboid({-0.5, -5.0, 0.9}, {0.5, 5.0, 1.9});
   const auto pair = examine(*along, *across);
-  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_THAT(pair.depth, depthOf(0.1));
   EXPECT_THAT(pair.normal, near(0.0, 0.0, -1.0));
 }
 
 TEST(FclNarrowPhase, BallsOfTrianglesAreNearlyAsDeepAndAsFarAsSpheres) {
   const auto deep = examine(*ball({0.0, 0.0, 0.0}, 1.0), *ball({0.0, 0.0, 1.9}, 1.0));
-  EXPECT_EQ(deep.state, ExactState::Overlapping);
+  EXPECT_EQ(deep.state, ExactState::Clash);
   EXPECT_NEAR(deep.depth.value_or(0.0), 0.1, 1e-3);
   EXPECT_NEAR(deep.normal[2], -1.0, 0.01);
   const auto far = examine(*ball({0.0, 0.0, 0.0}, 1.0), *ball({0.0, 0.0, 2.5}, 1.0));
@@ -221,13 +221,13 @@ TEST(FclNarrowPhase, TakesTheCandidatesOfThePipelineInTheirOrder) {
   }
   ASSERT_EQ(narrowPhase.pairs().size(), 3U);
   EXPECT_EQ(narrowPhase.pairs()[0].state, ExactState::Apart);
-  EXPECT_EQ(narrowPhase.pairs()[1].state, ExactState::Overlapping);
+  EXPECT_EQ(narrowPhase.pairs()[1].state, ExactState::Clash);
 }
 
 TEST(FclNarrowPhase, FinelyCutCubesAreAsDeepAsPlainOnes) {
   const auto cube = fineCube({0.0, 0.0, 0.0}, 32);
   const auto face = examine(*cube, *fineCube({0.90625, 0.015625, 0.25}, 32));
-  EXPECT_EQ(face.state, ExactState::Overlapping);
+  EXPECT_EQ(face.state, ExactState::Clash);
   EXPECT_THAT(face.depth, depthOf(0.09375));
   EXPECT_THAT(examine(*cube, *unitCube({0.5, 0.5, 0.5})).depth, depthOf(0.5));
   EXPECT_THAT(examine(*cube, *cuboid({0.25, 0.375, -1.0}, {0.75, 0.625, 2.0})).depth, depthOf(0.375));

@@ -29,7 +29,7 @@ TEST(FclShapes, SpheresAreAsFarAndAsDeepAsTheirCentresSay) {
   SphereModel touching("touching", {{3, 0, 0}}, {2.0});
   EXPECT_NEAR(examine(first, apart).distance, 2.0, kClose);
   const auto pair = examine(first, deep);
-  EXPECT_EQ(pair.state, ExactState::Overlapping);
+  EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_NEAR(pair.depth.value_or(0.0), 0.5, kClose);
   EXPECT_NEAR(pair.normal[2], -1.0, kClose);
   EXPECT_EQ(examine(first, touching).state, ExactState::Touching);
@@ -54,9 +54,9 @@ TEST(FclShapes, ASphereOnAMeshIsAsDeepAsItReachesBelowTheSurface) {
   SphereModel within("within", {{0, 0, 2}}, {0.75});
   EXPECT_NEAR(examine(above, *cube).distance, 0.25, kClose);
   EXPECT_EQ(examine(resting, *cube).state, ExactState::Touching);
-  EXPECT_EQ(examine(sunk, *cube).state, ExactState::Overlapping);
+  EXPECT_EQ(examine(sunk, *cube).state, ExactState::Clash);
   EXPECT_NEAR(examine(sunk, *cube).depth.value_or(0.0), 0.25, kClose);
-  EXPECT_EQ(examine(deeper, *cube).state, ExactState::Overlapping);
+  EXPECT_EQ(examine(deeper, *cube).state, ExactState::Clash);
   EXPECT_NEAR(examine(deeper, *cube).depth.value_or(0.0), 1.25, kClose);
   EXPECT_EQ(examine(within, *cube).state, ExactState::Contained);
   EXPECT_NEAR(examine(within, *cube).depth.value_or(0.0), 2.75, kClose);
@@ -96,14 +96,16 @@ TEST(FclShapes, TetrahedraAreSolidsByTheirBoundary) {
 TEST(FclShapes, PointsAndLinesTouchAndAreContained) {
   const auto cube = unitCube({0, 0, 0});
   PointModel points("points", {{0.5, 0.5, 0.75}, {3, 3, 3}});
+  PointModel inner("inner", {{0.5, 0.5, 0.75}, {0.25, 0.5, 0.5}});
   PointModel onFace("onFace", {{0.5, 0.5, 1.0}});
   LineModel line("line", {{0.5, 0.5, 1.5}, {0.5, 0.5, 3.0}}, {{0, 1}});
   LineModel through("through", {{0.5, 0.25, -1.0}, {0.5, 0.25, 3.0}}, {{0, 1}});
-  EXPECT_EQ(examine(points, *cube).state, ExactState::Contained);
+  EXPECT_EQ(examine(points, *cube).state, ExactState::Clash) << "one of the two points lies outside";
+  EXPECT_EQ(examine(inner, *cube).state, ExactState::Contained);
   EXPECT_NEAR(examine(points, *cube).depth.value_or(0.0), 0.25, kClose);
   EXPECT_EQ(examine(onFace, *cube).state, ExactState::Touching);
   EXPECT_NEAR(examine(line, *cube).distance, 0.5, kClose);
-  EXPECT_EQ(examine(through, *cube).state, ExactState::Overlapping);
+  EXPECT_EQ(examine(through, *cube).state, ExactState::Clash);
   EXPECT_NEAR(examine(through, *cube).depth.value_or(0.0), 0.25, kClose);
 }
 

@@ -57,9 +57,10 @@ class Exact : public ::testing::Test {
 TEST_F(Exact, TheTableSaysWhichPartsClashWhereAndHowDeepAndHowFarTheOthersAre) {
   const ProgramRun run = detect({});
   expectSuccess(run);
-  EXPECT_THAT(run.out, HasSubstr("pairs    4 by their boxes; by their shapes 3 in contact, 1 apart (25.0 %)\n\n"
-                                 "  contained    e-pin       a-plate     0.5 deep at "));
-  EXPECT_THAT(run.out, HasSubstr("\n  overlapping  b-bracket   a-plate     0.125 deep at (0.9375, "));
+  EXPECT_THAT(run.out,
+              HasSubstr("pairs    4 by their boxes; by their shapes 2 clashes (1 contained), 1 touching, 1 apart\n\n"
+                        "  contained    e-pin       a-plate     0.5 deep at "));
+  EXPECT_THAT(run.out, HasSubstr("\n  clash        b-bracket   a-plate     0.125 deep at (0.9375, "));
   EXPECT_THAT(run.out, HasSubstr("\n  touching     c-shim      b-bracket   at (2, 0.5, 0.5)\n"
                                  "  apart        d-far       c-shim      0.25 between (3.25, "));
 }
@@ -69,7 +70,7 @@ TEST_F(Exact, CsvHasALineForEachCandidate) {
   expectSuccess(run);
   EXPECT_TRUE(
       run.out.starts_with("first,second,state,distance,depth,x1,y1,z1,x2,y2,z2,nx,ny,nz,contacts\n"
-                          "b-bracket,a-plate,overlapping,0,0.125,0.875,"))
+                          "b-bracket,a-plate,clash,0,0.125,0.875,"))
       << run.out;
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 5);
   EXPECT_THAT(run.out, HasSubstr("\nd-far,c-shim,apart,0.25,,3.25,"));
@@ -82,7 +83,7 @@ TEST_F(Exact, JsonHasWhatTheShapesSayForEachPairBesidesAllElse) {
   ASSERT_EQ(result["pairs"].size(), 4U);
   ASSERT_EQ(result["exact"].size(), 4U);
   EXPECT_EQ(result["models"].size(), 5U);
-  EXPECT_EQ(result["exact"][0]["state"], "overlapping");
+  EXPECT_EQ(result["exact"][0]["state"], "clash");
   EXPECT_EQ(result["exact"][0]["depth"], 0.125);
   EXPECT_EQ(result["exact"][0]["contactBox"], nlohmann::json::parse("[[0.875,0,0],[1,1,1]]"));
   EXPECT_EQ(result["exact"][3]["state"], "contained");
@@ -90,6 +91,36 @@ TEST_F(Exact, JsonHasWhatTheShapesSayForEachPairBesidesAllElse) {
   EXPECT_EQ(result["exact"][2]["distance"], 0.25);
   EXPECT_EQ(result["exact"][2]["depth"], nullptr);
   EXPECT_EQ(result["exactStatistics"]["falseShare"], 0.25);
+  EXPECT_EQ(result["exactStatistics"]["clashes"], 2);
+  EXPECT_EQ(result["exact"][0]["open"], nlohmann::json::parse("[false, false]"));
+}
+
+TEST_F(Exact, TheSameShapeInTheSamePlaceIsTheMostSeriousAndComesFirst) {
+  writePart(parts(), "f-bracket", 0.875, 2.0);
+  const ProgramRun run = detect({});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("pairs    7 by their boxes; by their shapes 4 clashes (1 duplicate, 1 contained), 2 "
+                                 "touching, 1 apart\n\n"
+                                 "  duplicate    f-bracket   b-bracket   the same shape at (1.4375, 0.5, 0.5)\n"
+                                 "  contained "));
+}
+
+TEST_F(Exact, WhatIsApartByNoMoreThanTheClearanceIsWithinIt) {
+  const ProgramRun run = runProgram({"detect", parts().string(), "--exact", "--clearance", "0.25"});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("1 touching, 1 within the clearance\n\n"));
+  EXPECT_THAT(run.out, HasSubstr("\n  clearance    d-far       c-shim      0.25 between (3.25, "));
+  expectFailure(runProgram({"detect", parts().string(), "--clearance", "1"}), 2, "add --exact, or use --distance");
+  expectFailure(runProgram({"detect", parts().string(), "--exact", "--clearance", "-1"}), 2,
+                "--clearance: '-1' is not a distance from 0 on");
+}
+
+TEST_F(Exact, WhatCannotBeDecidedIsSaid) {
+  std::ofstream(parts() / "g-open.obj") << "v -9 -9 -9\nv 9 -9 -9\nv 0 9 -9\nv 0 0 20\nf 1 2 4\nf 2 3 4\nf 1 2 3\n";
+  const ProgramRun run = detect({});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("; one may lie in the other: the first is not closed\n"));
+  EXPECT_THAT(run.out, HasSubstr(" undecided, 1 apart\n"));
 }
 
 TEST_F(Exact, NpyKeepsThePairsThatAreNotApart) {
@@ -103,7 +134,7 @@ TEST_F(Exact, BoxesAreLookedAtAsSolids) {
   std::ofstream(folder.path() / "boxes.csv") << "0,0,0,1,1,1,a\n0.75,0,0,2,1,1,b\n2,0,0,3,1,inf,c\n";
   const ProgramRun run = runProgram({"detect", folder.path() / "boxes.csv", "--exact", "--format", "csv"});
   expectSuccess(run);
-  EXPECT_THAT(run.out, HasSubstr("\nb,a,overlapping,0,0.25,"));
+  EXPECT_THAT(run.out, HasSubstr("\nb,a,clash,0,0.25,"));
   EXPECT_THAT(run.out, HasSubstr("\nc,b,not-examined,,,,,,,,,,,,\n"));
 }
 
@@ -137,7 +168,7 @@ void expectSound(const nlohmann::json& pair, double gap) {
   const double between = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   const double distance = pair["distance"];
   EXPECT_GE(distance, gap * (1.0 - 1e-9));
-  if (pair["state"] == "apart") {
+  if (pair["state"] == "apart" || pair["state"] == "undecided") {
     EXPECT_GT(distance, 0.0);
     EXPECT_NEAR(between, distance, 1e-9 * (1.0 + distance));
   } else {

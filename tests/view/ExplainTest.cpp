@@ -23,7 +23,7 @@ using view::ViewScene;
 
 ViewScene sceneOf(const std::string& path, const std::vector<std::string>& roots = {},
                   const app::DetectionOptions& options = {}) {
-  return app::makeViewScene({.paths = {path}, .searchRoots = roots}, options);
+  return app::makeViewScene({.paths = {path}, .searchRoots = roots}, {.detection = options});
 }
 
 /// The pairs that the verdicts name, in the order of the double loop.

@@ -109,6 +109,22 @@ TEST(Clash, TheLargestOverlapComesFirstAndTheGuidIsTheSameEachTime) {
   EXPECT_NE(clashes[0].guid, clashes[1].guid);
 }
 
+TEST(Clash, NumbersHaveFiveDigitsAndAllBeforeThePoint) {
+  // The same list is in web/test/rules.test.mjs, for the page.
+  const std::vector<std::pair<double, std::string>> numbers{{0.0, "0"},
+                                                            {0.125, "0.125"},
+                                                            {102360.7, "102361"},
+                                                            {4.97592, "4.9759"},
+                                                            {99999.6, "100000"},
+                                                            {-12.5, "-12.5"},
+                                                            {1234.56, "1234.6"},
+                                                            {0.00012345678, "0.00012346"},
+                                                            {5.000000000000001, "5"},
+                                                            {1e9, "1000000000"},
+                                                            {0.1 + 0.2, "0.3"}};
+  for (const auto& [value, text] : numbers) EXPECT_EQ(view::shortNumber(value), text);
+}
+
 TEST(Clash, BoxesThatAreApartShareNothingAndHaveTheGapBetweenThem) {
   const view::ViewScene scene = twoBoxes({{0, 0, 0}, {1, 1, 1}}, {{3, 0, 0}, {4, 1, 1}});
   const auto clashes = view::clashesOf(scene);

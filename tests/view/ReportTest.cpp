@@ -3,16 +3,19 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/Expect.h"
+#include "support/IfcText.h"
 #include "support/Numbers.h"
 #include "support/TempFolder.h"
 
@@ -105,7 +108,7 @@ void expectViewpoint(const std::string& text) {
 
 TEST(Report, BcfHasATopicAViewpointAndAPictureForEachPairInTheFormOfVersion21) {
   const TempFolder folder;
-  expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "out"}));
+  expectSuccess(runProgram({"report", kDemo, "--boxes", "-o", folder.path() / "out"}));
   const auto files = filesOf(folder.path() / "out/clashes.bcf");
   const pugi::xml_document version = parse(files.at("bcf.version"));
   EXPECT_STREQ(version.child("Version").attribute("VersionId").value(), "2.1");
@@ -143,7 +146,7 @@ TEST(Report, NamesAreNoFormulasInTheTableAndSaidToBeUtf8) {
 
 TEST(Report, TableHasEveryPairOfDetectOnce) {
   const TempFolder folder;
-  expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "out", "--pictures", "2"}));
+  expectSuccess(runProgram({"report", kDemo, "--boxes", "-o", folder.path() / "out", "--pictures", "2"}));
   const std::string table = readBytes(folder.path() / "out/clashes.csv");
   std::vector<std::string> found;
   std::size_t begin = table.find('\n') + 1;
@@ -172,7 +175,7 @@ TEST(Report, NamesAreTextInThePageAndInBcf) {
   const std::string name = "<img src=x onerror=alert(1)>";
   folder.write("a.obj", "o " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder.write("b.obj", "o b & c\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
-  expectSuccess(runProgram({"report", folder.path(), "-o", folder.path() / "out"}));
+  expectSuccess(runProgram({"report", folder.path(), "--boxes", "-o", folder.path() / "out"}));
   const std::string page = readBytes(folder.path() / "out/index.html");
   EXPECT_EQ(page.find("<img src=x"), std::string::npos);
   EXPECT_NE(page.find("&lt;img src=x onerror=alert(1)&gt;"), std::string::npos);
@@ -195,6 +198,42 @@ TEST(Report, ControlCharactersInANameAreReplacedInBcf) {
     ++topics;
   }
   EXPECT_EQ(topics, 1U);
+}
+
+/// Three numbers below an element.
+std::array<double, 3> vectorOf(const pugi::xml_node& element) {
+  return {element.child("X").text().as_double(), element.child("Y").text().as_double(),
+          element.child("Z").text().as_double()};
+}
+
+TEST(Report, TheCameraOfAnIfcLooksAtTheContactInMetresAndStandsUpright) {
+  const TempFolder folder;
+  const std::string input = folder.write("two.ifc", kIfc);
+  const auto cameraOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"report", input, "-o", folder.path() / "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    expectSuccess(runProgram(words));
+    for (const auto& [file, bytes] : filesOf(folder.path() / "out/clashes.bcf")) {
+      if (file.ends_with("viewpoint.bcfv")) return parse(bytes);
+    }
+    return pugi::xml_document();
+  };
+  for (const bool isBoxes : {false, true}) {
+    const pugi::xml_document document = cameraOf(isBoxes ? Names{"--boxes"} : Names{});
+    const pugi::xml_node camera = document.child("VisualizationInfo").child("OrthogonalCamera");
+    const auto eye = vectorOf(camera.child("CameraViewPoint"));
+    const auto direction = vectorOf(camera.child("CameraDirection"));
+    EXPECT_GT(vectorOf(camera.child("CameraUpVector"))[2], 0.4) << "z is up";
+    const double scale = camera.child("ViewToWorldScale").text().as_double();
+    EXPECT_LT(scale, 10.0) << "metres";
+    // What it looks at, twice its height ahead, lies in the two models.
+    EXPECT_NEAR(eye[0] + 2.0 * scale * direction[0], 3.0, 2.0);
+    EXPECT_NEAR(eye[1] + 2.0 * scale * direction[1], 0.5, 0.5);
+    EXPECT_NEAR(eye[2] + 2.0 * scale * direction[2], 2.5, 2.5);
+  }
+  const pugi::xml_document turned = cameraOf({"--up", "y"});
+  const pugi::xml_node camera = turned.child("VisualizationInfo").child("OrthogonalCamera");
+  EXPECT_GT(vectorOf(camera.child("CameraUpVector"))[1], 0.4);
 }
 
 std::vector<std::string> filesIn(const fs::path& folder) {
@@ -260,6 +299,99 @@ TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
   EXPECT_TRUE(fs::exists(work / "index.html"));
 }
 
+#ifdef ALLPAIRS_HAS_FCL
+
+/// A cuboid as a closed mesh.
+std::string cuboidText(const std::array<double, 3>& min, const std::array<double, 3>& max) {
+  std::ostringstream text;
+  for (const double z : {min[2], max[2]}) {
+    for (const double y : {min[1], max[1]}) {
+      for (const double x : {min[0], max[0]}) text << "v " << x << ' ' << y << ' ' << z << '\n';
+    }
+  }
+  text << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  return text.str();
+}
+
+/// Parts of which two are the same, one lies in another, two share 0.25, and a slanted one is apart though boxes overlap.
+class ReportOfShapes : public ::testing::Test {
+ protected:
+  ReportOfShapes() {
+    fs::create_directory(m_folder.path() / "parts");
+    write("a-block", cuboidText({0, 0, 0}, {4, 4, 4}));
+    write("b-pin", cuboidText({1, 1, 1}, {2, 2, 2}));
+    write("c-bar", cuboidText({3.75, 1, 1}, {8, 2, 2}));
+    write("d-bar", cuboidText({3.75, 1, 1}, {8, 2, 2}));
+    write("e-wedge", "v 7.5 1.5 9\nv 7.5 9 1.5\nv 9 9 9\nv 7.5 9 9\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    m_folder.write("parts/" + name + ".obj", "o " + name + '\n' + text);
+  }
+
+  [[nodiscard]] fs::path report(std::vector<std::string> options = {}) const {
+    const fs::path out = m_folder.path() / "out";
+    options.insert(options.begin(), {"report", m_folder.path() / "parts", "-o", out});
+    expectSuccess(runProgram(options));
+    return out;
+  }
+
+ private:
+  TempFolder m_folder;
+};
+
+TEST_F(ReportOfShapes, ListsTheWorstFirstAndOnlyCountsWhatIsApart) {
+  const fs::path out = report();
+  const std::string table = readBytes(out / "clashes.csv");
+  EXPECT_TRUE(
+      table.starts_with("number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts,guid\n"
+                        "1,d-bar,c-bar,duplicate,,0,5.875,1.5,1.5,"))
+      << table;
+  EXPECT_NE(table.find("\n2,b-pin,a-block,contained,2,0,"), std::string::npos) << table;
+  EXPECT_NE(table.find(",clash,0.25,0,3.875,"), std::string::npos) << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5) << table;
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find("<p class=\"headline\">4 clashes (1 duplicate, 1 contained), 2 apart</p>"), std::string::npos);
+  EXPECT_NE(page.find("The worst: d-bar and c-bar. The same shape in the same place"), std::string::npos);
+  EXPECT_NE(page.find("b-pin lies wholly in a-block, 2 deep at"), std::string::npos);
+  EXPECT_NE(page.find("2 candidates that are apart by their shapes are not shown"), std::string::npos);
+}
+
+TEST_F(ReportOfShapes, BoxesAloneAreThereAsBeforeWithTheirOption) {
+  const std::string table = readBytes(report({"--boxes"}) / "clashes.csv");
+  EXPECT_TRUE(table.starts_with("number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n")) << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7) << table;
+}
+
+TEST_F(ReportOfShapes, WhatIsWithinTheClearanceIsListed) {
+  const std::string table = readBytes(report({"--clearance", "5"}) / "clashes.csv");
+  EXPECT_NE(table.find("e-wedge,d-bar,clearance,,"), std::string::npos) << table;
+}
+
+TEST_F(ReportOfShapes, BcfSaysWhatWasFoundAndLooksAtTheContact) {
+  for (const auto& [file, bytes] : filesOf(report() / "clashes.bcf")) {
+    if (!file.ends_with("markup.bcf")) continue;
+    const pugi::xml_document document = parse(bytes);
+    const pugi::xml_node topic = document.child("Markup").child("Topic");
+    if (std::string(topic.child_value("Title")) != "c-bar and a-block") continue;
+    EXPECT_EQ(std::string(topic.child_value("Description")).find("0.25 deep at (3.875, "), 0U)
+        << topic.child_value("Description");
+    return;
+  }
+  ADD_FAILURE() << "no topic of the bar and the block";
+}
+
+#else
+
+TEST(Report, WithoutFclSaysThatShapesAreNotTested) {
+  const TempFolder folder;
+  expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "out"}));
+  EXPECT_NE(readBytes(folder.path() / "out/index.html").find("built without FCL"), std::string::npos);
+  expectFailure(runProgram({"report", kDemo, "--exact", "-o", folder.path() / "out"}), 2, "--exact needs FCL");
+}
+
+#endif
+
 TEST(Report, SaysWhatIsWrong) {
   const TempFolder folder;
   const std::string file = folder.write("file", "");
@@ -268,6 +400,10 @@ TEST(Report, SaysWhatIsWrong) {
   expectFailure(runProgram({"report", kDemo}), 2, "no -o DIR given");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
                 "must be above 0");
+  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--boxes", "--exact"}), 2, "give one of them");
+  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--boxes", "--clearance", "1"}), 2,
+                "--clearance is measured between shapes, which --boxes does not test");
+  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--up", "w"}), 2, "'w' is not one of x, y, z");
 }
 
 }  // namespace

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 // What is shown and chosen, and who must know when it changes.
 
+import { state } from "./exact.js";
 import { kind, modelKinds, PairTable, pairsWithout, partnerCounts } from "./pairs.js";
 import { look } from "./styles.js";
 import { tone } from "./palette.js";
 
 const flashMs = 700;
+const sizeOf = (box) => Math.hypot(...[0, 1, 2].map((k) => box[k + 3] - box[k]));
+
+/** Whether one is seen through the other only. */
+const isNested = (finding) => [state.contained, state.duplicate, state.undecided].includes(finding.state);
 
 export class App extends EventTarget {
   constructor(scene) {
     super();
     this.scene = scene;
     this.stage = null; // until there is a picture; for good where the browser has no WebGL
-    this.show = { boxes: scene.sequence === null, shapes: true, links: false, excluded: true, region: scene.region !== null };
+    this.show = { boxes: scene.sequence === null && scene.exact === null, shapes: true, links: false, excluded: true, region: scene.region !== null };
     this.boxMode = scene.models > 3000 ? "solid" : "outlines";
     this.models = []; // chosen: none, one, or the two of a pair
     this.setFrame(0);
@@ -38,7 +43,7 @@ export class App extends EventTarget {
   setFrame(index, { flash = false } = {}) {
     const before = this.index;
     this.index = index;
-    this.table = new PairTable(this.frame);
+    this.table = new PairTable(this.frame, this.scene.exact);
     this.kinds = modelKinds(this.table, this.scene.models);
     this.partners = partnerCounts(this.table, this.scene.models);
     this.counts = this.table.counts();
@@ -93,8 +98,15 @@ export class App extends EventTarget {
     return this.isSelf ? [this.models[0], this.models[0]] : this.models.length === 2 ? this.models : null;
   }
 
+  /** What shapes say of the pair that is chosen, or null. */
+  get finding() {
+    return this.scene.exact !== null && this.entry >= 0 && this.entry < this.table.found ? this.scene.exact.of(this.entry) : null;
+  }
+
   lookAtChosen() {
     if (!this.stage || this.models.length === 0) return;
+    const { finding } = this;
+    if (finding && finding.state !== state.notExamined) return this.stage.lookAtContact(finding, this.models, this.scene.exact.viewOf(this.entry));
     const corners = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
     for (const model of this.models) {
       const box = this.stage.boxOf(model);
@@ -139,7 +151,8 @@ export class App extends EventTarget {
     let anyFaint = false;
     for (let i = 0; i < scene.models; ++i) {
       const chosen = this.models.length === 0 || chosenModels.has(i) || near?.has(i);
-      const faint = !chosen || (this.models.length === 0 && this.kinds[i] === kind.out);
+      const isAround = this.finding !== null && this.models[1 - this.innerOfChosen()] === i && isNested(this.finding);
+      const faint = !chosen || isAround || (this.models.length === 0 && this.kinds[i] === kind.out);
       stage.styles.set(i, this.toneOf(i), look.shown | (faint ? look.faint : near && !chosenModels.has(i) ? look.ghost : 0));
       anyFaint ||= faint;
     }
@@ -149,10 +162,24 @@ export class App extends EventTarget {
     for (const shape of stage.shapes) shape.visible = this.show.shapes;
     stage.region.visible = this.show.region && scene.region !== null;
     stage.setLines(stage.links, this.show.links ? this.foundPairs() : []);
-    stage.setChosen(this.models);
+    stage.setChosen(this.models, this.show.boxes);
+    if (scene.exact !== null) stage.setContact(this.finding ? [this.entry] : this.contactsInSight(), this.finding !== null);
+  }
+
+  /** Which of the two that are chosen is the smaller. */
+  innerOfChosen() {
+    const [first, second] = this.models.map((model) => sizeOf(this.stage.boxOf(model)));
+    return first < second ? 0 : 1;
+  }
+
+  /** The contacts to show while no pair is chosen: all, or those of a model. */
+  contactsInSight() {
+    const all = this.models.length === 1 ? this.table.entriesOf(this.models[0]) : Array.from({ length: this.table.found }, (_, e) => e);
+    return all.filter((e) => this.scene.exact.stateOf(e) <= state.clash);
   }
 
   foundPairs() {
-    return Array.from({ length: this.table.found }, (_, e) => [this.table.first(e), this.table.second(e)]);
+    const entries = Array.from({ length: this.table.found }, (_, e) => e).filter((e) => !this.table.isApart(e));
+    return entries.map((e) => [this.table.first(e), this.table.second(e)]);
   }
 }

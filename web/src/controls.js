@@ -46,6 +46,14 @@ export class Theme {
   }
 }
 
+const upKey = (scene) => `allpairs-up ${scene.title}`;
+
+/** Which axis the reader has turned up before, or else the input says is up: 1 to 3, below 0 for the other way. */
+export function upOf(scene) {
+  const choice = Number(stored(upKey(scene)));
+  return [1, 2, 3].includes(choice) ? choice : scene.up;
+}
+
 /** Shows one of the two lists. */
 export function openTab(name) {
   for (const tab of ["pairs", "models"]) {
@@ -82,7 +90,9 @@ export function setUpToolbar(app, theme) {
     "show-region": () => app.toggle("region"),
     "frame-all": () => app.lookAtAll(),
     "up-axis": () => {
-      app.stage?.setUp(app.stage.up === "z" ? "y" : "z");
+      if (!app.stage) return;
+      app.stage.setUp((Math.abs(app.stage.up) % 3) + 1);
+      store(upKey(app.scene), app.stage.up);
       update();
     },
     "theme": () => theme.toggle(),
@@ -92,8 +102,12 @@ export function setUpToolbar(app, theme) {
   const update = () => {
     for (const what of ["boxes", "shapes", "links", "excluded", "region"]) byId(`show-${what}`).setAttribute("aria-pressed", app.show[what]);
     byId("box-mode").textContent = app.boxMode === "solid" ? "solid" : "outlines";
-    byId("up-axis").textContent = `${app.stage?.up ?? "z"} up`;
+    const up = app.stage?.up ?? app.scene.up;
+    byId("up-axis").textContent = `${up < 0 ? "−" : ""}${"xyz"[Math.abs(up) - 1]} up`;
   };
+  if (app.scene.exact !== null) {
+    for (const item of document.querySelectorAll(".legend li")) item.hidden = item.id !== "legend-clash";
+  }
   byId("show-shapes").hidden = app.scene.mesh.vertices.length === 0;
   byId("show-region").hidden = app.scene.region === null;
   byId("show-excluded").hidden = app.scene.frames.every((frame) => frame.excluded.length === 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene as the program wrote it into the page: words as JSON, numbers as little-endian arrays in base64.
 
+import { ExactPairs } from "./exact.js";
 import { MeshSequence } from "./sequence.js";
 
 const kinds = { Float64: Float64Array, Float32: Float32Array, Uint32: Uint32Array, Uint8: Uint8Array };
@@ -40,7 +41,8 @@ export function parseScene(json, base64) {
   const region = arrays.region.length === 6 ? arrays.region : null;
   const distance = arrays.distance[0];
   const nameOf = scene.names.length > 0 ? (i) => scene.names[i] : String;
-  return { ...scene, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
+  const exact = scene.isExact ? new ExactPairs(scene, arrays) : null;
+  return { ...scene, exact, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
 }
 
 /** The scene in a document, or null where the page is an empty template. */

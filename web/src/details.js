@@ -2,6 +2,7 @@
 // The bottom of the panel: what is chosen. A pair: what its boxes share. A model: its partners, and why others are none.
 
 import { byId, button, fillWith, make, nameLine } from "./dom.js";
+import { contactCorners, findingOf, headingOf, state } from "./exact.js";
 import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
 import { tagsOf } from "./lists.js";
 import { VirtualList } from "./list.js";
@@ -43,12 +44,38 @@ export class Details {
   showPair(first, second) {
     const { scene, frame } = this.app;
     const isSelf = first === second;
+    const { finding } = this.app;
+    if (finding && !isSelf) return this.showFinding(finding, first, second);
     const reason = explainAny(scene, frame, first, second);
     const isPair = reason.verdict === "pair";
     const names = make("p", "names", this.modelButton(first, "first"));
     if (!isSelf) names.append(make("span", "and", isPair ? "may touch" : "and"), this.modelButton(second, "second"));
     const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${selfReasonText(reason)}.`) : isPair ? "" : `No pair: ${reasonText(reason)}.`;
     fillWith(this.element, this.head(isSelf ? "Self pair" : "Pair"), names, ...(verdict ? [make("p", "verdict", verdict)] : []), this.pairFacts(first, second));
+  }
+
+  showFinding(finding, first, second) {
+    const { scene, frame } = this.app;
+    const names = make("p", "names", this.modelButton(first, "first"), make("span", "and", "and"), this.modelButton(second, "second"));
+    const size = (model) => Math.hypot(...[0, 1, 2].map((k) => frame.boxes[6 * model + 3 + k] - frame.boxes[6 * model + k]));
+    const words = findingOf(finding, scene.nameOf(first), scene.nameOf(second), size(first) < size(second));
+    const facts = make("dl", "facts-small");
+    const add = (label, value, id) => {
+      const cell = make("dd", "", value);
+      if (id) cell.id = id;
+      facts.append(make("dt", "", label), cell);
+    };
+    const point = (p) => Array.from(p, (x) => measure(Math.abs(x) < 1e-12 * Math.max(...p.map(Math.abs)) ? 0 : x)).join(", ");
+    if (finding.depth > 0) add("Depth", measure(finding.depth), "pair-depth");
+    if (finding.state >= state.undecided && finding.state !== state.notExamined) add("Distance", measure(finding.distance), "pair-distance");
+    if (finding.state !== state.notExamined) {
+      const corners = finding.depth > 0 || finding.state >= state.undecided ? [...finding.first, ...finding.second] : contactCorners(finding);
+      add("At", point([0, 1, 2].map((k) => (corners[k] + corners[k + 3]) / 2)), "pair-place");
+    }
+    if (finding.depth > 0) add("Way out of the second", point(finding.normal));
+    this.addBox(add, "First box", first);
+    this.addBox(add, "Second box", second);
+    fillWith(this.element, this.head(headingOf(finding)), names, ...(words ? [make("p", "verdict", words)] : []), facts);
   }
 
   pairFacts(first, second) {

@@ -9,10 +9,11 @@ export const grouped = (number) => grouping.format(number);
 /** "1 pair", "3 pairs", "2 boxes". */
 export const counted = (number, one, more = `${one}s`) => `${grouped(number)} ${number === 1 ? one : more}`;
 
-/** A length or volume with as many digits as anybody reads. */
+/** A length or volume with as many digits as anybody reads, and all before the point: as shortNumber() in Clash.cpp. */
 export function measure(value, digits = 5) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
-  const text = String(Number(value.toPrecision(digits)));
+  const whole = value === 0 ? 1 : Math.floor(Math.log10(Math.abs(value))) + 1;
+  const text = String(Number(value.toPrecision(Math.min(15, Math.max(digits, whole)))));
   return text.replace("-", "−");
 }
 

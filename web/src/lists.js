@@ -4,6 +4,7 @@
 import { byId, button, fillWith, make, nameLine } from "./dom.js";
 import { counted, grouped, measure } from "./format.js";
 import { VirtualList } from "./list.js";
+import { shortFinding, state, stateWords, states } from "./exact.js";
 import { kind } from "./pairs.js";
 import { flag } from "./rules.js";
 
@@ -86,24 +87,46 @@ class Panel {
   }
 }
 
+const stateFilter = (is) => `state ${is}`;
+
 export class PairPanel extends Panel {
   constructor(app) {
     super(app, "pairs");
+    if (app.scene.exact !== null) {
+      this.sort.prepend(new Option("worst first", "worst", true, true));
+      this.filter(stateFilter(state.apart)).on = false;
+      this.filter(kind.excluded).on = false;
+      byId("pairs-value").textContent = "depth or gap";
+    }
     this.renew();
   }
 
   makeChips() {
-    const { counts } = this.app;
+    const { counts, scene } = this.app;
+    if (scene.exact !== null) return this.makeStateChips(scene.exact.counts(), counts[kind.excluded]);
     return [["overlapping", kind.pair], ["self", kind.self], ["excluded", kind.excluded]]
       .filter(([, is]) => counts[is] > 0)
       .map(([label, is]) => chip(label, counts[is], kindNames[is], this.filter(is), () => this.update()));
+  }
+
+  makeStateChips(counts, excluded) {
+    const chips = counts.map((count, is) => [stateWords[is], count, states[is], stateFilter(is)]);
+    return [...chips, ["excluded", excluded, "excluded", kind.excluded]]
+      .filter(([, count]) => count > 0)
+      .map(([label, count, className, key]) => chip(label, count, className, this.filter(key), () => this.update()));
+  }
+
+  filterOf(entry) {
+    const { table } = this.app;
+    const isTested = table.exact !== null && entry < table.found;
+    return this.filter(isTested ? stateFilter(table.exact.stateOf(entry)) : table.kindOf(entry));
   }
 
   select(masks) {
     const { table } = this.app;
     const items = [];
     for (let entry = 0; entry < table.size; ++entry) {
-      if (!this.filter(table.kindOf(entry)).on) continue;
+      if (!this.filterOf(entry).on) continue;
       const a = table.first(entry);
       const b = table.second(entry);
       if (masks.every((mask) => mask[a] || mask[b])) items.push(entry);
@@ -113,6 +136,10 @@ export class PairPanel extends Panel {
 
   ordered(items) {
     const { table, scene } = this.app;
+    if (this.sort.value === "worst") {
+      const tested = table.exact.worstFirst(items.filter((e) => e < table.found));
+      return tested.concat(items.filter((e) => e >= table.found));
+    }
     if (this.sort.value === "volume") {
       const volumes = Float64Array.from({ length: table.size }, (_, e) => table.volume(e));
       return items.sort((a, b) => volumes[b] - volumes[a] || a - b);
@@ -140,9 +167,10 @@ export class PairPanel extends Panel {
     const { table, scene } = this.app;
     const is = table.kindOf(entry);
     const [first, second] = this.modelsOf(entry).map((model) => scene.nameOf(model));
-    row.classList.add(kindNames[is]);
-    const names = is === kind.self ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
-    row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", measure(table.volume(entry))));
+    const finding = table.exact !== null && entry < table.found ? table.exact.of(entry) : null;
+    row.classList.add(finding ? states[finding.state] : kindNames[is]);
+    const names = first === second ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
+    row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
     row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
   }
 }
@@ -184,7 +212,7 @@ export class ModelPanel extends Panel {
   makeChips() {
     const counts = new Map();
     for (const is of this.app.kinds) counts.set(is, (counts.get(is) ?? 0) + 1);
-    const labels = [["in pairs", kind.pair], ["self only", kind.self], ["excluded", kind.excluded], ["free", kind.free], ["left out", kind.out]];
+    const labels = [[this.app.scene.exact ? "in clashes" : "in pairs", kind.pair], ["self only", kind.self], ["excluded", kind.excluded], ["free", kind.free], ["left out", kind.out]];
     return labels
       .filter(([, is]) => counts.has(is))
       .map(([label, is]) => chip(label, counts.get(is), kindNames[is], this.filter(is), () => this.update()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { App } from "./app.js";
-import { openTab, setUpKeys, setUpPointer, setUpTabs, setUpToolbar, Theme } from "./controls.js";
+import { openTab, setUpKeys, setUpPointer, setUpTabs, setUpToolbar, Theme, upOf } from "./controls.js";
 import { readScene } from "./data.js";
 import { Details } from "./details.js";
 import { byId } from "./dom.js";
@@ -47,6 +47,7 @@ function start() {
     byId("title").textContent = "No scene: this is the empty page that `allpairs view` fills.";
     return;
   }
+  scene.up = upOf(scene);
   document.title = `${scene.title} – Allpairs`;
   byId("version").textContent = `Allpairs ${scene.version}`;
   const app = new App(scene);

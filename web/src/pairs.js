@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The pairs of a frame: entries are numbered, those that were found first, then those that a rule excludes.
 
+import { state } from "./exact.js";
 import { isEmpty } from "./rules.js";
 
 /** What a model or an entry is shown as. The numbers are places in the palette; see palette.js. */
 export const kind = { free: 0, pair: 1, self: 2, excluded: 3, out: 4 };
 
 export class PairTable {
-  constructor(frame) {
+  constructor(frame, exact) {
     this.frame = frame;
+    this.exact = exact; // what shapes say of the pairs that were found, or null
     this.found = frame.pairs.length / 2;
     this.size = this.found + frame.excluded.length / 2;
   }
@@ -23,12 +25,18 @@ export class PairTable {
 
   kindOf(entry) {
     if (entry >= this.found) return kind.excluded;
+    if (this.isApart(entry)) return kind.free;
     return this.first(entry) === this.second(entry) ? kind.self : kind.pair;
+  }
+
+  /** Whether only the boxes of a pair meet, and not its shapes. */
+  isApart(entry) {
+    return this.exact !== null && entry < this.found && this.exact.stateOf(entry) === state.apart;
   }
 
   /** How many entries there are of each kind. */
   counts() {
-    const counts = { [kind.pair]: 0, [kind.self]: 0, [kind.excluded]: this.size - this.found };
+    const counts = { [kind.free]: 0, [kind.pair]: 0, [kind.self]: 0, [kind.excluded]: this.size - this.found };
     for (let entry = 0; entry < this.found; ++entry) ++counts[this.kindOf(entry)];
     return counts;
   }
@@ -53,7 +61,7 @@ export class PairTable {
   entriesOf(model) {
     const entries = [];
     for (let entry = 0; entry < this.found; ++entry) {
-      if (this.first(entry) === model || this.second(entry) === model) entries.push(entry);
+      if ((this.first(entry) === model || this.second(entry) === model) && !this.isApart(entry)) entries.push(entry);
     }
     return entries;
   }
@@ -90,6 +98,7 @@ export function modelKinds(table, count) {
 export function partnerCounts(table, count) {
   const counts = new Uint32Array(count);
   for (let entry = 0; entry < table.found; ++entry) {
+    if (table.isApart(entry)) continue;
     ++counts[table.first(entry)];
     if (table.first(entry) !== table.second(entry)) ++counts[table.second(entry)];
   }

@@ -10,7 +10,7 @@ const dark = {
 };
 const light = {
   background: "#f4f6f8",
-  tones: ["#7a8794", "#d07f00", "#b0508a", "#00805c", "#b4bec8", "#0072b2", "#7d6e00", "#d5320f", "#087f30", "#7b3fd0", "#5b6b7c"],
+  tones: ["#7a8794", "#d07f00", "#b0508a", "#00805c", "#b4bec8", "#0072b2", "#a65c00", "#d5320f", "#087f30", "#7b3fd0", "#5b6b7c"],
 };
 
 const names = ["free", "pair", "self", "excluded", "out", "first", "second", "overlap", "began", "ended", "region"];

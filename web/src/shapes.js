@@ -6,13 +6,19 @@ import { look, styleLookup } from "./styles.js";
 
 const vertexShader = `
 in float model;
+uniform bool calm;     // each model has a colour of its own, since what clashes is shown by where
 uniform float neutral; // how much of grey is in the colour of a shape, so that boxes stand out
 out vec3 where;
 flat out vec3 colour;
 ${styleLookup}
+vec3 calmColour(float model) {
+  float turn = 6.2832 * fract(0.61803 * model + 0.55); // by the golden ratio: neighbours are far from each other
+  return vec3(0.62) + 0.13 * cos(vec3(turn, turn - 2.094, turn + 2.094)) + 0.06 * sin(7.0 * model);
+}
 void main() {
   uvec4 style = styleOf(model);
   colour = mix(colourOf(style, model), vec3(0.72), style.r < 5u ? neutral : 0.1);
+  if (calm && style.r < 5u) colour = calmColour(model);
   vec4 p = modelViewMatrix * vec4(position, 1.0);
   where = p.xyz;
   gl_PointSize = 3.0;
@@ -49,7 +55,7 @@ function modelsOfVertices(mesh) {
 
 function materialOf(shared, pass, lit) {
   const faint = pass === 1;
-  const uniforms = { ...shared, pass: { value: pass }, faintBits: { value: look.faint | look.ghost }, opacity: { value: faint ? 0.1 : 1 }, lit: { value: lit }, neutral: { value: lit ? 0.45 : 0 } };
+  const uniforms = { ...shared, pass: { value: pass }, faintBits: { value: look.faint | look.ghost }, opacity: { value: faint ? (shared.calm.value ? 0.07 : 0.1) : 1 }, lit: { value: lit }, neutral: { value: lit ? 0.45 : 0 } };
   return new ShaderMaterial({
     glslVersion: GLSL3, vertexShader, fragmentShader, uniforms, side: DoubleSide,
     transparent: faint, depthWrite: !faint, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,

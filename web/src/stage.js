@@ -7,6 +7,8 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { BoxCloud } from "./boxes.js";
+import { Contacts } from "./contacts.js";
+import { contactCorners } from "./exact.js";
 import { drawable, wholeOf, wideEnough } from "./extent.js";
 import { paletteOf, tone } from "./palette.js";
 import { pick } from "./pick.js";
@@ -33,10 +35,10 @@ export class Stage extends EventTarget {
     this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1, scene.models <= tooManyModels);
     this.styles = new ModelStyles(scene.models);
     const palette = Array.from({ length: 11 }, () => new Color());
-    this.shared = { styles: { value: this.styles.texture }, palette: { value: palette } };
+    this.shared = { styles: { value: this.styles.texture }, palette: { value: palette }, calm: { value: scene.exact !== null } };
     this.whole = wholeOf(scene);
     this.build();
-    this.setUp("z");
+    this.setUp(this.data.up);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
 
@@ -50,7 +52,8 @@ export class Stage extends EventTarget {
     this.overlapEdges = new Box3Helper(emptyBox(), 0xffffff);
     this.overlapEdges.material.depthTest = false;
     this.chosen = [tone.first, tone.second].map(() => new Box3Helper(emptyBox(), 0xffffff));
-    const marks = [this.region, this.links, ...this.flashes, this.overlap, this.overlapEdges, ...this.chosen];
+    this.contacts = new Contacts(this.data, sizeOf(this.whole));
+    const marks = [this.region, this.links, ...this.flashes, this.overlap, this.overlapEdges, ...this.chosen, ...this.contacts.objects];
     marks.forEach((mark, i) => {
       mark.visible = false;
       mark.frustumCulled = false;
@@ -78,6 +81,7 @@ export class Stage extends EventTarget {
     paint(this.flashes[1], tone.ended);
     paint(this.overlap, tone.overlap);
     paint(this.overlapEdges, tone.overlap);
+    this.contacts.paint(tones[tone.overlap], background);
     paint(this.chosen[0], tone.first);
     paint(this.chosen[1], tone.second);
     this.invalidate();
@@ -101,14 +105,40 @@ export class Stage extends EventTarget {
   }
 
   /** Draws the boxes of up to two models bold, and what they share. */
-  setChosen(models) {
+  setChosen(models, showBoxes = true) {
     this.chosen.forEach((helper, i) => {
-      helper.visible = models[i] !== undefined && this.boxOf(models[i])[0] <= this.boxOf(models[i])[3];
+      helper.visible = showBoxes && models[i] !== undefined && this.boxOf(models[i])[0] <= this.boxOf(models[i])[3];
       if (helper.visible) this.place(helper, this.boxOf(models[i]));
     });
     const isPair = models.length === 2 && models[0] !== models[1];
-    this.overlap.visible = this.overlapEdges.visible = isPair && this.placeOverlap(...models.map((m) => this.boxOf(m)));
+    this.overlap.visible = this.overlapEdges.visible = isPair && showBoxes && this.placeOverlap(...models.map((m) => this.boxOf(m)));
     this.invalidate();
+  }
+
+  /** Draws the contacts of some entries; of one that is chosen with its depth or gap. */
+  setContact(entries, isChosen) {
+    this.contacts.show(entries, isChosen);
+    this.invalidate();
+  }
+
+  /** Looks at where two models meet, with some of both around it, from the side that shows most. */
+  lookAtContact(finding, models, view) {
+    const contact = contactCorners(finding).map((value, k) => value - this.data.origin[k % 3]);
+    const sizes = models.map((model) => sizeOf(this.boxOf(model)));
+    const half = Math.min(Math.max(1.6 * sizeOf(contact), 0.75 * Math.min(...sizes)), 0.6 * (sizes[0] + (sizes[1] ?? 0))) / 2 || 1;
+    const corners = [-1, 1].flatMap((sign) => [0, 1, 2].map((k) => (contact[k] + contact[k + 3]) / 2 + (sign * half) / Math.sqrt(3)));
+    this.lookAt(corners, view ? new Vector3(...view).negate() : undefined);
+    this.backOutOf(models);
+  }
+
+  /** Moves the camera back until it is in neither box: from within a large part one sees nothing but that part. */
+  backOutOf(models) {
+    const { position } = this.camera;
+    const { target } = this.controls;
+    const isWithin = (box) => [0, 1, 2].every((k) => position.getComponent(k) > box[k] && position.getComponent(k) < box[k + 3]);
+    const isIn = () => models.some((model) => isWithin(this.boxOf(model)));
+    for (let step = 0; step < 24 && isIn(); ++step) position.sub(target).multiplyScalar(1.2).add(target);
+    this.controls.update();
   }
 
   placeOverlap(a, b) {
@@ -134,13 +164,16 @@ export class Stage extends EventTarget {
     this.invalidate();
   }
 
-  /** Which axis points up: "z" or "y". Looks at everything again. */
+  /** Which axis points up: 1 to 3 for x to z, below 0 for the other way. Looks at everything again. */
   setUp(axis) {
     this.up = axis;
-    this.camera.up.set(0, axis === "y" ? 1 : 0, axis === "z" ? 1 : 0);
+    const sign = Math.sign(axis);
+    const unit = (k, length) => new Vector3().setComponent(k, length);
+    const [right, ahead] = { 1: [unit(1, sign), unit(2, 1)], 2: [unit(0, sign), unit(2, -1)], 3: [unit(0, sign), unit(1, 1)] }[Math.abs(axis)];
+    this.camera.up.copy(unit(Math.abs(axis) - 1, sign));
     this.controls?.dispose();
     this.controls = this.makeControls();
-    const direction = axis === "z" ? new Vector3(0.75, -1, 0.65) : new Vector3(0.75, 0.65, 1);
+    const direction = right.multiplyScalar(0.75).sub(ahead).addScaledVector(this.camera.up, 0.65);
     this.lookAt(this.whole, direction);
   }
 

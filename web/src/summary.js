@@ -2,7 +2,8 @@
 // The top of the panel: how many models and pairs, what was saved, and what was left out.
 
 import { byId, fillWith, make } from "./dom.js";
-import { counted, grouped, percent, seconds } from "./format.js";
+import { clashCount, kindsOfClashes, state } from "./exact.js";
+import { counted, grouped, measure, percent, seconds } from "./format.js";
 import { kind } from "./pairs.js";
 
 function fact(label, value, id, note) {
@@ -21,9 +22,30 @@ function pairNotes(app) {
   return notes.join(", ");
 }
 
-function testsAvoided({ statistics }) {
-  const all = statistics.testsOfAllPairs;
-  return all === 0 ? "–" : percent(Math.max(0, 1 - statistics.testsMade / all));
+/** What the search took, at the bottom: nobody asks for that first. */
+function effort({ statistics, frames, exact }) {
+  const { testsMade: made, testsOfAllPairs: all, detectSeconds } = statistics;
+  const avoided = 1 - made / all;
+  const saved = avoided > 0 ? `, ${percent(avoided)} avoided` : "";
+  const shapes = exact ? `; shapes tested in ${seconds(exact.seconds)}` : "";
+  return `Pairs found in ${seconds(detectSeconds)}${frames.length > 1 ? ` in ${grouped(frames.length)} frames` : ""}: ${grouped(made)} of ${grouped(all)} tests made${saved}${shapes}`;
+}
+
+/** How many clash and how bad, then what does not. */
+function exactFacts({ scene }) {
+  const { exact } = scene;
+  const counts = exact.counts();
+  const clashes = clashCount(counts);
+  const worst = exact.worstFirst(Array.from({ length: exact.count }, (_, e) => e));
+  const deepest = worst.reduce((most, e) => (exact.stateOf(e) <= state.clash ? Math.max(most, exact.of(e).depth ?? 0) : most), 0);
+  const notes = kindsOfClashes(counts);
+  if (deepest > 0) notes.push(`deepest ${measure(deepest)}`);
+  const others = [[state.touching, "Touching", "touching"], [state.undecided, "Undecided", "undecided"], [state.clearance, "Near", "clearance"], [state.notExamined, "Not examined", "unknown"]];
+  return [
+    fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ") || (clashes === 0 ? "no two models share space" : "")),
+    ...others.filter(([is]) => counts[is] > 0).map(([is, label, id]) => fact(label, grouped(counts[is]), `fact-${id}`, is === state.clearance ? `within ${measure(exact.clearance)}` : "")),
+    fact("Apart", grouped(counts[state.apart]), "fact-apart", `of ${counted(exact.count, "candidate")}`),
+  ];
 }
 
 function remarks(scene) {
@@ -44,17 +66,15 @@ export function showSummary(app) {
   byId("title").textContent = scene.title;
   byId("method").textContent = scene.method;
   fillWith(byId("remarks"), ...remarks(scene));
-  const frames = scene.frames.length;
-  const inAll = frames > 1 ? `in all ${grouped(frames)} frames` : "";
+  byId("effort").textContent = effort(scene);
   const update = () => {
-    const { testsMade, testsOfAllPairs, detectSeconds } = scene.statistics;
+    const found = scene.exact ? exactFacts(app) : [fact("Pairs", grouped(app.table.found), "fact-pairs", pairNotes(app))];
     fillWith(
       byId("facts"),
+      ...found,
       fact("Models", grouped(scene.models), "fact-models"),
-      fact("Pairs", grouped(app.table.found), "fact-pairs", pairNotes(app)),
-      fact("Tests avoided", testsAvoided(scene), "fact-avoided", `${grouped(testsMade)} of ${grouped(testsOfAllPairs)} made ${inAll}`),
-      fact("Time", seconds(detectSeconds), "fact-time", inAll),
     );
+    byId("fact-clashes")?.classList.toggle("none", clashCount(scene.exact.counts()) === 0);
   };
   app.addEventListener("frame", update);
   update();

@@ -86,9 +86,9 @@ export async function open(path, { init, ...options } = {}) {
 }
 
 /** Writes the page of some inputs, opens it and waits for its picture. */
-export async function view(name, inputs, options = {}) {
+export async function view(name, inputs, { exact = false, ...options } = {}) {
   const path = join(folder, `${name}.html`);
-  allpairs("view", ...inputs, "-o", path);
+  allpairs("view", ...inputs, ...(exact || inputs.includes("--sequence") ? [] : ["--boxes"]), "-o", path);
   const page = await open(path, options);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;

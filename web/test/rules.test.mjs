@@ -6,6 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { parseScene } from "../src/data.js";
+import { measure } from "../src/format.js";
 import { explain } from "../src/rules.js";
 import { allpairs, clothFrames, dataFolder, folder, root, scenesIn, verdicts, write } from "./program.mjs";
 
@@ -68,4 +69,10 @@ const data = dataFolder();
 test("verdicts of real scenes are the program's", { skip: data ? false : "no folder of data" }, () => {
   const roots = ["--data", join(data, "scenes"), "--data", join(data, "scenes/examples")];
   for (const scene of scenesIn(data)) compare(scene, ...roots);
+});
+
+test("numbers are written as in the report", () => {
+  // The same list is in tests/view/PictureTest.cpp, for the report.
+  const numbers = [[0, "0"], [0.125, "0.125"], [102360.7, "102361"], [4.97592, "4.9759"], [99999.6, "100000"], [-12.5, "−12.5"], [1234.56, "1234.6"], [0.00012345678, "0.00012346"], [5.000000000000001, "5"], [1e9, "1000000000"], [0.1 + 0.2, "0.3"]];
+  for (const [value, text] of numbers) assert.equal(measure(value), text);
 });

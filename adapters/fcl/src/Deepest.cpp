@@ -5,6 +5,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -34,25 +35,58 @@ void addPointsOf(const Polygon& polygon, std::vector<Point>& points) {
   points.push_back(polygon.middle());
 }
 
-/// The points worth asking, each once.
-std::vector<Point> samples(const ExactPart& outer, const ExactPart& inner, const std::vector<TrianglePair>& pairs) {
-  std::vector<Point> points;
+/// Points of a grid in a polygon: where triangles are large, the deepest point may be far from all corners and middles.
+void addGridOf(const Polygon& polygon, int steps, std::vector<Point>& points) {
+  const auto corners = polygon.corners();
+  const Point middle = polygon.middle();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point along = (corners[(i + 1) % corners.size()] - corners[i]) / steps;
+    const Point inward = (middle - corners[i]) / steps;
+    for (int u = 0; u < steps; ++u) {
+      for (int v = 0; u + v < steps; ++v) points.push_back(corners[i] + u * along + v * inward);
+    }
+  }
+}
+
+constexpr double kGridPoints = 2000.0;  // about so many are asked where few triangles are
+constexpr int kMostSteps = 16;
+
+void keepEachOnce(std::vector<Point>& points) {
+  const auto isBefore = [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); };
+  std::sort(points.begin(), points.end(), isBefore);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
+/// The points worth asking: those that are exact for flat faces and vertices, and others.
+struct Samples {
+  std::vector<Point> plain;
+  std::vector<Point> grid;
+};
+
+Samples samples(const ExactPart& outer, const ExactPart& inner, const std::vector<TrianglePair>& pairs) {
+  Samples points;
   const Box shared = common(outer.box(), inner.box());
+  std::vector<Polygon> polygons;
   for (std::size_t i = 0; i < inner.triangles().size(); ++i) {
     if (!overlap(shared, inner.triangleBoxes()[i])) continue;
     Polygon polygon(inner.triangles()[i]);
     polygon.cut(shared);
     if (polygon.empty()) continue;
-    addPointsOf(polygon, points);
+    addPointsOf(polygon, points.plain);
+    polygons.push_back(polygon);
+  }
+  // A fan of n triangles with s steps has n s (s + 1) / 2 points; a polygon has about four corners.
+  const double each = kGridPoints / (1.0 + 2.0 * static_cast<double>(polygons.size()));
+  const int steps = std::min(kMostSteps, static_cast<int>(std::sqrt(each)));
+  for (const Polygon& polygon : polygons) {
+    if (steps > 2) addGridOf(polygon, steps, points.grid);
   }
   for (const TrianglePair& pair : pairs) {
     Polygon polygon(inner.triangles()[pair.first]);
     polygon.cut(outer.triangleBoxes()[pair.second]);
-    if (!polygon.empty()) points.push_back(polygon.middle());
+    if (!polygon.empty()) points.plain.push_back(polygon.middle());
   }
-  const auto isBefore = [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); };
-  std::sort(points.begin(), points.end(), isBefore);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  keepEachOnce(points.plain);
   return points;
 }
 
@@ -79,12 +113,15 @@ class DeepestSearch {
  public:
   explicit DeepestSearch(const ExactPart& outer) : m_outer(outer) {}
 
+  /// The deepest of these and of those before.
   Deepest among(std::span<const Point> points) {
     std::vector<Candidate> candidates;
     for (const Point& point : points) candidates.push_back({point, limitWithin(m_outer.box(), point)});
     // A few from all over give a depth with which much can be dropped at once.
     const std::size_t stride = candidates.size() / kFirstMeasured + 1;
-    for (std::size_t i = stride / 2; i < candidates.size(); i += stride) measure(candidates[i]);
+    for (std::size_t i = stride / 2; i < candidates.size(); i += stride) {
+      if (!isShallow(candidates[i])) measure(candidates[i]);
+    }
     search(candidates);
     return m_deepest;
   }
@@ -106,7 +143,7 @@ class DeepestSearch {
     ::fcl::DistanceResultd result;
     const double distance = std::max(
         0.0, ::fcl::distance(&m_outer.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result));
-    if (!m_deepest.found || distance > m_deepest.depth) {
+    if (!m_deepest.found || distance > m_deepest.depth * (1.0 + kRounding)) {
       m_deepest = {.found = true,
                    .depth = distance,
                    .point = candidate.point,
@@ -131,12 +168,14 @@ class DeepestSearch {
     search(candidates.subspan(middle + 1));
   }
 
+  [[nodiscard]] bool isShallow(const Candidate& candidate) const {
+    return m_deepest.found && candidate.limit <= m_deepest.depth * (1.0 + kRounding);
+  }
+
   /// Those that can be deeper than what was found.
   std::span<Candidate> dropShallow(std::span<Candidate> candidates) const {
-    const auto isShallow = [&](const Candidate& candidate) {
-      return m_deepest.found && candidate.limit <= m_deepest.depth * (1.0 + kRounding);
-    };
-    const auto end = std::remove_if(candidates.begin(), candidates.end(), isShallow);
+    const auto end = std::remove_if(candidates.begin(), candidates.end(),
+                                    [this](const Candidate& candidate) { return isShallow(candidate); });
     return candidates.first(static_cast<std::size_t>(end - candidates.begin()));
   }
 
@@ -171,7 +210,10 @@ class DeepestSearch {
 
 Deepest deepestWithin(const ExactPart& outer, const ExactPart& inner, const std::vector<TrianglePair>& innerAndOuter) {
   if (outer.volume() == Volume::None) return {};
-  return DeepestSearch(outer).among(pointsInside(outer, samples(outer, inner, innerAndOuter)));
+  const Samples points = samples(outer, inner, innerAndOuter);
+  DeepestSearch search(outer);
+  search.among(pointsInside(outer, points.plain));
+  return search.among(pointsInside(outer, points.grid));  // only where one of them is deeper
 }
 
 }  // namespace allpairs::exact

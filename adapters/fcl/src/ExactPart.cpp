@@ -80,7 +80,10 @@ void include(Box& box, const Point& point) {
 }
 
 ExactPart::ExactPart(std::vector<Corners> triangles, double radius)
-    : m_triangles(std::move(triangles)), m_radius(radius), m_volume(volumeOf(m_triangles)) {
+    : m_triangles(std::move(triangles)),
+      m_radius(radius),
+      m_volume(volumeOf(m_triangles)),
+      m_hasArea(std::any_of(m_triangles.begin(), m_triangles.end(), isTriangle)) {
   build(m_hierarchy, m_triangles);
   m_boxes.reserve(m_triangles.size());
   for (const Corners& corners : m_triangles) {

@@ -43,6 +43,9 @@ class ExactPart {
   [[nodiscard]] double radius() const { return m_radius; }
   [[nodiscard]] Volume volume() const { return m_volume; }
 
+  /// Whether it is a surface that may look closed and is not: nobody can tell what lies in it.
+  [[nodiscard]] bool isOpen() const { return m_hasArea && m_radius == 0.0 && m_volume == Volume::None; }
+
   /// Holds the triangles, radius not included.
   [[nodiscard]] const Box& box() const { return m_box; }
 
@@ -52,6 +55,7 @@ class ExactPart {
   Hierarchy m_hierarchy;
   double m_radius;
   Volume m_volume;
+  bool m_hasArea;  ///< Not only points and segments.
   Box m_box = kEmptyBox;
 };
 

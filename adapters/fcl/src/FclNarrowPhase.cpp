@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
+#include "Enclosure.h"
 #include "ExactBody.h"
 #include "Meeting.h"
 #include "allpairs/Error.h"
@@ -17,19 +19,29 @@ using exact::ExactBody;
 using exact::ExactPart;
 using exact::Meeting;
 
+/// Evenly sampled, at most so many.
+template <class To, class From, class Convert>
+void sample(const std::vector<From>& from, std::size_t limit, std::vector<To>& to, const Convert& convert) {
+  const std::size_t count = std::min(from.size(), limit);
+  for (std::size_t i = 0; i < count; ++i) to.push_back(convert(from[i * from.size() / count]));
+}
+
 /// Puts the parts of two bodies together: the nearest while all are apart, the deepest once any meet.
 class PairReport {
  public:
-  PairReport(ExactPair& pair, std::size_t contactLimit) : m_pair(pair), m_limit(contactLimit) {}
+  PairReport(ExactPair& pair, const ExactOptions& options) : m_pair(pair), m_options(options) {}
 
   /// Whether parts that are at least so far apart change nothing that is reported.
   [[nodiscard]] bool isBeyond(double distance) const {
     return !m_isFirst && distance > (isMet() ? 0.0 : m_best.distance);
   }
 
-  void add(Meeting meeting) {
+  void add(const ExactPart& first, const ExactPart& second, Meeting meeting) {
     addContacts(meeting);
+    if (meeting.isFirstWithin) m_within.insert(&first);
+    if (meeting.isSecondWithin) m_within.insert(&second);
     m_hasVolume = m_hasVolume || meeting.hasVolume;
+    m_isCrossed = m_isCrossed || meeting.isCrossed;
     const bool isBetter =
         m_isFirst || rank(meeting) > rank(m_best) ||
         (rank(meeting) == rank(m_best) && (meeting.depth > m_best.depth || meeting.distance < m_best.distance));
@@ -37,53 +49,74 @@ class PairReport {
     m_anyIsDeep = m_anyIsDeep || meeting.isDeep;
     m_isFirst = false;
     meeting.contactPoints.clear();
+    meeting.contactLines.clear();
     if (isBetter) m_best = std::move(meeting);
   }
 
-  void finish() {
-    m_pair.state = state();
+  void finish(const ExactBody& first, const ExactBody& second) {
+    m_pair.state = stateOf(first, second);
     m_pair.pointOnFirst = exact::toVec3(m_best.onFirst);
     m_pair.pointOnSecond = exact::toVec3(m_best.onSecond);
     m_pair.normal = exact::toVec3(m_best.normal);
     if (!isMet()) {
       m_pair.distance = m_best.distance;
-    } else if (m_hasVolume) {
+    } else if (m_hasVolume && (m_anyIsDeep || m_pair.state == ExactState::Touching)) {
       m_pair.depth = m_anyIsDeep ? m_best.depth : 0.0;
     }
-    choosePoints();
+    sample(m_points, m_options.contactLimit, m_pair.contactPoints, exact::toVec3);
+    sample(m_lines, m_options.lineLimit, m_pair.contactLines, [](const std::array<exact::Point, 2>& line) {
+      return std::array{exact::toVec3(line[0]), exact::toVec3(line[1])};
+    });
   }
 
  private:
   [[nodiscard]] bool isMet() const { return m_anyMeets || m_anyIsDeep; }
   static int rank(const Meeting& meeting) { return meeting.isDeep ? 2 : (meeting.surfacesMeet ? 1 : 0); }
 
-  [[nodiscard]] ExactState state() const {
-    if (!isMet()) return ExactState::Apart;
-    if (!m_anyIsDeep) return ExactState::Touching;
-    return m_anyMeets ? ExactState::Overlapping : ExactState::Contained;
+  [[nodiscard]] ExactState stateOf(const ExactBody& first, const ExactBody& second) const {
+    if (!isMet()) return stateOfApart(first, second);
+    if (m_anyIsDeep && (isWithin(first) || isWithin(second))) return ExactState::Contained;
+    return m_anyIsDeep || m_isCrossed ? ExactState::Clash : ExactState::Touching;
+  }
+
+  [[nodiscard]] ExactState stateOfApart(const ExactBody& first, const ExactBody& second) const {
+    if (mayHold(first, second) || mayHold(second, first)) return ExactState::Undecided;
+    const bool isNear = m_options.clearance > 0.0 && m_best.distance <= m_options.clearance;
+    return isNear ? ExactState::WithinClearance : ExactState::Apart;
+  }
+
+  [[nodiscard]] bool isWithin(const ExactBody& body) const {
+    return std::all_of(body.parts.begin(), body.parts.end(),
+                       [this](const auto& part) { return m_within.count(part.get()) != 0; });
+  }
+
+  /// Whether a part of the inner body lies within the box of an open surface, of which nobody can tell the inside.
+  static bool mayHold(const ExactBody& outer, const ExactBody& inner) {
+    return std::any_of(outer.parts.begin(), outer.parts.end(), [&inner](const auto& surface) {
+      return surface->isOpen() && std::any_of(inner.parts.begin(), inner.parts.end(), [&surface](const auto& part) {
+               return exact::holds(surface->box(), part->box(), -part->radius());
+             });
+    });
   }
 
   void addContacts(const Meeting& meeting) {
     m_pair.contactCount += meeting.contactCount;
-    for (const exact::Point& point : meeting.contactPoints) {
-      exact::include(m_pair.contactBox, point);
-      m_points.push_back(exact::toVec3(point));
-    }
-  }
-
-  void choosePoints() {
-    const std::size_t count = std::min(m_points.size(), m_limit);
-    for (std::size_t i = 0; i < count; ++i) m_pair.contactPoints.push_back(m_points[i * m_points.size() / count]);
+    for (const exact::Point& point : meeting.contactPoints) exact::include(m_pair.contactBox, point);
+    m_points.insert(m_points.end(), meeting.contactPoints.begin(), meeting.contactPoints.end());
+    m_lines.insert(m_lines.end(), meeting.contactLines.begin(), meeting.contactLines.end());
   }
 
   ExactPair& m_pair;
-  std::size_t m_limit;
+  const ExactOptions& m_options;
   Meeting m_best;
   bool m_isFirst = true;
   bool m_anyMeets = false;
   bool m_anyIsDeep = false;
+  bool m_isCrossed = false;
   bool m_hasVolume = false;
-  std::vector<collision::Vec3> m_points;
+  std::unordered_set<const ExactPart*> m_within;
+  std::vector<exact::Point> m_points;
+  std::vector<std::array<exact::Point, 2>> m_lines;
 };
 
 struct PartPair {
@@ -103,8 +136,44 @@ std::vector<PartPair> partPairs(const ExactBody& first, const ExactBody& second)
   return pairs;
 }
 
+/// Whether each part of one body is there in the other as well.
+bool areSame(const ExactBody& first, const ExactBody& second, double tolerance) {
+  const auto isPartOf = [tolerance](const ExactBody& body) {
+    return [&body, tolerance](const auto& part) {
+      return std::any_of(body.parts.begin(), body.parts.end(),
+                         [&part, tolerance](const auto& other) { return exact::areSame(*part, *other, tolerance); });
+    };
+  };
+  return first.parts.size() == second.parts.size() &&
+         std::all_of(first.parts.begin(), first.parts.end(), isPartOf(second)) &&
+         std::all_of(second.parts.begin(), second.parts.end(), isPartOf(first));
+}
+
+/// Duplicates meet everywhere: what is reported is all of them.
+void reportSame(const ExactBody& body, ExactPair& pair) {
+  pair.state = ExactState::Duplicate;
+  for (const auto& part : body.parts) {
+    Box box = part->box();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] -= part->radius();
+      box.max[axis] += part->radius();
+    }
+    pair.contactBox = merge(pair.contactBox, box);
+    pair.contactCount += part->triangles().size();
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    pair.pointOnFirst[axis] = pair.contactBox.min[axis] / 2.0 + pair.contactBox.max[axis] / 2.0;
+  pair.pointOnSecond = pair.pointOnFirst;
+}
+
+bool isAnyOpen(const ExactBody& body) {
+  return std::any_of(body.parts.begin(), body.parts.end(), [](const auto& part) { return part->isOpen(); });
+}
+
 void checkOptions(const ExactOptions& options) {
   if (!(options.tolerance >= 0.0)) throw InvalidArgument("the tolerance of an exact test is negative or NaN");
+  if (!(options.duplicateTolerance >= 0.0)) throw InvalidArgument("the tolerance of duplicates is negative or NaN");
+  if (!(options.clearance >= 0.0)) throw InvalidArgument("the clearance of an exact test is negative or NaN");
 }
 
 }  // namespace
@@ -124,13 +193,17 @@ struct FclNarrowPhase::State {
     const ExactBody& second = bodyOf(*pair.second);
     const bool isKnown = first.isKnown && second.isKnown && !first.parts.empty() && !second.parts.empty();
     if (!isKnown || pair.first == pair.second) return;
-    const double tolerance = options.tolerance * std::max(first.extent, second.extent);
-    PairReport report(pair, options.contactLimit);
+    pair.isFirstOpen = isAnyOpen(first);
+    pair.isSecondOpen = isAnyOpen(second);
+    const double extent = std::max(first.extent, second.extent);
+    const exact::Tolerances tolerances{options.tolerance * extent, options.duplicateTolerance * extent};
+    if (areSame(first, second, tolerances.same)) return reportSame(first, pair);
+    PairReport report(pair, options);
     for (const PartPair& parts : partPairs(first, second)) {
       if (report.isBeyond(parts.distance)) break;
-      report.add(exact::meet(*parts.first, *parts.second, tolerance));
+      report.add(*parts.first, *parts.second, exact::meet(*parts.first, *parts.second, tolerances));
     }
-    report.finish();
+    report.finish(first, second);
   }
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "Deepest.h"
+#include "Enclosure.h"
 #include "TriangleMeeting.h"
 
 namespace allpairs::exact {
@@ -58,13 +59,18 @@ std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPa
 /// The part of a look at two parts that takes several steps.
 class Look {
  public:
-  Look(const ExactPart& first, const ExactPart& second, double tolerance)
-      : m_first(first), m_second(second), m_tolerance(tolerance), m_radius(first.radius() + second.radius()) {}
+  Look(const ExactPart& first, const ExactPart& second, const Tolerances& tolerances)
+      : m_first(first),
+        m_second(second),
+        m_tolerance(tolerances.meeting),
+        m_sameTolerance(tolerances.same),
+        m_radius(first.radius() + second.radius()) {}
 
   Meeting take() {
     measure();
     findTriangles();
     findDepth();
+    findWithin();
     if (!m_meeting.surfacesMeet && !m_meeting.isDeep) return std::move(m_meeting);
     m_meeting.distance = 0.0;
     if (m_meeting.normal.isZero()) guessNormal();
@@ -93,9 +99,14 @@ class Look {
     if (!m_meeting.surfacesMeet) return;
     if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second);
     for (const TrianglePair& pair : m_pairs) {
-      const auto point = meetingPoint(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
-      if (point) m_meeting.contactPoints.push_back(*point);
+      const auto meeting = meetingOf(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
+      if (!meeting) continue;
+      m_meeting.contactPoints.push_back(meeting->middle);
+      if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
+      m_crossing = std::max(m_crossing, meeting->crossing);
     }
+    const bool isAnyOpen = m_first.isOpen() || m_second.isOpen();
+    m_meeting.isCrossed = isAnyOpen && m_crossing > m_tolerance;
     if (m_meeting.contactPoints.empty()) {
       m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
     }
@@ -113,6 +124,12 @@ class Look {
     m_meeting.isDeep = m_meeting.depth > m_tolerance;
     // A ball around a point within a solid touches its surface only if it reaches so far.
     if (isInside && m_coreDistance > m_radius + m_tolerance) m_meeting.surfacesMeet = false;
+  }
+
+  void findWithin() {
+    if (!m_meeting.isDeep || m_crossing > m_sameTolerance) return;
+    m_meeting.isFirstWithin = isWithin(m_second, m_first, m_sameTolerance);
+    m_meeting.isSecondWithin = !m_meeting.isFirstWithin && isWithin(m_first, m_second, m_sameTolerance);
   }
 
   void takeDeeper(const Deepest& ofFirst, const Deepest& ofSecond) {
@@ -159,7 +176,9 @@ class Look {
   const ExactPart& m_first;
   const ExactPart& m_second;
   double m_tolerance;
+  double m_sameTolerance;
   double m_radius;
+  double m_crossing = 0.0;  ///< How far triangles of the two pass through each other.
   double m_coreDistance = 0.0;
   std::vector<TrianglePair> m_pairs;
   Meeting m_meeting;
@@ -167,8 +186,8 @@ class Look {
 
 }  // namespace
 
-Meeting meet(const ExactPart& first, const ExactPart& second, double tolerance) {
-  return Look(first, second, tolerance).take();
+Meeting meet(const ExactPart& first, const ExactPart& second, const Tolerances& tolerances) {
+  return Look(first, second, tolerances).take();
 }
 
 double boxDistance(const ExactPart& first, const ExactPart& second) {

@@ -11,14 +11,16 @@ namespace {
 
 constexpr double kSlack = 1e-9;  // relative: points on an edge belong to both triangles that share it
 
-/// Sums up points.
-struct Mean {
+/// Sums up points, and keeps two that are far from each other.
+struct Shared {
   Point sum = Point::Zero();
   int count = 0;
+  std::array<Point, 2> ends{};
 
   void add(const Point& point) {
     sum += point;
-    ++count;
+    if (count++ == 0) ends = {point, point};
+    if ((point - ends[0]).squaredNorm() > (ends[1] - ends[0]).squaredNorm()) ends[1] = point;
   }
 };
 
@@ -35,7 +37,7 @@ bool contains(const Corners& corners, const Point& normal, const Point& point) {
 }
 
 /// Adds the points where the edges of one triangle pass through the other.
-void addCrossings(const Corners& edges, const Corners& through, Mean& mean) {
+void addCrossings(const Corners& edges, const Corners& through, Shared& shared) {
   const Point normal = normalOf(through);
   for (std::size_t i = 0; i < 3; ++i) {
     const Point& from = edges[i];
@@ -44,7 +46,7 @@ void addCrossings(const Corners& edges, const Corners& through, Mean& mean) {
     const double after = normal.dot(to - through[0]);
     if (before == after || (before < 0.0) == (after < 0.0)) continue;
     const Point point = from + (before / (before - after)) * (to - from);
-    if (contains(through, normal, point)) mean.add(point);
+    if (contains(through, normal, point)) shared.add(point);
   }
 }
 
@@ -55,28 +57,47 @@ bool areCoplanar(const Corners& a, const Corners& b) {
 }
 
 /// What two triangles of one plane share: the one cut by the edges of the other.
-void addShared(const Corners& a, const Corners& b, Mean& mean) {
+void addShared(const Corners& a, const Corners& b, Shared& shared) {
   const Point normal = normalOf(b);
-  Polygon shared(a);
-  for (std::size_t i = 0; i < 3 && !shared.empty(); ++i) {
+  Polygon common(a);
+  for (std::size_t i = 0; i < 3 && !common.empty(); ++i) {
     const Point outward = (b[(i + 1) % 3] - b[i]).cross(normal);
-    shared.cut(outward, outward.dot(b[i]));
+    common.cut(outward, outward.dot(b[i]));
   }
-  if (!shared.empty()) mean.add(shared.middle());
+  if (!common.empty()) shared.add(common.middle());
+}
+
+/// How far a triangle reaches to that side of another's plane to which it reaches less.
+double reachThrough(const Corners& corners, const Corners& plane) {
+  const Point normal = normalOf(plane);
+  const double length = normal.norm();
+  if (length == 0.0) return 0.0;
+  double least = 0.0;
+  double most = 0.0;
+  for (const Point& corner : corners) {
+    const double height = normal.dot(corner - plane[0]) / length;
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return std::min(most, -least);
 }
 
 }  // namespace
 
-std::optional<Point> meetingPoint(const Corners& a, const Corners& b) {
-  Mean mean;
-  if (areCoplanar(a, b)) {
-    addShared(a, b, mean);
+std::optional<TriangleMeeting> meetingOf(const Corners& a, const Corners& b) {
+  Shared shared;
+  const bool isFlat = areCoplanar(a, b);
+  if (isFlat) {
+    addShared(a, b, shared);
   } else {
-    addCrossings(a, b, mean);
-    addCrossings(b, a, mean);
+    addCrossings(a, b, shared);
+    addCrossings(b, a, shared);
   }
-  if (mean.count == 0) return std::nullopt;
-  return mean.sum / mean.count;
+  if (shared.count == 0) return std::nullopt;
+  const double crossing = isFlat ? 0.0 : std::min(reachThrough(a, b), reachThrough(b, a));
+  return TriangleMeeting{.middle = shared.sum / shared.count,
+                         .ends = shared.ends,
+                         .crossing = std::min(crossing, (shared.ends[1] - shared.ends[0]).norm())};
 }
 
 }  // namespace allpairs::exact

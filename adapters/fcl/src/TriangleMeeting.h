@@ -7,7 +7,15 @@
 
 namespace allpairs::exact {
 
-/// The middle of where two triangles meet, or nothing where rounding leaves no point that both have.
-[[nodiscard]] std::optional<Point> meetingPoint(const Corners& a, const Corners& b);
+/// Where two triangles meet.
+struct TriangleMeeting {
+  Point middle = Point::Zero();
+  std::array<Point, 2> ends{};  ///< Of the segment that they share; the same point twice where they share no segment.
+  double crossing =
+      0.0;  ///< How far each of them, on either side of the other's plane, reaches at least; 0 if one ends there.
+};
+
+/// Where two triangles meet, or nothing where rounding leaves no point that both have.
+[[nodiscard]] std::optional<TriangleMeeting> meetingOf(const Corners& a, const Corners& b);
 
 }  // namespace allpairs::exact

@@ -49,6 +49,9 @@ struct Scene {
   std::vector<Remark> warnings{};  ///< Where the result may not be what is expected, though no part was skipped.
   /// Where a scene has several: searchesOf() gives each its models, and the method and region above are the first's.
   std::vector<ScenePipeline> pipelines{};
+  /// The axis that points up, where the format or its gravity says so: 1 to 3 for x to z, below 0 for the other way; else 0.
+  int up = 0;
+  std::optional<double> metresPerUnit{};  ///< The length of a unit, where the format says so.
 };
 
 /// One search of a scene: models that are tested against one another, and how.
@@ -70,7 +73,8 @@ struct SceneSearch {
 /// Appends the models of `more` to those of `scene`.
 ///
 /// A model whose name exists in `scene` gets a number: "wheel#2". The first method and the first region
-/// that a file names apply to all; others give a remark.
+/// that a file names apply to all; others give a remark. The first input that says which axis is up, and how long a unit
+/// is, says it for all.
 ///
 /// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method, and
 ///            nothing says which of them would take the others.

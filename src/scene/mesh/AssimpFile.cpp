@@ -17,6 +17,7 @@
 #include "input/FileBytes.h"
 #include "input/ReadScope.h"
 #include "input/Words.h"
+#include "mesh/AssimpFrame.h"
 #include "mesh/ChildProcess.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Transform.h"
@@ -32,14 +33,6 @@ constexpr std::size_t kMaxNodeDepth = 1000;
 // What the answer of the process that runs Assimp begins with.
 constexpr char kResult = 'R';
 constexpr char kProblem = 'P';
-
-Transform transformOf(const aiMatrix4x4& matrix) {
-  Transform result{};
-  for (unsigned row = 0; row < 3; ++row) {
-    for (unsigned column = 0; column < 4; ++column) result[row][column] = static_cast<double>(matrix[row][column]);
-  }
-  return result;
-}
 
 Point pointOf(const aiVector3D& position) {
   return {static_cast<double>(position.x), static_cast<double>(position.y), static_cast<double>(position.z)};
@@ -60,15 +53,14 @@ class NodeReader {
  public:
   NodeReader(const aiScene& scene, const Path& path, ReadScope& scope) : m_scene(scene), m_path(path), m_scope(scope) {}
 
-  std::vector<MeshObject> read() {
-    addNode(*m_scene.mRootNode, kIdentity, 0);
+  std::vector<MeshObject> read(MeshFrame& frame) {
+    addNode(*m_scene.mRootNode, rootOfFile(m_scene, lowerExtension(m_path), frame), 0);
     return std::move(m_objects);
   }
 
  private:
-  void addNode(const aiNode& node, const Transform& parent, std::size_t depth) {
+  void addNode(const aiNode& node, const Transform& world, std::size_t depth) {
     if (depth > kMaxNodeDepth) throw FileError(m_path, "has nodes that are nested too deep");
-    const Transform world = multiply(parent, transformOf(node.mTransformation));
     if (node.mNumMeshes != 0) {
       MeshObject& object = m_objects.emplace_back();
       object.name = nameOf(node);
@@ -76,7 +68,9 @@ class NodeReader {
         addMesh(object, *m_scene.mMeshes[index], world);
       }
     }
-    for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) addNode(*child, world, depth + 1);
+    for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) {
+      addNode(*child, multiply(world, transformOf(child->mTransformation)), depth + 1);
+    }
   }
 
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
@@ -175,8 +169,9 @@ class ScopedFiles final : public Assimp::IOSystem {
 /// Carries objects from one process to another of the same program.
 class ObjectTransfer {
  public:
-  static std::string pack(const std::vector<MeshObject>& objects) {
+  static std::string pack(const std::vector<MeshObject>& objects, const MeshFrame& frame) {
     std::string bytes(1, kResult);
+    bytes.append(reinterpret_cast<const char*>(&frame), sizeof(frame));
     for (const MeshObject& object : objects) {
       put(bytes, object.name);
       put(bytes, object.positions);
@@ -187,8 +182,10 @@ class ObjectTransfer {
     return bytes;
   }
 
-  static std::vector<MeshObject> unpack(std::string_view bytes) {
+  static std::vector<MeshObject> unpack(std::string_view bytes, MeshFrame& frame) {
     std::vector<MeshObject> objects;
+    copy(bytes, &frame, sizeof(frame));
+    if (frame.up < 0 || frame.up > 3) frame = {};
     while (!bytes.empty()) {
       MeshObject& object = objects.emplace_back();
       take(bytes, object.name);
@@ -235,7 +232,7 @@ class ObjectTransfer {
   }
 };
 
-std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope) {
+std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFrame& frame) {
   Assimp::Importer importer;
   auto owned = std::make_unique<ScopedFiles>(path, scope);
   const ScopedFiles* files = owned.get();
@@ -249,13 +246,15 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope) {
     if (reason == std::bad_alloc().what()) throw std::bad_alloc();  // which Assimp has caught
     throw FileError(path, "cannot be read as a mesh" + (reason.empty() ? "" : ": " + reason));
   }
-  return NodeReader(*scene, path, scope).read();
+  return NodeReader(*scene, path, scope).read(frame);
 }
 
 /// The objects, or what is wrong.
 std::string importInChild(const Path& path, ReadScope& scope) {
   try {
-    return ObjectTransfer::pack(importObjects(path, scope));
+    MeshFrame frame;
+    const std::vector<MeshObject> objects = importObjects(path, scope, frame);
+    return ObjectTransfer::pack(objects, frame);
   } catch (const FileError& problem) {
     return kProblem + problem.problem();
   } catch (const std::bad_alloc&) {
@@ -272,7 +271,7 @@ bool isAssimpFile(const Path& path) {
   return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
-std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope) {
+std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame) {
   requireFile(path);
   constexpr std::uint64_t kSeconds = 10;
   constexpr std::uint64_t kBytesPerSecond = 1 << 20;  // the slowest of Assimp's readers on honest files
@@ -283,7 +282,7 @@ std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope) {
                                         [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
   if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
   if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
-  return ObjectTransfer::unpack(std::string_view(answer).substr(1));
+  return ObjectTransfer::unpack(std::string_view(answer).substr(1), frame);
 }
 
 }  // namespace allpairs::scene

@@ -22,6 +22,12 @@ struct MeshObject {
   std::vector<std::uint32_t> points;
 };
 
+/// What a format says of coordinates besides; nothing where it says nothing.
+struct MeshFrame {
+  int up = 0;                  ///< The axis that points up: 1 to 3 for x to z.
+  double metresPerUnit = 0.0;  ///< 0: unknown.
+};
+
 /// Reads a Wavefront file in double, with the names exactly as they stand there: an object for each "o", or for each
 /// "g" where there is no "o". A file of nothing but positions is one object of points.
 ///
@@ -52,11 +58,13 @@ struct MeshObject {
 [[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope);
 
 /// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double to
-/// positions that Assimp gives as float32.
+/// positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to measure in
+/// metres, as for IFC, is undone, and `frame` says which axis is up in the file and how long its unit is.
 ///
 /// Bad input: throws FileError. Assimp runs in a process of its own: a file that makes it fail, or loop, or take all
 ///            memory, fails, loops and takes it there.
-[[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope);
+[[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope,
+                                                        MeshFrame& frame);
 
 /// Whether Assimp knows files of this extension.
 [[nodiscard]] bool isAssimpFile(const std::filesystem::path& path);

@@ -20,15 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope) {
+std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, MeshFrame& frame) {
   scope.admit(path);
   const std::string extension = lowerExtension(path);
   if (extension == ".obj") return readObjObjects(path, scope);
   if (extension == ".ply") return readPlyObjects(path, scope);
   if (extension == ".stl") return readStlObjects(path, scope);
   if (extension == ".off") return readOffObjects(path, scope);
-  if (extension == ".gltf" || extension == ".glb") return readGltfObjects(path, scope);
-  return readAssimpObjects(path, scope);
+  if (extension != ".gltf" && extension != ".glb") return readAssimpObjects(path, scope, frame);
+  frame = {.up = 2, .metresPerUnit = 1.0};  // as its specification has it
+  return readGltfObjects(path, scope);
 }
 
 /// Makes the models of one object, all of one owner.
@@ -117,14 +118,17 @@ void requireAllowed(const fs::path& path, const ReadScope& scope) {
 void readInto(Scene& scene, UniqueNames& names, const fs::path& path, ReadScope& scope) {
   ObjectModels models(scene, names, scope);
   const std::size_t before = scene.models.size();
+  MeshFrame frame;
   try {
-    for (MeshObject& object : readObjects(path, scope)) {
+    for (MeshObject& object : readObjects(path, scope, frame)) {
       if (object.name.empty()) object.name = path.filename().string();
       models.add(std::move(object));
     }
   } catch (const InvalidArgument& problem) {
     throw FileError(path, problem.what());
   }
+  if (scene.up == 0) scene.up = frame.up;
+  if (!scene.metresPerUnit && frame.metresPerUnit > 0.0) scene.metresPerUnit = frame.metresPerUnit;
   if (scene.models.size() == before) throw FileError(path, "holds no triangles, lines or points");
 }
 

@@ -62,6 +62,7 @@ struct Component {
 struct Node {
   std::string name;
   bool active = true;
+  std::string gravity;  ///< As given; empty where it is not.
   Place place;
   Node* parent = nullptr;
   /// Names of components, each of the first before its second when the simulation starts, whatever their order here.

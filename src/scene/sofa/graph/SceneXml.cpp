@@ -266,6 +266,7 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   node->name = std::move(element.name);
   node->place = element.place;
   node->parent = parent;
+  if (const auto* gravity = element.attributes.find("gravity")) node->gravity = *gravity;
   if (const auto* activated = element.attributes.find("activated")) node->active = parseBool(*activated).value_or(true);
   if (const auto* depend = element.attributes.find("depend")) {
     std::istringstream names(*depend);

@@ -4,10 +4,10 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-using Place = std::array<std::size_t, 3>;
+using GridPlace = std::array<std::size_t, 3>;
 constexpr std::size_t kX = 0, kY = 1, kZ = 2;
 
-bool isEnd(const CubeSurface& cube, const Place& p, std::size_t axis) {
+bool isEnd(const CubeSurface& cube, const GridPlace& p, std::size_t axis) {
   return p[axis] == 0 || p[axis] + 1 == cube.points[axis];
 }
 
@@ -20,7 +20,7 @@ class Numbering {
 
   [[nodiscard]] bool isHollow() const { return m_isHollow; }
 
-  [[nodiscard]] Index of(const Place& p) const {
+  [[nodiscard]] Index of(const GridPlace& p) const {
     const auto [nx, ny, nz] = m_cube.points;
     const auto [x, y, z] = p;
     if (!m_isHollow) return static_cast<Index>(x + nx * (y + ny * z));
@@ -45,11 +45,11 @@ template <class Visit>
 void forAll(const CubeSurface& cube, const Visit& visit) {
   for (std::size_t z = 0; z < cube.points[2]; ++z)
     for (std::size_t y = 0; y < cube.points[1]; ++y)
-      for (std::size_t x = 0; x < cube.points[0]; ++x) visit(Place{x, y, z});
+      for (std::size_t x = 0; x < cube.points[0]; ++x) visit(GridPlace{x, y, z});
 }
 
 void addPoints(const CubeSurface& cube, const Numbering& numbers, Mesh& mesh) {
-  forAll(cube, [&](const Place& p) {
+  forAll(cube, [&](const GridPlace& p) {
     if (numbers.isHollow() && !isEnd(cube, p, 0) && !isEnd(cube, p, 1) && !isEnd(cube, p, 2)) return;
     const auto index = numbers.of(p);
     if (index >= mesh.positions.size()) mesh.positions.resize(std::size_t{index} + 1);
@@ -59,7 +59,7 @@ void addPoints(const CubeSurface& cube, const Numbering& numbers, Mesh& mesh) {
 }
 
 void addEdges(const CubeSurface& cube, const Numbering& numbers, Mesh& mesh) {
-  forAll(cube, [&](const Place& p) {
+  forAll(cube, [&](const GridPlace& p) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (p[axis] + 1 == cube.points[axis]) continue;
       if (!isEnd(cube, p, (axis + 1) % 3) && !isEnd(cube, p, (axis + 2) % 3)) continue;
@@ -78,7 +78,7 @@ struct Side {
 void addSide(const CubeSurface& cube, const Numbering& numbers, const Side& side, Mesh& mesh) {
   for (std::size_t c = 0; c + 1 < cube.points[side.column]; ++c)
     for (std::size_t r = 0; r + 1 < cube.points[side.row]; ++r) {
-      Place p{};
+      GridPlace p{};
       p[side.axis] = side.at;
       p[side.column] = c;
       p[side.row] = r;

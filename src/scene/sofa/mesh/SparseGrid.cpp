@@ -8,7 +8,7 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-using Place = std::array<std::size_t, 3>;
+using GridPlace = std::array<std::size_t, 3>;
 using Corners = std::array<Vec3, 3>;
 
 enum class Filling : std::uint8_t { Inside, Boundary, Outside };
@@ -42,7 +42,7 @@ class Voxels {
 
   /// False if a point is in no cell.
   [[nodiscard]] bool add(const Mesh& surface) {
-    std::vector<Place> cells;
+    std::vector<GridPlace> cells;
     for (const auto& point : surface.positions) {
       const auto cell = cellOf(point);
       if (!cell) return false;
@@ -60,8 +60,8 @@ class Voxels {
 
   /// What can be reached from the rim without crossing the surface is outside.
   void clearOutside() {
-    std::vector<Place> open;
-    forAll([&](const Place& cell) {
+    std::vector<GridPlace> open;
+    forAll([&](const GridPlace& cell) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (cell[axis] == 0 || cell[axis] + 1 == m_cells[axis]) return open.push_back(cell);
     });
@@ -82,7 +82,7 @@ class Voxels {
     Mesh result;
     const auto numbers = numberCorners(result);
     for (const auto wanted : {Filling::Boundary, Filling::Inside})
-      forAll([&](const Place& cell) {
+      forAll([&](const GridPlace& cell) {
         if (m_filling[indexOf(cell)] != wanted) return;
         std::array<Index, 8> corners{};
         for (std::size_t i = 0; i < 8; ++i) corners[i] = numbers[pointIndex(cornerOf(cell, i))];
@@ -92,14 +92,14 @@ class Voxels {
   }
 
  private:
-  static Place moved(Place cell, std::size_t axis, int by) {
+  static GridPlace moved(GridPlace cell, std::size_t axis, int by) {
     cell[axis] = by > 0 ? cell[axis] + 1 : cell[axis] - 1;
     return cell;
   }
 
-  static Place cornerOf(const Place& cell, std::size_t corner) {
-    constexpr Place kCorners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  static GridPlace cornerOf(const GridPlace& cell, std::size_t corner) {
+    constexpr GridPlace kCorners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     const auto& c = kCorners[corner];
     return {cell[0] + c[0], cell[1] + c[1], cell[2] + c[2]};
   }
@@ -108,20 +108,20 @@ class Voxels {
   void forAll(const Visit& visit) const {
     for (std::size_t z = 0; z < m_cells[2]; ++z)
       for (std::size_t y = 0; y < m_cells[1]; ++y)
-        for (std::size_t x = 0; x < m_cells[0]; ++x) visit(Place{x, y, z});
+        for (std::size_t x = 0; x < m_cells[0]; ++x) visit(GridPlace{x, y, z});
   }
 
-  [[nodiscard]] std::size_t indexOf(const Place& cell) const {
+  [[nodiscard]] std::size_t indexOf(const GridPlace& cell) const {
     return cell[0] + m_cells[0] * (cell[1] + m_cells[1] * cell[2]);
   }
 
   /// By x, then y, then z: the order in which corners are numbered.
-  [[nodiscard]] std::size_t pointIndex(const Place& point) const {
+  [[nodiscard]] std::size_t pointIndex(const GridPlace& point) const {
     return point[2] + m_grid.points[2] * (point[1] + m_grid.points[1] * point[0]);
   }
 
-  [[nodiscard]] std::optional<Place> cellOf(const Vec3& point) const {
-    Place cell{};
+  [[nodiscard]] std::optional<GridPlace> cellOf(const Vec3& point) const {
+    GridPlace cell{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = m_grid.spacing[axis];
       const double place = std::floor((point[axis] - m_grid.origin[axis]) * step * (1 / (step * step)));
@@ -131,7 +131,7 @@ class Voxels {
     return cell;
   }
 
-  [[nodiscard]] bool meets(const Corners& triangle, const Place& cell) const {
+  [[nodiscard]] bool meets(const Corners& triangle, const GridPlace& cell) const {
     const auto low = m_grid.point(cell[0], cell[1], cell[2]);
     const auto diagonal = m_grid.point(cell[0] + 1, cell[1] + 1, cell[2] + 1) - low;
     const auto centre = low + diagonal * 0.5;
@@ -142,8 +142,8 @@ class Voxels {
     return meetsUnitCube(scaled);
   }
 
-  void mark(const Corners& triangle, const std::array<Place, 3>& cells) {
-    Place low{}, high{};
+  void mark(const Corners& triangle, const std::array<GridPlace, 3>& cells) {
+    GridPlace low{}, high{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis] = std::min({cells[0][axis], cells[1][axis], cells[2][axis]});
       high[axis] = std::max({cells[0][axis], cells[1][axis], cells[2][axis]});
@@ -160,7 +160,7 @@ class Voxels {
   std::vector<Index> numberCorners(Mesh& mesh) const {
     const auto [nx, ny, nz] = m_grid.points;
     std::vector<Index> numbers(nx * ny * nz, 0);
-    forAll([&](const Place& cell) {
+    forAll([&](const GridPlace& cell) {
       for (std::size_t i = 0; i < 8; ++i)
         if (m_filling[indexOf(cell)] != Filling::Outside) numbers[pointIndex(cornerOf(cell, i))] = 1;
     });
@@ -176,7 +176,7 @@ class Voxels {
   }
 
   const GridShape& m_grid;
-  Place m_cells{};
+  GridPlace m_cells{};
   std::vector<Filling> m_filling;
 };
 

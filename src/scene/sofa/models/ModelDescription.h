@@ -83,6 +83,7 @@ struct SceneDescription {
   std::vector<Ignored> ignored;                ///< Models that are missing.
   std::vector<Ignored> outside;                ///< Models that no pipeline takes.
   std::vector<Ignored> warnings;               ///< Where the result may not be what is expected; nothing is missing.
+  int up = 2;                                  ///< Against the root's gravity, which pulls along -y by default.
 };
 
 /// Reads a .scn or .xml scene of SOFA.

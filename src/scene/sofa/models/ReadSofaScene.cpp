@@ -177,6 +177,7 @@ Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& option
   scene.intersection = makeMethod(first.method);
   scene.intersectionName = first.method.name;
   scene.region = regionOf(first);
+  scene.up = description.up;
   for (auto& owner : description.owners) scene.owners.push_back(std::make_unique<Owner>(Owner{std::move(owner)}));
   moveRemarks(description.ignored, true, scene.remarks);
   moveRemarks(description.outside, false, scene.remarks);

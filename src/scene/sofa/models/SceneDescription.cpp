@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "allpairs/scene/FileError.h"
@@ -8,6 +10,7 @@
 #include "sofa/graph/Generation.h"
 #include "sofa/graph/Links.h"
 #include "sofa/graph/SceneXml.h"
+#include "sofa/graph/Values.h"
 #include "sofa/models/ModelDescription.h"
 #include "sofa/models/Models.h"
 #include "sofa/models/Pipelines.h"
@@ -126,6 +129,19 @@ PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts
   return pipeline;
 }
 
+/// The axis against gravity: 1 to 3 for x to z, below 0 for the other way; y where there is none.
+int upOf(const Node& root) {
+  constexpr int kUp = 2;
+  std::string bad;
+  const auto gravity = parseNumbers(root.gravity, bad);
+  if (!gravity || gravity->size() != 3) return kUp;
+  const auto isWeaker = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto strongest = std::max_element(gravity->begin(), gravity->end(), isWeaker);
+  if (*strongest == 0.0) return kUp;
+  const auto axis = static_cast<int>(strongest - gravity->begin()) + 1;
+  return *strongest < 0.0 ? axis : -axis;
+}
+
 }  // namespace
 
 SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options) {
@@ -135,6 +151,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   if (generation == Generation::Sofa26) nameByClass(*root);
   Evaluation evaluation(*root, scope, generation);
   SceneDescription scene;
+  scene.up = upOf(*root);
   ModelList models(evaluation, options.partial, scene);
   for (const auto& parts : findPipelines(*root)) {
     scene.pipelines.push_back(describePipeline(evaluation, parts, models));

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "view/ViewRequest.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "cli/ExitStatus.h"
+#include "cli/Options.h"
+#include "detect/Exact.h"
+
+namespace allpairs::app {
+
+void addViewOptions(CLI::App& command, ViewArguments& arguments) {
+  addSearchOptions(command, arguments.search);
+  command.add_flag("--exact", arguments.exact, "Test shapes, and hide pairs that are apart; the default for meshes");
+  command.add_flag("--boxes", arguments.boxes, "Do not test shapes: show all pairs of boxes");
+  addChoice(command, "--up", arguments.up, {"x", "y", "z"})
+      ->description("The axis that points up; by default as the format says, else z");
+}
+
+ViewRequest viewRequest(const ViewArguments& arguments) {
+  if (arguments.exact && arguments.boxes) throw UsageError("--exact tests shapes, --boxes does not: give one of them");
+  if (arguments.boxes && arguments.search.clearance)
+    throw UsageError("--clearance is measured between shapes, which --boxes does not test; --distance is for boxes");
+  ViewRequest request{.detection = detectionOptions(arguments.search), .shapes = ShapeTest::WhereShapesAre};
+  if (arguments.exact || arguments.search.clearance) request.shapes = ShapeTest::Always;
+  if (arguments.boxes) request.shapes = ShapeTest::Never;
+  if (request.shapes == ShapeTest::Always) requireExact();
+  if (!arguments.up.empty()) request.up = arguments.up[0] - 'x' + 1;
+  return request;
+}
+
+}  // namespace allpairs::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Coordinates are those of the file, and which axis is up is what its format says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "allpairs/scene/ReadInput.h"
+#include "allpairs/scene/WriteResult.h"
+#include "support/IfcText.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+scene::Scene readFrame(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  scene::Scene scene = scene::readInput(folder.write(name, bytes));
+  for (const auto& model : scene.models) model->computeBoundingTree();
+  return scene;
+}
+
+Box boxOfModel(const scene::Scene& scene, std::size_t model) { return scene::modelRecord(*scene.models.at(model)).box; }
+
+/// A triangle in COLLADA, from (1, 2, 3) on.
+std::string collada(const std::string& up) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="cm" meter="0.01"/>)" +
+         up + R"(</asset><library_geometries><geometry id="g" name="g"><mesh>
+<source id="p"><float_array id="a" count="9">1 2 3 5 2 3 1 9 4</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>
+</library_geometries><library_visual_scenes><visual_scene id="s" name="s"><node id="n" name="n">
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+constexpr const char* kTriangleInGltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+"nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+std::string sofa(const std::string& attributes) {
+  return "<Node name=\"root\" " + attributes +
+         "><CollisionPipeline/><DiscreteIntersection/><Node name=\"a\"><MechanicalObject position=\"0 0 0\"/>"
+         "<SphereCollisionModel radius=\"1\"/></Node></Node>";
+}
+
+TEST(Frame, AnIfcHasTheCoordinatesOfItsFile) {
+  const scene::Scene scene = readFrame("two.ifc", kIfc);
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_EQ(boxOfModel(scene, 0), (Box{{0, 0, 0}, {4000, 1000, 3000}}));
+  EXPECT_EQ(boxOfModel(scene, 1), (Box{{3900, 0, 0}, {4900, 1000, 5000}}));
+  EXPECT_EQ(scene.up, 3);
+  EXPECT_EQ(scene.metresPerUnit, 0.001);
+}
+
+TEST(Frame, AColladaFileHasTheCoordinatesOfItsFileWhicheverAxisIsUp) {
+  const std::vector<std::pair<std::string, int>> axes{
+      {"", 2}, {"<up_axis>Y_UP</up_axis>", 2}, {"<up_axis>Z_UP</up_axis>", 3}, {"<up_axis>X_UP</up_axis>", 1}};
+  for (const auto& [axis, up] : axes) {
+    const scene::Scene scene = readFrame("a.dae", collada(axis));
+    EXPECT_EQ(boxOfModel(scene, 0), (Box{{1, 2, 3}, {5, 9, 4}})) << axis;
+    EXPECT_EQ(scene.up, up) << axis;
+    EXPECT_EQ(scene.metresPerUnit, 0.01) << axis;
+  }
+}
+
+TEST(Frame, GltfIsYUpAndInMetresAndStlSaysNothing) {
+  const scene::Scene scene = readFrame("a.gltf", kTriangleInGltf);
+  EXPECT_EQ(scene.up, 2);
+  EXPECT_EQ(scene.metresPerUnit, 1.0);
+  const scene::Scene plain = readFrame("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(plain.up, 0);
+  EXPECT_EQ(plain.metresPerUnit, std::nullopt);
+}
+
+TEST(Frame, ASofaSceneIsUpAgainstItsGravity) {
+  EXPECT_EQ(readFrame("a.scn", sofa("")).up, 2);
+  EXPECT_EQ(readFrame("a.scn", sofa("gravity=\"0 0 -9.81\"")).up, 3);
+  EXPECT_EQ(readFrame("a.scn", sofa("gravity=\"0 9.81 0.5\"")).up, -2);
+  EXPECT_EQ(readFrame("a.scn", sofa("gravity=\"0 0 0\"")).up, 2);
+}
+
+TEST(Frame, TheFirstInputThatSaysWhatIsUpSaysItForAll) {
+  scene::Scene scene = readFrame("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  append(scene, readFrame("two.ifc", kIfc));
+  append(scene, readFrame("a.gltf", kTriangleInGltf));
+  EXPECT_EQ(scene.up, 3);
+  EXPECT_EQ(scene.metresPerUnit, 0.001);
+}
+
+}  // namespace
+}  // namespace allpairs::test

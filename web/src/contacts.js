@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Where surfaces meet, in front of everything: lines as thin rods, since browsers draw lines one pixel wide, and the depth or
+// the gap of a pair as a rod with two ends.
+
+import { BufferAttribute, BufferGeometry, Color, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { contactCorners, state } from "./exact.js";
+
+const sides = 5;
+const mostLines = 60_000; // in all: of more, some are left out while no pair is chosen
+
+/** A rod between two points, as triangles behind those that are there. */
+function addRod(to, from, end, radius) {
+  const way = end.clone().sub(from);
+  const length = way.length();
+  if (length > 0) way.divideScalar(length);
+  else way.set(0, 0, 1);
+  const u = new Vector3(1, 0, 0).cross(way);
+  if (u.lengthSq() < 0.1) u.set(0, 1, 0).cross(way);
+  u.normalize();
+  const v = new Vector3().crossVectors(way, u);
+  const ring = (centre, past) => Array.from({ length: sides }, (_, i) => {
+    const angle = (2 * Math.PI * i) / sides;
+    return centre.clone().addScaledVector(u, radius * Math.cos(angle)).addScaledVector(v, radius * Math.sin(angle)).addScaledVector(way, past);
+  });
+  const [a, b] = [ring(from, -radius / 2), ring(end, radius / 2)];
+  for (let i = 0; i < sides; ++i) {
+    const k = (i + 1) % sides;
+    for (const corner of [a[i], a[k], b[k], a[i], b[k], b[i]]) to.push(corner.x, corner.y, corner.z);
+    if (i > 1) for (const corner of [a[0], a[i], a[i - 1], b[0], b[i - 1], b[i]]) to.push(corner.x, corner.y, corner.z);
+  }
+}
+
+/** A ball, coarsely: eight triangles. */
+function addBall(to, centre, radius) {
+  const tip = (axis, sign) => centre.clone().setComponent(axis, centre.getComponent(axis) + sign * radius);
+  for (let corner = 0; corner < 8; ++corner) {
+    for (let axis = 0; axis < 3; ++axis) {
+      const p = tip(axis, corner >> axis & 1 ? 1 : -1);
+      to.push(p.x, p.y, p.z);
+    }
+  }
+}
+
+export class Contacts {
+  /** `whole` is the size of the scene. */
+  constructor(scene, whole) {
+    this.scene = scene;
+    this.whole = whole || 1;
+    // The halo is drawn first, so that the line stands out from any colour.
+    this.objects = [0, 1].map(() => new Mesh(new BufferGeometry(), new MeshBasicMaterial({ depthTest: false, side: 2, transparent: true })));
+    this.shown = "";
+  }
+
+  paint(colour, background) {
+    this.objects[0].material.color = new Color(background);
+    this.objects[0].material.opacity = 0.65;
+    this.objects[1].material.color = new Color(colour);
+  }
+
+  show(entries, isChosen) {
+    const key = `${isChosen} ${entries.length} ${entries[0]} ${entries.at(-1)}`;
+    if (this.shown === key) return;
+    this.shown = key;
+    this.objects.forEach((object, pass) => {
+      const points = this.pointsOf(entries, isChosen, pass === 0 ? 2.2 : 1);
+      object.geometry.dispose();
+      object.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+      object.visible = points.length > 0 && (pass === 1 || isChosen);
+    });
+  }
+
+  pointsOf(entries, isChosen, thickness) {
+    const points = [];
+    const lines = entries.reduce((count, entry) => count + this.scene.exact.linesOf(entry).length / 6, 0);
+    const step = Math.max(1, Math.ceil(lines / mostLines));
+    for (const entry of entries) this.addEntry(points, entry, isChosen, thickness, step);
+    return points;
+  }
+
+  addEntry(points, entry, isChosen, thickness, step) {
+    const { exact } = this.scene;
+    const pair = exact.of(entry);
+    if (pair.state === state.notExamined) return;
+    const place = (from) => new Vector3(...[0, 1, 2].map((k) => from[k] - this.scene.origin[k]));
+    const corners = contactCorners(pair);
+    const size = Math.hypot(...[0, 1, 2].map((k) => corners[k + 3] - corners[k]), pair.depth ?? 0, pair.distance);
+    const radius = thickness * (isChosen ? 0.006 * (size || this.whole) : 0.0014 * this.whole);
+    const lines = exact.linesOf(entry);
+    for (let i = 0; i < lines.length; i += 6 * step) addRod(points, new Vector3().fromArray(lines, i), new Vector3().fromArray(lines, i + 3), radius);
+    if (!isChosen || (!(pair.depth > 0) && pair.state <= state.touching)) return;
+    const [first, second] = [place(pair.first), place(pair.second)];
+    addRod(points, first, second, radius);
+    for (const end of [first, second]) addBall(points, end, 3 * radius);
+  }
+}
