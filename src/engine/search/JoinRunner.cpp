@@ -108,13 +108,7 @@ void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t e
 
 OverlapStatistics JoinRunner::totals() const noexcept {
   OverlapStatistics totals;
-  for (std::size_t i = 0; i < m_workers.size(); ++i) {
-    PairSink& sink = m_workers[i].sink;
-    totals.pairs += sink.count();
-    totals.exactTests += sink.exactTests();
-    totals.boxTests += sink.hits().boxTests;
-    totals.groupTests += sink.hits().groupTests;
-  }
+  for (std::size_t i = 0; i < m_workers.size(); ++i) add(totals, m_workers[i].sink.statistics());
   return totals;
 }
 

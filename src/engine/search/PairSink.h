@@ -8,6 +8,7 @@
 #include <span>
 
 #include "allpairs/FunctionRef.h"
+#include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"
 #include "allpairs/StopFlag.h"
 #include "kernels/Hits.h"
@@ -19,6 +20,13 @@ namespace allpairs::engine {
 
 /// More pairs than the search's own limit. Not an error: the search catches it.
 struct Overfull {};
+
+inline void add(OverlapStatistics& sum, const OverlapStatistics& part) noexcept {
+  sum.pairs += part.pairs;
+  sum.boxTests += part.boxTests;
+  sum.groupTests += part.groupTests;
+  sum.exactTests += part.exactTests;
+}
 
 /// How hits become pairs, the same for all workers of a search.
 struct SinkOptions {
@@ -73,9 +81,10 @@ class PairSink {
   [[nodiscard]] std::span<std::uint32_t> idleMemory() noexcept { return {m_memory.data(), m_memory.capacity()}; }
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
-  /// All pairs so far, emitted ones included.
-  [[nodiscard]] std::uint64_t count() const noexcept { return m_count + m_hits.count; }
-  [[nodiscard]] std::uint64_t exactTests() const noexcept { return m_exactTests; }
+  /// Those of all hits so far; the pairs include emitted ones.
+  [[nodiscard]] OverlapStatistics statistics() const noexcept {
+    return {m_count + m_hits.count, m_hits.boxTests, m_hits.groupTests, m_exactTests};
+  }
 
  private:
   [[nodiscard]] bool isWhole() const noexcept;

@@ -71,10 +71,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
       continue;
     }
     to.give(m_pairs);
-    total.pairs += m_statistics.pairs;
-    total.boxTests += m_statistics.boxTests;
-    total.groupTests += m_statistics.groupTests;
-    total.exactTests += m_statistics.exactTests;
+    add(total, m_statistics);
     begin = end;
     length = std::min(2 * length, kLastRange);
   }

@@ -52,13 +52,6 @@ bool haveReadableCorners(const BoxView& boxes) {
   return boxes.float32().isPacked() || (min.boxStride == 3 && max.boxStride == 3);
 }
 
-void add(OverlapStatistics& sum, const OverlapStatistics& part) {
-  sum.pairs += part.pairs;
-  sum.boxTests += part.boxTests;
-  sum.groupTests += part.groupTests;
-  sum.exactTests += part.exactTests;
-}
-
 }  // namespace
 
 bool WorldsSearcher::Target::takes(std::size_t boxes) {
@@ -133,13 +126,17 @@ void WorldsSearcher::cutParts() {
   }
 }
 
-/// Calls use(part, worker) for each part, with a worker that no other part has meanwhile.
-template <class Use>
-void WorldsSearcher::forEachPart(const Use& use) {
+/// Searches all parts, each by a worker that no other part has meanwhile; targetOf(part, worker) says where its pairs go.
+template <class TargetOf>
+void WorldsSearcher::searchParts(const TargetOf& targetOf) {
   const auto run = [&](Part& part) {
     m_workers.withOne([&](std::size_t index, Worker& worker) {
+      Target target = targetOf(part, worker);
       part.worker = index;
-      use(part, worker);
+      part.firstPair = target.place.size;
+      searchPart(part, worker, target);
+      part.pairs = target.place.size - part.firstPair;
+      worker.size = target.place.size;
     });
   };
   m_executor->run(m_parts.size(), [&](std::size_t i) {
@@ -149,9 +146,7 @@ void WorldsSearcher::forEachPart(const Use& use) {
     checkStop(m_options->stop);
     if (part.takesAllThreads) run(part);
   }
-}
-
-void WorldsSearcher::sumStatistics() {
+  placeParts();
   for (std::size_t i = 0; i < m_workers.size(); ++i) add(m_statistics, m_workers[i].statistics);
   m_statistics.pairs = m_begin.back();
 }
@@ -172,17 +167,11 @@ void WorldsSearcher::placeParts() {
 
 WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& options) {
   begin(worlds, options);
-  forEachPart([&](Part& part, Worker& worker) {
+  searchParts([&](const Part& part, Worker& worker) {
     const std::size_t boxes = m_worlds->begin(part.end) - m_worlds->begin(part.begin);
-    part.firstPair = worker.size;
     worker.pairs.grow(worker.size + std::min(kLikelyPairs * boxes, kMostLikelyPairs));
-    Target target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
-    searchPart(part, worker, target);
-    part.pairs = target.place.size - part.firstPair;
-    worker.size = target.place.size;
+    return Target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
   });
-  placeParts();
-  sumStatistics();
   if (m_parts.size() <= 1) {
     const Pair* const pairs = m_parts.empty() ? nullptr : m_workers[m_parts[0].worker].pairs.data();
     return {{pairs, m_begin.back()}, m_begin};
@@ -197,41 +186,18 @@ WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& 
 
 std::span<const std::uint64_t> WorldsSearcher::count(const Worlds& worlds, const OverlapOptions& options) {
   begin(worlds, options);
-  forEachPart([&](Part& part, Worker& worker) {
-    Target target{{.countOnly = true}, nullptr, options.maxPairs};
-    searchPart(part, worker, target);
-    part.firstPair = 0;
-    part.pairs = target.place.size;
-  });
-  placeParts();
-  sumStatistics();
+  searchParts([&](const Part&, Worker&) { return Target{{.countOnly = true}, nullptr, options.maxPairs}; });
   return m_begin;
 }
 
-std::uint64_t WorldsSearcher::list(const Worlds& worlds, const OverlapOptions& options,
-                                   std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
-  if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {
-    throw InvalidArgument("the offsets of pairs are not those that count() gives: one more than the " +
-                          std::to_string(worlds.size()) + " worlds, from 0 on, ascending");
-  }
-  if (pairs.size() < begin.back()) {
-    throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
-                          std::to_string(begin.back()));
-  }
+std::span<const std::uint64_t> WorldsSearcher::list(const Worlds& worlds, const OverlapOptions& options,
+                                                    std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
   this->begin(worlds, options);
-  forEachPart([&](Part& part, Worker& worker) {
+  searchParts([&](const Part& part, Worker&) {
     const std::uint64_t first = begin[part.begin];
-    Target target{{pairs.data() + first, begin[part.end] - first}, nullptr, options.maxPairs};
-    searchPart(part, worker, target);
-    part.firstPair = 0;
-    part.pairs = target.place.size;
+    return Target{{pairs.data() + first, begin[part.end] - first}, nullptr, options.maxPairs};
   });
-  placeParts();
-  sumStatistics();
-  if (!std::equal(begin.begin(), begin.end(), m_begin.begin(), m_begin.end())) {
-    throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
-  }
-  return m_begin.back();
+  return m_begin;
 }
 
 void WorldsSearcher::searchPart(const Part& part, Worker& worker, Target& target) {

@@ -35,9 +35,9 @@ class WorldsSearcher {
 
   WorldPairsView find(const Worlds& worlds, const OverlapOptions& options);
   std::span<const std::uint64_t> count(const Worlds& worlds, const OverlapOptions& options);
-  /// Returns the number of pairs.
-  std::uint64_t list(const Worlds& worlds, const OverlapOptions& options, std::span<const std::uint64_t> begin,
-                     std::span<Pair> pairs);
+  /// Writes the pairs of each world to where the offsets say, if there is room; returns the offsets of what it found.
+  std::span<const std::uint64_t> list(const Worlds& worlds, const OverlapOptions& options,
+                                      std::span<const std::uint64_t> begin, std::span<Pair> pairs);
 
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
@@ -79,9 +79,8 @@ class WorldsSearcher {
 
   void begin(const Worlds& worlds, const OverlapOptions& options);
   void cutParts();
-  template <class Use>
-  void forEachPart(const Use& use);
-  void sumStatistics();
+  template <class TargetOf>
+  void searchParts(const TargetOf& targetOf);
   void placeParts();
 
   void searchPart(const Part& part, Worker& worker, Target& target);
