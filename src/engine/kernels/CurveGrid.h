@@ -36,13 +36,12 @@ struct CurveGrid {
 };
 
 inline std::uint32_t CurveGrid::classOf(const LaneBox& box) const noexcept {
-  /// A large box is long if its longest side is this many times the next one.
-  constexpr float kLongFactor = 3.0F;
   const std::array<float, 3> extent{box.bound[3] - box.bound[0], box.bound[4] - box.bound[1],
                                     box.bound[5] - box.bound[2]};
   std::array<float, 3> sorted = extent;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted[2] > kLongFactor * sorted[1]) {
+  // Long: the longest side is three times the next one.
+  if (sorted[2] > 3.0F * sorted[1]) {
     return 1U + static_cast<std::uint32_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   }
   if (sorted[2] <= 8.0F * largeExtent) return 4U;

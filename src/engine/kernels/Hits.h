@@ -30,14 +30,12 @@ struct RoomForPairs {
 
 /// Hits of the lane test, two ids each, buffered until there are enough to convert to pairs.
 ///
-/// Kernels write whole vectors, up to kSlack values past the end, and flush when the next hits might not fit.
+/// Kernels flush when the next hits might not fit.
 struct Hits {
-  static constexpr std::size_t kSlack = 64;
-
   std::uint32_t* row = nullptr;
   std::uint32_t* partner = nullptr;
   std::size_t size = 0;
-  std::size_t capacity = 0;  ///< Without the slack.
+  std::size_t capacity = 0;  ///< Without the slack of vectors.
 
   /// If set, receives the positions of the hits that lanes cannot decide, because they were rounded; as large as the
   /// others.

@@ -106,9 +106,6 @@ HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std:
   }
 }
 
-/// A tile of candidates is full when another block might not fit.
-constexpr std::size_t kFullTile = CandidateTile::kCapacity - kFanOut;
-
 /// The prefetch distance for the members of a partner, in blocks.
 constexpr std::size_t kPrefetchDistance = 4;
 
@@ -197,7 +194,10 @@ class JoinRun {
     for (std::size_t i = 0; i < count;) {
       TileFiller filler{scratch.nextTile()};
       if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++]);
-      for (; i < count && filler.size <= kFullTile; ++i) filler.appendTouching(q, source, partners[i]);
+      // A tile is full when another block might not fit.
+      for (; i < count && filler.size + kFanOut <= CandidateTile::kCapacity; ++i) {
+        filler.appendTouching(q, source, partners[i]);
+      }
       scratch.sizes[scratch.tileCount - 1] = filler.size;
     }
     m_hits.groupTests += count * kFanOut;
@@ -209,7 +209,7 @@ class JoinRun {
     JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
     const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
     const Query q = broadcast(bounds);
-    PartnerWriter partners{scratch.roomFor(scratch.tileCount * CandidateTile::kCapacity + 1 + Hits::kSlack), 0};
+    PartnerWriter partners{scratch.roomFor(scratch.tileCount * CandidateTile::kCapacity + 1 + kVectorSlack), 0};
     std::size_t begin = 0;
     if (m_task.withItself) {
       partners.partners[partners.size++] = static_cast<std::uint32_t>(child);
@@ -226,7 +226,7 @@ class JoinRun {
   /// The boxes of one leaf block against the boxes of its partners.
   template <class Emitter>
   void joinLeaf(std::size_t node, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
-    std::uint32_t* const places = m_task.scratch->level[0].roomFor((count + 1) * kFanOut + Hits::kSlack);
+    std::uint32_t* const places = m_task.scratch->level[0].roomFor((count + 1) * kFanOut + kVectorSlack);
     const std::size_t own = m_task.withItself ? 1 : 0;
     const std::size_t size = listTouching(bounds, {partners + own, count - own}, places);
     const Leaf leaf{m_task.first->level[0].blocks[node], m_task.first->ids + node * kFanOut,
@@ -265,7 +265,7 @@ class JoinRun {
   void listNeighbors(std::size_t node, const LaneBox& bounds) {
     JoinScratch& scratch = *m_task.scratch;
     const std::span<const std::uint32_t> blocks = gatheredBlocks(scratch.level[1]);
-    std::uint32_t* const places = scratch.level[0].roomFor((blocks.size() + 1) * kFanOut + Hits::kSlack);
+    std::uint32_t* const places = scratch.level[0].roomFor((blocks.size() + 1) * kFanOut + kVectorSlack);
     readInOrder({places, listTouching(bounds, blocks, places)});
     m_hits.groupTests += blocks.size() * kFanOut;
     const Level& leaves = m_task.first->level[1];
@@ -384,7 +384,7 @@ class JoinRun {
     NeighborLists& lists = *m_task.lists;
     const std::uint32_t* const hitBits = m_task.scratch->neighbors.hitBits.data();
     const std::uint32_t* const hitIds = m_task.scratch->neighbors.hitIds.data();
-    lists.require(std::accumulate(lengthOf.begin(), lengthOf.end(), std::size_t{0}) + Hits::kSlack);
+    lists.require(std::accumulate(lengthOf.begin(), lengthOf.end(), std::size_t{0}) + kVectorSlack);
     for (std::size_t row = 0; row < leaf.fill; ++row) {
       const std::uint32_t id = leaf.ids[row];
       std::uint32_t* const to = lists.partners + lists.size;

@@ -54,8 +54,7 @@ struct JoinScratch {
 
     /// Memory for the partners of a node; over-allocates, so that moving scenes do not reallocate repeatedly.
     std::uint32_t* roomFor(std::size_t size) {
-      constexpr std::size_t kLeastRoom = 4096;  // Few nodes have more.
-      if (size > partners.capacity()) partners.require(std::max(kLeastRoom, 2 * size));
+      if (size > partners.capacity()) partners.require(2 * size);
       return partners.data();
     }
 

@@ -28,7 +28,7 @@ template <std::size_t kLanes, std::size_t kLaneBytes>
 }
 
 /// Of vectors with 4 lanes the bytes, of those with 8 the lanes: what their instructions for a permutation take.
-alignas(64) inline constexpr LaneSelections<4, 4> kSelectionsOf4 = laneSelections<4, 4>();
-alignas(64) inline constexpr LaneSelections<8, 1> kSelectionsOf8 = laneSelections<8, 1>();
+template <std::size_t kLanes, std::size_t kLaneBytes>
+alignas(64) inline constexpr auto kLaneSelections = laneSelections<kLanes, kLaneBytes>();
 
 }  // namespace allpairs::engine

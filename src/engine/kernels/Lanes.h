@@ -14,6 +14,12 @@ namespace allpairs::engine {
 /// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set.
 inline constexpr std::size_t kFanOut = 16;
 
+/// Kernels load and store whole vectors: so many values after the end of an array may be read, or written and ignored.
+inline constexpr std::size_t kVectorSlack = 64;
+
+/// Rows that kernels test at once: they share the loads of the columns, and a branch.
+inline constexpr std::size_t kRowsAtOnce = 4;
+
 /// The largest finite float32. Lanes never exceed it, so that a lane of +infinity below and -infinity above
 /// overlaps nothing at all, an infinite box included.
 inline constexpr float kLaneMax = std::numeric_limits<float>::max();
@@ -69,14 +75,12 @@ struct alignas(64) LaneBlock {
 /// Up to a fixed number of boxes with their ids, one array per bound, small enough to stay in the first-level cache.
 ///
 /// The distance between the arrays is a constant, so that kernels reach them all from one register.
-/// There is room after the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
 template <std::size_t kBoxes>
 struct alignas(64) LaneTileOf {
   static constexpr std::size_t kCapacity = kBoxes;
-  static constexpr std::size_t kPadding = 64;
 
-  std::array<std::array<float, kCapacity + kPadding>, 6> bound;
-  std::array<std::uint32_t, kCapacity + kPadding> id;
+  std::array<std::array<float, kCapacity + kVectorSlack>, 6> bound;
+  std::array<std::uint32_t, kCapacity + kVectorSlack> id;
 
   void set(std::size_t i, const LaneBox& box, std::uint32_t boxId) noexcept {
     for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];

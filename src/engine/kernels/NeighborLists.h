@@ -61,9 +61,9 @@ class NeighborScratch {
 
   /// Room for so many boxes and for whole vectors after them; the contents are lost.
   void require(std::size_t boxes) {
-    constexpr std::size_t kPadding = 80;  // Also keeps the arrays from the same offset in their pages.
-    if (boxes + kPadding > m_stride) {
-      const std::size_t stride = 2 * boxes / kFanOut * kFanOut + kPadding + kFanOut;
+    if (boxes + kVectorSlack > m_stride) {
+      // Not a multiple of many boxes, which would bring the arrays to the same offset in their pages.
+      const std::size_t stride = 2 * boxes / kFanOut * kFanOut + kVectorSlack + 2 * kFanOut;
       m_stride = 0;
       m_bounds.require(6 * stride);
       for (Buffer<std::uint32_t>* ids : {&id, &near, &hitBits, &hitIds}) ids->require(stride);

@@ -89,12 +89,12 @@ HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, La
 /// Four values that follow each other of every fourth box: those of box 4k are in block k of 128 bits.
 template <class D>
 HWY_INLINE hn::Vec<D> everyFourth(D d, const float* values, const std::int32_t* offsets) {
-  constexpr std::size_t kLanes = hn::MaxLanes(D());
-  if constexpr (kLanes == 4) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
     return hn::LoadU(d, values + offsets[0]);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, everyFourth(half, values, offsets + kLanes / 2), everyFourth(half, values, offsets));
+    return hn::Combine(d, everyFourth(half, values, offsets + hn::MaxLanes(D()) / 2),
+                       everyFourth(half, values, offsets));
   }
 }
 

@@ -15,8 +15,6 @@ inline constexpr std::size_t kMostInWorld = 448;
 /// Boxes whose hits make a word of bits.
 inline constexpr std::size_t kWordBoxes = 64;
 
-/// Words for the hits of one box.
-inline constexpr std::size_t kMostWords = kMostInWorld / kWordBoxes;
 static_assert(kMostInWorld % kWordBoxes == 0);
 
 /// The places of a world's boxes among lanes and bits: its last box has the last place of a word, so that the boxes that

@@ -62,10 +62,10 @@ class Receiver {
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
   Hits m_hits;
-  alignas(64) std::array<std::uint32_t, kHits + Hits::kSlack> m_rows;
-  alignas(64) std::array<std::uint32_t, kHits + Hits::kSlack> m_partners;
-  std::array<std::uint32_t, kHits + Hits::kSlack> m_doubts;
-  alignas(64) std::array<Pair, kHits + Hits::kSlack> m_pairs;
+  alignas(64) std::array<std::uint32_t, kHits + kVectorSlack> m_rows;
+  alignas(64) std::array<std::uint32_t, kHits + kVectorSlack> m_partners;
+  std::array<std::uint32_t, kHits + kVectorSlack> m_doubts;
+  alignas(64) std::array<Pair, kHits + kVectorSlack> m_pairs;
 };
 
 /// Reads all boxes; returns whether their lanes are exactly the boxes.

@@ -89,13 +89,10 @@ namespace {
 /// (docs/decisions/0015).
 template <class Use>
 auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use& use) {
-  constexpr std::size_t kLeast = 4096;
-  constexpr std::size_t kMost = 16384;
-  constexpr std::size_t kBytesPerBox = 127;  // kMost of them are less than a large page.
   const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
-  std::pmr::monotonic_buffer_resource block(kBytesPerBox * boxes + 1, engine::memoryOr(given.memory));
-  // The block is not thread-safe.
-  const bool takesBlock = boxes >= kLeast && boxes < kMost && given.executor == nullptr;
+  std::pmr::monotonic_buffer_resource block(127 * boxes + 1, engine::memoryOr(given.memory));
+  // Less than a large page; not thread-safe.
+  const bool takesBlock = boxes >= 4096 && boxes < 16384 && given.executor == nullptr;
   engine::Search search(takesBlock ? &block : engine::memoryOr(given.memory));
   return use(search);
 }

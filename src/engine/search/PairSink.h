@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "kernels/Hits.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
+#include "order/PairBuckets.h"
 #include "search/PairTest.h"
 
 namespace allpairs::engine {
@@ -26,6 +28,11 @@ inline void add(OverlapStatistics& sum, const OverlapStatistics& part) noexcept 
   sum.boxTests += part.boxTests;
   sum.groupTests += part.groupTests;
   sum.exactTests += part.exactTests;
+}
+
+/// Pairs that memory is reserved for in advance: those of a scene as most are, and no more than a million.
+[[nodiscard]] inline std::size_t likelyPairsOf(std::size_t boxes) noexcept {
+  return std::min(kLikelyPairs * boxes, std::size_t{1} << 20);
 }
 
 /// How hits become pairs, the same for all workers of a search.

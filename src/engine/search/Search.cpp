@@ -15,10 +15,6 @@ namespace {
 /// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more.
 constexpr std::size_t kFewRows = 32;
 
-/// Pairs per box in a typical scene, and the maximum that memory is reserved for in advance.
-constexpr std::size_t kLikelyPairs = 4;
-constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
-
 /// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap.
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
@@ -100,7 +96,7 @@ bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list)
 bool Search::choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const {
   const std::size_t rows = readers.first.size();
   const std::size_t columns = readers.second.size();
-  likelyPairs = std::min(kLikelyPairs * rows, kMostLikelyPairs);
+  likelyPairs = likelyPairsOf(rows);
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
   const std::size_t few = m_kernels->flatBoxes(options.order);
   if (rows * columns <= few * few || std::min(rows, columns) <= kFewRows) return true;

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "allpairs/Error.h"
 #include "allpairs/Executor.h"
 #include "allpairs/StopFlag.h"
 
 namespace allpairs::engine {
+
+/// Tests of boxes, some milliseconds of work, between two looks at the flag that stops them.
+inline constexpr std::uint64_t kTestsBetweenLooks = std::uint64_t{1} << 22;
 
 /// Throws Stopped if there is a flag and it is set.
 inline void checkStop(const StopFlag* stop) {

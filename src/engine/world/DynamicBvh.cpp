@@ -7,22 +7,19 @@
 #include <numeric>
 #include <utility>
 
+#include "input/Parts.h"
+
 namespace allpairs::engine {
 namespace {
 
 /// The share of places reserved for boxes added later, and of places that may become vacant before a rebuild.
 constexpr std::size_t kShareOfChange = 8;
-constexpr std::size_t kLeastRoom = 64;
 
 /// If at least one box in this many has moved, all blocks are read again.
 constexpr std::size_t kShareOfMoved = 8;
 
-constexpr std::size_t kKeptBlocksPerTask = 256;
-
-/// The prefetch distance for the boxes of a block, in blocks.
-constexpr std::size_t kPrefetchBlocks = 2;
-
-std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + kLeastRoom; }
+/// Some more than the share, for worlds of few boxes.
+std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + 64; }
 
 }  // namespace
 
@@ -124,11 +121,9 @@ void DynamicBvh::placeFresh(const BoxReader& reader, Executor& executor) {
 void DynamicBvh::orderByCurve(std::span<const BoxId> ids, const BoxReader& reader, Executor& executor) {
   m_keyed.require(ids.size() + ids.size() / kShareOfChange);
   m_spare.require(ids.size() + ids.size() / kShareOfChange);
-  constexpr std::size_t kBoxesPerTask = kKeptBlocksPerTask * kFanOut;
-  const BoxList boxes{ids.data(), 0, ids.size()};
-  executor.run((ids.size() + kBoxesPerTask - 1) / kBoxesPerTask, [&](std::size_t task) {
-    KeyRun run{m_spare.data() + task * kBoxesPerTask};
-    writeKeys(reader, m_grid, boxes.part(task * kBoxesPerTask, kBoxesPerTask), true, run);
+  runInParts(ids.size(), kPartSize, executor, [&](std::size_t begin, std::size_t end) {
+    KeyRun run{m_spare.data() + begin};
+    writeKeys(reader, m_grid, {ids.data() + begin, 0, end - begin}, true, run);
   });
   m_radix.sort(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits, kIndexBits + m_grid.keyBits(), executor);
   sortDenseCells({m_keyed.data(), ids.size()}, m_spare.data(), reader, executor, m_denseCells);
@@ -170,10 +165,9 @@ void DynamicBvh::refit(const BoxReader& reader, Executor& executor) {
 
 void DynamicBvh::refitAll(const BoxReader& reader, Executor& executor) {
   const std::size_t count = m_levels.blockCount();
-  executor.run((count + kKeptBlocksPerTask - 1) / kKeptBlocksPerTask, [&](std::size_t task) {
-    const std::size_t end = std::min(count, (task + 1) * kKeptBlocksPerTask);
-    for (std::size_t b = task * kKeptBlocksPerTask; b < end; ++b) {
-      const std::size_t ahead = std::min(b + kPrefetchBlocks, count - 1) * kFanOut;
+  runInParts(count, kPartSize / kFanOut, executor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const std::size_t ahead = std::min(b + kPrefetchBoxes / kFanOut, count - 1) * kFanOut;
       for (std::size_t lane = 0; lane < kFanOut; ++lane) reader.prefetch(m_levels.id(ahead + lane));
       gather(b, reader);
     }

@@ -56,12 +56,11 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
     for (const double component : vector) squares += (component * scale) * (component * scale);
     return squares;
   };
-  constexpr double kLeast = 0x1p-960;
   constexpr double kLarge = 0x1p600;
   const double squares = scaled(1.0);
   // Outside this range squares underflow or overflow; scaling by a power of two is exact.
   if (squares == kFar) return std::sqrt(scaled(1.0 / kLarge)) * kLarge;
-  if (squares < kLeast) return std::sqrt(scaled(kLarge)) / kLarge;
+  if (squares < 0x1p-960) return std::sqrt(scaled(kLarge)) / kLarge;
   return std::sqrt(squares);
 }
 

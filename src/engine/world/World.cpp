@@ -11,6 +11,7 @@
 #include "allpairs/Error.h"
 #include "input/Options.h"
 #include "search/InUse.h"
+#include "search/SearchState.h"
 #include "world/BoxStore.h"
 #include "world/QueryTests.h"
 #include "world/WorldQueries.h"
@@ -142,8 +143,7 @@ World::State& World::state() {
 }
 
 const WorldOptions& World::options() const noexcept {
-  static const WorldOptions kDefaults;
-  return m_state != nullptr ? m_state->options : kDefaults;
+  return m_state != nullptr ? m_state->options : engine::defaultOf<WorldOptions>();
 }
 
 void World::reserve(std::size_t boxes) { state().store.reserve(boxes); }
@@ -248,8 +248,7 @@ StepResult World::step() {
 StepResult World::result() const noexcept { return m_state != nullptr ? m_state->search.result() : StepResult(); }
 
 const WorldStatistics& World::statistics() const noexcept {
-  static constexpr WorldStatistics kNone;
-  return m_state != nullptr ? m_state->search.statistics() : kNone;
+  return m_state != nullptr ? m_state->search.statistics() : engine::defaultOf<WorldStatistics>();
 }
 
 std::vector<Pair> World::findBetween(const World& other) const {

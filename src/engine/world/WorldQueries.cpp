@@ -27,18 +27,13 @@ bool isExactly(const LaneBox& lanes, const Box& box) noexcept {
   return exact;
 }
 
-float asFloat(double value) noexcept {
-  constexpr double kMost = 1e30;
-  return static_cast<float>(std::clamp(value, -kMost, kMost));
-}
-
 /// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.
 template <class PointOf>
 std::vector<CurveKey> orderOf(std::size_t queries, const PointOf& pointOf, const QueryTarget& target) {
   std::vector<BoxF> starts(queries);
   for (std::size_t i = 0; i < queries; ++i) {
     const std::array<double, 3> point = pointOf(i);
-    starts[i].min = starts[i].max = {asFloat(point[0]), asFloat(point[1]), asFloat(point[2])};
+    starts[i].min = starts[i].max = {roundDown(point[0]), roundDown(point[1]), roundDown(point[2])};
   }
   const BoxView boxes(starts);
   std::vector<CurveKey> spare(queries);

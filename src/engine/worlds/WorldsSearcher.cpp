@@ -7,13 +7,10 @@
 #include "allpairs/Error.h"
 #include "input/Options.h"
 #include "search/PairSink.h"
+#include "search/TaskCut.h"
 
 namespace allpairs::engine {
 namespace {
-
-/// Pairs per box in a typical scene, for which room is made at first, and the most that it is made for.
-constexpr std::size_t kLikelyPairs = 2;
-constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
 
 /// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are faster.
 constexpr std::size_t kMostInDouble = 96;
@@ -21,20 +18,12 @@ constexpr std::size_t kMostInDouble = 96;
 /// A world of more boxes is searched by all threads.
 constexpr std::size_t kManyBoxes = 4096;
 
-/// Parts for each thread: several, since some take longer than others; and the work that a part is worth.
-constexpr std::size_t kPartsPerThread = 16;
+/// The work that a part is worth.
 constexpr std::size_t kLeastWork = std::size_t{1} << 16;
 
-/// The work, some milliseconds, between two looks at the flag that stops a search.
-constexpr std::uint64_t kWorkBetweenLooks = std::uint64_t{1} << 22;
-
-/// What a world takes, very roughly in vector tests.
-std::uint64_t workOf(std::size_t boxes, std::size_t mostBoxes) {
-  constexpr std::uint64_t kPerWorld = 16;
-  constexpr std::uint64_t kPerBox = 4;
-  constexpr std::uint64_t kPerBoxOfHierarchy = 64;
-  const std::uint64_t size = boxes;
-  return kPerWorld + (boxes <= mostBoxes ? size * (kPerBox + size / kFanOut) : size * kPerBoxOfHierarchy);
+/// What a world takes, very roughly in vector tests: some for the world, for each box its columns or its part of a hierarchy.
+std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
+  return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
@@ -112,8 +101,8 @@ void WorldsSearcher::cutParts() {
   }
   std::uint64_t all = 0;
   for (std::size_t world = 0; world < worlds; ++world) all += workOf(sizeOf(world), m_mostBoxes);
-  std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kPartsPerThread * threads));
-  if (mayStop) most = std::min(most, kWorkBetweenLooks);
+  std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kTasksPerThread * threads));
+  if (mayStop) most = std::min(most, kTestsBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
     const bool takesAllThreads = sizeOf(world) > kManyBoxes;
@@ -169,7 +158,7 @@ WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& 
   begin(worlds, options);
   searchParts([&](const Part& part, Worker& worker) {
     const std::size_t boxes = m_worlds->begin(part.end) - m_worlds->begin(part.begin);
-    worker.pairs.grow(worker.size + std::min(kLikelyPairs * boxes, kMostLikelyPairs));
+    worker.pairs.grow(worker.size + likelyPairsOf(boxes) / 2);  // Boxes of small worlds have fewer.
     return Target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
   });
   if (m_parts.size() <= 1) {

@@ -24,7 +24,7 @@ namespace allpairs::engine {
 struct WideBoxes {
   WorldTile<double> tile;
   std::array<double, kMostInWorld> margins;
-  std::array<std::uint64_t, kMostWords> alive;
+  std::array<std::uint64_t, kMostInWorld / kWordBoxes> alive;
 };
 
 /// Searches many worlds, and keeps its memory for the next time.
