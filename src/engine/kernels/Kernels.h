@@ -150,10 +150,10 @@ struct Kernels {
                            LaneBlock& block);
 
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
-  /// bound for each of them: of the time of the hit, or of the squared distance.
+  /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that contains it.
   std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
-  std::uint32_t (*nearLanes)(const LaneBlock& block, const PointLanes& point, float limit, float* squares);
+  std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& point, float limit, float* squares);
 };
 
 /// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.

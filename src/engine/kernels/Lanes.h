@@ -135,10 +135,4 @@ struct SweepLanes {
   std::array<Axis, 3> axis{};
 };
 
-/// A point between two float32 on each axis.
-struct PointLanes {
-  std::array<float, 3> below;
-  std::array<float, 3> above;
-};
-
 }  // namespace allpairs::engine

@@ -98,7 +98,7 @@ class WideTest {
     const D d;
     const auto far = distance(row);
     const auto apartOn = [&](std::size_t axis) HWY_ATTR {
-      const auto& bound = m_world.tile->bound;
+      const auto& bound = m_world.tile.bound;
       const auto min = hn::LoadU(d, &bound[axis][m_place]);
       const auto max = hn::LoadU(d, &bound[axis + 3][m_place]);
       return hn::Or(hn::Gt(hn::Set(d, bound[axis][row]), hn::Add(max, far)),
@@ -112,9 +112,9 @@ class WideTest {
   [[nodiscard]] HWY_INLINE hn::Vec<D> distance(std::size_t row) const {
     const D d;
     const auto given = hn::Set(d, m_world.distance);
-    if (m_world.margins == nullptr) return given;
+    if (!m_world.hasMargins) return given;
     const auto own = hn::Set(d, m_world.margins[row]);
-    const auto other = hn::LoadU(d, m_world.margins + m_place);
+    const auto other = hn::LoadU(d, &m_world.margins[m_place]);
     return kPreceding ? hn::Add(hn::Add(given, other), own) : hn::Add(hn::Add(given, own), other);
   }
 
@@ -347,7 +347,7 @@ HWY_INLINE void readWorld(const WorldsRun& run, std::size_t firstBox, const Worl
 /// Prefetches, line by line, what is read a page later: the processor's own prefetching ends with a page.
 HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t boxes) {
   const std::size_t begin = box * run.stride + 4096 / sizeof(float);
-  const std::size_t end = std::min(begin + boxes * run.stride, std::size_t{run.offsets[run.end]} * run.stride);
+  const std::size_t end = std::min(begin + boxes * run.stride, run.worlds->begin(run.end) * run.stride);
   for (std::size_t i = begin; i < end; i += 64 / sizeof(float)) {
     hwy::Prefetch(run.min + i);
     if (run.stride == 3) hwy::Prefetch(run.max + i);
@@ -361,8 +361,8 @@ HWY_INLINE void searchRun(WorldsRun& run) {
   const FloatTest test(tile);
   WorldPairsPlace place = run.place;
   for (; run.world < run.end; ++run.world) {
-    const std::size_t first = run.offsets[run.world];
-    const std::size_t boxes = run.offsets[run.world + 1] - first;
+    const std::size_t first = run.worlds->begin(run.world);
+    const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
     if (boxes > run.mostBoxes || !place.takes(boxes)) break;
     const WorldPlaces places = WorldPlaces::of(boxes);
     prefetchAfter(run, first + boxes, boxes);
@@ -391,9 +391,9 @@ void searchWorlds(WorldsRun& run) {
 template <bool kPreceding>
 HWY_INLINE void searchWide(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
-  const SomePartners partners{places, rule.allowed, world.alive};
-  if (world.margins == nullptr && world.distance == 0.0) {
-    searchSome<kPreceding>(DoubleTest(*world.tile), places, partners, place);
+  const SomePartners partners{places, rule.allowed, world.alive.data()};
+  if (!world.hasMargins && world.distance == 0.0) {
+    searchSome<kPreceding>(DoubleTest(world.tile), places, partners, place);
   } else {
     searchSome<kPreceding>(WideTest<kPreceding>(world), places, partners, place);
   }

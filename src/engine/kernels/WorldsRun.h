@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "allpairs/Pair.h"
+#include "allpairs/Worlds.h"
 
 namespace allpairs::engine {
 
@@ -34,16 +35,6 @@ struct WorldPlaces {
 template <class T>
 struct alignas(64) WorldTile {
   std::array<std::array<T, kMostInWorld>, 6> bound;
-};
-
-/// Where each world begins: at its offset, or, if there are none, at a multiple of a size that all worlds have.
-struct WorldOffsets {
-  const std::uint64_t* begin = nullptr;
-  std::size_t size = 0;
-
-  [[nodiscard]] std::size_t operator[](std::size_t world) const noexcept {
-    return begin != nullptr ? static_cast<std::size_t>(begin[world]) : world * size;
-  }
 };
 
 /// Where the pairs of worlds go, one world's after the other's.
@@ -85,7 +76,7 @@ struct WorldsRun {
   const float* max = nullptr;
   std::size_t stride = 6;
 
-  WorldOffsets offsets;
+  const Worlds* worlds = nullptr;
   std::size_t world = 0;  ///< The next one; the one that it stopped at.
   std::size_t end = 0;
   std::size_t mostBoxes = kMostInWorld;
@@ -99,11 +90,12 @@ struct WorldsRun {
 
 /// One world in double, the exact test of boxes with margins and a distance.
 struct WideWorld {
-  const WorldTile<double>* tile = nullptr;
-  std::size_t boxes = 0;
-  const double* margins = nullptr;  ///< By place; null if the boxes are compared as they are.
-  double distance = 0.0;
-  const std::uint64_t* alive = nullptr;  ///< A bit for each place whose box can overlap others.
+  WorldTile<double> tile;
+  std::size_t boxes;
+  double distance;
+  bool hasMargins;
+  std::array<double, kMostInWorld> margins;                    ///< By place.
+  std::array<std::uint64_t, kMostInWorld / kWordBoxes> alive;  ///< A bit for each place whose box can overlap others.
 };
 
 }  // namespace allpairs::engine

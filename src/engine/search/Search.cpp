@@ -129,7 +129,7 @@ void Search::shrink() noexcept {
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
   checkOptions(sets, options);
   m_kernels = &chooseKernels(options);
-  m_executor = &m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop);
+  m_executor = &m_stoppable.over(options.executor, options.stop);
   m_statistics = {};
   m_pairs = {};
   m_taken = nullptr;

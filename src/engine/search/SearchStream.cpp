@@ -52,7 +52,8 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
 void Search::streamAll(Plan& plan, Batches& to) {
   const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return to.giveFull(pairs); };
   plan.sink.emit.emplace(fullBatches);
-  run(plan, m_serial);
+  SerialExecutor serial;  // The visitor is called on the calling thread.
+  run(plan, serial);
   to.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 

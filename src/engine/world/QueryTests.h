@@ -103,15 +103,6 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   return lanes;
 }
 
-[[nodiscard]] inline PointLanes lanesOf(const std::array<double, 3>& point) noexcept {
-  PointLanes lanes;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lanes.below[axis] = -roundUpFar(-point[axis]);
-    lanes.above[axis] = roundUpFar(point[axis]);
-  }
-  return lanes;
-}
-
 [[nodiscard]] inline LaneBox lanesOf(const Box& box) noexcept {
   LaneBox lanes;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -73,7 +73,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_statistics = {};
   m_kernels = &chooseKernels(options);
   checkStop(options.stop);
-  m_executor = &m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop);
+  m_executor = &m_stoppable.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && haveReadableCorners(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
@@ -216,7 +216,7 @@ std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker
   run.min = min.data;
   run.max = max.data;
   run.stride = static_cast<std::size_t>(min.boxStride);
-  run.offsets = {m_worlds->offsets().empty() ? nullptr : m_worlds->offsets().data(), m_worlds->eachSize()};
+  run.worlds = m_worlds;
   run.world = world;
   run.end = end;
   run.mostBoxes = m_mostBoxes;
@@ -255,7 +255,7 @@ void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, Target& targ
 
 void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldPairsPlace& place) const {
   worker.wide.require(1);
-  WideBoxes& wide = worker.wide[0];
+  WideWorld& wide = worker.wide[0];
   const BoxView& boxes = m_worlds->boxes();
   const std::size_t first = m_worlds->begin(world);
   const std::size_t size = sizeOf(world);
@@ -273,9 +273,10 @@ void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldPairsPlace&
     const bool isIn = !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
     if (isIn && !isEmpty(box)) wide.alive[at / kWordBoxes] |= std::uint64_t{1} << (at % kWordBoxes);
   }
-  const WideWorld kernel{&wide.tile, size, boxes.hasMargins() ? wide.margins.data() : nullptr, m_options->distance,
-                         wide.alive.data()};
-  m_kernels->searchWideWorld(kernel, {m_options->order == Order::BySecond, m_filter.allowed()}, place);
+  wide.boxes = size;
+  wide.distance = m_options->distance;
+  wide.hasMargins = boxes.hasMargins();
+  m_kernels->searchWideWorld(wide, {m_options->order == Order::BySecond, m_filter.allowed()}, place);
   worker.statistics.boxTests += WorldPairsPlace::roomFor(size) - WorldPairsPlace::kSlack;
 }
 

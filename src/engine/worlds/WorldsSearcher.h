@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -19,13 +18,6 @@
 #include "worlds/WorldsFilter.h"
 
 namespace allpairs::engine {
-
-/// The boxes of a world in double, with what the kernel reads besides.
-struct WideBoxes {
-  WorldTile<double> tile;
-  std::array<double, kMostInWorld> margins;
-  std::array<std::uint64_t, kMostInWorld / kWordBoxes> alive;
-};
 
 /// Searches many worlds, and keeps its memory for the next time.
 class WorldsSearcher {
@@ -62,7 +54,7 @@ class WorldsSearcher {
     Buffer<Pair> pairs;  ///< Results.
     std::uint64_t size = 0;
     Buffer<Pair> scratch;  ///< Of a world whose pairs cannot be written to their place at once.
-    Buffer<WideBoxes> wide;
+    Buffer<WideWorld> wide;
     OverlapStatistics statistics;
   };
 
@@ -96,7 +88,6 @@ class WorldsSearcher {
   const OverlapOptions* m_options = nullptr;
   const Kernels* m_kernels = nullptr;
   Executor* m_executor = nullptr;
-  SerialExecutor m_serial;
   StoppableExecutor m_stoppable;
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
   bool m_isPlain = false;       ///< Boxes that the kernel reads from the caller's memory.
