@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
-#include "kernels/BvhView.h"
 #include "kernels/Kernels.h"
+#include "kernels/Lanes.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {

@@ -8,7 +8,6 @@
 #define ALLPAIRS_KERNEL_TABLE_INL_H
 #endif
 
-#include "kernels/CurveKernel-inl.h"
 #include "kernels/FlatKernel-inl.h"
 #include "kernels/JoinKernel-inl.h"
 #include "kernels/Kernels.h"

@@ -13,7 +13,6 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
-#include "kernels/LaneSelection.h"
 #include "kernels/Lanes.h"
 
 HWY_BEFORE_NAMESPACE();

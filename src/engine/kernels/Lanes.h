@@ -114,6 +114,28 @@ struct LaneList {
   }
 };
 
+/// 16^8 = 2^32: no set needs more levels.
+inline constexpr std::size_t kMaxLevels = 8;
+
+/// One level of a hierarchy: `size` boxes or bounds in blocks of 16, the last one padded with lanes that never overlap.
+struct Level {
+  const LaneBlock* blocks = nullptr;
+  std::size_t size = 0;
+
+  [[nodiscard]] std::size_t blockCount() const noexcept { return (size + kFanOut - 1) / kFanOut; }
+  [[nodiscard]] std::size_t fill(std::size_t block) const noexcept {
+    return block + 1 < blockCount() ? kFanOut : size - block * kFanOut;
+  }
+};
+
+/// A hierarchy of bounds over boxes in the order of a curve. Level 0 holds the boxes; entry i of level k + 1 bounds
+/// block i of level k; the last level is one block.
+struct BvhView {
+  std::array<Level, kMaxLevels> level;
+  std::size_t depth = 0;
+  const std::uint32_t* ids = nullptr;  ///< The caller's index of each box of level 0.
+};
+
 /// Added to, or subtracted from, a result in float32 so that it bounds the result in double: much more than its four
 /// roundings can amount to, and than underflow can lose. The exactness of results rests on it too: it is what the lanes that
 /// overlap for certain have to spare, at least eight units in the last place.
@@ -134,5 +156,29 @@ struct SweepLanes {
   std::array<float, 3> inverse{};  ///< Of the speed.
   std::array<Axis, 3> axis{};
 };
+
+/// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What follows
+/// them is the first byte.
+template <std::size_t kLanes, std::size_t kLaneBytes>
+using LaneSelections = std::array<std::array<std::uint8_t, kLanes * kLaneBytes>, std::size_t{1} << kLanes>;
+
+template <std::size_t kLanes, std::size_t kLaneBytes>
+[[nodiscard]] constexpr LaneSelections<kLanes, kLaneBytes> laneSelections() {
+  LaneSelections<kLanes, kLaneBytes> result{};
+  for (std::size_t selection = 0; selection < result.size(); ++selection) {
+    std::size_t size = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if ((selection >> lane & 1U) == 0) continue;
+      for (std::size_t byte = 0; byte < kLaneBytes; ++byte) {
+        result[selection][size++] = static_cast<std::uint8_t>(lane * kLaneBytes + byte);
+      }
+    }
+  }
+  return result;
+}
+
+/// Of vectors with 4 lanes the bytes, of those with 8 the lanes: what their instructions for a permutation take.
+template <std::size_t kLanes, std::size_t kLaneBytes>
+alignas(64) inline constexpr auto kLaneSelections = laneSelections<kLanes, kLaneBytes>();
 
 }  // namespace allpairs::engine

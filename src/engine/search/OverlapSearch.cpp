@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "search/FewBoxes.h"
-#include "search/InUse.h"
 #include "search/Search.h"
 #include "search/SearchState.h"
 

@@ -2,7 +2,10 @@
 // What the objects that keep a search have in common: a state with options, a mark of use and, after a move, none at all.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "allpairs/Error.h"
@@ -10,6 +13,48 @@
 #include "memory/Memory.h"
 
 namespace allpairs::engine {
+
+/// How a mark is counted: const members of some objects run on several threads at once.
+enum class Users : std::uint8_t { One, Many };
+
+/// Marks an object as running. Calls from its own callbacks would then change the data that it works on.
+///
+/// Threads: tasks of the running work may call check().
+template <Users kUsers>
+class InUseBy {
+ public:
+  /// Marks the object as running while the scope exists.
+  class Scope {
+   public:
+    explicit Scope(InUseBy& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
+    ~Scope() { m_inUse.add(-1); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    InUseBy& m_inUse;
+  };
+
+  /// Throws InvalidArgument, which names the kind of object, if the object is running.
+  void check(const char* object) const {
+    if (m_scopes.load(std::memory_order_relaxed) != 0)
+      throw InvalidArgument(std::string(object) + " is called by its own filter, visitor or task");
+  }
+
+ private:
+  /// A locked addition would cost more than a search of a few boxes.
+  void add(int scopes) noexcept {
+    if constexpr (kUsers == Users::Many) {
+      m_scopes.fetch_add(scopes, std::memory_order_relaxed);
+    } else {
+      m_scopes.store(m_scopes.load(std::memory_order_relaxed) + scopes, std::memory_order_relaxed);
+    }
+  }
+
+  std::atomic<int> m_scopes = 0;
+};
+
+using InUse = InUseBy<Users::One>;
 
 /// The value that a moved-from object returns a reference to.
 template <class T>

@@ -10,7 +10,7 @@
 
 #include "allpairs/Error.h"
 #include "input/Options.h"
-#include "search/InUse.h"
+#include "search/SearchState.h"
 #include "world/BoxStore.h"
 #include "world/QueryTests.h"
 #include "world/WorldQueries.h"

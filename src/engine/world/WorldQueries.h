@@ -8,7 +8,7 @@
 
 #include "allpairs/WorldTypes.h"
 #include "bvh/CurveKey.h"
-#include "kernels/BvhView.h"
+#include "kernels/Lanes.h"
 #include "world/BoxStore.h"
 #include "world/Descent.h"
 #include "world/WorldSearch.h"

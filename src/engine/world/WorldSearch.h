@@ -12,7 +12,6 @@
 #include "search/PairTest.h"
 #include "search/StoppableExecutor.h"
 #include "world/BoxStore.h"
-#include "world/ChangedBoxes.h"
 #include "world/DynamicBvh.h"
 #include "world/PairHistory.h"
 

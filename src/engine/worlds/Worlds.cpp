@@ -8,7 +8,6 @@
 
 #include "allpairs/Error.h"
 #include "memory/Memory.h"
-#include "search/InUse.h"
 #include "search/SearchState.h"
 #include "worlds/SharedSearcher.h"
 #include "worlds/WorldsSearcher.h"
