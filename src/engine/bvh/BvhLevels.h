@@ -14,7 +14,7 @@
 
 namespace allpairs::engine {
 
-/// How many boxes ahead of those that are gathered into blocks others are prefetched.
+/// How many boxes ahead of those that are gathered into blocks others are prefetched (allpairs bench).
 inline constexpr std::size_t kPrefetchBoxes = 32;
 
 /// The memory of a hierarchy: blocks of boxes and, level by level, their bounds. Boxes may be added and changed in

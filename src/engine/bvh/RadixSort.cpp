@@ -12,19 +12,22 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this size one thread sorts numbers as one run: there and back they fill a second-level cache.
+/// Up to this size one thread sorts numbers as one run: there and back they fill a second-level cache
+/// (allpairs bench).
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
 
-/// A first pass leaves buckets of about 2^kRunBits numbers, in no more than 2^kMaxDigitBits buckets.
+/// A first pass leaves buckets of about 2^kRunBits numbers, 64 KiB there and back, in no more than 2^kMaxDigitBits
+/// buckets.
 constexpr unsigned kRunBits = 12;
 
-/// Runs up to this length are sorted by insertion.
+/// Runs up to this length are sorted by insertion (docs/decisions/0019, allpairs bench).
 constexpr std::size_t kShortRun = 24;
 
 /// The most bits of a digit: its counters then stay in the first-level cache beside the numbers.
 constexpr unsigned kMaxDigitBits = 11;
 
-/// From this length on the places that a pass writes to, one for each digit, have to lie in the first-level cache.
+/// From this length on the places that a pass writes to, one for each digit, have to lie in the first-level cache
+/// (docs/decisions/0019, dense_benchmark).
 constexpr unsigned kFewDigitBits = 8;
 constexpr std::size_t kLongRun = 65536;
 

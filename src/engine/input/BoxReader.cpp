@@ -50,7 +50,7 @@ bool readRounded(const Box& box, LaneBox& lanes) noexcept {
 /// expression, max + ((distance + margin) + margin), can add up to.
 bool readWidened(const BoxView& boxes, double distance, const std::array<double, 3>& origin, std::size_t i,
                  LaneBox& lanes) noexcept {
-  constexpr double kSlack = 0x1p-48;
+  constexpr double kSlack = 0x1p-48;  // Sixteen units in the last place of a double.
   const Box box = boxes[i];
   const double margin = boxes.margin(i);
   const double half = 0.5 * distance + margin;

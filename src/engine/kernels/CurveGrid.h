@@ -16,6 +16,7 @@ namespace allpairs::engine {
 /// The key is a class, for boxes much larger than most, above the position along Hilbert's curve of the cell of the
 /// box's centre. Large boxes are thus grouped together and do not enlarge the bounds of blocks of small ones.
 struct CurveGrid {
+  /// Keys then have 30 bits with the class, which three passes sort.
   static constexpr unsigned kMaxBitsPerAxis = 9;
 
   unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells per box: more would only make the sort of the keys longer.

@@ -19,10 +19,10 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Up to this many columns a branch around vectors without hits costs more than it saves.
+/// Up to this many columns a branch around vectors without hits costs more than it saves (few_benchmark).
 constexpr std::size_t kDenseColumns = 512;
 
-/// A row is dense if at least one in this many columns is a hit.
+/// A row is dense if at least one in this many columns is a hit: its pairs are written at once (dense_benchmark).
 constexpr std::size_t kDenseRow = 3;
 
 /// The columns that a row is tested against.
@@ -121,7 +121,7 @@ std::size_t countRows(const FlatSearch& search, Hits& hits) {
   return row;
 }
 
-/// From this many pairs on, a result exceeds the caches near a core.
+/// From this many pairs, 2 MiB, on a result exceeds the caches near a core (docs/decisions/0014, dense_benchmark).
 constexpr std::size_t kCachedPairs = std::size_t{1} << 18;
 
 /// Gathers pairs into whole cache lines and writes them with streaming stores, which bypass the caches: a normal store
@@ -155,8 +155,8 @@ class PairStream {
   }
 
  private:
-  static constexpr std::size_t kLinePairs = 8;
-  static constexpr std::size_t kBatch = 256;
+  static constexpr std::size_t kLinePairs = 64 / sizeof(Pair);
+  static constexpr std::size_t kBatch = 256;  ///< Pairs that are gathered, so that lines are written several at a time.
 
   HWY_INLINE void flush() {
     const IdTag d;

@@ -77,7 +77,7 @@ HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
 /// Testing rows of the leaf against a list of candidates would require gathering the candidates' bounds first.
 template <class Emitter>
 HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<const std::uint32_t> places, Hits& hits) {
-  constexpr std::size_t kStretch = 64;
+  constexpr std::size_t kStretch = 64;  // Hits of so many boxes fit the buffer, and the tests those in doubt remember.
   const LaneBlock* blocks = other.level[0].blocks;
   const auto queryAt = [&](std::size_t place)
                            HWY_ATTR { return broadcast(blocks[place / kFanOut].get(place % kFanOut)); };
@@ -99,7 +99,7 @@ HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<cons
   }
 }
 
-/// The prefetch distance for the members of a partner, in blocks.
+/// How many partners ahead their blocks are prefetched (allpairs bench).
 constexpr std::size_t kPrefetchDistance = 4;
 
 HWY_INLINE void prefetchBlock(const LaneBlock& block) {

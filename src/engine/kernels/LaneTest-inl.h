@@ -124,6 +124,7 @@ HWY_INLINE hn::Vec<D> selectedLanes(D d, hn::Vec<D> values, M mask) {
   }
 }
 
+/// What numbersFrom() adds to.
 alignas(64) inline constexpr std::array<std::uint32_t, kFanOut> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
                                                                              8, 9, 10, 11, 12, 13, 14, 15};
 

@@ -11,7 +11,8 @@
 
 namespace allpairs::engine {
 
-/// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set.
+/// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set
+/// (docs/decisions/0003).
 inline constexpr std::size_t kFanOut = 16;
 
 /// Kernels load and store whole vectors: so many values after the end of an array may be read, or written and ignored.
@@ -23,6 +24,7 @@ inline constexpr std::size_t kRowsAtOnce = 4;
 /// The largest finite float32. Lanes never exceed it, so that a lane of +infinity below and -infinity above
 /// overlaps nothing at all, an infinite box included.
 inline constexpr float kLaneMax = std::numeric_limits<float>::max();
+/// The minimum, and negated the maximum, of lanes that overlap nothing.
 inline constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// A box in float32, rounded outward: minx miny minz maxx maxy maxz.
@@ -38,6 +40,7 @@ struct LaneBox {
   return result;
 }
 
+/// What overlaps nothing, and what overlaps all boxes.
 inline constexpr LaneBox kNeverLanes{{kNever, kNever, kNever, -kNever, -kNever, -kNever}};
 inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLaneMax, kLaneMax, kLaneMax}};
 

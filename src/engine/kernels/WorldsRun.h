@@ -10,7 +10,8 @@
 
 namespace allpairs::engine {
 
-/// The most boxes of a world that the kernels for worlds take.
+/// The most boxes of a world that the kernels for worlds take: no fewer than any instruction set tests exhaustively, and
+/// the boxes and the hits of 64 of them fit the first-level cache (worlds_benchmark).
 inline constexpr std::size_t kMostInWorld = 448;
 
 /// Boxes whose hits make a word of bits.
@@ -39,7 +40,7 @@ struct alignas(64) WorldTile {
 
 /// Where the pairs of worlds go, one world's after the other's.
 struct WorldPairsPlace {
-  /// Pairs that may be written past the last one.
+  /// Pairs that may be written past the last one: kernels write the first few of a word whether they are there or not.
   static constexpr std::size_t kSlack = 8;
 
   /// The pairs that there must be room for to search a world.

@@ -10,7 +10,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Keys of a bucket, 256: the places of their rows, and two to twenty pairs a key, then fit the first-level cache and the
-/// scratch memory.
+/// scratch memory (dense_benchmark).
 constexpr unsigned kLeastKeyBits = 8;
 
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
@@ -36,7 +36,8 @@ void unpackAll(const std::uint32_t* numbers, std::uint32_t firstKey, unsigned ot
   }
 }
 
-/// A row of more pairs than this is not ordered by ranks, which compares each with all of them.
+/// A row of more pairs than this is not ordered by ranks, which compares each with all of them
+/// (dense_benchmark).
 constexpr std::size_t kLongestRow = 64;
 
 /// All numbers of a bucket.

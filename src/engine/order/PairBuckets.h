@@ -63,6 +63,7 @@ class PairBuckets {
   }
 
  private:
+  /// Pairs of a chunk: eight cache lines of numbers.
   static constexpr std::size_t kChunk = 128;
 
   template <bool kBySecond>

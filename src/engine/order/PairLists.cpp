@@ -14,7 +14,8 @@ namespace {
 /// Where a list begins: its worker above the place.
 constexpr unsigned kPlaceBits = 48;
 
-/// Lists follow each other in the order of the hierarchy, not of the rows: they are fetched so many rows ahead.
+/// Lists follow each other in the order of the hierarchy, not of the rows: they are fetched so many rows ahead
+/// (dense_benchmark).
 constexpr std::size_t kPrefetchDistance = 8;
 
 template <bool kBySecond>

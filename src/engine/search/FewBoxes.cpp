@@ -13,7 +13,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Up to this many boxes of one set, a plain loop over them takes less time than arranging them for vectors
-/// (docs/decisions/0009).
+/// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kPlainBoxes = 8;
 
 /// Hits that are buffered: a few times those of one box.

@@ -10,11 +10,11 @@
 namespace allpairs::engine {
 namespace {
 
-/// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
+/// Two arrays of this many ids stay in the first-level cache beside what the kernels read (allpairs bench).
 constexpr std::size_t kHitCapacity = 2048;
 
 /// Their offset within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that loads
-/// from the offset in another page at which it has just stored waits for the store (4K aliasing).
+/// from the offset in another page at which it has just stored waits for the store (4K aliasing; few_benchmark).
 constexpr std::size_t kHitOffset = 640;
 constexpr std::size_t kHitStride = 3072;
 static_assert(kHitStride >= kHitCapacity + kVectorSlack);

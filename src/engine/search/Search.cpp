@@ -12,23 +12,26 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more.
+/// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more
+/// (allpairs bench).
 constexpr std::size_t kFewRows = 32;
 
-/// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap.
+/// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap: a
+/// sample that misleads then costs seconds.
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
 /// From this share of all pairs on, so few tests can be skipped that the exhaustive search is faster; it finds pairs in
-/// order, so that for ordered output the share is smaller.
+/// order, so that for ordered output the share is smaller (dense_benchmark).
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
 /// From so many partners a box on, ordered pairs come from a list for each box and not from buckets; in one set, where each pair
-/// is then found from both sides, from so many of both (docs/decisions/0025).
+/// is then found from both sides, from so many of both (docs/decisions/0025, dense_benchmark).
 constexpr double kDense = 9.0;
 constexpr double kDenseBothWays = 26.0;
 
-/// Lists take memory and time for each box of a set, those included that the other set cannot reach.
+/// Lists take memory and time for each box of a set, those included that the other set cannot reach: not for so many
+/// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
 
 /// What the lists of partners of a search have in common: where they get memory, and the tests of a pair.
@@ -68,7 +71,7 @@ struct ListReceiver {
 
 /// Estimates the share of all pairs that overlap from a sample.
 double shareOfOverlaps(const BoxReader& reader) {
-  constexpr std::size_t kSample = 24;
+  constexpr std::size_t kSample = 24;  // 276 pairs: a share of a tenth is then told from one of a fifth.
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
   sampleBoxes(reader, kSample, [&](const LaneBox& box) { boxes[size++] = box; });

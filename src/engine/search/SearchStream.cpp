@@ -8,11 +8,12 @@
 namespace allpairs::engine {
 namespace {
 
-/// The initial and the maximum number of boxes in a range of an ordered stream.
+/// The initial and the maximum number of boxes in a range of an ordered stream: the first pairs come soon, and memory is
+/// bounded.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
 
-/// The maximum number of buffered pairs of a range, unless a single box has more partners.
+/// The maximum number of buffered pairs of a range, 32 MiB of them, unless a single box has more partners.
 constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
 
 }  // namespace

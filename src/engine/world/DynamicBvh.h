@@ -59,6 +59,7 @@ class DynamicBvh {
   /// Whether the lanes of all boxes are exactly the boxes.
   [[nodiscard]] bool exact() const noexcept { return m_inexactBlocks == 0; }
 
+  /// No place: there are fewer boxes.
   static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
   /// The place of the box; kNowhere if it is not in this hierarchy.

@@ -7,10 +7,10 @@
 namespace allpairs::engine {
 namespace {
 
-/// Rows up to this length are searched one by one.
+/// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark).
 constexpr std::size_t kShortRow = 16;
 
-/// The prefetch distance for rows, in pairs.
+/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark).
 constexpr std::size_t kPrefetchPairs = 16;
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 namespace allpairs::engine {
 
+/// The time and the distance of what is never reached.
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// A box enlarged by its margin, in double. With an infinite margin it covers all of space, wherever the box is.
@@ -56,7 +57,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
     for (const double component : vector) squares += (component * scale) * (component * scale);
     return squares;
   };
-  constexpr double kLarge = 0x1p600;
+  constexpr double kLarge = 0x1p600;  // Its square overflows.
   const double squares = scaled(1.0);
   // Outside this range squares underflow or overflow; scaling by a power of two is exact.
   if (squares == kFar) return std::sqrt(scaled(1.0 / kLarge)) * kLarge;
@@ -85,7 +86,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
 }
 
 [[nodiscard]] inline SweepLanes lanesOf(const BoxSweep& sweep) noexcept {
-  constexpr double kMost = 1e30;
+  constexpr double kMost = 1e30;  // Above, and below its inverse, products in float32 overflow or underflow.
   SweepLanes lanes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lanes.min[axis] = -roundUpFar(-sweep.box.min[axis]);

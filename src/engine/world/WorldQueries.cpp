@@ -10,7 +10,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// Queries that one task answers.
+/// Queries that one task answers: some ten microseconds of work (query_benchmark).
 constexpr std::size_t kQueriesPerTask = 64;
 
 bool isNearer(const SweepHit& a, const SweepHit& b) noexcept { return std::tie(a.t, a.id) < std::tie(b.t, b.id); }

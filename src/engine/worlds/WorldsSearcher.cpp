@@ -12,13 +12,14 @@
 namespace allpairs::engine {
 namespace {
 
-/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are faster.
+/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are
+/// faster (worlds_benchmark).
 constexpr std::size_t kMostInDouble = 96;
 
-/// A world of more boxes is searched by all threads.
+/// A world of more boxes is searched by all threads: it has work for them.
 constexpr std::size_t kManyBoxes = 4096;
 
-/// The work that a part is worth.
+/// The work that a part is worth: some fifty microseconds.
 constexpr std::size_t kLeastWork = std::size_t{1} << 16;
 
 /// What a world takes, very roughly in vector tests: some for the world, for each box its columns or its part of a hierarchy.
