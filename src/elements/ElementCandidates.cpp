@@ -9,7 +9,7 @@
 #include "ElementBoxes.h"
 #include "PairChecks.h"
 #include "memory/Memory.h"
-#include "search/InUse.h"
+#include "search/SearchState.h"
 
 namespace allpairs::elements {
 namespace {

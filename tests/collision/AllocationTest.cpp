@@ -1,41 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A program of its own: it replaces the global operator new.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <cstddef>
 
 #include "Fixture.h"
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  void* memory = alignment <= alignof(std::max_align_t)
-                     ? std::malloc(size)
-                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, 1); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "support/AllocationCount.h"
 
 namespace allpairs::test {
 namespace {
 
 using collision::BruteForceBroadPhase;
 
-class AllocationCount : public BroadPhaseTest {
+class AllocationTest : public BroadPhaseTest {
  protected:
   void addRandom(std::size_t count) {
     std::size_t number = 0;
@@ -50,13 +26,13 @@ class AllocationCount : public BroadPhaseTest {
   template <class Step>
   static std::size_t allocationsOf(const Step& step) {
     for (int i = 0; i < 8; ++i) step();  // a kept search comes after a few steps, and its buffers grow in a few more
-    const std::size_t before = allocations;
+    const std::size_t before = allocationCount();
     step();
-    return allocations - before;
+    return allocationCount() - before;
   }
 };
 
-class ComponentAllocation : public AllocationCount, public ::testing::WithParamInterface<Strategy> {};
+class ComponentAllocation : public AllocationTest, public ::testing::WithParamInterface<Strategy> {};
 
 INSTANTIATE_TEST_SUITE_P(EachStrategy, ComponentAllocation,
                          ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh));
@@ -92,7 +68,7 @@ TEST_P(ComponentAllocation, ReadingAfterEachAdditionAllocatesNothingTheSecondTim
             0U);
 }
 
-TEST_F(AllocationCount, ASecondBoundingTreeAllocatesNothing) {
+TEST_F(AllocationTest, ASecondBoundingTreeAllocatesNothing) {
   std::vector<Box> boxes = toDouble(randomBoxes(500, 5));
   collision::BoxModel model("many", boxes);
   EXPECT_EQ(allocationsOf([&] { model.computeBoundingTree(); }), 0U);

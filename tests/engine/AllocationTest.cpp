@@ -1,49 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <span>
 #include <vector>
 
-#include "AllocationCount.h"
 #include "CountingMemory.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/Worlds.h"
 #include "memory/Memory.h"
+#include "support/AllocationCount.h"
 #include "support/Boxes.h"
 
-namespace {
-std::atomic<std::size_t> allocations{0};
-std::atomic<std::size_t> bytes{0};
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  bytes += size;
-  void* memory = alignment <= alignof(std::max_align_t)
-                     ? std::malloc(size)
-                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, 1); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-
 namespace allpairs {
-
-std::size_t test::allocationCount() { return allocations; }
-std::size_t test::allocatedBytes() { return bytes; }
-
 namespace {
 
 struct AllocationCase {
@@ -66,9 +36,9 @@ TEST_P(Allocation, ASecondSearchOfTheSameSizeAllocatesNothing) {
   const std::vector<BoxF> boxes = test::randomBoxes(5000, 41);
   OverlapSearch search(options);
   static_cast<void>(search.find(boxes));
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocationCount();
   EXPECT_GT(search.find(boxes).size(), 1000U);
-  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_EQ(test::allocationCount() - before, 0U);
 }
 
 TEST(Allocation, ASecondSearchOfManyWorldsOfTheSameSizeAllocatesNothing) {
@@ -80,10 +50,10 @@ TEST(Allocation, ASecondSearchOfManyWorldsOfTheSameSizeAllocatesNothing) {
     const Worlds worlds(view, begin);
     WorldsSearch search;
     const std::size_t pairs = search.find(worlds).pairs.size();
-    const std::size_t before = allocations;
+    const std::size_t before = test::allocationCount();
     EXPECT_EQ(search.find(worlds).pairs.size(), pairs);
     EXPECT_EQ(search.count(worlds).back(), pairs);
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(test::allocationCount(), before);
   }
 }
 
@@ -100,9 +70,9 @@ TEST(Allocation, TakesAtMost48BytesABoxBesideTheOutput) {
     EXPECT_LT(memory.bytes(), 48 * kBoxes + 4 * pairs * sizeof(Pair));
     // Of the default memory room for denser scenes is asked for, most of which is never touched.
     options.memory = nullptr;
-    const std::size_t before = bytes;
+    const std::size_t before = test::allocatedBytes();
     static_cast<void>(OverlapSearch(options).find(boxes));
-    EXPECT_LT(bytes - before, (48 + 128) * kBoxes + 4 * pairs * sizeof(Pair));
+    EXPECT_LT(test::allocatedBytes() - before, (48 + 128) * kBoxes + 4 * pairs * sizeof(Pair));
   }
 }
 
@@ -113,13 +83,13 @@ TEST(Allocation, StreamingAndCountingTakeNoMoreForManyPairs) {
     OverlapOptions options;
     options.distance = 0.1;  // Each pair is tested again in double.
     options.order = order;
-    const std::size_t before = bytes;
+    const std::size_t before = test::allocatedBytes();
     std::size_t streamed = 0;
     streamOverlaps(
         boxes, [&](std::span<const Pair> pairs) { streamed += pairs.size(); }, options);
     EXPECT_EQ(streamed, kBoxes * (kBoxes - 1) / 2);
     EXPECT_EQ(countOverlaps(boxes, options), streamed);
-    EXPECT_LT(bytes - before, streamed * sizeof(Pair) / 10);
+    EXPECT_LT(test::allocatedBytes() - before, streamed * sizeof(Pair) / 10);
   }
 }
 

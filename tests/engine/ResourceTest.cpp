@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "AllocationCount.h"
 #include "CountingMemory.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
+#include "support/AllocationCount.h"
 #include "support/Boxes.h"
 
 namespace allpairs {

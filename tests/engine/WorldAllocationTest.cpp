@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "AllocationCount.h"
 #include "allpairs/World.h"
 #include "memory/Memory.h"
+#include "support/AllocationCount.h"
 #include "support/Boxes.h"
 
 namespace allpairs {

@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "RecordFile.h"
+#include "RunMain.h"
 #include "Stopwatch.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
@@ -183,8 +183,7 @@ int main(int argc, char** argv) {
   app.add_option("--models", request.sizes, "How many models there are");
   app.add_option("--share", request.shares, "Which share of them moves in each step");
   app.add_option("-o,--output", request.output, "A file of CSV for the records");
-  try {
-    app.parse(argc, argv);
+  return allpairs::bench::runMain(app, argc, argv, [&] {
     bench::RecordFile file(request.output);
     std::printf("%8s %12s %9s %10s %10s %6s %6s\n", "models", "motion", "pairs", "kept ms", "anew ms", "times",
                 "steps");
@@ -193,10 +192,5 @@ int main(int argc, char** argv) {
       for (const double share : request.shares) right = run(size, share, file) && right;
     }
     return right ? 0 : 1;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "cycle_benchmark: %s\n", error.what());
-    return 2;
-  }
+  });
 }

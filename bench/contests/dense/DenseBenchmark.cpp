@@ -9,13 +9,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "RunMain.h"
 #include "Stopwatch.h"
 #include "allpairs/Overlaps.h"
 
@@ -98,13 +98,12 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::string instructionSet;
-    double mostPairs = 3e7;
-    CLI::App app("Compares ordered and unordered searches of boxes with many pairs each.");
-    app.add_option("--instruction-set", instructionSet, "Default: the processor's best");
-    app.add_option("--most-pairs", mostPairs, "In a scene; others are left out")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+  std::string instructionSet;
+  double mostPairs = 3e7;
+  CLI::App app("Compares ordered and unordered searches of boxes with many pairs each.");
+  app.add_option("--instruction-set", instructionSet, "Default: the processor's best");
+  app.add_option("--most-pairs", mostPairs, "In a scene; others are left out")->capture_default_str();
+  return allpairs::bench::runMain(app, argc, argv, [&] {
     std::printf("Milliseconds; in brackets ordered divided by unordered.\n\n");
     std::printf("| sets | boxes | pairs a box | find(), unordered | find() | overlaps(), unordered | overlaps() |\n");
     std::printf("|---|---:|---:|---:|---:|---:|---:|\n");
@@ -116,8 +115,5 @@ int main(int argc, char** argv) {
       }
     }
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "dense_benchmark: %s\n", error.what());
-    return 1;
-  }
+  });
 }

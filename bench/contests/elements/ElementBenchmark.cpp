@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "ElementLists.h"
 #include "Peer.h"
 #include "RecordFile.h"
+#include "RunMain.h"
 #include "Stopwatch.h"
 
 namespace {
@@ -136,8 +136,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Candidates of deforming meshes, beside the packaged peers that are used for the same lists"};
   app.add_option("FILES", files, "Meshes at the start and at the end of a step, by turns")->required();
   app.add_option("-o,--output", output, "A file of CSV for the records");
-  try {
-    app.parse(argc, argv);
+  return allpairs::bench::runMain(app, argc, argv, [&] {
     if (files.size() % 2 != 0) throw InvalidArgument("a step has a START and an END");
     bench::RecordFile file(output);
     std::printf("%-20s %-12s %-10s %-32s %10s %10s\n", "step", "list", "who", "how", "pairs", "ms");
@@ -146,10 +145,5 @@ int main(int argc, char** argv) {
       runAll(bench::readStep(files[i], files[i + 1]), step, file);
     }
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "element_benchmark: %s\n", error.what());
-    return 3;
-  }
+  });
 }

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "RunMain.h"
 #include "Stopwatch.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/generate/BoxScenes.h"
@@ -126,16 +126,12 @@ void compareStrategies(double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    double seconds = 0.2;
-    CLI::App app("Compares calls on few boxes.");
-    app.add_option("--seconds", seconds, "For each number of boxes")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+  double seconds = 0.2;
+  CLI::App app("Compares calls on few boxes.");
+  app.add_option("--seconds", seconds, "For each number of boxes")->capture_default_str();
+  return allpairs::bench::runMain(app, argc, argv, [&] {
     compareCalls(seconds);
     compareStrategies(seconds);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "few_benchmark: %s\n", error.what());
-    return 1;
-  }
+  });
 }

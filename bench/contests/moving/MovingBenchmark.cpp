@@ -14,6 +14,7 @@
 #include "MovingScene.h"
 #include "MovingSearch.h"
 #include "Provenance.h"
+#include "RunMain.h"
 #include "Samples.h"
 #include "Stopwatch.h"
 #include "allpairs/Overlaps.h"
@@ -175,13 +176,5 @@ int main(int argc, char** argv) {
   app.add_option("--turn", request.stretch, "Frames of a contender's turn: from the second on the caches are its own")
       ->check(CLI::PositiveNumber);
   app.add_option("-o,--output", request.output, "A file of CSV for the records");
-  try {
-    app.parse(argc, argv);
-    return allpairs::bench::runAll(request);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "moving_benchmark: %s\n", error.what());
-    return 2;
-  }
+  return allpairs::bench::runMain(app, argc, argv, [&] { return allpairs::bench::runAll(request); });
 }

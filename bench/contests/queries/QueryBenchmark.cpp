@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <random>
 #include <string>
 
 #include "QueryContest.h"
 #include "RecordFile.h"
+#include "RunMain.h"
 #include "Stopwatch.h"
 
 namespace {
@@ -151,8 +151,7 @@ int main(int argc, char** argv) {
   app.add_option("--boxes", request.boxes, "How many boxes there are");
   app.add_option("--queries", request.queries, "How many queries of each kind there are");
   app.add_option("-o,--output", request.output, "A file of CSV for the records");
-  try {
-    app.parse(argc, argv);
+  return allpairs::bench::runMain(app, argc, argv, [&] {
     bench::RecordFile file(request.output);
     const QueryScene scene = makeScene(request);
     std::vector<QueryContender> contenders = contendersFor(scene);
@@ -161,10 +160,5 @@ int main(int argc, char** argv) {
     for (std::size_t kind = 0; kind < bench::kQueryKinds.size(); ++kind)
       right = run(kind, scene, contenders, file) && right;
     return right ? 0 : 1;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "query_benchmark: %s\n", error.what());
-    return 2;
-  }
+  });
 }

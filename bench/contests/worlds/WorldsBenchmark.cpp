@@ -11,13 +11,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "RunMain.h"
 #include "Stopwatch.h"
 #include "allpairs/Worlds.h"
 #include "allpairs/generate/BoxScenes.h"
@@ -183,13 +183,12 @@ void compare(std::size_t worlds, std::size_t boxes, std::size_t rounds, const st
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::size_t rounds = 31;
-    std::string instructionSet;
-    CLI::App app("Compares ways of searching many small worlds.");
-    app.add_option("--rounds", rounds, "Of each number of worlds")->capture_default_str();
-    app.add_option("--instruction-set", instructionSet, "Instead of the best one");
-    CLI11_PARSE(app, argc, argv);
+  std::size_t rounds = 31;
+  std::string instructionSet;
+  CLI::App app("Compares ways of searching many small worlds.");
+  app.add_option("--rounds", rounds, "Of each number of worlds")->capture_default_str();
+  app.add_option("--instruction-set", instructionSet, "Instead of the best one");
+  return allpairs::bench::runMain(app, argc, argv, [&] {
     std::printf("Milliseconds of processor time for all worlds, medians; uniform boxes.\n\n| worlds |");
     for (const Contender& contender : Contest(instructionSet).contenders())
       std::printf(" %s |", contender.name.c_str());
@@ -200,8 +199,5 @@ int main(int argc, char** argv) {
     compare(1024, 200, rounds, instructionSet);
     compare(256, 400, rounds, instructionSet);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "worlds_benchmark: %s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -3,13 +3,9 @@
 
 #include <algorithm>
 
+#include "input/Parts.h"
+
 namespace allpairs::engine {
-namespace {
-
-/// The prefetch distance of the gather, in boxes.
-constexpr std::size_t kPrefetchDistance = 32;
-
-}  // namespace
 
 void BvhBuilder::build(const BoxReader& reader, Executor& executor) {
   m_levels.reset(reader.size());
@@ -21,14 +17,12 @@ void BvhBuilder::build(const BoxReader& reader, Executor& executor) {
 }
 
 void BvhBuilder::gather(const BoxReader& reader, std::span<const CurveKey> order, Executor& executor) {
-  const std::size_t blocks = m_levels.blockCount();
-  executor.run((blocks + BvhLevels::kBlocksPerTask - 1) / BvhLevels::kBlocksPerTask, [&](std::size_t task) {
-    for (std::size_t b = task * BvhLevels::kBlocksPerTask; b < std::min(blocks, (task + 1) * BvhLevels::kBlocksPerTask);
-         ++b) {
+  runInParts(m_levels.blockCount(), kPartSize / kFanOut, executor, [&](std::size_t firstBlock, std::size_t endBlock) {
+    for (std::size_t b = firstBlock; b < endBlock; ++b) {
       const std::size_t begin = b * kFanOut;
       const std::size_t size = std::min(kFanOut, order.size() - begin);
       for (std::size_t i = begin; i < begin + size; ++i) {
-        reader.prefetch(indexOf(order[std::min(i + kPrefetchDistance, order.size() - 1)]));
+        reader.prefetch(indexOf(order[std::min(i + kPrefetchBoxes, order.size() - 1)]));
         m_levels.id(i) = indexOf(order[i]);
       }
       static_cast<void>(reader.read({&m_levels.id(begin), 0, size}, m_levels.block(b)));

@@ -8,7 +8,7 @@
 #include "bvh/BvhLevels.h"
 #include "bvh/HilbertSort.h"
 #include "input/BoxReader.h"
-#include "kernels/BvhView.h"
+#include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "input/Parts.h"
+
 namespace allpairs::engine {
 namespace {
 
@@ -65,9 +67,8 @@ void BvhLevels::boundAll(const Kernels& kernels, Executor& executor) {
   for (std::size_t level = 0; level + 1 < m_depth; ++level) {
     const LaneBlock* blocks = m_levels[level].data();
     LaneBlock* parents = m_levels[level + 1].data();
-    executor.run((count + kBlocksPerTask - 1) / kBlocksPerTask, [&](std::size_t task) {
-      kernels.boundBlocks(blocks, task * kBlocksPerTask, std::min(count, (task + 1) * kBlocksPerTask), parents);
-    });
+    runInParts(count, kPartSize / kFanOut, executor,
+               [&](std::size_t begin, std::size_t end) { kernels.boundBlocks(blocks, begin, end, parents); });
     count = blockCountFor(count);
   }
 }

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
-#include "kernels/BvhView.h"
 #include "kernels/Kernels.h"
+#include "kernels/Lanes.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {
+
+/// How many boxes ahead of those that are gathered into blocks others are prefetched (allpairs bench).
+inline constexpr std::size_t kPrefetchBoxes = 32;
 
 /// The memory of a hierarchy: blocks of boxes and, level by level, their bounds. Boxes may be added and changed in
 /// place.
 class BvhLevels {
  public:
-  /// Blocks that one task gathers or bounds: some ten thousand boxes are worth a task.
-  static constexpr std::size_t kBlocksPerTask = 1024;
-
   explicit BvhLevels(std::pmr::memory_resource* memory)
       : m_levels(makeArray<Buffer<LaneBlock>, kMaxLevels>(memory)), m_ids(memory) {}
 

@@ -11,9 +11,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// A chunk smaller than this is not worth a task.
-constexpr std::size_t kBoxesPerChunk = std::size_t{1} << 13;
-
 /// Blocks whose keys are computed together: the steps for one block depend on each other, those for several do not.
 constexpr std::size_t kBoxesAtOnce = 4 * kFanOut;
 
@@ -106,8 +103,7 @@ void sortDenseCells(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader&
 std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, Executor& executor) {
   const CurveGrid grid = fitCurveGrid(reader);
   m_classShift = kIndexBits + grid.classShift();
-  const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
-  const std::size_t chunks = std::clamp<std::size_t>(std::min(most, reader.size() / kBoxesPerChunk), 1, 256);
+  const std::size_t chunks = chunksFor(reader.size(), executor);
   const auto beginOf = [&](std::size_t c) { return reader.size() * c / chunks; };
   m_chunks.resize(chunks);
   executor.run(chunks, [&](std::size_t c) {

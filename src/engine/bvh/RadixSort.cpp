@@ -7,26 +7,27 @@
 #include <numeric>
 #include <utility>
 
+#include "input/Parts.h"
+
 namespace allpairs::engine {
 namespace {
 
-/// Up to this size numbers are sorted as one run: there and back they fill a second-level cache. Threads share fewer.
+/// Up to this size one thread sorts numbers as one run: there and back they fill a second-level cache
+/// (allpairs bench).
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
-constexpr std::size_t kMostForOneThread = std::size_t{1} << 14;
 
-/// A first pass leaves buckets of about 2^kRunBits numbers, in no more than 2^kMaxDigitBits buckets.
+/// A first pass leaves buckets of about 2^kRunBits numbers, 64 KiB there and back, in no more than 2^kMaxDigitBits
+/// buckets.
 constexpr unsigned kRunBits = 12;
 
-/// A chunk smaller than this is not worth a task.
-constexpr std::size_t kMinChunk = std::size_t{1} << 13;
-
-/// Runs up to this length are sorted by insertion.
+/// Runs up to this length are sorted by insertion (docs/decisions/0019, allpairs bench).
 constexpr std::size_t kShortRun = 24;
 
 /// The most bits of a digit: its counters then stay in the first-level cache beside the numbers.
 constexpr unsigned kMaxDigitBits = 11;
 
-/// From this length on the places that a pass writes to, one for each digit, have to lie in the first-level cache.
+/// From this length on the places that a pass writes to, one for each digit, have to lie in the first-level cache
+/// (docs/decisions/0019, dense_benchmark).
 constexpr unsigned kFewDigitBits = 8;
 constexpr std::size_t kLongRun = 65536;
 
@@ -93,11 +94,15 @@ Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, un
 template std::uint32_t* radixSort(std::uint32_t*, std::uint32_t*, std::size_t, unsigned, unsigned) noexcept;
 template std::uint64_t* radixSort(std::uint64_t*, std::uint64_t*, std::size_t, unsigned, unsigned) noexcept;
 
+std::size_t chunksFor(std::size_t size, const Executor& executor) noexcept {
+  const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
+  return std::clamp<std::size_t>(std::min(most, size / (2 * kPartSize)), 1, 256);
+}
+
 /// Cuts all numbers into buckets by the bits from `shift` on.
 void RadixSort::scatter(const std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned shift,
                         Executor& executor) {
-  const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
-  const std::size_t chunks = std::clamp<std::size_t>(std::min(most, size / kMinChunk), 1, 256);
+  const std::size_t chunks = chunksFor(size, executor);
   const std::size_t buckets = m_bucketBegin.size() - 1;
   if (m_places.size() != chunks) m_places.resize(chunks);
   executor.run(chunks, [&](std::size_t c) {
@@ -121,7 +126,7 @@ void RadixSort::scatter(const std::uint64_t* from, std::uint64_t* to, std::size_
 
 void RadixSort::sort(std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned begin, unsigned end,
                      Executor& executor) {
-  if (size <= (executor.concurrency() == 1 ? kMostInOneRun : kMostForOneThread)) {
+  if (size <= kMostInOneRun && chunksFor(size, executor) == 1) {
     const std::uint64_t* sorted = radixSort(from, to, size, begin, end);
     if (sorted != to) std::copy_n(sorted, size, to);
     return;

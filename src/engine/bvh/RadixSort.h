@@ -16,6 +16,9 @@ namespace allpairs::engine {
 template <class Number>
 [[nodiscard]] Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, unsigned end) noexcept;
 
+/// How many chunks so many boxes or numbers are cut into: several for each thread, none too small to be worth a task.
+[[nodiscard]] std::size_t chunksFor(std::size_t size, const Executor& executor) noexcept;
+
 /// Sorts any number of 64-bit numbers, and keeps the memory of its counters: many are first cut into buckets by their
 /// highest digit, so that a bucket fits a cache near the core, or so that threads share them.
 ///

@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <bit>
 
+#include "input/Parts.h"
 #include "input/Sampling.h"
 
 namespace allpairs::engine {
 namespace {
 
-/// Fewer boxes are not worth a pass that leaves some out.
+/// Fewer boxes are not worth a pass that leaves some out (docs/decisions/0022, allpairs bench).
 constexpr std::size_t kLeastBoxes = 1024;
 
 /// A set is restricted if at most half of this many sampled boxes touch the other set's bounds.
 constexpr std::size_t kSample = 64;
-
-constexpr std::size_t kBoxesPerTask = std::size_t{1} << 14;
 
 /// The bounds of all boxes that may overlap something.
 LaneBox boundsOf(const BoxReader& reader) {
@@ -67,21 +66,19 @@ std::uint32_t* chooseTouching(const BoxReader& reader, const BoxList& boxes, con
 bool BoxCull::restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Executor& executor) {
   if (reader.size() < kLeastBoxes || !areMostlyOutside(reader, bounds)) return false;
   ids.require(reader.size());
-  const std::size_t tasks = (reader.size() + kBoxesPerTask - 1) / kBoxesPerTask;
-  const BoxList all{nullptr, 0, reader.size()};
-  m_ends.resize(tasks);
-  executor.run(tasks, [&](std::size_t task) {
-    std::uint32_t* const begin = ids.data() + task * kBoxesPerTask;
-    const BoxList boxes = all.part(task * kBoxesPerTask, kBoxesPerTask);
-    m_ends[task] = static_cast<std::size_t>(chooseTouching(reader, boxes, bounds, begin) - ids.data());
+  const std::size_t parts = (reader.size() + kPartSize - 1) / kPartSize;
+  m_ends.resize(parts);
+  runInParts(reader.size(), kPartSize, executor, [&](std::size_t begin, std::size_t end) {
+    const std::uint32_t* const last = chooseTouching(reader, {nullptr, begin, end - begin}, bounds, ids.data() + begin);
+    m_ends[begin / kPartSize] = static_cast<std::size_t>(last - ids.data());
   });
   std::size_t size = m_ends[0];
-  for (std::size_t task = 1; task < tasks; ++task) {
-    const std::uint32_t* const begin = ids.data() + task * kBoxesPerTask;
+  for (std::size_t part = 1; part < parts; ++part) {
+    const std::uint32_t* const begin = ids.data() + part * kPartSize;
     if (begin != ids.data() + size) {
-      std::copy<const std::uint32_t*>(begin, ids.data() + m_ends[task], ids.data() + size);
+      std::copy<const std::uint32_t*>(begin, ids.data() + m_ends[part], ids.data() + size);
     }
-    size += m_ends[task] - task * kBoxesPerTask;
+    size += m_ends[part] - part * kPartSize;
   }
   reader.restrictTo({ids.data(), size});
   return true;

@@ -31,7 +31,7 @@ class BoxCull {
 
   Ids m_largeIds;
   Ids m_smallIds;
-  std::pmr::vector<std::size_t> m_ends;  ///< Of the chosen boxes of each task.
+  std::pmr::vector<std::size_t> m_ends;  ///< Of the chosen boxes of each part.
 };
 
 }  // namespace allpairs::engine

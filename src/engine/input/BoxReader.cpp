@@ -9,9 +9,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// Kernels take offsets of 32 bits, six values a box.
-constexpr std::size_t kMostOffsets = std::numeric_limits<std::int32_t>::max() / 6;
-
 /// Reads a box of float32 without margins: the lanes are the box, except that infinity becomes the largest finite
 /// number. Returns, like the others, whether the lanes are exactly the box.
 bool readPlain(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
@@ -53,7 +50,7 @@ bool readRounded(const Box& box, LaneBox& lanes) noexcept {
 /// expression, max + ((distance + margin) + margin), can add up to.
 bool readWidened(const BoxView& boxes, double distance, const std::array<double, 3>& origin, std::size_t i,
                  LaneBox& lanes) noexcept {
-  constexpr double kSlack = 0x1p-48;
+  constexpr double kSlack = 0x1p-48;  // Sixteen units in the last place of a double.
   const Box box = boxes[i];
   const double margin = boxes.margin(i);
   const double half = 0.5 * distance + margin;
@@ -79,7 +76,9 @@ BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const 
       m_kernels(&kernels),
       m_distance(options.distance),
       m_region(options.region) {
-  if (m_distance != 0.0 || boxes.hasMargins() || m_region || boxes.size() > kMostOffsets) return;
+  if (m_distance != 0.0 || boxes.hasMargins() || m_region) return;
+  // Kernels take offsets of 32 bits, six values a box.
+  if (boxes.size() > std::numeric_limits<std::int32_t>::max() / 6) return;
   if (boxes.isFloat64()) {
     if (boxes.float64().isPacked()) m_rows64 = boxes.float64().min.data;
   } else if (boxes.float32().isPacked()) {

@@ -14,10 +14,8 @@ namespace allpairs {
 const char containers::ALLPAIRS_CONTAINERS = 0;
 namespace {
 
-constexpr std::size_t kMaxBoxes = std::numeric_limits<std::uint32_t>::max();
-
 void checkCount(std::size_t size) {
-  if (size > kMaxBoxes) {
+  if (size > std::numeric_limits<std::uint32_t>::max()) {
     throw InvalidArgument("a set of " + std::to_string(size) + " boxes; at most 4294967295 can be numbered");
   }
 }
@@ -42,11 +40,11 @@ bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
 }
 
 [[noreturn]] void throwNan(std::size_t index, const Box& box) {
-  static constexpr const char* kNames[] = {"min x", "min y", "min z", "max x", "max y", "max z"};
   for (std::size_t k = 0; k < 6; ++k) {
     const double value = k < 3 ? box.min[k] : box.max[k - 3];
     if (std::isnan(value)) {
-      throw InvalidBox(index, "box " + std::to_string(index) + ": " + kNames[k] + " is not a number (NaN)");
+      const std::string bound = std::string(k < 3 ? "min " : "max ") + "xyz"[k % 3];
+      throw InvalidBox(index, "box " + std::to_string(index) + ": " + bound + " is not a number (NaN)");
     }
   }
   throw InvalidBox(index, "box " + std::to_string(index) + " has a NaN");

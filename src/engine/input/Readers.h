@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
@@ -22,13 +21,11 @@ namespace allpairs::engine {
 [[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
   /// Boxes farther from the origin than this many times the extent of the sample lose more bits than this has.
   constexpr double kFarAway = 16.0;
-  constexpr std::size_t kMostSamples = 32;
   std::array<double, 3> origin{};
   const BoxView& set = first.size() < second.size() ? second : first;
   if (set.empty() || !(first.isFloat64() || second.isFloat64())) return origin;
-  const std::size_t samples = std::min(kMostSamples, set.size());
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box bounds{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  const std::size_t samples = std::min<std::size_t>(32, set.size());
+  Box bounds = kEmptyBox;
   for (std::size_t part = 0; part < samples; ++part) {
     const Box box = set[sampleIndex(part, samples, set.size())];
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -26,11 +26,10 @@ namespace allpairs::engine {
 /// the next one that may, if there is one within a hundred.
 template <class Take>
 void sampleBoxes(const BoxReader& reader, std::size_t count, Take&& take) {
-  constexpr std::size_t kLongestSearch = 100;
   LaneBlock block;
   for (std::size_t part = 0; part < count; ++part) {
     std::size_t i = sampleIndex(part, count, reader.size());
-    const std::size_t end = std::min(reader.size(), i + kLongestSearch);
+    const std::size_t end = std::min(reader.size(), i + 100);
     while (i < end && reader.read({nullptr, i, 1}, block).emptyLanes != 0) ++i;
     if (i < end) take(block.get(0));
   }

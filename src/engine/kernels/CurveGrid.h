@@ -16,6 +16,7 @@ namespace allpairs::engine {
 /// The key is a class, for boxes much larger than most, above the position along Hilbert's curve of the cell of the
 /// box's centre. Large boxes are thus grouped together and do not enlarge the bounds of blocks of small ones.
 struct CurveGrid {
+  /// Keys then have 30 bits with the class, which three passes sort.
   static constexpr unsigned kMaxBitsPerAxis = 9;
 
   unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells per box: more would only make the sort of the keys longer.
@@ -36,13 +37,12 @@ struct CurveGrid {
 };
 
 inline std::uint32_t CurveGrid::classOf(const LaneBox& box) const noexcept {
-  /// A large box is long if its longest side is this many times the next one.
-  constexpr float kLongFactor = 3.0F;
   const std::array<float, 3> extent{box.bound[3] - box.bound[0], box.bound[4] - box.bound[1],
                                     box.bound[5] - box.bound[2]};
   std::array<float, 3> sorted = extent;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted[2] > kLongFactor * sorted[1]) {
+  // Long: the longest side is three times the next one.
+  if (sorted[2] > 3.0F * sorted[1]) {
     return 1U + static_cast<std::uint32_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   }
   if (sorted[2] <= 8.0F * largeExtent) return 4U;

@@ -19,10 +19,10 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Up to this many columns a branch around vectors without hits costs more than it saves.
+/// Up to this many columns a branch around vectors without hits costs more than it saves (few_benchmark).
 constexpr std::size_t kDenseColumns = 512;
 
-/// A row is dense if at least one in this many columns is a hit.
+/// A row is dense if at least one in this many columns is a hit: its pairs are written at once (dense_benchmark).
 constexpr std::size_t kDenseRow = 3;
 
 /// The columns that a row is tested against.
@@ -51,22 +51,18 @@ HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const Tile& tile, R
 /// One row against the columns [begin, end), tile by tile.
 template <Density kDensity, class Emitter>
 HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end, Hits& hits) {
-  constexpr std::size_t kTile = LaneTile::kCapacity;
   const Query q = broadcast(search.rows.get(row));
   const std::uint32_t id = search.rows.id(row);
   while (begin < end) {
-    const std::size_t first = begin / kTile * kTile;
-    const std::size_t stop = std::min(end, first + kTile);
-    if (!hits.countOnly) hits.require(kTile);
+    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
+    const std::size_t stop = std::min(end, first + LaneTile::kCapacity);
+    if (!hits.countOnly) hits.require(LaneTile::kCapacity);
     searchTile<kDensity, Emitter>(q, id, search.columns.tileOf(begin), {begin - first, stop - first}, hits);
     begin = stop;
   }
 }
 
-/// The number of rows that are counted at once: they share the loads of the columns.
-constexpr std::size_t kRowsAtOnce = 4;
-
-/// Those rows against the whole vectors of a tile within [begin, end); returns the number of hits.
+/// Some rows against the whole vectors of a tile within [begin, end); returns the number of hits.
 template <class Tile>
 HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, const Tile& columns, std::size_t begin,
                                     std::size_t end) {
@@ -85,15 +81,14 @@ HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, 
 
 /// Those rows from `row` on against columns that all of them are tested against.
 void countColumns(const FlatSearch& search, std::size_t row, Range columns, Hits& hits) {
-  constexpr std::size_t kTile = LaneTile::kCapacity;
   const std::size_t lanes = hn::Lanes(FloatTag());
   // Not filled in a loop: GCC 12 makes the constructor that a loop needs for the baseline, and refuses it on ARM.
   const std::array<Query, kRowsAtOnce> queries{broadcast(search.rows.get(row)), broadcast(search.rows.get(row + 1)),
                                                broadcast(search.rows.get(row + 2)),
                                                broadcast(search.rows.get(row + 3))};
   for (std::size_t begin = columns.begin; begin < columns.end;) {
-    const std::size_t first = begin / kTile * kTile;
-    const std::size_t stop = std::min(columns.end, first + kTile);
+    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
+    const std::size_t stop = std::min(columns.end, first + LaneTile::kCapacity);
     const auto& tile = search.columns.tileOf(begin);
     const std::size_t whole = std::min((begin - first + lanes - 1) / lanes * lanes, stop - first);
     const std::size_t wholeEnd = std::max((stop - first) / lanes * lanes, whole);
@@ -126,7 +121,7 @@ std::size_t countRows(const FlatSearch& search, Hits& hits) {
   return row;
 }
 
-/// From this many pairs on, a result exceeds the caches near a core.
+/// From this many pairs, 2 MiB, on a result exceeds the caches near a core (docs/decisions/0014, dense_benchmark).
 constexpr std::size_t kCachedPairs = std::size_t{1} << 18;
 
 /// Gathers pairs into whole cache lines and writes them with streaming stores, which bypass the caches: a normal store
@@ -160,8 +155,8 @@ class PairStream {
   }
 
  private:
-  static constexpr std::size_t kLinePairs = 8;
-  static constexpr std::size_t kBatch = 256;
+  static constexpr std::size_t kLinePairs = 64 / sizeof(Pair);
+  static constexpr std::size_t kBatch = 256;  ///< Pairs that are gathered, so that lines are written several at a time.
 
   HWY_INLINE void flush() {
     const IdTag d;
@@ -172,7 +167,7 @@ class PairStream {
     std::copy_n(&m_pairs[2 * whole], 2 * m_size, m_pairs.data());
   }
 
-  alignas(64) std::array<std::uint32_t, 2 * (kBatch + Hits::kSlack)> m_pairs;
+  alignas(64) std::array<std::uint32_t, 2 * (kBatch + kVectorSlack)> m_pairs;
   std::uint32_t* m_line = nullptr;
   std::size_t m_size = 0;  // behind m_line
   bool m_started = false;
@@ -202,14 +197,13 @@ struct PairWriter {
 /// One row that is expected to have many pairs; returns their number.
 HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range columns, PairStream& stream,
                                 Hits& hits) {
-  constexpr std::size_t kTile = LaneTile::kCapacity;
   const Query q = broadcast(search.rows.get(row));
   const RoomForPairs room = hits.roomForPairs(hits.receiver, hits, columns.size());
   stream.begin(room.pairs, room.before);
   PairWriter writer{stream, hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
   for (std::size_t begin = columns.begin; begin < columns.end;) {
-    const std::size_t first = begin / kTile * kTile;
-    const std::size_t stop = std::min(columns.end, first + kTile);
+    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
+    const std::size_t stop = std::min(columns.end, first + LaneTile::kCapacity);
     emitRow<Density::Dense>(q, search.columns.tileOf(begin), begin - first, stop - first, writer);
     begin = stop;
   }

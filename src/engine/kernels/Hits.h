@@ -30,14 +30,12 @@ struct RoomForPairs {
 
 /// Hits of the lane test, two ids each, buffered until there are enough to convert to pairs.
 ///
-/// Kernels write whole vectors, up to kSlack values past the end, and flush when the next hits might not fit.
+/// Kernels flush when the next hits might not fit.
 struct Hits {
-  static constexpr std::size_t kSlack = 64;
-
   std::uint32_t* row = nullptr;
   std::uint32_t* partner = nullptr;
   std::size_t size = 0;
-  std::size_t capacity = 0;  ///< Without the slack.
+  std::size_t capacity = 0;  ///< Without the slack of vectors.
 
   /// If set, receives the positions of the hits that lanes cannot decide, because they were rounded; as large as the
   /// others.
@@ -64,6 +62,47 @@ struct Hits {
   /// Makes room for `more` hits, which must not be more than the capacity.
   void require(std::size_t more) {
     if (size + more > capacity) flush(receiver, *this);
+  }
+};
+
+/// Where a join puts the partners of each box of `first`, its neighbors, in ascending order: one list after the other, in
+/// the order of the hierarchy.
+struct NeighborLists {
+  /// Which lists select() has to see.
+  enum class Tested : std::uint8_t {
+    None,
+    InDoubt,  ///< Those with a hit that lanes cannot decide, because they were rounded.
+    All,
+  };
+
+  Columns kept = Columns::All;  ///< Which partners, by their ids.
+  Tested tested = Tested::None;
+  unsigned idBits = 0;  ///< Ids of partners have no more.
+
+  std::uint32_t* partners = nullptr;
+  std::size_t size = 0;
+  std::size_t capacity = 0;
+
+  std::uint64_t* begin = nullptr;   ///< By id: where its list begins, plus `base`.
+  std::uint32_t* length = nullptr;  ///< By id.
+  std::uint64_t base = 0;
+
+  void* receiver = nullptr;
+
+  /// Moves the partners that are kept to the front; returns their number.
+  std::size_t (*select)(NeighborLists& lists, std::uint32_t row, std::uint32_t* partners, std::size_t size) = nullptr;
+
+  /// Provides a capacity of `more` beyond the size.
+  void (*grow)(NeighborLists& lists, std::size_t more) = nullptr;
+
+  /// Sorts numbers by their bits [begin, end), with as much memory again; returns where they are.
+  std::uint64_t* (*sort)(std::uint64_t* from, std::uint64_t* to, std::size_t size, unsigned begin,
+                         unsigned end) = nullptr;
+
+  std::uint64_t exactTests = 0;
+
+  void require(std::size_t more) {
+    if (size + more > capacity) grow(*this, more);
   }
 };
 

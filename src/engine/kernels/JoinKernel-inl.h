@@ -23,26 +23,23 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// A leaf block with the caller's ids of its boxes.
+/// A leaf block with the caller's ids of its boxes; bounds and ids as vectors too, to be held in registers.
 struct Leaf {
-  const LaneBlock& block;
-  const std::uint32_t* ids;
-  std::size_t fill;
-};
-
-/// The bounds and ids of a leaf's boxes as vectors, to be held in registers.
-struct LeafVectors {
   static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
   static constexpr std::size_t kVectors = kFanOut / kLanes;
 
+  const LaneBlock& block;
+  const std::uint32_t* ids;
+  std::size_t fill;
   FloatVector bound[6][kVectors];
   hn::Vec<IdTag> id[kVectors];
 
-  HWY_INLINE explicit LeafVectors(const Leaf& leaf) {
+  HWY_INLINE Leaf(const BvhView& bvh, std::size_t number)
+      : block(bvh.level[0].blocks[number]), ids(bvh.ids + number * kFanOut), fill(bvh.level[0].fill(number)) {
     const FloatTag d;
     for (std::size_t v = 0; v < kVectors; ++v) {
-      for (std::size_t row = 0; row < 6; ++row) bound[row][v] = hn::Load(d, &leaf.block.bound[row][v * kLanes]);
-      id[v] = hn::LoadU(IdTag(), leaf.ids + v * kLanes);
+      for (std::size_t row = 0; row < 6; ++row) bound[row][v] = hn::Load(d, &block.bound[row][v * kLanes]);
+      id[v] = hn::LoadU(IdTag(), ids + v * kLanes);
     }
   }
 
@@ -56,23 +53,22 @@ struct LeafVectors {
 
 /// The pairs within a leaf, each once: a box against those after it.
 template <class Emitter>
-HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hits) {
+HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
   const FloatTag d;
   if (!hits.countOnly) hits.require(kFanOut * kFanOut);
   Emitter emitter = Emitter::ofLeaf(hits);
   for (std::size_t lane = 0; lane + 1 < leaf.fill; ++lane) {
     emitter.share(leaf.ids[lane]);
     const Query q = broadcast(leaf.block.get(lane));
-    for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
-      const std::size_t first = v * LeafVectors::kLanes;
-      const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, LeafVectors::kLanes) : 0;
-      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), vectors.overlappingWith(q, v));
-      emitter.emit(mask, vectors.id[v], static_cast<std::uint32_t>(lane * LeafVectors::kVectors + v));
+    for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
+      const std::size_t first = v * Leaf::kLanes;
+      const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, Leaf::kLanes) : 0;
+      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), leaf.overlappingWith(q, v));
+      emitter.emit(mask, leaf.id[v], static_cast<std::uint32_t>(lane * Leaf::kVectors + v));
     }
   }
   emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-    return vectors.overlappingWith(inward(broadcast(leaf.block.get(test / LeafVectors::kVectors))),
-                                   test % LeafVectors::kVectors);
+    return leaf.overlappingWith(inward(broadcast(leaf.block.get(test / Leaf::kVectors))), test % Leaf::kVectors);
   });
 }
 
@@ -80,9 +76,8 @@ HWY_INLINE void selfJoin(const Leaf& leaf, const LeafVectors& vectors, Hits& hit
 ///
 /// Testing rows of the leaf against a list of candidates would require gathering the candidates' bounds first.
 template <class Emitter>
-HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std::span<const std::uint32_t> places,
-                          Hits& hits) {
-  constexpr std::size_t kStretch = 64;
+HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<const std::uint32_t> places, Hits& hits) {
+  constexpr std::size_t kStretch = 64;  // Hits of so many boxes fit the buffer, and the tests those in doubt remember.
   const LaneBlock* blocks = other.level[0].blocks;
   const auto queryAt = [&](std::size_t place)
                            HWY_ATTR { return broadcast(blocks[place / kFanOut].get(place % kFanOut)); };
@@ -94,22 +89,17 @@ HWY_INLINE void crossJoin(const LeafVectors& vectors, const BvhView& other, std:
       const std::size_t place = places[begin + i];
       emitter.share(other.ids[place]);
       const Query q = queryAt(place);
-      for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
-        emitter.emit(vectors.overlappingWith(q, v), vectors.id[v],
-                     static_cast<std::uint32_t>(i * LeafVectors::kVectors + v));
+      for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
+        emitter.emit(leaf.overlappingWith(q, v), leaf.id[v], static_cast<std::uint32_t>(i * Leaf::kVectors + v));
       }
     }
     emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-      return vectors.overlappingWith(inward(queryAt(places[begin + test / LeafVectors::kVectors])),
-                                     test % LeafVectors::kVectors);
+      return leaf.overlappingWith(inward(queryAt(places[begin + test / Leaf::kVectors])), test % Leaf::kVectors);
     });
   }
 }
 
-/// A tile of candidates is full when another block might not fit.
-constexpr std::size_t kFullTile = CandidateTile::kCapacity - kFanOut;
-
-/// The prefetch distance for the members of a partner, in blocks.
+/// How many partners ahead their blocks are prefetched (allpairs bench).
 constexpr std::size_t kPrefetchDistance = 4;
 
 HWY_INLINE void prefetchBlock(const LaneBlock& block) {
@@ -121,7 +111,7 @@ struct TileFiller {
   CandidateTile& tile;
   std::size_t size = 0;
 
-  /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole vectors.
+  /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole leaf.
   HWY_INLINE void append(const LaneBlock& block, std::size_t lane, std::size_t firstNode, FloatMask mask) {
     const FloatTag d;
     const IdTag di;
@@ -197,7 +187,10 @@ class JoinRun {
     for (std::size_t i = 0; i < count;) {
       TileFiller filler{scratch.nextTile()};
       if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++]);
-      for (; i < count && filler.size <= kFullTile; ++i) filler.appendTouching(q, source, partners[i]);
+      // A tile is full when another block might not fit.
+      for (; i < count && filler.size + kFanOut <= CandidateTile::kCapacity; ++i) {
+        filler.appendTouching(q, source, partners[i]);
+      }
       scratch.sizes[scratch.tileCount - 1] = filler.size;
     }
     m_hits.groupTests += count * kFanOut;
@@ -209,7 +202,7 @@ class JoinRun {
     JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
     const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
     const Query q = broadcast(bounds);
-    PartnerWriter partners{scratch.roomFor(scratch.tileCount * CandidateTile::kCapacity + 1 + Hits::kSlack), 0};
+    PartnerWriter partners{scratch.roomFor(scratch.tileCount * CandidateTile::kCapacity + 1 + kVectorSlack), 0};
     std::size_t begin = 0;
     if (m_task.withItself) {
       partners.partners[partners.size++] = static_cast<std::uint32_t>(child);
@@ -226,14 +219,12 @@ class JoinRun {
   /// The boxes of one leaf block against the boxes of its partners.
   template <class Emitter>
   void joinLeaf(std::size_t node, const LaneBox& bounds, const std::uint32_t* partners, std::size_t count) {
-    std::uint32_t* const places = m_task.scratch->level[0].roomFor((count + 1) * kFanOut + Hits::kSlack);
+    std::uint32_t* const places = m_task.scratch->level[0].roomFor((count + 1) * kFanOut + kVectorSlack);
     const std::size_t own = m_task.withItself ? 1 : 0;
     const std::size_t size = listTouching(bounds, {partners + own, count - own}, places);
-    const Leaf leaf{m_task.first->level[0].blocks[node], m_task.first->ids + node * kFanOut,
-                    m_task.first->level[0].fill(node)};
-    const LeafVectors vectors(leaf);
-    if (m_task.withItself) selfJoin<Emitter>(leaf, vectors, m_hits);
-    crossJoin<Emitter>(vectors, *m_task.second, {places, size}, m_hits);
+    const Leaf leaf(*m_task.first, node);
+    if (m_task.withItself) selfJoin<Emitter>(leaf, m_hits);
+    crossJoin<Emitter>(leaf, *m_task.second, {places, size}, m_hits);
     m_hits.groupTests += count * kFanOut;
     m_hits.boxTests += (size + (m_task.withItself ? kFanOut / 2 : 0)) * leaf.fill;
   }
@@ -265,7 +256,7 @@ class JoinRun {
   void listNeighbors(std::size_t node, const LaneBox& bounds) {
     JoinScratch& scratch = *m_task.scratch;
     const std::span<const std::uint32_t> blocks = gatheredBlocks(scratch.level[1]);
-    std::uint32_t* const places = scratch.level[0].roomFor((blocks.size() + 1) * kFanOut + Hits::kSlack);
+    std::uint32_t* const places = scratch.level[0].roomFor((blocks.size() + 1) * kFanOut + kVectorSlack);
     readInOrder({places, listTouching(bounds, blocks, places)});
     m_hits.groupTests += blocks.size() * kFanOut;
     const Level& leaves = m_task.first->level[1];
@@ -329,18 +320,14 @@ class JoinRun {
   template <Columns kKept>
   void listLeaf(std::size_t number, const LaneBox& bounds) {
     const IdTag d;
-    constexpr std::size_t kLanes = LeafVectors::kLanes;
-    constexpr std::size_t kVectors = LeafVectors::kVectors;
     NeighborScratch& near = m_task.scratch->neighbors;
-    const Leaf leaf{m_task.first->level[0].blocks[number], m_task.first->ids + number * kFanOut,
-                    m_task.first->level[0].fill(number)};
-    const LeafVectors vectors(leaf);
+    const Leaf leaf(*m_task.first, number);
     const std::size_t size = listNear(bounds, near);
     const std::uint32_t* const places = near.near.data();
     std::uint32_t* HWY_RESTRICT const hitBits = near.hitBits.data();
     std::uint32_t* HWY_RESTRICT const hitIds = near.hitIds.data();
     const bool notesDoubts = m_task.lists->tested == NeighborLists::Tested::InDoubt;
-    hn::Vec<IdTag> lengths[kVectors];
+    hn::Vec<IdTag> lengths[Leaf::kVectors];
     for (auto& length : lengths) length = hn::Zero(d);
     std::uint32_t doubtful = 0;
     std::size_t hits = 0;
@@ -348,32 +335,32 @@ class JoinRun {
       const std::uint32_t id = near.id[places[i]];
       const Query q = broadcast(near.get(places[i]));
       std::uint32_t bits = 0;
-      for (std::size_t v = 0; v < kVectors; ++v) {
-        auto mask = hn::RebindMask(d, vectors.overlappingWith(q, v));
-        if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(vectors.id[v], hn::Set(d, id)));
-        if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(vectors.id[v], hn::Set(d, id)));
+      for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
+        auto mask = hn::RebindMask(d, leaf.overlappingWith(q, v));
+        if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(leaf.id[v], hn::Set(d, id)));
+        if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(leaf.id[v], hn::Set(d, id)));
         lengths[v] = hn::Sub(lengths[v], hn::VecFromMask(d, mask));
-        bits |= allBitsOf(d, mask) << (v * kLanes);
+        bits |= allBitsOf(d, mask) << (v * Leaf::kLanes);
       }
       hitBits[hits] = bits;
       hitIds[hits] = id;
       hits += bits != 0 ? 1U : 0U;
-      if (notesDoubts) doubtful |= bits & ~certainBits(vectors, q);
+      if (notesDoubts) doubtful |= bits & ~certainBits(leaf, q);
     }
     hn::StoreU(hn::Zero(d), d, hitBits + hits);  // The last vector of bits ends behind them.
     m_hits.groupTests += near.size;
     m_hits.boxTests += size * leaf.fill;
     std::array<std::uint32_t, kFanOut> lengthOf;
-    for (std::size_t v = 0; v < kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * kLanes]);
+    for (std::size_t v = 0; v < Leaf::kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * Leaf::kLanes]);
     writeLists(leaf, lengthOf, m_task.lists->tested == NeighborLists::Tested::All ? ~0U : doubtful);
   }
 
   /// Which boxes of a leaf overlap the query whatever the rounding was.
-  static std::uint32_t certainBits(const LeafVectors& vectors, const Query& q) {
+  static std::uint32_t certainBits(const Leaf& leaf, const Query& q) {
     const Query certain = inward(q);
     std::uint32_t bits = 0;
-    for (std::size_t v = 0; v < LeafVectors::kVectors; ++v) {
-      bits |= allBitsOf(FloatTag(), vectors.overlappingWith(certain, v)) << (v * LeafVectors::kLanes);
+    for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
+      bits |= allBitsOf(FloatTag(), leaf.overlappingWith(certain, v)) << (v * Leaf::kLanes);
     }
     return bits;
   }
@@ -384,7 +371,7 @@ class JoinRun {
     NeighborLists& lists = *m_task.lists;
     const std::uint32_t* const hitBits = m_task.scratch->neighbors.hitBits.data();
     const std::uint32_t* const hitIds = m_task.scratch->neighbors.hitIds.data();
-    lists.require(std::accumulate(lengthOf.begin(), lengthOf.end(), std::size_t{0}) + Hits::kSlack);
+    lists.require(std::accumulate(lengthOf.begin(), lengthOf.end(), std::size_t{0}) + kVectorSlack);
     for (std::size_t row = 0; row < leaf.fill; ++row) {
       const std::uint32_t id = leaf.ids[row];
       std::uint32_t* const to = lists.partners + lists.size;

@@ -8,7 +8,6 @@
 #define ALLPAIRS_KERNEL_TABLE_INL_H
 #endif
 
-#include "kernels/CurveKernel-inl.h"
 #include "kernels/FlatKernel-inl.h"
 #include "kernels/JoinKernel-inl.h"
 #include "kernels/Kernels.h"
@@ -20,7 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Measured (docs/decisions/0009): wide vectors that store selected lanes in one instruction test more pairs.
+/// Measured by few_benchmark (docs/decisions/0009): wide vectors that store selected lanes in one instruction test more
+/// pairs.
 constexpr std::size_t kFlatOrdered = HWY_TARGET <= HWY_AVX3   ? 384
                                      : HWY_TARGET <= HWY_AVX2 ? 256
                                      : HWY_TARGET <= HWY_SSE4 ? 176

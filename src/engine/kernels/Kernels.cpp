@@ -49,6 +49,7 @@ constexpr Target kTargets[] = {
 /// Those that this processor supports, and the scalar ones. Trivially destructible: searches may run after static
 /// destructors.
 struct KernelList {
+  /// Those of the list, the ones that the build requires of processors, and the scalar ones.
   static constexpr std::size_t kMost = std::size(kTargets) + 2;
 
   std::array<const Kernels*, kMost> kernels{};

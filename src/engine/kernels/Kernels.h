@@ -5,17 +5,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
-#include "kernels/BvhView.h"
 #include "kernels/CurveGrid.h"
 #include "kernels/Hits.h"
 #include "kernels/Lanes.h"
-#include "kernels/NeighborLists.h"
 #include "kernels/WorldsRun.h"
 #include "memory/Memory.h"
 
@@ -39,6 +38,47 @@ struct FewSearch {
   Columns tested = Columns::All;
 };
 
+/// Working memory of a join that lists neighbors: the boxes near a node, with their ids, in an array for each bound.
+class NeighborScratch {
+ public:
+  explicit NeighborScratch(std::pmr::memory_resource* memory)
+      : keys(memory), id(memory), near(memory), hitBits(memory), hitIds(memory), m_bounds(memory) {}
+
+  /// Room for so many boxes and for whole vectors after them; the contents are lost.
+  void require(std::size_t boxes) {
+    if (boxes + kVectorSlack > m_stride) {
+      // Not a multiple of many boxes, which would bring the arrays to the same offset in their pages.
+      const std::size_t stride = 2 * boxes / kFanOut * kFanOut + kVectorSlack + 2 * kFanOut;
+      m_stride = 0;
+      m_bounds.require(6 * stride);
+      for (Buffer<std::uint32_t>* ids : {&id, &near, &hitBits, &hitIds}) ids->require(stride);
+      m_stride = stride;
+    }
+    for (std::size_t row = 0; row < 6; ++row) bound[row] = m_bounds.data() + row * m_stride;
+    size = boxes;
+  }
+
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept {
+    LaneBox box;
+    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][i];
+    return box;
+  }
+
+  Buffer<std::uint64_t> keys;  ///< An id above a position, twice.
+
+  std::array<float*, 6> bound{};
+  Buffer<std::uint32_t> id;
+  std::size_t size = 0;
+
+  Buffer<std::uint32_t> near;     ///< The boxes that are near a leaf too.
+  Buffer<std::uint32_t> hitBits;  ///< By box with a hit: a bit for each box of the leaf that it overlaps.
+  Buffer<std::uint32_t> hitIds;
+
+ private:
+  Buffer<float> m_bounds;
+  std::size_t m_stride = 0;
+};
+
 /// Working memory of a join, one per running task: at each level the candidates of the current node.
 struct JoinScratch {
   explicit JoinScratch(std::pmr::memory_resource* memory)
@@ -54,8 +94,7 @@ struct JoinScratch {
 
     /// Memory for the partners of a node; over-allocates, so that moving scenes do not reallocate repeatedly.
     std::uint32_t* roomFor(std::size_t size) {
-      constexpr std::size_t kLeastRoom = 4096;  // Few nodes have more.
-      if (size > partners.capacity()) partners.require(std::max(kLeastRoom, 2 * size));
+      if (size > partners.capacity()) partners.require(2 * size);
       return partners.data();
     }
 
@@ -151,10 +190,10 @@ struct Kernels {
                            LaneBlock& block);
 
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
-  /// bound for each of them: of the time of the hit, or of the squared distance.
+  /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that contains it.
   std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
-  std::uint32_t (*nearLanes)(const LaneBlock& block, const PointLanes& point, float limit, float* squares);
+  std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& point, float limit, float* squares);
 };
 
 /// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.

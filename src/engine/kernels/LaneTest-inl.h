@@ -13,7 +13,6 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
-#include "kernels/LaneSelection.h"
 #include "kernels/Lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -111,21 +110,21 @@ HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
 /// the time of a search (docs/decisions/0024).
 template <class D, class M>
 HWY_INLINE hn::Vec<D> selectedLanes(D d, hn::Vec<D> values, M mask) {
-  constexpr std::size_t kLanes = hn::MaxLanes(D());
-  if constexpr (kLanes == 8) {
+  if constexpr (hn::MaxLanes(D()) == 8) {
     const hn::Rebind<std::uint8_t, D> bytes;
     const hn::RebindToUnsigned<D> lanes;
-    const auto order = hn::PromoteTo(lanes, hn::LoadU(bytes, kSelectionsOf8[allBitsOf(d, mask)].data()));
+    const auto order = hn::PromoteTo(lanes, hn::LoadU(bytes, kLaneSelections<8, 1>[allBitsOf(d, mask)].data()));
     return hn::TableLookupLanes(values, hn::IndicesFromVec(d, order));
-  } else if constexpr (kLanes == 4) {
+  } else if constexpr (hn::MaxLanes(D()) == 4) {
     const hn::Repartition<std::uint8_t, D> bytes;
-    const auto order = hn::Load(bytes, kSelectionsOf4[allBitsOf(d, mask)].data());
+    const auto order = hn::Load(bytes, kLaneSelections<4, 4>[allBitsOf(d, mask)].data());
     return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(bytes, values), order));
   } else {
     return hn::Compress(values, mask);
   }
 }
 
+/// What numbersFrom() adds to.
 alignas(64) inline constexpr std::array<std::uint32_t, kFanOut> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
                                                                              8, 9, 10, 11, 12, 13, 14, 15};
 

@@ -11,12 +11,20 @@
 
 namespace allpairs::engine {
 
-/// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set.
+/// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set
+/// (docs/decisions/0003).
 inline constexpr std::size_t kFanOut = 16;
+
+/// Kernels load and store whole vectors: so many values after the end of an array may be read, or written and ignored.
+inline constexpr std::size_t kVectorSlack = 64;
+
+/// Rows that kernels test at once: they share the loads of the columns, and a branch.
+inline constexpr std::size_t kRowsAtOnce = 4;
 
 /// The largest finite float32. Lanes never exceed it, so that a lane of +infinity below and -infinity above
 /// overlaps nothing at all, an infinite box included.
 inline constexpr float kLaneMax = std::numeric_limits<float>::max();
+/// The minimum, and negated the maximum, of lanes that overlap nothing.
 inline constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// A box in float32, rounded outward: minx miny minz maxx maxy maxz.
@@ -32,6 +40,7 @@ struct LaneBox {
   return result;
 }
 
+/// What overlaps nothing, and what overlaps all boxes.
 inline constexpr LaneBox kNeverLanes{{kNever, kNever, kNever, -kNever, -kNever, -kNever}};
 inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLaneMax, kLaneMax, kLaneMax}};
 
@@ -69,14 +78,12 @@ struct alignas(64) LaneBlock {
 /// Up to a fixed number of boxes with their ids, one array per bound, small enough to stay in the first-level cache.
 ///
 /// The distance between the arrays is a constant, so that kernels reach them all from one register.
-/// There is room after the end for whole vectors: up to kPadding values are loaded, and masked off, or stored there.
 template <std::size_t kBoxes>
 struct alignas(64) LaneTileOf {
   static constexpr std::size_t kCapacity = kBoxes;
-  static constexpr std::size_t kPadding = 64;
 
-  std::array<std::array<float, kCapacity + kPadding>, 6> bound;
-  std::array<std::uint32_t, kCapacity + kPadding> id;
+  std::array<std::array<float, kCapacity + kVectorSlack>, 6> bound;
+  std::array<std::uint32_t, kCapacity + kVectorSlack> id;
 
   void set(std::size_t i, const LaneBox& box, std::uint32_t boxId) noexcept {
     for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
@@ -110,6 +117,28 @@ struct LaneList {
   }
 };
 
+/// 16^8 = 2^32: no set needs more levels.
+inline constexpr std::size_t kMaxLevels = 8;
+
+/// One level of a hierarchy: `size` boxes or bounds in blocks of 16, the last one padded with lanes that never overlap.
+struct Level {
+  const LaneBlock* blocks = nullptr;
+  std::size_t size = 0;
+
+  [[nodiscard]] std::size_t blockCount() const noexcept { return (size + kFanOut - 1) / kFanOut; }
+  [[nodiscard]] std::size_t fill(std::size_t block) const noexcept {
+    return block + 1 < blockCount() ? kFanOut : size - block * kFanOut;
+  }
+};
+
+/// A hierarchy of bounds over boxes in the order of a curve. Level 0 holds the boxes; entry i of level k + 1 bounds
+/// block i of level k; the last level is one block.
+struct BvhView {
+  std::array<Level, kMaxLevels> level;
+  std::size_t depth = 0;
+  const std::uint32_t* ids = nullptr;  ///< The caller's index of each box of level 0.
+};
+
 /// Added to, or subtracted from, a result in float32 so that it bounds the result in double: much more than its four
 /// roundings can amount to, and than underflow can lose. The exactness of results rests on it too: it is what the lanes that
 /// overlap for certain have to spare, at least eight units in the last place.
@@ -131,10 +160,28 @@ struct SweepLanes {
   std::array<Axis, 3> axis{};
 };
 
-/// A point between two float32 on each axis.
-struct PointLanes {
-  std::array<float, 3> below;
-  std::array<float, 3> above;
-};
+/// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What follows
+/// them is the first byte.
+template <std::size_t kLanes, std::size_t kLaneBytes>
+using LaneSelections = std::array<std::array<std::uint8_t, kLanes * kLaneBytes>, std::size_t{1} << kLanes>;
+
+template <std::size_t kLanes, std::size_t kLaneBytes>
+[[nodiscard]] constexpr LaneSelections<kLanes, kLaneBytes> laneSelections() {
+  LaneSelections<kLanes, kLaneBytes> result{};
+  for (std::size_t selection = 0; selection < result.size(); ++selection) {
+    std::size_t size = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if ((selection >> lane & 1U) == 0) continue;
+      for (std::size_t byte = 0; byte < kLaneBytes; ++byte) {
+        result[selection][size++] = static_cast<std::uint8_t>(lane * kLaneBytes + byte);
+      }
+    }
+  }
+  return result;
+}
+
+/// Of vectors with 4 lanes the bytes, of those with 8 the lanes: what their instructions for a permutation take.
+template <std::size_t kLanes, std::size_t kLaneBytes>
+alignas(64) inline constexpr auto kLaneSelections = laneSelections<kLanes, kLaneBytes>();
 
 }  // namespace allpairs::engine

@@ -179,7 +179,7 @@ HWY_INLINE void emitRow(const Query& q, const Tile& columns, std::size_t begin, 
   if (i < end) emitPart(q, columns, i, begin, end, emitter);
 }
 
-/// Pairs are written a vector at a time, up to Hits::kSlack pairs past the end.
+/// Pairs are written a vector at a time, up to kVectorSlack pairs past the end.
 void writePairs(const Hits& hits, PairSide side, Pair* pairs) {
   static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
   const IdTag d;

@@ -28,14 +28,8 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// The hits of up to a word of rows, in words by row.
-struct WorldHits {
-  /// Masks may be stored as whole words.
-  std::array<std::uint64_t, kWordBoxes * kMostWords + 1> words;
-};
-
-/// Rows that are tested one after the other without a branch between them, which processors mispredict at the last.
-constexpr std::size_t kRowsAtATime = 4;
+/// The hits of up to a word of rows, in words by row. Masks may be stored as whole words.
+using WorldHits = std::array<std::uint64_t, kMostInWorld + 1>;
 
 /// Boxes of float32 against each other: exact, and empty boxes hit nothing.
 class FloatTest {
@@ -104,7 +98,7 @@ class WideTest {
     const D d;
     const auto far = distance(row);
     const auto apartOn = [&](std::size_t axis) HWY_ATTR {
-      const auto& bound = m_world.tile->bound;
+      const auto& bound = m_world.tile.bound;
       const auto min = hn::LoadU(d, &bound[axis][m_place]);
       const auto max = hn::LoadU(d, &bound[axis + 3][m_place]);
       return hn::Or(hn::Gt(hn::Set(d, bound[axis][row]), hn::Add(max, far)),
@@ -118,9 +112,9 @@ class WideTest {
   [[nodiscard]] HWY_INLINE hn::Vec<D> distance(std::size_t row) const {
     const D d;
     const auto given = hn::Set(d, m_world.distance);
-    if (m_world.margins == nullptr) return given;
+    if (!m_world.hasMargins) return given;
     const auto own = hn::Set(d, m_world.margins[row]);
-    const auto other = hn::LoadU(d, m_world.margins + m_place);
+    const auto other = hn::LoadU(d, &m_world.margins[m_place]);
     return kPreceding ? hn::Add(hn::Add(given, other), own) : hn::Add(hn::Add(given, own), other);
   }
 
@@ -128,21 +122,16 @@ class WideTest {
   std::size_t m_place = 0;
 };
 
-/// Columns that a row is tested against at once: as many as a vector has, and no fewer than hits make a byte.
-template <class D>
-constexpr std::size_t kColumnsAtOnce = std::max<std::size_t>(8, hn::MaxLanes(D()));
-
 /// Stores the hits of a row among these columns, of a wide vector.
 template <class Test>
 HWY_INLINE void storeHits(Test& test, std::size_t row, std::size_t columns, std::uint8_t* bytes) {
   using D = typename Test::D;
   const D d;
-  constexpr std::size_t kLanes = hn::MaxLanes(D());
-  if constexpr (kLanes >= 8) {
+  if constexpr (hn::MaxLanes(D()) >= 8) {
     hn::StoreMaskBits(d, test.hits(row), bytes);
   } else {
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < 8; i += kLanes) {
+    for (std::size_t i = 0; i < 8; i += hn::MaxLanes(D())) {
       test.setColumns(columns + i);
       bits |= bitsOf(d, test.hits(row)) << i;
     }
@@ -154,18 +143,19 @@ HWY_INLINE void storeHits(Test& test, std::size_t row, std::size_t columns, std:
 /// with others are stored too, or what was there before, and so are those of a few rows before.
 template <bool kPreceding, class Test>
 HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin, WorldHits& hits) {
-  constexpr std::size_t kStep = kColumnsAtOnce<typename Test::D>;
+  // Columns that a row is tested against at once: as many as a vector has, and no fewer than hits make a byte.
+  constexpr std::size_t kStep = std::max<std::size_t>(8, hn::MaxLanes(typename Test::D()));
   const std::size_t firstOfWord = begin / kWordBoxes * kWordBoxes;
   const std::size_t end = firstOfWord + kWordBoxes;
   const std::size_t stop = kPreceding ? end : places.end;
   const std::size_t rowBytes = places.words * sizeof(std::uint64_t);
-  auto* const words = reinterpret_cast<std::uint8_t*>(hits.words.data());
+  auto* const words = reinterpret_cast<std::uint8_t*>(hits.data());
   for (std::size_t columns = (kPreceding ? places.first : begin) / kStep * kStep; columns < stop; columns += kStep) {
     test.setColumns(columns);
-    std::size_t row = (kPreceding ? std::max(begin, columns) : begin) / kRowsAtATime * kRowsAtATime;
+    std::size_t row = (kPreceding ? std::max(begin, columns) : begin) / kRowsAtOnce * kRowsAtOnce;
     const std::size_t endRow = kPreceding ? end : std::min(end, columns + kStep);
     std::uint8_t* bytes = words + (row - firstOfWord) * rowBytes + columns / 8;
-    for (; row < endRow; row += kRowsAtATime, bytes += kRowsAtATime * rowBytes) {
+    for (; row < endRow; row += kRowsAtOnce, bytes += kRowsAtOnce * rowBytes) {
       storeHits(test, row, columns, bytes);
       storeHits(test, row + 1, columns, bytes + rowBytes);
       storeHits(test, row + 2, columns, bytes + 2 * rowBytes);
@@ -176,8 +166,8 @@ HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin
 
 /// A pair as one number, so that it is written at once.
 HWY_INLINE std::uint64_t packed(std::uint32_t first, std::uint32_t second) {
-  constexpr bool kIsLittle = std::endian::native == std::endian::little;
-  return static_cast<std::uint64_t>(kIsLittle ? second : first) << 32 | (kIsLittle ? first : second);
+  if (std::endian::native != std::endian::little) std::swap(first, second);
+  return std::uint64_t{second} << 32 | first;
 }
 
 /// The position of the lowest bit; any number if there is none.
@@ -212,12 +202,11 @@ HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uin
 /// The bits of a row's word that are other boxes.
 template <bool kPreceding>
 HWY_INLINE std::uint64_t bitsOfRow(std::uint64_t bits, std::size_t word, std::size_t row, const WorldPlaces& places) {
-  constexpr std::uint64_t kAll = ~std::uint64_t{0};
   if (kPreceding) {
-    if (word == row / kWordBoxes) bits &= ~(kAll << (row % kWordBoxes));
-    if (word == 0) bits &= kAll << places.first;
+    if (word == row / kWordBoxes) bits &= ~(~std::uint64_t{0} << (row % kWordBoxes));
+    if (word == 0) bits &= ~std::uint64_t{0} << places.first;
   } else if (word == row / kWordBoxes) {
-    bits &= (kAll - 1) << (row % kWordBoxes);
+    bits &= ~std::uint64_t{1} << (row % kWordBoxes);
   }
   return bits;
 }
@@ -245,7 +234,7 @@ struct SomePartners {
 template <bool kPreceding, std::size_t kUnasked, class Partners>
 HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
                          const Partners partners, WorldPairsPlace& place) {
-  const std::uint64_t* words = hits.words.data() + begin % kWordBoxes * places.words;
+  const std::uint64_t* words = hits.data() + begin % kWordBoxes * places.words;
   std::uint64_t size = place.size;
   for (std::size_t row = begin; row < end; ++row, words += places.words) {
     const auto box = static_cast<std::uint32_t>(row - places.first);
@@ -355,13 +344,11 @@ HWY_INLINE void readWorld(const WorldsRun& run, std::size_t firstBox, const Worl
   }
 }
 
-/// Prefetches what is read some worlds later: the processor's own prefetching ends with a page.
+/// Prefetches, line by line, what is read a page later: the processor's own prefetching ends with a page.
 HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t boxes) {
-  constexpr std::size_t kAhead = 4096 / sizeof(float);
-  constexpr std::size_t kLine = 64 / sizeof(float);
-  const std::size_t begin = box * run.stride + kAhead;
-  const std::size_t end = std::min(begin + boxes * run.stride, std::size_t{run.offsets[run.end]} * run.stride);
-  for (std::size_t i = begin; i < end; i += kLine) {
+  const std::size_t begin = box * run.stride + 4096 / sizeof(float);
+  const std::size_t end = std::min(begin + boxes * run.stride, run.worlds->begin(run.end) * run.stride);
+  for (std::size_t i = begin; i < end; i += 64 / sizeof(float)) {
     hwy::Prefetch(run.min + i);
     if (run.stride == 3) hwy::Prefetch(run.max + i);
   }
@@ -374,8 +361,8 @@ HWY_INLINE void searchRun(WorldsRun& run) {
   const FloatTest test(tile);
   WorldPairsPlace place = run.place;
   for (; run.world < run.end; ++run.world) {
-    const std::size_t first = run.offsets[run.world];
-    const std::size_t boxes = run.offsets[run.world + 1] - first;
+    const std::size_t first = run.worlds->begin(run.world);
+    const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
     if (boxes > run.mostBoxes || !place.takes(boxes)) break;
     const WorldPlaces places = WorldPlaces::of(boxes);
     prefetchAfter(run, first + boxes, boxes);
@@ -404,9 +391,9 @@ void searchWorlds(WorldsRun& run) {
 template <bool kPreceding>
 HWY_INLINE void searchWide(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
-  const SomePartners partners{places, rule.allowed, world.alive};
-  if (world.margins == nullptr && world.distance == 0.0) {
-    searchSome<kPreceding>(DoubleTest(*world.tile), places, partners, place);
+  const SomePartners partners{places, rule.allowed, world.alive.data()};
+  if (!world.hasMargins && world.distance == 0.0) {
+    searchSome<kPreceding>(DoubleTest(world.tile), places, partners, place);
   } else {
     searchSome<kPreceding>(WideTest<kPreceding>(world), places, partners, place);
   }

@@ -6,17 +6,17 @@
 #include <cstdint>
 
 #include "allpairs/Pair.h"
+#include "allpairs/Worlds.h"
 
 namespace allpairs::engine {
 
-/// The most boxes of a world that the kernels for worlds take.
+/// The most boxes of a world that the kernels for worlds take: no fewer than any instruction set tests exhaustively, and
+/// the boxes and the hits of 64 of them fit the first-level cache (worlds_benchmark).
 inline constexpr std::size_t kMostInWorld = 448;
 
 /// Boxes whose hits make a word of bits.
 inline constexpr std::size_t kWordBoxes = 64;
 
-/// Words for the hits of one box.
-inline constexpr std::size_t kMostWords = kMostInWorld / kWordBoxes;
 static_assert(kMostInWorld % kWordBoxes == 0);
 
 /// The places of a world's boxes among lanes and bits: its last box has the last place of a word, so that the boxes that
@@ -38,19 +38,9 @@ struct alignas(64) WorldTile {
   std::array<std::array<T, kMostInWorld>, 6> bound;
 };
 
-/// Where each world begins: at its offset, or, if there are none, at a multiple of a size that all worlds have.
-struct WorldOffsets {
-  const std::uint64_t* begin = nullptr;
-  std::size_t size = 0;
-
-  [[nodiscard]] std::size_t operator[](std::size_t world) const noexcept {
-    return begin != nullptr ? static_cast<std::size_t>(begin[world]) : world * size;
-  }
-};
-
 /// Where the pairs of worlds go, one world's after the other's.
 struct WorldPairsPlace {
-  /// Pairs that may be written past the last one.
+  /// Pairs that may be written past the last one: kernels write the first few of a word whether they are there or not.
   static constexpr std::size_t kSlack = 8;
 
   /// The pairs that there must be room for to search a world.
@@ -87,7 +77,7 @@ struct WorldsRun {
   const float* max = nullptr;
   std::size_t stride = 6;
 
-  WorldOffsets offsets;
+  const Worlds* worlds = nullptr;
   std::size_t world = 0;  ///< The next one; the one that it stopped at.
   std::size_t end = 0;
   std::size_t mostBoxes = kMostInWorld;
@@ -101,11 +91,12 @@ struct WorldsRun {
 
 /// One world in double, the exact test of boxes with margins and a distance.
 struct WideWorld {
-  const WorldTile<double>* tile = nullptr;
-  std::size_t boxes = 0;
-  const double* margins = nullptr;  ///< By place; null if the boxes are compared as they are.
-  double distance = 0.0;
-  const std::uint64_t* alive = nullptr;  ///< A bit for each place whose box can overlap others.
+  WorldTile<double> tile;
+  std::size_t boxes;
+  double distance;
+  bool hasMargins;
+  std::array<double, kMostInWorld> margins;                    ///< By place.
+  std::array<std::uint64_t, kMostInWorld / kWordBoxes> alive;  ///< A bit for each place whose box can overlap others.
 };
 
 }  // namespace allpairs::engine

@@ -8,10 +8,8 @@
 namespace allpairs::engine {
 namespace {
 
+/// On x86 and on ARM with pages of 4 KiB.
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
-
-/// The alignment that plain operator new guarantees, which is faster.
-constexpr std::size_t kAligned = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 
 /// Requests large pages for each aligned range within the block. If the system ignores the request, only first touches
 /// are slower. Aligning blocks to large pages costs more than it gains (docs/decisions/0015).
@@ -27,8 +25,11 @@ void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
 
 class LargePageMemory final : public std::pmr::memory_resource {
  private:
+  /// Plain operator new guarantees it, and is faster.
+  static bool isUsual(std::size_t alignment) { return alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__; }
+
   void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    if (alignment <= kAligned) return ::operator new(bytes);
+    if (isUsual(alignment)) return ::operator new(bytes);
     void* memory = ::operator new(bytes, std::align_val_t{alignment});
     adviseLargePages(memory, bytes);
     return memory;
@@ -36,7 +37,7 @@ class LargePageMemory final : public std::pmr::memory_resource {
 
   // Without the size: Clang 16 has no sized deallocation by default.
   void do_deallocate(void* memory, std::size_t /*bytes*/, std::size_t alignment) override {
-    if (alignment <= kAligned) {
+    if (isUsual(alignment)) {
       ::operator delete(memory);
     } else {
       ::operator delete(memory, std::align_val_t{alignment});

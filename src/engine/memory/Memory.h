@@ -104,7 +104,7 @@ class Buffer {
   [[nodiscard]] T& operator[](std::size_t i) const noexcept { return m_data[i]; }
 
  private:
-  static constexpr std::size_t kAlignment = 64;
+  static constexpr std::size_t kAlignment = 64;  ///< A cache line, and the widest vector.
 
   [[nodiscard]] T* allocate(std::size_t size) const {
     if (size > static_cast<std::size_t>(-1) / sizeof(T) / 4) throw std::bad_alloc();

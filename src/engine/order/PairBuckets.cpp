@@ -10,14 +10,11 @@ namespace allpairs::engine {
 namespace {
 
 /// Keys of a bucket, 256: the places of their rows, and two to twenty pairs a key, then fit the first-level cache and the
-/// scratch memory.
+/// scratch memory (dense_benchmark).
 constexpr unsigned kLeastKeyBits = 8;
 
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
 constexpr std::size_t kMostBuckets = 4096;
-
-/// Pairs of a key in a scene as most are.
-constexpr std::size_t kPairsPerKey = 4;
 
 template <bool kBySecond>
 Pair unpacked(std::uint32_t number, std::uint32_t firstKey, unsigned otherBits) noexcept {
@@ -39,11 +36,9 @@ void unpackAll(const std::uint32_t* numbers, std::uint32_t firstKey, unsigned ot
   }
 }
 
-/// A row of more pairs than this is not ordered by ranks, which compares each with all of them.
+/// A row of more pairs than this is not ordered by ranks, which compares each with all of them
+/// (dense_benchmark).
 constexpr std::size_t kLongestRow = 64;
-
-/// Room after the rows for a whole vector.
-constexpr std::size_t kSlack = kFanOut;
 
 /// All numbers of a bucket.
 template <class Use>
@@ -97,7 +92,7 @@ BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : b
 void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
                 std::span<Pair> place, std::span<std::uint32_t> scratch, const Kernels& kernels) noexcept {
   const std::size_t keys = std::size_t{1} << rule.keyBits;
-  if (keys + 2 + place.size() + kSlack <= scratch.size()) {
+  if (keys + 2 + place.size() + kVectorSlack <= scratch.size()) {
     std::uint32_t* const begin = scratch.data();
     std::uint32_t* const rows = begin + keys + 2;
     if (putInRows(rule, bucket, ofWorkers, begin, rows) <= kLongestRow) {
@@ -124,7 +119,7 @@ void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
   // Of the default memory only what is used is taken: room for dense scenes too, so that no pairs are copied to fresh pages.
   const std::size_t keys = rule.buckets << rule.keyBits;
   const bool isAmple = m_isDefaultMemory && keys <= kMostBuckets << kLeastKeyBits;
-  const std::size_t likelyPairs = (isAmple ? 4 : 1) * kPairsPerKey * keys / workers;
+  const std::size_t likelyPairs = (isAmple ? 4 : 1) * kLikelyPairs * keys / workers;
   const std::size_t chunks = 2 * rule.buckets + likelyPairs / kChunk;
   m_numbers.require(chunks * kChunk);
   m_following.require(chunks);

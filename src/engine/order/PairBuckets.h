@@ -13,6 +13,9 @@
 
 namespace allpairs::engine {
 
+/// Pairs of a box in a scene as most are.
+inline constexpr std::size_t kLikelyPairs = 4;
+
 /// How pairs are cut into buckets of neighbouring keys. The key is the index that they are ordered by first.
 struct BucketRule {
   unsigned keyBits = 0;  ///< Keys of a bucket differ in these low bits only.
@@ -60,6 +63,7 @@ class PairBuckets {
   }
 
  private:
+  /// Pairs of a chunk: eight cache lines of numbers.
   static constexpr std::size_t kChunk = 128;
 
   template <bool kBySecond>

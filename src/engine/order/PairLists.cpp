@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bvh/RadixSort.h"
+#include "input/Parts.h"
 
 namespace allpairs::engine {
 namespace {
@@ -13,10 +14,8 @@ namespace {
 /// Where a list begins: its worker above the place.
 constexpr unsigned kPlaceBits = 48;
 
-/// Rows that a task expands.
-constexpr std::size_t kRowsPerTask = 4096;
-
-/// Lists follow each other in the order of the hierarchy, not of the rows: they are fetched so many rows ahead.
+/// Lists follow each other in the order of the hierarchy, not of the rows: they are fetched so many rows ahead
+/// (dense_benchmark).
 constexpr std::size_t kPrefetchDistance = 8;
 
 template <bool kBySecond>
@@ -59,22 +58,20 @@ std::size_t PairLists::size() const noexcept {
 }
 
 void PairLists::expand(std::span<Pair> to, bool bySecond, Executor& executor) {
-  const std::size_t tasks = (m_rows + kRowsPerTask - 1) / kRowsPerTask;
-  m_places.resize(tasks);
+  m_places.clear();
   std::size_t place = 0;
-  for (std::size_t task = 0; task < tasks; ++task) {
-    m_places[task] = place;
+  for (std::size_t begin = 0; begin < m_rows; begin += kPartSize) {
+    m_places.push_back(place);
     const std::uint32_t* const length = m_length.data();
-    place = std::accumulate(length + task * kRowsPerTask, length + std::min(m_rows, (task + 1) * kRowsPerTask), place);
+    place = std::accumulate(length + begin, length + std::min(m_rows, begin + kPartSize), place);
   }
-  executor.run(tasks, [&](std::size_t task) {
-    Pair* at = to.data() + m_places[task];
-    const std::size_t end = std::min(m_rows, (task + 1) * kRowsPerTask);
+  runInParts(m_rows, kPartSize, executor, [&](std::size_t begin, std::size_t end) {
+    Pair* at = to.data() + m_places[begin / kPartSize];
     const auto listOf = [this](std::size_t row) {
-      const std::uint64_t begin = m_begin[row];
-      return m_ofWorkers[begin >> kPlaceBits].partners + (begin & ((std::uint64_t{1} << kPlaceBits) - 1));
+      const std::uint64_t first = m_begin[row];
+      return m_ofWorkers[first >> kPlaceBits].partners + (first & ((std::uint64_t{1} << kPlaceBits) - 1));
     };
-    for (std::size_t row = task * kRowsPerTask; row < end; ++row) {
+    for (std::size_t row = begin; row < end; ++row) {
       if (row + kPrefetchDistance < end && m_length[row + kPrefetchDistance] != 0) {
         __builtin_prefetch(listOf(row + kPrefetchDistance));
       }

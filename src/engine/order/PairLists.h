@@ -10,7 +10,7 @@
 #include "allpairs/Executor.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
-#include "kernels/NeighborLists.h"
+#include "kernels/Hits.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "input/Parts.h"
+
 namespace allpairs::engine {
 namespace {
-
-/// Pairs that a task converts to numbers, or back.
-constexpr std::size_t kPairsPerTask = std::size_t{1} << 16;
 
 /// The index that orders first, above the other one.
 template <bool kBySecond>
@@ -24,25 +23,18 @@ Pair pairOf(std::uint64_t number, unsigned otherBits) {
   return kBySecond ? Pair{other, key} : Pair{key, other};
 }
 
-/// Calls convert(begin, end) for parts of all pairs.
-template <class Convert>
-void inParts(std::size_t size, Executor& executor, const Convert& convert) {
-  executor.run((size + kPairsPerTask - 1) / kPairsPerTask,
-               [&](std::size_t task) { convert(task * kPairsPerTask, std::min(size, (task + 1) * kPairsPerTask)); });
-}
-
 template <bool kBySecond>
 void sortBy(std::span<Pair> pairs, Pair* spare, std::size_t keys, std::size_t others, RadixSort& radix,
             Executor& executor) {
   static_assert(sizeof(Pair) == sizeof(std::uint64_t));
   const auto otherBits = static_cast<unsigned>(std::bit_width(others - 1));
   const auto bits = otherBits + static_cast<unsigned>(std::bit_width(keys - 1));
-  inParts(pairs.size(), executor, [=](std::size_t begin, std::size_t end) {
+  runInParts(pairs.size(), kPartSize, executor, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) spare[i] = std::bit_cast<Pair>(numberOf<kBySecond>(pairs[i], otherBits));
   });
   radix.sort(reinterpret_cast<std::uint64_t*>(spare), reinterpret_cast<std::uint64_t*>(pairs.data()), pairs.size(), 0,
              bits, executor);
-  inParts(pairs.size(), executor, [=](std::size_t begin, std::size_t end) {
+  runInParts(pairs.size(), kPartSize, executor, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       pairs[i] = pairOf<kBySecond>(std::bit_cast<std::uint64_t>(pairs[i]), otherBits);
   });

@@ -13,7 +13,7 @@ namespace allpairs::engine {
 namespace {
 
 /// Up to this many boxes of one set, a plain loop over them takes less time than arranging them for vectors
-/// (docs/decisions/0009).
+/// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kPlainBoxes = 8;
 
 /// Hits that are buffered: a few times those of one box.
@@ -62,10 +62,10 @@ class Receiver {
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
   Hits m_hits;
-  alignas(64) std::array<std::uint32_t, kHits + Hits::kSlack> m_rows;
-  alignas(64) std::array<std::uint32_t, kHits + Hits::kSlack> m_partners;
-  std::array<std::uint32_t, kHits + Hits::kSlack> m_doubts;
-  alignas(64) std::array<Pair, kHits + Hits::kSlack> m_pairs;
+  alignas(64) std::array<std::uint32_t, kHits + kVectorSlack> m_rows;
+  alignas(64) std::array<std::uint32_t, kHits + kVectorSlack> m_partners;
+  std::array<std::uint32_t, kHits + kVectorSlack> m_doubts;
+  alignas(64) std::array<Pair, kHits + kVectorSlack> m_pairs;
 };
 
 /// Reads all boxes; returns whether their lanes are exactly the boxes.

@@ -9,14 +9,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// The number of box and group tests, some milliseconds of them, between two looks at the flag that stops a run.
-constexpr std::uint64_t kTestsPerStretch = std::uint64_t{1} << 22;
-
-/// Units of a stretch: a multiple of the rows that are counted at once, and so many leaf blocks that their descent from
-/// the root is negligible.
-constexpr std::size_t kLeastUnits = 4;
-constexpr std::size_t kMostLeaves = 64;
-constexpr std::size_t kMostRows = 4096;
+/// Rows, or leaf blocks, of a stretch at most: so many that the descent to them from the root is negligible.
+constexpr std::size_t kMostUnits = 64;
 
 }  // namespace
 
@@ -38,9 +32,8 @@ std::size_t JoinRunner::start(const SinkOptions& options, const Executor& execut
 }
 
 double JoinRunner::partnersPerBox(const Job& job) {
-  constexpr std::size_t kLeavesPerSample = 256;  // So that samples take about a hundredth of the time of the search.
-  constexpr std::size_t kMostSamples = 16;
-  const std::size_t samples = std::clamp<std::size_t>(job.units / kLeavesPerSample, 1, kMostSamples);
+  // So few that they take about a hundredth of the time of the search.
+  const std::size_t samples = std::clamp<std::size_t>(job.units / 256, 1, 16);
   Hits hits;
   hits.countOnly = true;
   std::size_t boxes = 0;
@@ -91,8 +84,7 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
 /// the last one took: a unit may have any number of partners.
 void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
   const Hits& hits = worker.sink.hits();
-  const std::size_t most = job.isFlat ? kMostRows : kMostLeaves;
-  std::size_t units = kLeastUnits;
+  std::size_t units = kRowsAtOnce;
   while (begin < end) {
     checkStop(m_stop);
     // Lists are made for all leaf blocks of a node at once, unless they are so long that only some are between two looks.
@@ -100,21 +92,15 @@ void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t e
     const std::size_t next = std::min(end, isWhole ? (begin + units) / kFanOut * kFanOut : begin + units);
     const std::uint64_t before = hits.boxTests + hits.groupTests;
     runPart(job, begin, next, worker);
-    const bool isLong = hits.boxTests + hits.groupTests - before > kTestsPerStretch;
-    units = isLong ? std::max(units / 2, kLeastUnits) : std::min(2 * units, most);
+    const bool isLong = hits.boxTests + hits.groupTests - before > kTestsBetweenLooks;
+    units = isLong ? std::max(units / 2, kRowsAtOnce) : std::min(2 * units, kMostUnits);
     begin = next;
   }
 }
 
 OverlapStatistics JoinRunner::totals() const noexcept {
   OverlapStatistics totals;
-  for (std::size_t i = 0; i < m_workers.size(); ++i) {
-    PairSink& sink = m_workers[i].sink;
-    totals.pairs += sink.count();
-    totals.exactTests += sink.exactTests();
-    totals.boxTests += sink.hits().boxTests;
-    totals.groupTests += sink.hits().groupTests;
-  }
+  for (std::size_t i = 0; i < m_workers.size(); ++i) add(totals, m_workers[i].sink.statistics());
   return totals;
 }
 

@@ -8,8 +8,8 @@
 
 #include "allpairs/Executor.h"
 #include "allpairs/Overlaps.h"
-#include "kernels/BvhView.h"
 #include "kernels/Kernels.h"
+#include "kernels/Lanes.h"
 #include "memory/Memory.h"
 #include "search/PairSink.h"
 #include "search/Workers.h"

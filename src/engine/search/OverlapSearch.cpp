@@ -5,10 +5,9 @@
 #include <memory_resource>
 #include <utility>
 
-#include "allpairs/Error.h"
 #include "search/FewBoxes.h"
-#include "search/InUse.h"
 #include "search/Search.h"
+#include "search/SearchState.h"
 
 namespace allpairs {
 
@@ -20,11 +19,7 @@ struct OverlapSearch::State {
   engine::InUse inUse;
 };
 
-OverlapSearch::OverlapSearch(OverlapOptions options) {
-  auto made = std::make_unique<State>(engine::memoryOr(options.memory));
-  made->options = std::move(options);
-  m_state = made.release();
-}
+OverlapSearch::OverlapSearch(OverlapOptions options) : m_state(engine::makeState<State>(std::move(options))) {}
 OverlapSearch::~OverlapSearch() { const std::unique_ptr<State> last(m_state); }
 OverlapSearch::OverlapSearch(OverlapSearch&& other) noexcept : m_state(std::exchange(other.m_state, nullptr)) {}
 OverlapSearch& OverlapSearch::operator=(OverlapSearch&& other) noexcept {
@@ -33,29 +28,16 @@ OverlapSearch& OverlapSearch::operator=(OverlapSearch&& other) noexcept {
   return *this;
 }
 
-OverlapSearch::State& OverlapSearch::state() {
-  if (m_state == nullptr) m_state = std::make_unique<State>(engine::defaultMemory()).release();
-  m_state->inUse.check("OverlapSearch");
-  return *m_state;
-}
+OverlapSearch::State& OverlapSearch::state() { return engine::stateOf(m_state, "OverlapSearch"); }
 
 const OverlapOptions& OverlapSearch::options() const noexcept {
-  static const OverlapOptions kDefaults;
-  return m_state != nullptr ? m_state->options : kDefaults;
+  return m_state != nullptr ? m_state->options : engine::defaultOf<OverlapOptions>();
 }
 
-void OverlapSearch::setOptions(OverlapOptions options) {
-  State& state = this->state();
-  if (options.memory != nullptr && options.memory != state.options.memory) {
-    throw InvalidArgument("an object keeps the memory resource that it was made with; make another object");
-  }
-  options.memory = state.options.memory;
-  state.options = std::move(options);
-}
+void OverlapSearch::setOptions(OverlapOptions options) { engine::replaceOptions(state().options, std::move(options)); }
 
 const OverlapStatistics& OverlapSearch::statistics() const noexcept {
-  static constexpr OverlapStatistics kNone;
-  return m_state != nullptr ? m_state->search.statistics() : kNone;
+  return m_state != nullptr ? m_state->search.statistics() : engine::defaultOf<OverlapStatistics>();
 }
 
 void OverlapSearch::shrink() {
@@ -106,13 +88,10 @@ namespace {
 /// (docs/decisions/0015).
 template <class Use>
 auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use& use) {
-  constexpr std::size_t kLeast = 4096;
-  constexpr std::size_t kMost = 16384;
-  constexpr std::size_t kBytesPerBox = 127;  // kMost of them are less than a large page.
   const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
-  std::pmr::monotonic_buffer_resource block(kBytesPerBox * boxes + 1, engine::memoryOr(given.memory));
-  // The block is not thread-safe.
-  const bool takesBlock = boxes >= kLeast && boxes < kMost && given.executor == nullptr;
+  std::pmr::monotonic_buffer_resource block(127 * boxes + 1, engine::memoryOr(given.memory));
+  // Less than a large page; not thread-safe.
+  const bool takesBlock = boxes >= 4096 && boxes < 16384 && given.executor == nullptr;
   engine::Search search(takesBlock ? &block : engine::memoryOr(given.memory));
   return use(search);
 }

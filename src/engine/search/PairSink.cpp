@@ -10,14 +10,14 @@
 namespace allpairs::engine {
 namespace {
 
-/// Two arrays of this many ids stay in the first-level cache beside what the kernels read.
+/// Two arrays of this many ids stay in the first-level cache beside what the kernels read (allpairs bench).
 constexpr std::size_t kHitCapacity = 2048;
 
 /// Their offset within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that loads
-/// from the offset in another page at which it has just stored waits for the store (4K aliasing).
+/// from the offset in another page at which it has just stored waits for the store (4K aliasing; few_benchmark).
 constexpr std::size_t kHitOffset = 640;
 constexpr std::size_t kHitStride = 3072;
-static_assert(kHitStride >= kHitCapacity + Hits::kSlack);
+static_assert(kHitStride >= kHitCapacity + kVectorSlack);
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_count = 0;
   m_exactTests = 0;
   // Then it never grows.
-  if (options.emit) m_pairs.grow(kHitCapacity + Hits::kSlack);
+  if (options.emit) m_pairs.grow(kHitCapacity + kVectorSlack);
 }
 
 bool PairSink::isWhole() const noexcept { return m_options->firstRow == 0 && !m_options->ascendingOnly; }
@@ -63,7 +63,7 @@ bool PairSink::isSelective() const noexcept {
 
 RoomForPairs PairSink::roomFor(Hits& hits, std::size_t most) {
   receive(hits);
-  m_pairs.grow(std::max(m_options->likelyPairs, m_size + most + Hits::kSlack));
+  m_pairs.grow(std::max(m_options->likelyPairs, m_size + most + kVectorSlack));
   return {m_pairs.data() + m_size, m_size};
 }
 
@@ -77,7 +77,7 @@ void PairSink::take(std::size_t count) {
 void PairSink::receive(Hits& hits) {
   if (hits.size == 0) return;
   const std::size_t begin = m_size;
-  m_pairs.grow(std::max(m_options->likelyPairs, begin + hits.size + Hits::kSlack));
+  m_pairs.grow(std::max(m_options->likelyPairs, begin + hits.size + kVectorSlack));
   m_options->kernels->writePairs(hits, m_options->side, m_pairs.data() + begin);
   m_size += hits.size;
   if (isSelective()) selectTested(begin, hits);

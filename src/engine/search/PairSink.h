@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -8,17 +9,31 @@
 #include <span>
 
 #include "allpairs/FunctionRef.h"
+#include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"
 #include "allpairs/StopFlag.h"
 #include "kernels/Hits.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
+#include "order/PairBuckets.h"
 #include "search/PairTest.h"
 
 namespace allpairs::engine {
 
 /// More pairs than the search's own limit. Not an error: the search catches it.
 struct Overfull {};
+
+inline void add(OverlapStatistics& sum, const OverlapStatistics& part) noexcept {
+  sum.pairs += part.pairs;
+  sum.boxTests += part.boxTests;
+  sum.groupTests += part.groupTests;
+  sum.exactTests += part.exactTests;
+}
+
+/// Pairs that memory is reserved for in advance: those of a scene as most are, and no more than a million.
+[[nodiscard]] inline std::size_t likelyPairsOf(std::size_t boxes) noexcept {
+  return std::min(kLikelyPairs * boxes, std::size_t{1} << 20);
+}
 
 /// How hits become pairs, the same for all workers of a search.
 struct SinkOptions {
@@ -73,9 +88,10 @@ class PairSink {
   [[nodiscard]] std::span<std::uint32_t> idleMemory() noexcept { return {m_memory.data(), m_memory.capacity()}; }
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
-  /// All pairs so far, emitted ones included.
-  [[nodiscard]] std::uint64_t count() const noexcept { return m_count + m_hits.count; }
-  [[nodiscard]] std::uint64_t exactTests() const noexcept { return m_exactTests; }
+  /// Those of all hits so far; the pairs include emitted ones.
+  [[nodiscard]] OverlapStatistics statistics() const noexcept {
+    return {m_count + m_hits.count, m_hits.boxTests, m_hits.groupTests, m_exactTests};
+  }
 
  private:
   [[nodiscard]] bool isWhole() const noexcept;

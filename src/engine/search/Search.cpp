@@ -12,27 +12,26 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more.
+/// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more
+/// (allpairs bench).
 constexpr std::size_t kFewRows = 32;
 
-/// Pairs per box in a typical scene, and the maximum that memory is reserved for in advance.
-constexpr std::size_t kLikelyPairs = 4;
-constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
-
-/// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap.
+/// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap: a
+/// sample that misleads then costs seconds.
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
 /// From this share of all pairs on, so few tests can be skipped that the exhaustive search is faster; it finds pairs in
-/// order, so that for ordered output the share is smaller.
+/// order, so that for ordered output the share is smaller (dense_benchmark).
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
 /// From so many partners a box on, ordered pairs come from a list for each box and not from buckets; in one set, where each pair
-/// is then found from both sides, from so many of both (docs/decisions/0025).
+/// is then found from both sides, from so many of both (docs/decisions/0025, dense_benchmark).
 constexpr double kDense = 9.0;
 constexpr double kDenseBothWays = 26.0;
 
-/// Lists take memory and time for each box of a set, those included that the other set cannot reach.
+/// Lists take memory and time for each box of a set, those included that the other set cannot reach: not for so many
+/// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
 
 /// What the lists of partners of a search have in common: where they get memory, and the tests of a pair.
@@ -72,7 +71,7 @@ struct ListReceiver {
 
 /// Estimates the share of all pairs that overlap from a sample.
 double shareOfOverlaps(const BoxReader& reader) {
-  constexpr std::size_t kSample = 24;
+  constexpr std::size_t kSample = 24;  // 276 pairs: a share of a tenth is then told from one of a fifth.
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
   sampleBoxes(reader, kSample, [&](const LaneBox& box) { boxes[size++] = box; });
@@ -100,7 +99,7 @@ bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list)
 bool Search::choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const {
   const std::size_t rows = readers.first.size();
   const std::size_t columns = readers.second.size();
-  likelyPairs = std::min(kLikelyPairs * rows, kMostLikelyPairs);
+  likelyPairs = likelyPairsOf(rows);
   if (options.strategy != Strategy::Automatic) return options.strategy == Strategy::Exhaustive;
   const std::size_t few = m_kernels->flatBoxes(options.order);
   if (rows * columns <= few * few || std::min(rows, columns) <= kFewRows) return true;
@@ -133,7 +132,7 @@ void Search::shrink() noexcept {
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
   checkOptions(sets, options);
   m_kernels = &chooseKernels(options);
-  m_executor = &m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop);
+  m_executor = &m_stoppable.over(options.executor, options.stop);
   m_statistics = {};
   m_pairs = {};
   m_taken = nullptr;

@@ -111,9 +111,8 @@ class Search {
 
   OverlapStatistics m_statistics;
   const Kernels* m_kernels = nullptr;
-  SerialExecutor m_serial;
   StoppableExecutor m_stoppable;
-  Executor* m_executor = &m_serial;
+  Executor* m_executor = nullptr;
 
   Buffer<LaneTile> m_rows;
   Buffer<LaneTile> m_columns;

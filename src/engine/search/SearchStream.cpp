@@ -8,11 +8,12 @@
 namespace allpairs::engine {
 namespace {
 
-/// The initial and the maximum number of boxes in a range of an ordered stream.
+/// The initial and the maximum number of boxes in a range of an ordered stream: the first pairs come soon, and memory is
+/// bounded.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
 
-/// The maximum number of buffered pairs of a range, unless a single box has more partners.
+/// The maximum number of buffered pairs of a range, 32 MiB of them, unless a single box has more partners.
 constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
 
 }  // namespace
@@ -52,7 +53,8 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
 void Search::streamAll(Plan& plan, Batches& to) {
   const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return to.giveFull(pairs); };
   plan.sink.emit.emplace(fullBatches);
-  run(plan, m_serial);
+  SerialExecutor serial;  // The visitor is called on the calling thread.
+  run(plan, serial);
   to.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 
@@ -71,10 +73,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
       continue;
     }
     to.give(m_pairs);
-    total.pairs += m_statistics.pairs;
-    total.boxTests += m_statistics.boxTests;
-    total.groupTests += m_statistics.groupTests;
-    total.exactTests += m_statistics.exactTests;
+    add(total, m_statistics);
     begin = end;
     length = std::min(2 * length, kLastRange);
   }

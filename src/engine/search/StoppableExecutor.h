@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "allpairs/Error.h"
 #include "allpairs/Executor.h"
 #include "allpairs/StopFlag.h"
 
 namespace allpairs::engine {
+
+/// Tests of boxes, some milliseconds of work, between two looks at the flag that stops them.
+inline constexpr std::uint64_t kTestsBetweenLooks = std::uint64_t{1} << 22;
 
 /// Throws Stopped if there is a flag and it is set.
 inline void checkStop(const StopFlag* stop) {
@@ -17,11 +21,11 @@ inline void checkStop(const StopFlag* stop) {
 /// Runs tasks on another executor until a flag is set: from then on they throw Stopped.
 class StoppableExecutor final : public Executor {
  public:
-  /// Returns the executor to use: this one, or the other one if there is no flag.
-  [[nodiscard]] Executor& over(Executor& other, const StopFlag* stop) noexcept {
-    m_other = &other;
+  /// Returns the executor to use: this one, or the given one if there is no flag. Null gives a serial one.
+  [[nodiscard]] Executor& over(Executor* given, const StopFlag* stop) noexcept {
+    m_other = given != nullptr ? given : &m_serial;
     m_stop = stop;
-    return stop == nullptr ? other : *this;
+    return stop == nullptr ? *m_other : *this;
   }
 
   [[nodiscard]] std::size_t concurrency() const noexcept override { return m_other->concurrency(); }
@@ -34,6 +38,7 @@ class StoppableExecutor final : public Executor {
   }
 
  private:
+  SerialExecutor m_serial;
   Executor* m_other = nullptr;
   const StopFlag* m_stop = nullptr;
 };

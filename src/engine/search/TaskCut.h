@@ -18,7 +18,7 @@ class TaskCut {
 
   /// Rows against columns.
   static TaskCut ofRows(std::size_t rows, std::size_t columns, std::size_t threads) {
-    constexpr std::size_t kMinTests = std::size_t{1} << 17;
+    constexpr std::size_t kMinTests = std::size_t{1} << 17;  // Some ten microseconds of work.
     TaskCut cut(rows);
     if (threads <= 1) return cut;
     const std::size_t rowsPerTask = 1 + kMinTests / std::max<std::size_t>(1, columns);
@@ -30,7 +30,7 @@ class TaskCut {
   /// partners as all the others. Of the others a task has enough to make the cost of its descent from the root
   /// negligible.
   static TaskCut ofLeaves(std::size_t leaves, std::size_t firstLarge, std::size_t threads) {
-    constexpr std::size_t kMinLeaves = 16;
+    constexpr std::size_t kMinLeaves = 16;  // A node of them is descended to once.
     TaskCut cut(leaves);
     if (threads <= 1 || leaves == 0) return cut;
     const std::size_t most = kTasksPerThread * threads;

@@ -12,7 +12,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// If at least one id in this many is in a list, iterating over all ids is faster than over the list.
+/// If at least one id in this many is in a list, iterating over all ids is faster than over the list
+/// (moving_benchmark).
 constexpr std::size_t kShareOfIds = 16;
 
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {
@@ -37,9 +38,8 @@ void checkProperties(std::span<const BoxProperties> properties, std::size_t boxe
 }
 
 /// Entry i of as many properties as boxes, or of one for all; the defaults where there are none.
-const BoxProperties& at(std::span<const BoxProperties> properties, std::size_t i) {
-  static constexpr BoxProperties kDefaults;
-  return properties.empty() ? kDefaults : properties[properties.size() == 1 ? 0 : i];
+BoxProperties at(std::span<const BoxProperties> properties, std::size_t i) {
+  return properties.empty() ? BoxProperties() : properties[properties.size() == 1 ? 0 : i];
 }
 
 bool isFloat32(double value) {

@@ -9,7 +9,6 @@
 
 #include "allpairs/Box.h"
 #include "allpairs/WorldTypes.h"
-#include "kernels/BvhView.h"
 #include "kernels/Lanes.h"
 
 namespace allpairs::engine {

@@ -7,22 +7,20 @@
 #include <numeric>
 #include <utility>
 
+#include "input/Parts.h"
+
 namespace allpairs::engine {
 namespace {
 
-/// The share of places reserved for boxes added later, and of places that may become vacant before a rebuild.
+/// The share of places reserved for boxes added later, and of places that may become vacant before a rebuild: more
+/// reserves memory, less rebuilds more often.
 constexpr std::size_t kShareOfChange = 8;
-constexpr std::size_t kLeastRoom = 64;
 
-/// If at least one box in this many has moved, all blocks are read again.
+/// If at least one box in this many has moved, all blocks are read again: most would be anyway (moving_benchmark).
 constexpr std::size_t kShareOfMoved = 8;
 
-constexpr std::size_t kKeptBlocksPerTask = 256;
-
-/// The prefetch distance for the boxes of a block, in blocks.
-constexpr std::size_t kPrefetchBlocks = 2;
-
-std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + kLeastRoom; }
+/// Some more than the share, for worlds of few boxes.
+std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + 64; }
 
 }  // namespace
 
@@ -124,11 +122,9 @@ void DynamicBvh::placeFresh(const BoxReader& reader, Executor& executor) {
 void DynamicBvh::orderByCurve(std::span<const BoxId> ids, const BoxReader& reader, Executor& executor) {
   m_keyed.require(ids.size() + ids.size() / kShareOfChange);
   m_spare.require(ids.size() + ids.size() / kShareOfChange);
-  constexpr std::size_t kBoxesPerTask = kKeptBlocksPerTask * kFanOut;
-  const BoxList boxes{ids.data(), 0, ids.size()};
-  executor.run((ids.size() + kBoxesPerTask - 1) / kBoxesPerTask, [&](std::size_t task) {
-    KeyRun run{m_spare.data() + task * kBoxesPerTask};
-    writeKeys(reader, m_grid, boxes.part(task * kBoxesPerTask, kBoxesPerTask), true, run);
+  runInParts(ids.size(), kPartSize, executor, [&](std::size_t begin, std::size_t end) {
+    KeyRun run{m_spare.data() + begin};
+    writeKeys(reader, m_grid, {ids.data() + begin, 0, end - begin}, true, run);
   });
   m_radix.sort(m_spare.data(), m_keyed.data(), ids.size(), kIndexBits, kIndexBits + m_grid.keyBits(), executor);
   sortDenseCells({m_keyed.data(), ids.size()}, m_spare.data(), reader, executor, m_denseCells);
@@ -170,10 +166,9 @@ void DynamicBvh::refit(const BoxReader& reader, Executor& executor) {
 
 void DynamicBvh::refitAll(const BoxReader& reader, Executor& executor) {
   const std::size_t count = m_levels.blockCount();
-  executor.run((count + kKeptBlocksPerTask - 1) / kKeptBlocksPerTask, [&](std::size_t task) {
-    const std::size_t end = std::min(count, (task + 1) * kKeptBlocksPerTask);
-    for (std::size_t b = task * kKeptBlocksPerTask; b < end; ++b) {
-      const std::size_t ahead = std::min(b + kPrefetchBlocks, count - 1) * kFanOut;
+  runInParts(count, kPartSize / kFanOut, executor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const std::size_t ahead = std::min(b + kPrefetchBoxes / kFanOut, count - 1) * kFanOut;
       for (std::size_t lane = 0; lane < kFanOut; ++lane) reader.prefetch(m_levels.id(ahead + lane));
       gather(b, reader);
     }
@@ -200,6 +195,40 @@ void DynamicBvh::gather(std::size_t block, const BoxReader& reader) {
     }
   }
   m_inexact[block] = read.exact ? 0 : 1;
+}
+
+void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels,
+                          Executor& executor) {
+  const BvhLevels& source = from.levels();
+  const std::size_t words = (source.places() + 63) / 64;
+  // Marks left by a call that threw.
+  if (std::exchange(m_marking, true)) std::fill(m_marked.begin(), m_marked.end(), std::uint64_t{0});
+  if (m_marked.size() < words) m_marked.resize(words + words / 4, 0);
+  std::size_t count = 0;
+  for (const BoxId id : changed) {
+    const std::uint32_t place = from.placeOf(id);
+    if (place == DynamicBvh::kNowhere) continue;
+    m_marked[place / 64] |= std::uint64_t{1} << (place % 64);
+    ++count;
+  }
+  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (count + count / 4)));
+  m_levels.resize(0);
+  std::size_t next = 0;
+  std::size_t sourceBlock = source.places();
+  for (std::size_t word = 0; word < words; ++word) {
+    for (std::uint64_t bits = std::exchange(m_marked[word], 0); bits != 0; bits &= bits - 1) {
+      const std::size_t place = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+      if (place / kFanOut != std::exchange(sourceBlock, place / kFanOut)) {
+        next = m_levels.blockCount() * kFanOut;
+        m_levels.resize(next + kFanOut);
+      }
+      m_levels.block(next / kFanOut).set(next % kFanOut, source.block(place / kFanOut).get(place % kFanOut));
+      m_levels.id(next++) = source.id(place);
+    }
+  }
+  m_marking = false;
+  m_size = count;
+  m_levels.boundAll(kernels, executor);
 }
 
 }  // namespace allpairs::engine

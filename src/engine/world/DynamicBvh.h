@@ -11,6 +11,7 @@
 #include "bvh/HilbertSort.h"
 #include "input/BoxReader.h"
 #include "kernels/CurveGrid.h"
+#include "kernels/Kernels.h"
 #include "memory/Memory.h"
 #include "world/BoxStore.h"
 #include "world/RebuildRule.h"
@@ -58,6 +59,7 @@ class DynamicBvh {
   /// Whether the lanes of all boxes are exactly the boxes.
   [[nodiscard]] bool exact() const noexcept { return m_inexactBlocks == 0; }
 
+  /// No place: there are fewer boxes.
   static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
   /// The place of the box; kNowhere if it is not in this hierarchy.
@@ -99,6 +101,28 @@ class DynamicBvh {
   Buffer<CurveKey> m_spare;
   RadixSort m_radix;
   std::pmr::vector<std::span<CurveKey>> m_denseCells;
+};
+
+/// A hierarchy over the changed boxes of another hierarchy, in the same order.
+///
+/// The changed boxes of one block form one block here, however few: if it were filled with distant boxes, its bounds
+/// would overlap as many boxes as all the blocks in between together.
+class ChangedBoxes {
+ public:
+  explicit ChangedBoxes(std::pmr::memory_resource* memory) : m_marked(memory), m_levels(memory) {}
+
+  void gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels, Executor& executor);
+
+  [[nodiscard]] BvhLevels& levels() noexcept { return m_levels; }
+
+  /// The number of its boxes.
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+
+ private:
+  std::pmr::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
+  bool m_marking = false;                    ///< Not all of them have been read.
+  BvhLevels m_levels;
+  std::size_t m_size = 0;
 };
 
 }  // namespace allpairs::engine

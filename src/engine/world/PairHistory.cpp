@@ -7,10 +7,10 @@
 namespace allpairs::engine {
 namespace {
 
-/// Rows up to this length are searched one by one.
+/// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark).
 constexpr std::size_t kShortRow = 16;
 
-/// The prefetch distance for rows, in pairs.
+/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark).
 constexpr std::size_t kPrefetchPairs = 16;
 
 }  // namespace
@@ -58,12 +58,12 @@ std::size_t PairHistory::find(Pair pair) const noexcept {
   if (end - begin > kShortRow) {
     const auto isBefore = [this](Pair a, Pair b) { return keyOf(a) < keyOf(b); };
     begin = static_cast<std::size_t>(std::lower_bound(pairs + begin, pairs + end, pair, isBefore) - pairs);
-    return begin < end && pairs[begin] == pair ? begin : kNowhere;
+    return begin < end && pairs[begin] == pair ? begin : m_result.pairs.size();
   }
   for (; begin < end; ++begin) {
     if (pairs[begin] == pair) return begin;
   }
-  return kNowhere;
+  return m_result.pairs.size();
 }
 
 void PairHistory::gather(std::span<const Pair> found, Fresh& fresh) {
@@ -78,7 +78,7 @@ void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
     const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
     __builtin_prefetch(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
     const std::size_t place = find(found[i]);
-    if (place == kNowhere) {
+    if (place == m_result.pairs.size()) {
       fresh.pairs[fresh.size++] = found[i];
     } else {
       m_seen[place] = 1;

@@ -97,6 +97,7 @@ class PairHistory {
   }
   static void gather(std::span<const Pair> found, Fresh& fresh);
   void tickOff(std::span<const Pair> found, Fresh& fresh);
+  /// The place of an old pair, or the number of old pairs.
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
   [[nodiscard]] std::size_t freshSize() const noexcept;
   void sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor);
@@ -114,8 +115,6 @@ class PairHistory {
     const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
     return std::rotl(byFirst, m_order == Order::ByFirst ? 0 : 32);
   }
-
-  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
   Order m_order;
   Joined m_looksFor = Joined::All;

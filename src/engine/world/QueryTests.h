@@ -14,6 +14,7 @@
 
 namespace allpairs::engine {
 
+/// The time and the distance of what is never reached.
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// A box enlarged by its margin, in double. With an infinite margin it covers all of space, wherever the box is.
@@ -56,12 +57,11 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
     for (const double component : vector) squares += (component * scale) * (component * scale);
     return squares;
   };
-  constexpr double kLeast = 0x1p-960;
-  constexpr double kLarge = 0x1p600;
+  constexpr double kLarge = 0x1p600;  // Its square overflows.
   const double squares = scaled(1.0);
   // Outside this range squares underflow or overflow; scaling by a power of two is exact.
   if (squares == kFar) return std::sqrt(scaled(1.0 / kLarge)) * kLarge;
-  if (squares < kLeast) return std::sqrt(scaled(kLarge)) / kLarge;
+  if (squares < 0x1p-960) return std::sqrt(scaled(kLarge)) / kLarge;
   return std::sqrt(squares);
 }
 
@@ -86,7 +86,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
 }
 
 [[nodiscard]] inline SweepLanes lanesOf(const BoxSweep& sweep) noexcept {
-  constexpr double kMost = 1e30;
+  constexpr double kMost = 1e30;  // Above, and below its inverse, products in float32 overflow or underflow.
   SweepLanes lanes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lanes.min[axis] = -roundUpFar(-sweep.box.min[axis]);
@@ -100,15 +100,6 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
       lanes.axis[axis] = sweep.motion[axis] > 0.0 ? SweepLanes::Axis::Forward : SweepLanes::Axis::Backward;
       lanes.inverse[axis] = static_cast<float>(1.0 / speed);
     }
-  }
-  return lanes;
-}
-
-[[nodiscard]] inline PointLanes lanesOf(const std::array<double, 3>& point) noexcept {
-  PointLanes lanes;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lanes.below[axis] = -roundUpFar(-point[axis]);
-    lanes.above[axis] = roundUpFar(point[axis]);
   }
   return lanes;
 }

@@ -10,7 +10,7 @@
 
 #include "allpairs/Error.h"
 #include "input/Options.h"
-#include "search/InUse.h"
+#include "search/SearchState.h"
 #include "world/BoxStore.h"
 #include "world/QueryTests.h"
 #include "world/WorldQueries.h"
@@ -66,22 +66,20 @@ using InUseScope = engine::InUseBy<engine::Users::Many>::Scope;
 struct World::State {
   State(WorldOptions given, const engine::Kernels& chosen)
       : options(std::move(given)),
-        kernels(chosen),
         store(engine::memoryOr(options.memory)),
         search(engine::memoryOr(options.memory), options, chosen),
         swept(engine::memoryOr(options.memory)) {}
 
   WorldOptions options;
-  const engine::Kernels& kernels;
   engine::BoxStore store;
   engine::WorldSearch search;
   std::pmr::vector<Box> swept;
   engine::InUseBy<engine::Users::Many> inUse;
 
-  /// The data that const members read.
-  static const engine::BoxStore& storeOf(const World& world) {
-    static const engine::BoxStore kNone(engine::defaultMemory());
-    return world.m_state != nullptr ? world.m_state->store : kNone;
+  /// What const members read: a world without boxes if it has been moved from.
+  static State& of(const World& world) {
+    static State none({}, engine::chooseKernels({}));
+    return world.m_state != nullptr ? *world.m_state : none;
   }
 
   void shrink() noexcept {
@@ -100,20 +98,9 @@ struct World::State {
   }
 
   static engine::WorldQueries queries(const World& world, const QueryFilter& filter) {
-    static SerialExecutor serial;
-    engine::QueryTarget target;
-    target.store = &storeOf(world);
-    target.executor = &serial;
-    if (world.m_state != nullptr) {
-      State& state = *world.m_state;
-      state.settle();
-      const engine::WorldSearch& search = state.search;
-      target.hierarchies = {search.dynamicBoxes().levels().view(), search.staticBoxes().levels().view()};
-      target.exact = {search.dynamicBoxes().exact(), search.staticBoxes().exact()};
-      target.kernels = &state.kernels;
-      target.executor = &state.search.executor();
-    }
-    return {target, filter};
+    State& state = of(world);
+    state.settle();
+    return {state.store, state.search, filter};
   }
 
   std::mutex settling;
@@ -141,10 +128,7 @@ World::State& World::state() {
   return *m_state;
 }
 
-const WorldOptions& World::options() const noexcept {
-  static const WorldOptions kDefaults;
-  return m_state != nullptr ? m_state->options : kDefaults;
-}
+const WorldOptions& World::options() const noexcept { return State::of(*this).options; }
 
 void World::reserve(std::size_t boxes) { state().store.reserve(boxes); }
 
@@ -225,18 +209,18 @@ void World::shrink() {
   if (m_state != nullptr) state().shrink();
 }
 
-std::size_t World::size() const noexcept { return State::storeOf(*this).size(); }
-BoxId World::idBound() const noexcept { return static_cast<BoxId>(State::storeOf(*this).idBound()); }
-bool World::contains(BoxId id) const noexcept { return State::storeOf(*this).contains(id); }
+std::size_t World::size() const noexcept { return State::of(*this).store.size(); }
+BoxId World::idBound() const noexcept { return static_cast<BoxId>(State::of(*this).store.idBound()); }
+bool World::contains(BoxId id) const noexcept { return State::of(*this).store.contains(id); }
 
 Box World::box(BoxId id) const {
-  State::storeOf(*this).check({&id, 1});
-  return State::storeOf(*this).box(id);
+  State::of(*this).store.check({&id, 1});
+  return State::of(*this).store.box(id);
 }
 
 BoxProperties World::properties(BoxId id) const {
-  State::storeOf(*this).check({&id, 1});
-  return State::storeOf(*this).properties(id);
+  State::of(*this).store.check({&id, 1});
+  return State::of(*this).store.properties(id);
 }
 
 StepResult World::step() {
@@ -245,12 +229,9 @@ StepResult World::step() {
   return state.search.step(state.store);
 }
 
-StepResult World::result() const noexcept { return m_state != nullptr ? m_state->search.result() : StepResult(); }
+StepResult World::result() const noexcept { return State::of(*this).search.result(); }
 
-const WorldStatistics& World::statistics() const noexcept {
-  static constexpr WorldStatistics kNone;
-  return m_state != nullptr ? m_state->search.statistics() : kNone;
-}
+const WorldStatistics& World::statistics() const noexcept { return State::of(*this).search.statistics(); }
 
 std::vector<Pair> World::findBetween(const World& other) const {
   if (m_state == nullptr || other.m_state == nullptr) return {};

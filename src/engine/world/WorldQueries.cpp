@@ -10,7 +10,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// Queries that one task answers.
+/// Queries that one task answers: some ten microseconds of work (query_benchmark).
 constexpr std::size_t kQueriesPerTask = 64;
 
 bool isNearer(const SweepHit& a, const SweepHit& b) noexcept { return std::tie(a.t, a.id) < std::tie(b.t, b.id); }
@@ -25,26 +25,6 @@ bool isExactly(const LaneBox& lanes, const Box& box) noexcept {
             static_cast<double>(lanes.bound[axis + 3]) == box.max[axis];
   }
   return exact;
-}
-
-float asFloat(double value) noexcept {
-  constexpr double kMost = 1e30;
-  return static_cast<float>(std::clamp(value, -kMost, kMost));
-}
-
-/// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.
-template <class PointOf>
-std::vector<CurveKey> orderOf(std::size_t queries, const PointOf& pointOf, const QueryTarget& target) {
-  std::vector<BoxF> starts(queries);
-  for (std::size_t i = 0; i < queries; ++i) {
-    const std::array<double, 3> point = pointOf(i);
-    starts[i].min = starts[i].max = {asFloat(point[0]), asFloat(point[1]), asFloat(point[2])};
-  }
-  const BoxView boxes(starts);
-  std::vector<CurveKey> spare(queries);
-  HilbertSort sort(defaultMemory());
-  const std::span<const CurveKey> order = sort.sort({boxes, {}, *target.kernels}, spare, *target.executor);
-  return {order.begin(), order.end()};
 }
 
 /// Keeps the `count` nearest boxes found, from position `begin` of the list on, as a heap with the farthest on top;
@@ -63,32 +43,49 @@ bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t cou
 
 }  // namespace
 
-WorldQueries::WorldQueries(const QueryTarget& target, const QueryFilter& filter) noexcept
-    : m_target(target),
+WorldQueries::WorldQueries(const BoxStore& store, const WorldSearch& search, const QueryFilter& filter) noexcept
+    : m_store(store),
+      m_search(search),
+      m_dynamic(search.dynamicBoxes().levels().view()),
+      m_static(search.staticBoxes().levels().view()),
       m_filter(filter),
-      m_everyBox(!target.store->filtered() && filter.mask != 0 && filter.category != 0) {}
+      m_everyBox(!store.filtered() && filter.mask != 0 && filter.category != 0) {}
 
 bool WorldQueries::passes(BoxId id) const noexcept {
   if (m_everyBox) return true;
-  const FilterRow& row = m_target.store->filter(id);
+  const FilterRow& row = m_store.filter(id);
   return acceptEachOther(row.category, row.mask, m_filter.category, m_filter.mask);
 }
 
 Box WorldQueries::widenedBox(const Arrival& at, bool exact) const noexcept {
-  return exact ? at.lanes() : widened(m_target.store->box(at.id), m_target.store->margin(at.id));
+  return exact ? at.lanes() : widened(m_store.box(at.id), m_store.margin(at.id));
 }
 
 template <class Visit>
 void WorldQueries::eachBvh(const Visit& visit) const {
-  const auto& [dynamicBoxes, staticBoxes] = m_target.hierarchies;
-  if (m_filter.dynamicBoxes && dynamicBoxes.depth != 0) visit(dynamicBoxes, m_target.exact[0]);
-  if (m_filter.staticBoxes && staticBoxes.depth != 0) visit(staticBoxes, m_target.exact[1]);
+  if (m_filter.dynamicBoxes && m_dynamic.depth != 0) visit(m_dynamic, m_search.dynamicBoxes().exact());
+  if (m_filter.staticBoxes && m_static.depth != 0) visit(m_static, m_search.staticBoxes().exact());
+}
+
+/// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.
+template <class PointOf>
+std::vector<CurveKey> WorldQueries::orderOf(std::size_t queries, const PointOf& pointOf) const {
+  std::vector<BoxF> starts(queries);
+  for (std::size_t i = 0; i < queries; ++i) {
+    const std::array<double, 3> point = pointOf(i);
+    starts[i].min = starts[i].max = {roundDown(point[0]), roundDown(point[1]), roundDown(point[2])};
+  }
+  const BoxView boxes(starts);
+  std::vector<CurveKey> spare(queries);
+  HilbertSort sort(defaultMemory());
+  const std::span<const CurveKey> order = sort.sort({boxes, {}, m_search.kernels()}, spare, m_search.executor());
+  return {order.begin(), order.end()};
 }
 
 /// Calls answer(task, query) for all queries, in spatial order: the same task answers neighbours.
 template <class Answer>
 void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& answer) const {
-  m_target.executor->run((order.size() + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
+  m_search.executor().run((order.size() + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
     const std::size_t end = std::min(order.size(), (task + 1) * kQueriesPerTask);
     for (std::size_t i = task * kQueriesPerTask; i < end; ++i) answer(task, indexOf(order[i]));
   });
@@ -97,7 +94,7 @@ void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& 
 /// Answers each query by find(i, values), which appends to the values of its task; then gathers them by query.
 template <class T, class PointOf, class Find>
 ResultLists<T> WorldQueries::findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const {
-  const std::vector<CurveKey> order = orderOf(queries, pointOf, m_target);
+  const std::vector<CurveKey> order = orderOf(queries, pointOf);
   std::vector<std::vector<T>> parts((queries + kQueriesPerTask - 1) / kQueriesPerTask);
   ResultLists<T> lists;
   lists.offsets.assign(queries + 1, 0);
@@ -122,12 +119,11 @@ void WorldQueries::overlapping(const Box& query, std::vector<BoxId>& ids) const 
   const auto begin = static_cast<std::ptrdiff_t>(ids.size());
   const LaneBox lanes = lanesOf(query);
   const bool queryIsExact = isExactly(lanes, query);
-  const auto lanesIn = [&](const LaneBlock& block) { return m_target.kernels->touchingLanes(block, lanes); };
+  const auto lanesIn = [&](const LaneBlock& block) { return m_search.kernels().touchingLanes(block, lanes); };
   eachBvh([&](const BvhView& hierarchy, bool exact) {
     const auto take = [&](const Arrival& at) {
       if (!passes(at.id)) return;
-      const BoxStore& store = *m_target.store;
-      if ((exact && queryIsExact) || overlap(store.box(at.id), query, store.margin(at.id))) ids.push_back(at.id);
+      if ((exact && queryIsExact) || overlap(m_store.box(at.id), query, m_store.margin(at.id))) ids.push_back(at.id);
     };
     descend(hierarchy, lanesIn, take);
   });
@@ -140,7 +136,7 @@ SweepHit WorldQueries::first(const BoxSweep& sweep) const {
   const SweepLanes lanes = lanesOf(sweep);
   float limit = roundUpFar(sweep.length);
   const auto lanesIn = [&](const LaneBlock& block, float* times) {
-    return m_target.kernels->meetingLanes(block, lanes, limit, times);
+    return m_search.kernels().meetingLanes(block, lanes, limit, times);
   };
   eachBvh([&](const BvhView& hierarchy, bool exact) {
     const auto take = [&](const Arrival& at) {
@@ -162,7 +158,7 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
   const float limit = roundUpFar(sweep.length);
   const auto lanesIn = [&](const LaneBlock& block) {
     std::array<float, kFanOut> times;
-    return m_target.kernels->meetingLanes(block, lanes, limit, times.data());
+    return m_search.kernels().meetingLanes(block, lanes, limit, times.data());
   };
   eachBvh([&](const BvhView& hierarchy, bool exact) {
     const auto take = [&](const Arrival& at) {
@@ -179,7 +175,7 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
 float WorldQueries::limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const {
   double farthest = 0.0;
   for (const Neighbor& other : others) {
-    const Box box = widened(m_target.store->box(other.id), m_target.store->margin(other.id));
+    const Box box = widened(m_store.box(other.id), m_store.margin(other.id));
     farthest = std::max(farthest, distanceFrom(point, box));
   }
   return roundUpFar(farthest * farthest);
@@ -189,11 +185,11 @@ float WorldQueries::limitFrom(const std::array<double, 3>& point, std::span<cons
 void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count,
                            std::vector<Neighbor>& neighbors) const {
   if (count == 0) return;
-  const PointLanes lanes = lanesOf(point);
+  const LaneBox lanes = lanesOf(Box{point, point});
   float limit = kNever;
   if (neighbors.size() >= count) limit = limitFrom(point, std::span<const Neighbor>(neighbors).last(count));
   const auto lanesIn = [&](const LaneBlock& block, float* squares) {
-    return m_target.kernels->nearLanes(block, lanes, limit, squares);
+    return m_search.kernels().nearLanes(block, lanes, limit, squares);
   };
   const std::size_t begin = neighbors.size();
   eachBvh([&](const BvhView& hierarchy, bool exact) {
@@ -216,8 +212,7 @@ ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
 }
 
 void WorldQueries::first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const {
-  const auto order = orderOf(
-      sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; }, m_target);
+  const auto order = orderOf(sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; });
   answerInOrder(order, [&](std::size_t, std::size_t query) { hits[query] = first(sweeps[query]); });
 }
 

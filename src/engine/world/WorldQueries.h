@@ -6,24 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "allpairs/Executor.h"
 #include "allpairs/WorldTypes.h"
 #include "bvh/CurveKey.h"
-#include "kernels/Kernels.h"
+#include "kernels/Lanes.h"
 #include "world/BoxStore.h"
 #include "world/Descent.h"
-#include "world/DynamicBvh.h"
+#include "world/WorldSearch.h"
 
 namespace allpairs::engine {
-
-/// The data of queries: the boxes, and the updated hierarchies over them.
-struct QueryTarget {
-  const BoxStore* store = nullptr;
-  std::array<BvhView, 2> hierarchies;  ///< Of the dynamic boxes and of the static ones.
-  std::array<bool, 2> exact{};  ///< Whether the lanes of a hierarchy are exactly the boxes, which have no margin.
-  const Kernels* kernels = nullptr;
-  Executor* executor = nullptr;
-};
 
 /// Queries against the boxes of a world.
 ///
@@ -32,7 +22,8 @@ struct QueryTarget {
 /// Threads: const; nothing is kept between queries.
 class WorldQueries {
  public:
-  WorldQueries(const QueryTarget& target, const QueryFilter& filter) noexcept;
+  /// The hierarchies of the search are up to date with the store; both outlive the queries.
+  WorldQueries(const BoxStore& store, const WorldSearch& search, const QueryFilter& filter) noexcept;
 
   // Single queries: they append their results.
   void overlapping(const Box& query, std::vector<BoxId>& ids) const;
@@ -46,6 +37,8 @@ class WorldQueries {
   [[nodiscard]] ResultLists<Neighbor> nearest(std::span<const std::array<double, 3>> points, std::size_t count) const;
 
  private:
+  template <class PointOf>
+  [[nodiscard]] std::vector<CurveKey> orderOf(std::size_t queries, const PointOf& pointOf) const;
   template <class Answer>
   void answerInOrder(std::span<const CurveKey> order, const Answer& answer) const;
   template <class T, class PointOf, class Find>
@@ -58,7 +51,10 @@ class WorldQueries {
   [[nodiscard]] Box widenedBox(const Arrival& at, bool exact) const noexcept;
   [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;
 
-  QueryTarget m_target;
+  const BoxStore& m_store;
+  const WorldSearch& m_search;
+  BvhView m_dynamic;
+  BvhView m_static;
   QueryFilter m_filter;
   bool m_everyBox;  ///< All boxes pass the filter, so that none need be tested.
 };

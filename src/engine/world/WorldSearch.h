@@ -12,7 +12,6 @@
 #include "search/PairTest.h"
 #include "search/StoppableExecutor.h"
 #include "world/BoxStore.h"
-#include "world/ChangedBoxes.h"
 #include "world/DynamicBvh.h"
 #include "world/PairHistory.h"
 
@@ -24,7 +23,7 @@ class WorldSearch {
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
       : m_options(options),
         m_kernels(kernels),
-        m_executor(m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop)),
+        m_executor(m_stoppable.over(options.executor, options.stop)),
         m_dynamic(memory, false),
         m_static(memory, true),
         m_changedDynamic(memory),
@@ -65,7 +64,6 @@ class WorldSearch {
 
   const WorldOptions& m_options;
   const Kernels& m_kernels;
-  SerialExecutor m_serial;
   StoppableExecutor m_stoppable;
   Executor& m_executor;
   DynamicBvh m_dynamic;

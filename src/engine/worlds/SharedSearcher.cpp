@@ -15,13 +15,10 @@ std::size_t worldOf(const Worlds& worlds, std::size_t box) {
 
 /// The values of all boxes, where those of one world are given for all.
 std::span<const std::uint32_t> valuesOfAll(std::span<const std::uint32_t> values, const Worlds& worlds,
-                                           std::pmr::vector<std::uint32_t>& all) {
-  const std::size_t boxes = worlds.boxes().size();
-  if (!worlds.hasEqualSizes() || values.size() != worlds.eachSize() || values.size() == boxes) return values;
-  all.resize(boxes);
-  for (std::size_t box = 0; box < boxes; box += values.size()) {
-    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(box));
-  }
+                                           const char* name, std::pmr::vector<std::uint32_t>& all) {
+  if (!isForOneWorld(values, worlds, name)) return values;
+  all.clear();
+  for (std::size_t world = 0; world < worlds.size(); ++world) all.insert(all.end(), values.begin(), values.end());
   return all;
 }
 
@@ -61,9 +58,9 @@ OverlapOptions SharedSearcher::optionsForAll(const Worlds& worlds, const Overlap
   OverlapOptions all = options;
   all.order = Order::ByFirst;
   FilterBits& bits = all.filter.first;
-  bits.categories = valuesOfAll(bits.categories, worlds, m_categories);
-  bits.masks = valuesOfAll(bits.masks, worlds, m_masks);
-  bits.groups = valuesOfAll(bits.groups, worlds, m_groups);
+  bits.categories = valuesOfAll(bits.categories, worlds, "categories", m_categories);
+  bits.masks = valuesOfAll(bits.masks, worlds, "masks", m_masks);
+  bits.groups = valuesOfAll(bits.groups, worlds, "groups", m_groups);
   if (options.filter.accept) {
     all.filter.accept = [&worlds, &options](std::uint32_t box, std::uint32_t second) {
       const std::size_t first = worlds.begin(worldOf(worlds, box));

@@ -8,7 +8,7 @@
 
 #include "allpairs/Error.h"
 #include "memory/Memory.h"
-#include "search/InUse.h"
+#include "search/SearchState.h"
 #include "worlds/SharedSearcher.h"
 #include "worlds/WorldsSearcher.h"
 
@@ -94,11 +94,7 @@ struct WorldsSearch::State {
   }
 };
 
-WorldsSearch::WorldsSearch(OverlapOptions options) {
-  auto made = std::make_unique<State>(engine::memoryOr(options.memory));
-  made->options = std::move(options);
-  m_state = made.release();
-}
+WorldsSearch::WorldsSearch(OverlapOptions options) : m_state(engine::makeState<State>(std::move(options))) {}
 WorldsSearch::~WorldsSearch() { const std::unique_ptr<State> last(m_state); }
 WorldsSearch::WorldsSearch(WorldsSearch&& other) noexcept : m_state(std::exchange(other.m_state, nullptr)) {}
 WorldsSearch& WorldsSearch::operator=(WorldsSearch&& other) noexcept {
@@ -107,38 +103,24 @@ WorldsSearch& WorldsSearch::operator=(WorldsSearch&& other) noexcept {
   return *this;
 }
 
-WorldsSearch::State& WorldsSearch::state() {
-  if (m_state == nullptr) m_state = std::make_unique<State>(engine::defaultMemory()).release();
-  m_state->inUse.check("WorldsSearch");
-  return *m_state;
-}
+WorldsSearch::State& WorldsSearch::state() { return engine::stateOf(m_state, "WorldsSearch"); }
 
 const OverlapOptions& WorldsSearch::options() const noexcept {
-  static const OverlapOptions kDefaults;
-  return m_state != nullptr ? m_state->options : kDefaults;
+  return m_state != nullptr ? m_state->options : engine::defaultOf<OverlapOptions>();
 }
 
-void WorldsSearch::setOptions(OverlapOptions options) {
-  State& state = this->state();
-  if (options.memory != nullptr && options.memory != state.options.memory) {
-    throw InvalidArgument("an object keeps the memory resource that it was made with; make another object");
-  }
-  options.memory = state.options.memory;
-  state.options = std::move(options);
-}
+void WorldsSearch::setOptions(OverlapOptions options) { engine::replaceOptions(state().options, std::move(options)); }
 
 const OverlapStatistics& WorldsSearch::statistics() const noexcept {
-  static constexpr OverlapStatistics kNone;
-  return m_state != nullptr ? m_state->statistics : kNone;
+  return m_state != nullptr ? m_state->statistics : engine::defaultOf<OverlapStatistics>();
 }
 
 void WorldsSearch::shrink() {
   if (m_state == nullptr) return;
   State& state = this->state();
-  auto smaller = std::make_unique<State>(engine::memoryOr(state.options.memory));
-  smaller->options = std::move(state.options);
+  State* const smaller = engine::makeState<State>(state.options);
   smaller->statistics = state.statistics;
-  const std::unique_ptr<State> last(std::exchange(m_state, smaller.release()));
+  const std::unique_ptr<State> last(std::exchange(m_state, smaller));
 }
 
 WorldPairsView WorldsSearch::find(const Worlds& worlds) {
@@ -161,22 +143,41 @@ std::span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds, const B
   return state.run(state.shared, [&] { return state.shared.count(worlds, shared, state.options); });
 }
 
+namespace {
+
+/// Calls write(), which writes pairs where the offsets say and returns the offsets of those that it found; throws unless
+/// they are the same.
+template <class Write>
+void writeAt(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs, const Write& write) {
+  if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {
+    throw InvalidArgument("the offsets of pairs are not those that count() gives: one more than the " +
+                          std::to_string(worlds.size()) + " worlds, from 0 on, ascending");
+  }
+  if (pairs.size() < begin.back()) {
+    throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
+                          std::to_string(begin.back()));
+  }
+  const std::span<const std::uint64_t> found = write();
+  if (!std::equal(begin.begin(), begin.end(), found.begin(), found.end())) {
+    throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
+  }
+}
+
+}  // namespace
+
 void WorldsSearch::list(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
   State& state = this->state();
-  static_cast<void>(state.run(state.own, [&] { return state.own.list(worlds, state.options, begin, pairs); }));
+  writeAt(worlds, begin, pairs,
+          [&] { return state.run(state.own, [&] { return state.own.list(worlds, state.options, begin, pairs); }); });
 }
 
 void WorldsSearch::list(const Worlds& worlds, const BoxView& shared, std::span<const std::uint64_t> begin,
                         std::span<Pair> pairs) {
-  const WorldPairsView found = find(worlds, shared);
-  if (!std::equal(begin.begin(), begin.end(), found.begin.begin(), found.begin.end())) {
-    throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
-  }
-  if (pairs.size() < found.pairs.size()) {
-    throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
-                          std::to_string(found.pairs.size()));
-  }
-  std::copy(found.pairs.begin(), found.pairs.end(), pairs.begin());
+  writeAt(worlds, begin, pairs, [&] {
+    const WorldPairsView found = find(worlds, shared);
+    std::copy_n(found.pairs.begin(), std::min(found.pairs.size(), pairs.size()), pairs.begin());
+    return found.begin;
+  });
 }
 
 namespace {

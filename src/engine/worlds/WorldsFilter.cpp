@@ -14,18 +14,6 @@ namespace {
 
 using Values = std::span<const std::uint32_t>;
 
-/// Whether values are those of one world, for all; throws if they are neither that nor one for each box.
-bool isForOneWorld(Values values, const Worlds& worlds, const char* name) {
-  const std::size_t boxes = worlds.boxes().size();
-  if (worlds.hasEqualSizes() && worlds.size() > 1 && values.size() == worlds.eachSize()) return true;
-  if (values.empty() || values.size() == boxes) return false;
-  const std::string sizes = worlds.hasEqualSizes() ? " worlds of " + std::to_string(worlds.eachSize()) + " boxes"
-                                                   : " worlds with " + std::to_string(boxes) + " boxes altogether";
-  throw InvalidArgument("the filter has " + std::to_string(values.size()) + ' ' + name + " for " +
-                        std::to_string(worlds.size()) + sizes +
-                        (worlds.hasEqualSizes() ? "" : ", which are not of equal size"));
-}
-
 /// Those of one world.
 Values part(Values values, const Worlds& worlds, std::size_t world) {
   if (values.size() != worlds.boxes().size()) return values;
@@ -49,6 +37,17 @@ void checkOthers(const Worlds& worlds, const OverlapOptions& options) {
 }
 
 }  // namespace
+
+bool isForOneWorld(std::span<const std::uint32_t> values, const Worlds& worlds, const char* name) {
+  const std::size_t boxes = worlds.boxes().size();
+  if (worlds.hasEqualSizes() && worlds.size() > 1 && values.size() == worlds.eachSize()) return true;
+  if (values.empty() || values.size() == boxes) return false;
+  const std::string sizes = worlds.hasEqualSizes() ? " worlds of " + std::to_string(worlds.eachSize()) + " boxes"
+                                                   : " worlds with " + std::to_string(boxes) + " boxes altogether";
+  throw InvalidArgument("the filter has " + std::to_string(values.size()) + ' ' + name + " for " +
+                        std::to_string(worlds.size()) + sizes +
+                        (worlds.hasEqualSizes() ? "" : ", which are not of equal size"));
+}
 
 void WorldsFilter::prepare(const Worlds& worlds, const OverlapOptions& options, std::size_t mostBoxes) {
   m_worlds = &worlds;

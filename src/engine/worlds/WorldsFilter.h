@@ -13,6 +13,10 @@
 
 namespace allpairs::engine {
 
+/// Whether the values of a filter are those of one world, for all; throws InvalidArgument if they are neither that, nor one
+/// for each box, nor none.
+[[nodiscard]] bool isForOneWorld(std::span<const std::uint32_t> values, const Worlds& worlds, const char* name);
+
 /// Which overlapping boxes of a world are pairs: the filter of the options, and the pairs that worlds ignore. What is the
 /// same for all worlds is prepared once, as bits that the kernels read.
 class WorldsFilter {

@@ -7,34 +7,24 @@
 #include "allpairs/Error.h"
 #include "input/Options.h"
 #include "search/PairSink.h"
+#include "search/TaskCut.h"
 
 namespace allpairs::engine {
 namespace {
 
-/// Pairs per box in a typical scene, for which room is made at first, and the most that it is made for.
-constexpr std::size_t kLikelyPairs = 2;
-constexpr std::size_t kMostLikelyPairs = std::size_t{1} << 20;
-
-/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are faster.
+/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are
+/// faster (worlds_benchmark).
 constexpr std::size_t kMostInDouble = 96;
 
-/// A world of more boxes is searched by all threads.
+/// A world of more boxes is searched by all threads: it has work for them.
 constexpr std::size_t kManyBoxes = 4096;
 
-/// Parts for each thread: several, since some take longer than others; and the work that a part is worth.
-constexpr std::size_t kPartsPerThread = 16;
+/// The work that a part is worth: some fifty microseconds.
 constexpr std::size_t kLeastWork = std::size_t{1} << 16;
 
-/// The work, some milliseconds, between two looks at the flag that stops a search.
-constexpr std::uint64_t kWorkBetweenLooks = std::uint64_t{1} << 22;
-
-/// What a world takes, very roughly in vector tests.
-std::uint64_t workOf(std::size_t boxes, std::size_t mostBoxes) {
-  constexpr std::uint64_t kPerWorld = 16;
-  constexpr std::uint64_t kPerBox = 4;
-  constexpr std::uint64_t kPerBoxOfHierarchy = 64;
-  const std::uint64_t size = boxes;
-  return kPerWorld + (boxes <= mostBoxes ? size * (kPerBox + size / kFanOut) : size * kPerBoxOfHierarchy);
+/// What a world takes, very roughly in vector tests: some for the world, for each box its columns or its part of a hierarchy.
+std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
+  return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
@@ -50,13 +40,6 @@ bool haveReadableCorners(const BoxView& boxes) {
   const auto& [min, max] = boxes.float32();
   if (min.axisStride != 1 || max.axisStride != 1) return false;
   return boxes.float32().isPacked() || (min.boxStride == 3 && max.boxStride == 3);
-}
-
-void add(OverlapStatistics& sum, const OverlapStatistics& part) {
-  sum.pairs += part.pairs;
-  sum.boxTests += part.boxTests;
-  sum.groupTests += part.groupTests;
-  sum.exactTests += part.exactTests;
 }
 
 }  // namespace
@@ -91,7 +74,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_statistics = {};
   m_kernels = &chooseKernels(options);
   checkStop(options.stop);
-  m_executor = &m_stoppable.over(options.executor != nullptr ? *options.executor : m_serial, options.stop);
+  m_executor = &m_stoppable.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && haveReadableCorners(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
@@ -119,8 +102,8 @@ void WorldsSearcher::cutParts() {
   }
   std::uint64_t all = 0;
   for (std::size_t world = 0; world < worlds; ++world) all += workOf(sizeOf(world), m_mostBoxes);
-  std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kPartsPerThread * threads));
-  if (mayStop) most = std::min(most, kWorkBetweenLooks);
+  std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kTasksPerThread * threads));
+  if (mayStop) most = std::min(most, kTestsBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
     const bool takesAllThreads = sizeOf(world) > kManyBoxes;
@@ -133,13 +116,17 @@ void WorldsSearcher::cutParts() {
   }
 }
 
-/// Calls use(part, worker) for each part, with a worker that no other part has meanwhile.
-template <class Use>
-void WorldsSearcher::forEachPart(const Use& use) {
+/// Searches all parts, each by a worker that no other part has meanwhile; targetOf(part, worker) says where its pairs go.
+template <class TargetOf>
+void WorldsSearcher::searchParts(const TargetOf& targetOf) {
   const auto run = [&](Part& part) {
     m_workers.withOne([&](std::size_t index, Worker& worker) {
+      Target target = targetOf(part, worker);
       part.worker = index;
-      use(part, worker);
+      part.firstPair = target.place.size;
+      searchPart(part, worker, target);
+      part.pairs = target.place.size - part.firstPair;
+      worker.size = target.place.size;
     });
   };
   m_executor->run(m_parts.size(), [&](std::size_t i) {
@@ -149,9 +136,7 @@ void WorldsSearcher::forEachPart(const Use& use) {
     checkStop(m_options->stop);
     if (part.takesAllThreads) run(part);
   }
-}
-
-void WorldsSearcher::sumStatistics() {
+  placeParts();
   for (std::size_t i = 0; i < m_workers.size(); ++i) add(m_statistics, m_workers[i].statistics);
   m_statistics.pairs = m_begin.back();
 }
@@ -172,17 +157,11 @@ void WorldsSearcher::placeParts() {
 
 WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& options) {
   begin(worlds, options);
-  forEachPart([&](Part& part, Worker& worker) {
+  searchParts([&](const Part& part, Worker& worker) {
     const std::size_t boxes = m_worlds->begin(part.end) - m_worlds->begin(part.begin);
-    part.firstPair = worker.size;
-    worker.pairs.grow(worker.size + std::min(kLikelyPairs * boxes, kMostLikelyPairs));
-    Target target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
-    searchPart(part, worker, target);
-    part.pairs = target.place.size - part.firstPair;
-    worker.size = target.place.size;
+    worker.pairs.grow(worker.size + likelyPairsOf(boxes) / 2);  // Boxes of small worlds have fewer.
+    return Target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
   });
-  placeParts();
-  sumStatistics();
   if (m_parts.size() <= 1) {
     const Pair* const pairs = m_parts.empty() ? nullptr : m_workers[m_parts[0].worker].pairs.data();
     return {{pairs, m_begin.back()}, m_begin};
@@ -197,41 +176,18 @@ WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& 
 
 std::span<const std::uint64_t> WorldsSearcher::count(const Worlds& worlds, const OverlapOptions& options) {
   begin(worlds, options);
-  forEachPart([&](Part& part, Worker& worker) {
-    Target target{{.countOnly = true}, nullptr, options.maxPairs};
-    searchPart(part, worker, target);
-    part.firstPair = 0;
-    part.pairs = target.place.size;
-  });
-  placeParts();
-  sumStatistics();
+  searchParts([&](const Part&, Worker&) { return Target{{.countOnly = true}, nullptr, options.maxPairs}; });
   return m_begin;
 }
 
-std::uint64_t WorldsSearcher::list(const Worlds& worlds, const OverlapOptions& options,
-                                   std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
-  if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {
-    throw InvalidArgument("the offsets of pairs are not those that count() gives: one more than the " +
-                          std::to_string(worlds.size()) + " worlds, from 0 on, ascending");
-  }
-  if (pairs.size() < begin.back()) {
-    throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
-                          std::to_string(begin.back()));
-  }
+std::span<const std::uint64_t> WorldsSearcher::list(const Worlds& worlds, const OverlapOptions& options,
+                                                    std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
   this->begin(worlds, options);
-  forEachPart([&](Part& part, Worker& worker) {
+  searchParts([&](const Part& part, Worker&) {
     const std::uint64_t first = begin[part.begin];
-    Target target{{pairs.data() + first, begin[part.end] - first}, nullptr, options.maxPairs};
-    searchPart(part, worker, target);
-    part.firstPair = 0;
-    part.pairs = target.place.size;
+    return Target{{pairs.data() + first, begin[part.end] - first}, nullptr, options.maxPairs};
   });
-  placeParts();
-  sumStatistics();
-  if (!std::equal(begin.begin(), begin.end(), m_begin.begin(), m_begin.end())) {
-    throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
-  }
-  return m_begin.back();
+  return m_begin;
 }
 
 void WorldsSearcher::searchPart(const Part& part, Worker& worker, Target& target) {
@@ -261,7 +217,7 @@ std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker
   run.min = min.data;
   run.max = max.data;
   run.stride = static_cast<std::size_t>(min.boxStride);
-  run.offsets = {m_worlds->offsets().empty() ? nullptr : m_worlds->offsets().data(), m_worlds->eachSize()};
+  run.worlds = m_worlds;
   run.world = world;
   run.end = end;
   run.mostBoxes = m_mostBoxes;
@@ -300,7 +256,7 @@ void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, Target& targ
 
 void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldPairsPlace& place) const {
   worker.wide.require(1);
-  WideBoxes& wide = worker.wide[0];
+  WideWorld& wide = worker.wide[0];
   const BoxView& boxes = m_worlds->boxes();
   const std::size_t first = m_worlds->begin(world);
   const std::size_t size = sizeOf(world);
@@ -318,9 +274,10 @@ void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldPairsPlace&
     const bool isIn = !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
     if (isIn && !isEmpty(box)) wide.alive[at / kWordBoxes] |= std::uint64_t{1} << (at % kWordBoxes);
   }
-  const WideWorld kernel{&wide.tile, size, boxes.hasMargins() ? wide.margins.data() : nullptr, m_options->distance,
-                         wide.alive.data()};
-  m_kernels->searchWideWorld(kernel, {m_options->order == Order::BySecond, m_filter.allowed()}, place);
+  wide.boxes = size;
+  wide.distance = m_options->distance;
+  wide.hasMargins = boxes.hasMargins();
+  m_kernels->searchWideWorld(wide, {m_options->order == Order::BySecond, m_filter.allowed()}, place);
   worker.statistics.boxTests += WorldPairsPlace::roomFor(size) - WorldPairsPlace::kSlack;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -20,13 +19,6 @@
 
 namespace allpairs::engine {
 
-/// The boxes of a world in double, with what the kernel reads besides.
-struct WideBoxes {
-  WorldTile<double> tile;
-  std::array<double, kMostInWorld> margins;
-  std::array<std::uint64_t, kMostWords> alive;
-};
-
 /// Searches many worlds, and keeps its memory for the next time.
 class WorldsSearcher {
  public:
@@ -35,9 +27,9 @@ class WorldsSearcher {
 
   WorldPairsView find(const Worlds& worlds, const OverlapOptions& options);
   std::span<const std::uint64_t> count(const Worlds& worlds, const OverlapOptions& options);
-  /// Returns the number of pairs.
-  std::uint64_t list(const Worlds& worlds, const OverlapOptions& options, std::span<const std::uint64_t> begin,
-                     std::span<Pair> pairs);
+  /// Writes the pairs of each world to where the offsets say, if there is room; returns the offsets of what it found.
+  std::span<const std::uint64_t> list(const Worlds& worlds, const OverlapOptions& options,
+                                      std::span<const std::uint64_t> begin, std::span<Pair> pairs);
 
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
@@ -62,7 +54,7 @@ class WorldsSearcher {
     Buffer<Pair> pairs;  ///< Results.
     std::uint64_t size = 0;
     Buffer<Pair> scratch;  ///< Of a world whose pairs cannot be written to their place at once.
-    Buffer<WideBoxes> wide;
+    Buffer<WideWorld> wide;
     OverlapStatistics statistics;
   };
 
@@ -79,9 +71,8 @@ class WorldsSearcher {
 
   void begin(const Worlds& worlds, const OverlapOptions& options);
   void cutParts();
-  template <class Use>
-  void forEachPart(const Use& use);
-  void sumStatistics();
+  template <class TargetOf>
+  void searchParts(const TargetOf& targetOf);
   void placeParts();
 
   void searchPart(const Part& part, Worker& worker, Target& target);
@@ -97,7 +88,6 @@ class WorldsSearcher {
   const OverlapOptions* m_options = nullptr;
   const Kernels* m_kernels = nullptr;
   Executor* m_executor = nullptr;
-  SerialExecutor m_serial;
   StoppableExecutor m_stoppable;
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
   bool m_isPlain = false;       ///< Boxes that the kernel reads from the caller's memory.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Linked with AllocationCount.cpp, which replaces the program's operator new.
 #pragma once
 
 #include <cstddef>

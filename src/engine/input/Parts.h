@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "allpairs/Executor.h"
+
+namespace allpairs::engine {
+
+/// Boxes, rows or pairs of a task: some ten microseconds of work, beside which starting it takes little time.
+inline constexpr std::size_t kPartSize = 4096;
+
+/// Calls use(begin, end) for parts of [0, size), each of which is a task and, but for the last, of the same size.
+template <class Use>
+void runInParts(std::size_t size, std::size_t partSize, Executor& executor, const Use& use) {
+  executor.run((size + partSize - 1) / partSize,
+               [&](std::size_t part) { use(part * partSize, std::min(size, (part + 1) * partSize)); });
+}
+
+}  // namespace allpairs::engine
