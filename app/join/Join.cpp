@@ -102,16 +102,21 @@ void runJoin(const JoinSettings& settings) {
       summary = join::countFiles(inputs, options);
     } else {
       Output output(settings.output);
+      options.commit = [&output] { output.commit(); };
       summary = join::joinFiles(
           inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
-      output.commit();
     }
   } catch (const FileError& problem) {
     if (problem.path() == options.work || !std::filesystem::exists(options.work / "manifest")) throw;
     throw FileError(problem.path(),
                     problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }
-  Output(std::nullopt).write(summaryText(summary, settings.output));
+  const std::string text = summaryText(summary, settings.output);
+  if (settings.output.empty() || std::filesystem::is_regular_file(settings.output)) {
+    Output(std::nullopt).write(text);
+  } else {
+    fmt::print(stderr, "{}", text);  // standard output may be the result
+  }
 }
 
 }  // namespace
@@ -121,7 +126,9 @@ void addJoin(CLI::App& program) {
   CLI::App* command = program.add_subcommand("join", "Find the pairs of more boxes than memory holds");
   command->footer(kJoinExamples);
   addJoinArguments(*command, settings->shared);
-  command->add_option("--work", settings->work, "The folder of its own files; default: the output's name and .work")
+  command
+      ->add_option("--work", settings->work,
+                   "The folder of its own files; default: the name of the output, or input, and .work")
       ->type_name("DIR");
   command->add_flag("--resume", settings->resume, "Go on with a join that was stopped");
   command->add_flag("--count", settings->count, "Only count the pairs");

@@ -27,7 +27,7 @@ struct PlanSettings {
 };
 
 constexpr const char* kPlanExamples =
-    R"(Reads the boxes twice. Cells, copies and room for boxes are exact; the number of
+    R"(Reads the boxes. Cells, copies and room for boxes are exact; the number of
 pairs is estimated from a sample, and the time from two million boxes that are
 joined for it in a folder within --work, which is gone afterwards.
 

@@ -105,6 +105,11 @@ def _cell_of(cell: npt.ArrayLike) -> list[float]:
 
 
 def _ids_of(value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint64]:
+    if isinstance(value, (list, tuple)):  # of large integers NumPy would make floats
+        try:
+            value = np.array(value, dtype=np.uint64)
+        except (OverflowError, TypeError, ValueError):
+            raise InvalidArgument("ids takes integers 0 to 2**64 - 1") from None
     array = _arguments.array_of("ids", value)
     if array.shape != (length,):
         raise InvalidArgument(f"ids has shape {array.shape}; for {length} boxes it takes ({length},)")
@@ -222,7 +227,8 @@ class Partition:
     ) -> npt.NDArray[np.int64]:
         """Which cells each box goes to: rows of a box, by index, and a cell; shape (k, 2).
 
-        ``max_margin`` is the greatest margin of any box that these may be paired with, here or elsewhere.
+        ``max_margin`` is the greatest margin of any box elsewhere that these may be paired with; their own count by
+        themselves.
         """
         boxes = _arguments.with_margins(_arguments.boxes_of(lower, upper), margin)
         apart, greatest = _arguments.number("distance", distance), _arguments.number("max_margin", max_margin)

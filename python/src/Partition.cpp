@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -76,6 +77,10 @@ std::unique_ptr<RealArray> cutsOf(const Partition& partition) {
 Partition fromCuts(const std::vector<std::array<double, 4>>& rows) {
   std::vector<Cut> cuts;
   for (const auto& row : rows) {
+    const auto isNumber = [](double value) { return std::abs(value) <= 2147483647.0 && value == std::trunc(value); };
+    if (!std::all_of(row.begin() + 1, row.end(), isNumber) || row[1] < 0.0) {
+      throw InvalidArgument("cuts that are those of no partition");
+    }
     cuts.push_back({row[0], static_cast<std::uint32_t>(row[1]), static_cast<std::int32_t>(row[2]),
                     static_cast<std::int32_t>(row[3])});
   }
@@ -89,9 +94,11 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
   {
     const py::gil_scoped_release release;
     const BoxView& set = boxes.set();
+    double greatest = maxMargin;
+    for (std::size_t i = 0; i < set.size(); ++i) greatest = std::max(greatest, set.margin(i));
     std::vector<std::uint32_t> cells;
     for (std::size_t i = 0; i < set.size(); ++i) {
-      partition.cellsOf(partition::reachOf(set[i], set.margin(i), distance, maxMargin), cells);
+      partition.cellsOf(partition::reachOf(set[i], set.margin(i), distance, greatest), cells);
       std::sort(cells.begin(), cells.end());
       for (const std::uint32_t cell : cells) rows.insert(rows.end(), {i, cell});
     }

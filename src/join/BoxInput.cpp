@@ -2,7 +2,9 @@
 #include "BoxInput.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
@@ -24,12 +26,21 @@ BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const 
 
 }  // namespace
 
-BoxInput::BoxInput(std::span<const std::filesystem::path> paths) {
+BoxInput::BoxInput(std::span<const std::filesystem::path> paths) : m_paths(paths.begin(), paths.end()) {
   for (const auto& path : paths) {
-    m_files.emplace_back(path);
-    m_size += m_files.back().size();
-    m_isFloat64 = m_isFloat64 || m_files.back().isFloat64();
+    const scene::BoxRows file(path);
+    m_sizes.push_back(file.size());
+    m_size += file.size();
+    m_isFloat64 = m_isFloat64 || file.isFloat64();
   }
+}
+
+scene::BoxRows BoxInput::open(std::size_t file) const {
+  scene::BoxRows rows(m_paths[file]);
+  if (rows.size() != m_sizes[file] || (rows.isFloat64() && !m_isFloat64)) {
+    throw FileError(m_paths[file], "changed while it was read");
+  }
+  return rows;
 }
 
 void BoxInput::forEachBlock(Visitor visit) {
@@ -45,7 +56,8 @@ void BoxInput::forEachBlock(Visitor visit) {
 template <class Number>
 void BoxInput::readBlocks(std::vector<Number>& rows, Visitor visit) {
   std::uint64_t before = 0;
-  for (scene::BoxRows& file : m_files) {
+  for (std::size_t k = 0; k < m_paths.size(); ++k) {
+    scene::BoxRows file = open(k);
     for (std::uint64_t begin = 0; begin < file.size(); begin += kBlock) {
       rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, file.size() - begin)));
       file.read(begin, std::span(rows));
@@ -63,8 +75,9 @@ template <class Number>
 std::vector<Box> BoxInput::sampleAs(std::size_t count) {
   std::vector<Box> boxes;
   std::vector<Number> rows;
-  const std::uint64_t step = m_size <= count ? kNeighbors : m_size / (count / kNeighbors);
-  for (scene::BoxRows& file : m_files) {
+  const std::uint64_t step = m_size <= count ? kNeighbors : m_size / std::max<std::size_t>(count / kNeighbors, 1);
+  for (std::size_t k = 0; k < m_paths.size(); ++k) {
+    scene::BoxRows file = open(k);
     for (std::uint64_t begin = 0; begin < file.size(); begin += step) {
       rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kNeighbors, file.size() - begin)));
       file.read(begin, std::span(rows));

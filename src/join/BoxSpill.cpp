@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "allpairs/scene/FileError.h"
+
 namespace allpairs::join {
 namespace {
 
@@ -49,11 +51,16 @@ BoxSpill::BoxSpill(const std::filesystem::path& path, RecordType type, std::vect
 
 void BoxSpill::add(std::size_t cell, std::uint64_t id, const BoxView& block, std::size_t i) {
   Writer& writer = m_writers[cell];
+  if (writer.written + writer.used == m_extents[cell].count * m_type.size()) failForCount();
   std::byte* target = m_buffer.data() + cell * m_partSize + writer.used;
   std::memcpy(target, &id, sizeof(id));
   std::memcpy(target + sizeof(id), boundsOf(block, i), m_type.boundsSize());
   writer.used += m_type.size();
   if (writer.used == m_partSize) flush(cell);
+}
+
+void BoxSpill::failForCount() const {
+  throw FileError(m_file.path(), "gets other boxes than were counted: an input changed while it was read");
 }
 
 void BoxSpill::flush(std::size_t cell) {
@@ -68,6 +75,7 @@ void BoxSpill::flush(std::size_t cell) {
 void BoxSpill::finish() {
   for (std::size_t cell = 0; cell < m_writers.size(); ++cell) {
     flush(cell);
+    if (m_writers[cell].written != m_extents[cell].count * m_type.size()) failForCount();
     m_extents[cell].checksum = m_writers[cell].checksum.value();
   }
   m_writers.clear();

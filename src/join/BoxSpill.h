@@ -76,6 +76,7 @@ class BoxSpill {
   };
 
   void flush(std::size_t cell);
+  [[noreturn]] void failForCount() const;
   [[nodiscard]] std::uint64_t positionOf(std::size_t cell) const { return m_extents[cell].begin * m_type.size(); }
 
   RecordType m_type;

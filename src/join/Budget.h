@@ -23,13 +23,14 @@ struct Budget {
     constexpr std::uint64_t kMostSample = std::uint64_t{1} << 20;
     constexpr std::size_t kSearch = 56;   // bytes per box that a search takes at most, and what a cell adds
     constexpr std::size_t kSample = 160;  // likewise of a sample in double, with what cutting and counting take
+    constexpr std::uint64_t kMostBoxes = std::uint64_t{1} << 31;  // a search numbers them in 32 bits
     constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 24;  // larger runs are not merged faster
     constexpr std::uint64_t kBatch = std::uint64_t{4} << 20;      // what a worker has besides
     const std::uint64_t all = memory - kProgram;
     const std::uint64_t each = all / workers - kBatch;
     Budget budget;
     budget.workers = workers;
-    budget.cellBoxes = static_cast<std::size_t>(each * 6 / 10 / (recordSize + kSearch));
+    budget.cellBoxes = static_cast<std::size_t>(std::min(each * 6 / 10 / (recordSize + kSearch), kMostBoxes));
     budget.bufferPairs =
         static_cast<std::size_t>(std::min(each * 4 / 10 / (2 * pairSize), kMostPairs));  // as found, and by range
     budget.bufferBytes = static_cast<std::size_t>(all / 2);

@@ -4,22 +4,9 @@
 #include <algorithm>
 
 namespace allpairs::join {
-namespace {
-
-OverlapOptions unordered(OverlapOptions options) {
-  options.order = Order::Unordered;  // pairs of all cells are put in order together
-  return options;
-}
-
-}  // namespace
-
 CellJoin::CellJoin(const BoxSpill& spill, const partition::Partition& cells, RecordType type, std::size_t most,
                    const OverlapOptions& options)
-    : m_spill(spill),
-      m_cells(cells),
-      m_type(type),
-      m_most(std::max<std::size_t>(most, 2)),
-      m_search(unordered(options)) {
+    : m_spill(spill), m_cells(cells), m_type(type), m_most(std::max<std::size_t>(most, 2)), m_search(options) {
   std::uint64_t needed = 0;
   const std::uint64_t wide = spill.extents().back().count;
   for (const Extent& extent : spill.extents()) needed = std::max(needed, extent.count + wide);

@@ -71,6 +71,7 @@ JoinSummary DiskJoin::run(const ResultSink* sink) {
     } else {
       finish<std::uint64_t>(sink);
     }
+    if (m_options.commit) m_options.commit();
   } catch (...) {
     if (!fs::exists(file("manifest"))) clearFolder();  // there is nothing to go on with
     throw;
@@ -79,14 +80,16 @@ JoinSummary DiskJoin::run(const ResultSink* sink) {
   return summary();
 }
 
+/// The manifest goes first: what is left without one is nothing to go on with.
 void DiskJoin::clearFolder() {
   m_spill.reset();
   m_runs.file = {};
   std::error_code ignored;
+  for (const char* name : {"manifest", "manifest.next", "boxes", "pairs"}) fs::remove(file(name), ignored);
   std::string divided = "divided";  // a join that was killed leaves them, one for each time that a range was divided
   for (; fs::remove(file(divided.c_str()), ignored); divided += '-') {
   }
-  for (const char* name : {"boxes", "pairs", "manifest.next", "manifest", kLock}) fs::remove(file(name), ignored);
+  fs::remove(file(kLock), ignored);
   fs::remove(m_options.work, ignored);  // if it is empty: it may be the user's
 }
 
@@ -115,10 +118,12 @@ void DiskJoin::readManifest() {
     throw FileError(m_options.work, "has a join with other options");
   }
   m_manifest = std::move(*found);
-  m_cells = partition::Partition::fromCuts(m_manifest.cuts);
-  const std::size_t parts = m_manifest.extents.size();
-  if (parts != m_cells.size() + 1 || (!m_manifest.cells.empty() && m_manifest.cells.rbegin()->first >= parts)) {
-    throw FileError(file("manifest"), "is damaged: remove its folder and join anew");
+  try {
+    m_cells = partition::Partition::fromCuts(m_manifest.cuts);
+    m_manifest.check();
+  } catch (const InvalidArgument& problem) {
+    throw FileError(file("manifest"),
+                    std::string("is damaged: remove its folder and join anew (") + problem.what() + ")");
   }
   dropDamaged();
 }
@@ -138,6 +143,7 @@ bool DiskJoin::hasAllBoxes() {
   if (!fs::exists(file("boxes"))) return false;
   m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
   for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
+    checkStop();
     report("checking", cell, m_manifest.extents.size());
     if (!m_spill->isIntact(cell)) return false;
   }
@@ -183,13 +189,17 @@ void DiskJoin::distribute() {
   m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
   CellFinder finder(m_cells, m_options.distance);
   m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
-    if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+    checkStop();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       for (const std::uint32_t cell : finder.cellsOf(boxes[i])) m_spill->add(cell, begin + i, boxes, i);
     }
     report("distributing", begin + boxes.size(), m_input.size());
   });
   m_spill->finish();
+  const std::vector<InputState> now = statesOf(m_input.paths());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i] != m_manifest.inputs[i]) throw FileError(m_input.paths()[i], "changed while it was read");
+  }
   m_manifest.cuts.assign(m_cells.cuts().begin(), m_cells.cuts().end());
   m_manifest.extents = m_spill->extents();
   m_manifest.write(file("manifest"));
@@ -215,7 +225,7 @@ void DiskJoin::searchCells() {
   std::atomic<bool> hasFailed = false;
   const auto work = [&](std::size_t) {
     CellJoin join(*m_spill, m_cells, recordType(), m_budget.cellBoxes,
-                  {.distance = m_options.distance, .stop = m_options.stop});
+                  {.order = Order::Unordered, .distance = m_options.distance, .stop = m_options.stop});
     std::optional<RunWriter<Id>> writer;
     if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs);
     try {
@@ -276,7 +286,7 @@ void DiskJoin::writePairs(ResultSink sink) {
   std::uint64_t written = 0;
   PairMerge<Id> merge(m_ranges, m_input.size(), m_budget.mergeBytes, m_runs.file, file("divided"));
   merge.merge(runs, [&](std::span<const StoredPair<Id>> batch) {
-    if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+    checkStop();
     sink({reinterpret_cast<const char*>(batch.data()), batch.size_bytes()});
     written += batch.size();
     report("writing", written, pairs);
@@ -294,6 +304,10 @@ JoinSummary DiskJoin::summary() const {
   summary.pairBytes = m_manifest.isCount ? 0 : summary.pairs * pairSize();
   summary.resumedCells = m_resumed;
   return summary;
+}
+
+void DiskJoin::checkStop() const {
+  if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
 }
 
 void DiskJoin::report(std::string_view step, std::uint64_t done, std::uint64_t total) {

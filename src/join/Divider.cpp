@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "Divider.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "DiskJoin.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 
@@ -95,7 +96,7 @@ std::uint64_t Divider::estimatePairs() const {
     for (std::size_t i = 0; i < m_evenSample.size(); i += step) part.push_back(m_evenSample[i]);
     if (part.size() < 2) continue;
     size = part.size();
-    pairs = countOverlaps(part, {.distance = m_options.distance});
+    pairs = countOverlaps(part, {.distance = m_options.distance, .stop = m_options.stop});
   }
   if (size < 2) return 0;
   const double share = static_cast<double>(m_input.size()) / static_cast<double>(size);

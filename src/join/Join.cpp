@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/join/Join.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
-  const std::uint64_t memory = options.memory != 0 ? options.memory : std::max(scene::halfOfMemory(), kLeastMemory);
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 50;
+  const std::uint64_t given = options.memory != 0 ? options.memory : std::max(scene::halfOfMemory(), kLeastMemory);
+  const std::uint64_t memory = std::min(given, kMost);
   if (memory < kLeastMemory) {
     throw InvalidArgument("a join needs at least " + std::to_string(kLeastMemory >> 20) + " MiB of memory");
   }
@@ -30,6 +34,41 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
   const std::size_t recordSize = RecordType{input.isFloat64()}.size();
   return Budget::of(memory, static_cast<std::size_t>(workers), recordSize, pairSizeFor(input.size()));
 }
+
+/// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it is
+/// not complete.
+class PartFile {
+ public:
+  explicit PartFile(const fs::path& target)
+      : m_target(target), m_part(target.string() + '.' + std::to_string(::getpid()) + ".part") {}
+  ~PartFile() {
+    std::error_code ignored;
+    if (m_isThere) fs::remove(m_part, ignored);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  void write(std::string_view bytes) {
+    if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::Create);
+    m_isThere = true;
+    m_file.write(m_position, bytes.data(), bytes.size());
+    m_position += bytes.size();
+  }
+
+  void commit() {
+    std::error_code problem;
+    fs::rename(m_part, m_target, problem);
+    if (problem) throw FileError(m_target, "cannot be replaced: " + problem.message());
+    m_isThere = false;
+  }
+
+ private:
+  fs::path m_target;
+  fs::path m_part;
+  WorkFile m_file;
+  bool m_isThere = false;
+  std::uint64_t m_position = 0;
+};
 
 void checkOptions(std::span<const fs::path> inputs, const JoinOptions& options) {
   if (inputs.empty()) throw InvalidArgument("a join of no files");
@@ -53,27 +92,12 @@ JoinSummary joinFiles(std::span<const fs::path> inputs, ResultSink sink, const J
 }
 
 JoinSummary joinFiles(std::span<const fs::path> inputs, const fs::path& output, const JoinOptions& given) {
+  if (output.filename().empty() || fs::is_directory(output)) throw FileError(output, "is no name for a file");
   JoinOptions options = given;
   if (options.work.empty()) options.work = output.string() + ".work";
-  const fs::path part = output.string() + ".part";
-  JoinSummary summary;
-  try {
-    WorkFile file(part, WorkFile::Mode::Create);
-    std::uint64_t position = 0;
-    summary = joinFiles(inputs, ResultSink([&](std::string_view bytes) {
-                          file.write(position, bytes.data(), bytes.size());
-                          position += bytes.size();
-                        }),
-                        options);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw;
-  }
-  std::error_code problem;
-  fs::rename(part, output, problem);
-  if (problem) throw FileError(output, "cannot be replaced: " + problem.message());
-  return summary;
+  PartFile part(output);
+  options.commit = [&part] { part.commit(); };
+  return joinFiles(inputs, ResultSink([&part](std::string_view bytes) { part.write(bytes); }), options);
 }
 
 JoinSummary countFiles(std::span<const fs::path> inputs, const JoinOptions& options) {

@@ -120,10 +120,32 @@ Manifest manifestOf(std::string_view text) {
 void Manifest::write(const fs::path& path) const {
   const std::string text = textOf(*this);
   const fs::path next = path.string() + ".next";
-  WorkFile(next, WorkFile::Mode::Create).write(0, text.data(), text.size());
+  {
+    const WorkFile file(next, WorkFile::Mode::Create);
+    file.write(0, text.data(), text.size());
+    file.sync();  // a name is on disk before bytes are, and would be that of an empty file after a loss of power
+  }
   std::error_code problem;
   fs::rename(next, path, problem);
   if (problem) throw FileError(path, "cannot be replaced: " + problem.message());
+}
+
+void Manifest::check() const {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 48;
+  if (extents.size() != cuts.size() + 2) throw InvalidArgument("another number of cells than its cuts make");
+  std::uint64_t boxes = 0;
+  for (const Extent& extent : extents) {
+    if (extent.begin != boxes || extent.count > kMost - boxes) throw InvalidArgument("cells that overlap");
+    boxes += extent.count;
+  }
+  for (const auto& [number, result] : cells) {
+    std::uint64_t pairs = 0;
+    for (const Run& run : result.runs) {
+      if (run.position > kMost || run.pairs > kMost - pairs) throw InvalidArgument("runs that end nowhere");
+      pairs += run.pairs;
+    }
+    if (number >= extents.size() || (!isCount && pairs != result.pairs)) throw InvalidArgument("pairs of no cell");
+  }
 }
 
 std::optional<Manifest> Manifest::read(const fs::path& path) {

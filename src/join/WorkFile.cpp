@@ -42,7 +42,8 @@ void WorkFile::write(std::uint64_t position, const void* bytes, std::size_t coun
   while (count > 0) {
     const ssize_t written = ::pwrite(m_descriptor, next, count, static_cast<off_t>(position));
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("written");
+    if (written == 0) errno = ENOSPC;
+    if (written <= 0) fail("written");
     next += written;
     position += static_cast<std::uint64_t>(written);
     count -= static_cast<std::size_t>(written);
@@ -60,6 +61,10 @@ void WorkFile::read(std::uint64_t position, void* bytes, std::size_t count) cons
     position += static_cast<std::uint64_t>(done);
     count -= static_cast<std::size_t>(done);
   }
+}
+
+void WorkFile::sync() const {
+  if (::fsync(m_descriptor) != 0) fail("written");
 }
 
 bool WorkFile::lock() const {

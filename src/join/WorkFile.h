@@ -31,6 +31,9 @@ class WorkFile {
   /// A file that ends before throws FileError.
   void read(std::uint64_t position, void* bytes, std::size_t count) const;
 
+  /// Returns when what was written is on the disk.
+  void sync() const;
+
   /// Takes the lock of the file, which ends with it, also where the process is killed; false if another has it.
   [[nodiscard]] bool lock() const;
 

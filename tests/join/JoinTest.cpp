@@ -82,10 +82,36 @@ TEST(Join, BadInputIsNamedAndNothingIsWritten) {
     EXPECT_NE(std::string(problem.what()).find("boxes1.npy: box 42 has a NaN"), std::string::npos) << problem.what();
   }
   EXPECT_FALSE(std::filesystem::exists(output));
-  EXPECT_FALSE(std::filesystem::exists(output.string() + ".part"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(with.folder.path()), {}), 2) << "the inputs alone";
   const std::filesystem::path text = with.folder.write("text.npy", "no array");
   EXPECT_THROW(joinFiles(std::vector{text}, output), FileError);
   EXPECT_THROW(joinFiles(std::vector{with.folder.path() / "missing.npy"}, output), FileError);
+}
+
+TEST(Join, AFailureAtTheEndCanBeResumed) {
+  const std::vector<Box> boxes = toDouble(randomBoxes(500, 17));
+  const JoinCase with(boxes);
+  EXPECT_THROW(joinFiles(with.paths, with.folder.path()), FileError) << "a folder is no file";
+  join::JoinOptions options = with.options();
+  options.commit = [] { throw Error("no"); };
+  std::size_t received = 0;
+  const auto sink = [&received](std::string_view bytes) { received += bytes.size(); };
+  EXPECT_THROW(joinFiles(with.paths, join::ResultSink(sink), options), Error);
+  EXPECT_GT(received, 0U);
+  options.resume = true;
+  const std::filesystem::path output = with.folder.path() / "pairs.npy";
+  EXPECT_GT(joinFiles(with.paths, output, options).resumedCells, 0U);
+  EXPECT_TRUE(bytesOfFile(output) == expectedBytes(boxes));
+}
+
+TEST(Join, AnyMemoryWillDo) {
+  const JoinCase with(toDouble(randomBoxes(500, 18)));
+  join::JoinOptions options = with.options();
+  for (const std::uint64_t memory : {kLeastMemory, std::uint64_t{1} << 42, ~std::uint64_t{0}}) {
+    options.memory = memory;
+    EXPECT_EQ(countFiles(with.paths, options).boxes, 500U);
+    EXPECT_EQ(joinFiles(with.paths, with.folder.path() / "pairs.npy", options).boxes, 500U);
+  }
 }
 
 TEST(Join, OptionsThatMakeNoSenseAreRefused) {

@@ -181,6 +181,51 @@ TEST(Resume, OfAnotherJoinIsAnError) {
   EXPECT_THROW((void)with.run(resuming(with)), FileError);
 }
 
+TEST(Resume, AfterAKillBetweenTheResultAndItsFolderTheFolderIsTakenAgain) {
+  JoinCase with(someBoxes());
+  join::JoinOptions options = with.options();
+  options.commit = [] { throw std::runtime_error("not committed"); };
+  EXPECT_THROW((void)with.run(options), std::runtime_error);
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
+  EXPECT_EQ(with.summary.resumedCells, with.summary.cells + 1) << "nothing was lost before the commit";
+  stoppedWhileWriting(with);
+  fs::remove(with.options().work / "manifest");  // what clearing the folder does first
+  EXPECT_TRUE(with.run(with.options()) == expectedBytes(someBoxes()));
+}
+
+TEST(Resume, AnInputThatChangesWhileItIsReadIsAnError) {
+  for (const std::size_t size : {300U, 520U}) {
+    JoinCase with(someBoxes());
+    join::JoinOptions options = with.options();
+    options.progress = [&with, size, isChanged = false](const join::JoinProgress& progress) mutable {
+      if (isChanged || progress.step != "counting") return;
+      isChanged = true;  // while it is counted: cells get other boxes, or it is another file
+      std::ofstream(with.paths[0], std::ios::binary)
+          << npyBytes(toDouble(randomBoxes(size, 99, 3.0F)), {.descr = "<f4"});
+    };
+    EXPECT_THROW((void)with.run(options), FileError);
+    EXPECT_FALSE(fs::exists(options.work));
+  }
+}
+
+TEST(Resume, AManifestOfPartsThatDoNotFitIsAnError) {
+  const auto refused = [](const auto& change) {
+    JoinCase with(someBoxes());
+    stoppedWhileWriting(with);
+    const fs::path path = with.options().work / "manifest";
+    join::Manifest manifest = *join::Manifest::read(path);
+    change(manifest);
+    manifest.write(path);
+    EXPECT_THROW((void)with.run(resuming(with)), FileError);
+  };
+  refused([](join::Manifest& manifest) { manifest.extents.pop_back(); });
+  refused([](join::Manifest& manifest) { manifest.extents.push_back({}); });
+  refused([](join::Manifest& manifest) { manifest.extents[1].begin += 1; });
+  refused([](join::Manifest& manifest) { manifest.cells[1'000'000] = {}; });
+  refused([](join::Manifest& manifest) { manifest.cells.begin()->second.pairs += 7; });
+  refused([](join::Manifest& manifest) { manifest.cuts[0].low = 77; });
+}
+
 TEST(Resume, OneJoinAtATime) {
   JoinCase with(someBoxes());
   fs::create_directories(with.options().work);

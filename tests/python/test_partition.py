@@ -46,7 +46,8 @@ def test_margins_widen_and_are_seen():
     boxes = some_boxes(80)
     margins = np.linspace(0, 0.5, 80)
     partition = allpairs.Partition(boxes, cells=4, margin=margins)
-    homes = partition.cells_of(boxes, margin=margins, max_margin=0.5)
+    homes = partition.cells_of(boxes, margin=margins)
+    assert (homes == partition.cells_of(boxes, margin=margins, max_margin=0.5)).all()
     found = []
     for number, cell in enumerate(partition.cells):
         here = homes[homes[:, 1] == number, 0]
@@ -75,6 +76,16 @@ def test_bad_arguments_are_named():
         allpairs.overlaps_in_cell(boxes * 0, None, [7, 7, 3], space)
     with pytest.raises(allpairs.InvalidArgument, match="cells is 0"):
         allpairs.Partition(boxes, cells=0)
+
+
+def test_ids_have_64_bits():
+    space = [[-np.inf] * 3, [np.inf] * 3]
+    large = [1, 2**63, 2**64 - 1]
+    assert allpairs.overlaps_in_cell(np.zeros((3, 6)), None, large, space).tolist() == [
+        [1, 2**63],
+        [1, 2**64 - 1],
+        [2**63, 2**64 - 1],
+    ]
 
 
 def test_a_join_of_files_is_the_search_in_memory(tmp_path):

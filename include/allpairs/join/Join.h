@@ -48,6 +48,10 @@ struct JoinOptions {
 
   /// Called now and then, by one thread at a time; may be empty.
   std::function<void(const JoinProgress&)> progress{};
+
+  /// Called when the sink has received all bytes, and before the work folder is removed: puts the result in its place,
+  /// so that a join which is killed then can still be resumed. May be empty.
+  std::function<void()> commit{};
 };
 
 /// What a join did, or is expected to do.
@@ -73,21 +77,22 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 /// Bad input: a file that is none, or a box with a NaN, throws FileError, which names it; so does a work folder that is
 ///            full, in use, or another join's. Too little memory, or a distance that is none, throws InvalidArgument.
 ///            What was complete stays in the work folder.
-/// Cost:      the inputs are read three times; options.memory; on disk 32 bytes per box and copy (56 in float64) and 8
+/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes per box and copy (56 in float64) and 8
 ///            per pair (16 of more than 2^32 boxes). Where the disk is estimated to be too small it throws before it
 ///            writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again. Inputs that have changed throw FileError. The result's bytes are the same.
 JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
 
-/// The same into a file, which appears when it is complete. The default work folder is `output` with ".work" behind it.
+/// The same into a file, which appears when it is complete, beside which it is written; options.commit is not used. The default work folder is `output` with ".work" behind it.
 JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 
 /// Counts the pairs: no pairs are written, so that only the boxes take room on the disk.
 JoinSummary countFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
 
-/// What joinFiles() would do: all but the pairs is exact. Reads the inputs twice, and writes nothing.
+/// What joinFiles() would do: all but the pairs is exact. Reads the inputs once, or more where cells have to
+/// be cut again, and writes nothing.
 [[nodiscard]] JoinSummary planFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
 
 }  // namespace allpairs::join

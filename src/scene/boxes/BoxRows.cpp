@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/scene/BoxRows.h"
 
-#include <limits>
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 

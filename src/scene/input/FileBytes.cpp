@@ -45,7 +45,7 @@ void InputFile::read(void* target, std::size_t count) {
   if (count > m_remaining) throw FileError(m_path, "ends too early");
   errno = 0;
   m_stream.read(static_cast<char*>(target), static_cast<std::streamsize>(count));
-  if (!m_stream) throw FileError(m_path, "cannot be read: " + lastProblem());
+  if (!m_stream) throw FileError(m_path, errno == 0 ? "ends too early" : "cannot be read: " + lastProblem());
   m_remaining -= count;
 }
 
