@@ -106,10 +106,8 @@ def _cell_of(cell: npt.ArrayLike) -> list[float]:
 
 def _ids_of(value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint64]:
     if isinstance(value, (list, tuple)):  # of large integers NumPy would make floats
-        try:
-            value = np.array(value, dtype=np.uint64)
-        except (OverflowError, TypeError, ValueError):
-            raise InvalidArgument("ids takes integers 0 to 2**64 - 1") from None
+        numbers = [_arguments.whole("ids", number) for number in value]
+        value = np.array(numbers, dtype=np.uint64)
     array = _arguments.array_of("ids", value)
     if array.shape != (length,):
         raise InvalidArgument(f"ids has shape {array.shape}; for {length} boxes it takes ({length},)")
