@@ -60,6 +60,7 @@ class BoxSpill {
   /// Writes what is left; nothing is added after this.
   void finish();
 
+  [[nodiscard]] RecordType type() const noexcept { return m_type; }
   [[nodiscard]] const std::vector<Extent>& extents() const noexcept { return m_extents; }
 
   /// Whether the boxes of a cell are those that were written.

@@ -4,14 +4,14 @@
 #include <algorithm>
 
 namespace allpairs::join {
-CellJoin::CellJoin(const BoxSpill& spill, const partition::Partition& cells, RecordType type, std::size_t most,
+CellJoin::CellJoin(const BoxSpill& spill, const partition::Partition& cells, std::size_t most,
                    const OverlapOptions& options)
-    : m_spill(spill), m_cells(cells), m_type(type), m_most(std::max<std::size_t>(most, 2)), m_search(options) {
+    : m_spill(spill), m_cells(cells), m_type(spill.type()), m_most(std::max<std::size_t>(most, 2)), m_search(options) {
   std::uint64_t needed = 0;
   const std::uint64_t wide = spill.extents().back().count;
   for (const Extent& extent : spill.extents()) needed = std::max(needed, extent.count + wide);
   m_capacity = static_cast<std::size_t>(std::min<std::uint64_t>(needed, m_most));
-  m_words = std::make_unique_for_overwrite<std::uint64_t[]>(m_capacity * type.words());
+  m_words = std::make_unique_for_overwrite<std::uint64_t[]>(m_capacity * m_type.words());
 }
 
 Records CellJoin::room(std::size_t begin, std::uint64_t count) {

@@ -22,8 +22,7 @@ class CellJoin {
   using Receiver = FunctionRef<void(std::span<const Pair>, const Records&, const Records&)>;
 
   /// `most` is the number of boxes in memory at once.
-  CellJoin(const BoxSpill& spill, const partition::Partition& cells, RecordType type, std::size_t most,
-           const OverlapOptions& options);
+  CellJoin(const BoxSpill& spill, const partition::Partition& cells, std::size_t most, const OverlapOptions& options);
 
   /// The pairs of one cell: of its own boxes, and of these with the wide ones. The number after the last cell's means the
   /// pairs among the wide boxes.

@@ -2,7 +2,7 @@
 #pragma once
 
 // All of it is inlined: what is installed needs no library.
-#define XXH_INLINE_ALL
+#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's name
 #include <xxhash.h>
 
 #include <cstddef>

@@ -50,13 +50,12 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20)
 
 }  // namespace
 
-DiskJoin::DiskJoin(BoxInput& input, std::vector<InputState> states, const JoinOptions& options, const Budget& budget,
-                   bool isCount)
+DiskJoin::DiskJoin(BoxInput& input, const JoinOptions& options, const Budget& budget, bool isCount)
     : m_input(input),
       m_options(options),
       m_budget(budget),
       m_ranges(KeyRanges::of(0, input.size(), false, kMostRanges)) {
-  m_manifest.inputs = std::move(states);
+  m_manifest.inputs = statesOf(input.paths());
   m_manifest.distance = options.distance;
   m_manifest.isCount = isCount;
 }
@@ -224,7 +223,7 @@ void DiskJoin::searchCells() {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> hasFailed = false;
   const auto work = [&](std::size_t) {
-    CellJoin join(*m_spill, m_cells, recordType(), m_budget.cellBoxes,
+    CellJoin join(*m_spill, m_cells, m_budget.cellBoxes,
                   {.order = Order::Unordered, .distance = m_options.distance, .stop = m_options.stop});
     std::optional<RunWriter<Id>> writer;
     if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs);

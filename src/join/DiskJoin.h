@@ -24,8 +24,7 @@ namespace allpairs::join {
 /// A join on disk, step by step.
 class DiskJoin {
  public:
-  DiskJoin(BoxInput& input, std::vector<InputState> states, const JoinOptions& options, const Budget& budget,
-           bool isCount);
+  DiskJoin(BoxInput& input, const JoinOptions& options, const Budget& budget, bool isCount);
 
   /// Writes the result to the sink, which a count has none of.
   JoinSummary run(const ResultSink* sink);

@@ -82,7 +82,7 @@ JoinSummary run(std::span<const fs::path> inputs, const ResultSink* sink, const 
   if (options.work.empty()) throw InvalidArgument("a join needs a folder to work in");
   BoxInput input(inputs);
   const Budget budget = budgetOf(options, input);
-  return DiskJoin(input, statesOf(inputs), options, budget, sink == nullptr).run(sink);
+  return DiskJoin(input, options, budget, sink == nullptr).run(sink);
 }
 
 }  // namespace

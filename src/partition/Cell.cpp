@@ -42,7 +42,13 @@ Box reachOf(const Box& box, double margin, double distance, double maxMargin) no
   if (isEmpty(box)) return kEmptyBox;
   const double widening = greatestReach(margin, distance, maxMargin);
   Box reach = box;
-  for (double& max : reach.max) max = widening == kInfinity ? kInfinity : std::max(max, max + widening);
+  for (double& max : reach.max) {
+    if (widening == kInfinity) {
+      max = widening;  // also of -infinity, with which the sum would be NaN
+    } else {
+      max = std::max(max, max + widening);
+    }
+  }
   return reach;
 }
 
@@ -56,6 +62,11 @@ bool touches(const Cell& cell, const Box& reach) noexcept {
 }
 
 struct CellSearch::State {
+  struct Sets {
+    const BoxView& first;
+    const BoxView& second;
+  };
+
   explicit State(OverlapOptions given) : maxPairs(given.maxPairs), search(withoutLimit(std::move(given))) {}
 
   /// Pairs of other cells are found too, and do not count.
@@ -80,13 +91,12 @@ struct CellSearch::State {
   }
 
   /// Passes on those of a batch that belong to the cell.
-  void filter(std::span<const Pair> batch, const BoxView& first, const BoxView& second, const Cell& cell,
-              PairVisitor visitor) {
+  void filter(std::span<const Pair> batch, const Sets& sets, const Cell& cell, PairVisitor visitor) {
     const std::vector<char>& homeOfSecond = secondHome.empty() ? home : secondHome;
     kept.clear();
     for (const Pair pair : batch) {
       const bool isHome = (home[pair.first] & homeOfSecond[pair.second]) != 0;
-      if (isHome || cell.holds(pairPoint(first[pair.first], second[pair.second]))) kept.push_back(pair);
+      if (isHome || cell.holds(pairPoint(sets.first[pair.first], sets.second[pair.second]))) kept.push_back(pair);
     }
     give(kept, visitor);
   }
@@ -113,7 +123,7 @@ void CellSearch::stream(const BoxView& boxes, const Cell& cell, PairVisitor visi
   }
   State::findHome(boxes, cell, state.home);
   state.secondHome.clear();
-  state.search.stream(boxes, [&](std::span<const Pair> batch) { state.filter(batch, boxes, boxes, cell, visitor); });
+  state.search.stream(boxes, [&](std::span<const Pair> batch) { state.filter(batch, {boxes, boxes}, cell, visitor); });
 }
 
 void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell& cell, PairVisitor visitor) {
@@ -125,8 +135,9 @@ void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell&
   }
   State::findHome(first, cell, state.home);
   State::findHome(second, cell, state.secondHome);
-  state.search.stream(first, second,
-                      [&](std::span<const Pair> batch) { state.filter(batch, first, second, cell, visitor); });
+  state.search.stream(first, second, [&](std::span<const Pair> batch) {
+    state.filter(batch, {first, second}, cell, visitor);
+  });
 }
 
 std::vector<IdPair> overlapsInCell(const BoxView& boxes, std::span<const std::uint64_t> ids, const Cell& cell,
@@ -145,6 +156,7 @@ std::vector<IdPair> overlapsInCell(const BoxView& boxes, std::span<const std::ui
   return pairs;
 }
 
+// NOLINTNEXTLINE(readability-function-size): two sets, each with its ids
 std::vector<IdPair> overlapsInCell(const BoxView& first, std::span<const std::uint64_t> firstIds, const BoxView& second,
                                    std::span<const std::uint64_t> secondIds, const Cell& cell,
                                    const OverlapOptions& options) {

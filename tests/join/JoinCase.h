@@ -66,13 +66,13 @@ class JoinCase {
     std::string bytes;
     const auto append = [&bytes](std::string_view part) { bytes += part; };
     const join::ResultSink sink(append);
-    summary = join::DiskJoin(input, join::statesOf(paths), options, budget, false).run(&sink);
+    summary = join::DiskJoin(input, options, budget, false).run(&sink);
     return bytes;
   }
 
   std::uint64_t count(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
     join::BoxInput input(paths);
-    summary = join::DiskJoin(input, join::statesOf(paths), options, budget, true).run(nullptr);
+    summary = join::DiskJoin(input, options, budget, true).run(nullptr);
     return summary.pairs;
   }
 

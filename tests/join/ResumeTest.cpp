@@ -105,8 +105,7 @@ JoinCase& stoppedWhileWriting(JoinCase& with) {
   const auto failing = [](std::string_view) { throw std::runtime_error("no room"); };
   const join::ResultSink sink(failing);
   join::BoxInput input(with.paths);
-  EXPECT_THROW(join::DiskJoin(input, join::statesOf(with.paths), with.options(), tinyBudget(), false).run(&sink),
-               std::runtime_error);
+  EXPECT_THROW(join::DiskJoin(input, with.options(), tinyBudget(), false).run(&sink), std::runtime_error);
   return with;
 }
 
