@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/AssimpFrame.h"
 
-#include <assimp/metadata.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
