@@ -49,7 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                                          std::vector<std::string>{"info"}, std::vector<std::string>{"track"},
                                          std::vector<std::string>{"elements"}, std::vector<std::string>{"generate"},
                                          std::vector<std::string>{"bench"}, std::vector<std::string>{"view"},
-                                         std::vector<std::string>{"report"}));
+                                         std::vector<std::string>{"report"}, std::vector<std::string>{"join"},
+                                         std::vector<std::string>{"plan"}));
 
 TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
   const std::set<std::string> options = optionsOf(runProgram({"detect", "--help"}).out);
