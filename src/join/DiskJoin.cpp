@@ -5,9 +5,6 @@
 #include <array>
 #include <bit>
 #include <chrono>
-#include <exception>
-#include <limits>
-#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -117,13 +114,7 @@ void DiskJoin::readManifest() {
     throw FileError(m_options.work, "has a join with other options");
   }
   m_manifest = std::move(*found);
-  try {
-    m_cells = partition::Partition::fromCuts(m_manifest.cuts);
-    m_manifest.check();
-  } catch (const InvalidArgument& problem) {
-    throw FileError(file("manifest"),
-                    std::string("is damaged: remove its folder and join anew (") + problem.what() + ")");
-  }
+  m_cells = partition::Partition::fromCuts(m_manifest.cuts);
   dropDamaged();
 }
 
@@ -171,8 +162,7 @@ void DiskJoin::dropDamagedCells() {
 }
 
 void DiskJoin::requireRoom(const Division& division) const {
-  const std::uint64_t boxes =
-      std::accumulate(division.counts.begin(), division.counts.end(), std::uint64_t{0}) * recordType().size();
+  const std::uint64_t boxes = division.records() * recordType().size();
   const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairs * pairSize();
   std::error_code problem;
   const fs::space_info space = fs::space(m_options.work, problem);

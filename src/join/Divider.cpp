@@ -33,9 +33,10 @@ std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
 
 }  // namespace
 
+std::uint64_t Division::records() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
+
 std::uint64_t Division::copies(std::uint64_t boxes) const {
-  const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-  return all > boxes ? all - boxes : 0;  // empty boxes go nowhere
+  return records() > boxes ? records() - boxes : 0;  // empty boxes go nowhere
 }
 
 CellFinder::CellFinder(const partition::Partition& cells, double distance)

@@ -20,6 +20,8 @@ struct Division {
   std::vector<std::uint64_t> counts{};  ///< Of each cell, and of the wide boxes.
   std::uint64_t pairs = 0;              ///< Estimated.
 
+  /// Boxes and their copies: what is written.
+  [[nodiscard]] std::uint64_t records() const;
   [[nodiscard]] std::uint64_t copies(std::uint64_t boxes) const;
 };
 

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <system_error>
-#include <vector>
 
 #include "DiskJoin.h"
 #include "WorkFile.h"
@@ -109,13 +107,12 @@ JoinSummary planFiles(std::span<const fs::path> inputs, const JoinOptions& optio
   BoxInput input(inputs);
   const Budget budget = budgetOf(options, input);
   const Division division = Divider(input, options, budget).divide();
-  const std::uint64_t records = std::accumulate(division.counts.begin(), division.counts.end(), std::uint64_t{0});
   return {.boxes = input.size(),
           .pairs = division.pairs,
           .cells = division.cells.size(),
           .copies = division.copies(input.size()),
           .wideBoxes = division.counts.back(),
-          .boxBytes = records * RecordType{input.isFloat64()}.size(),
+          .boxBytes = division.records() * RecordType{input.isFloat64()}.size(),
           .pairBytes = division.pairs * pairSizeFor(input.size())};
 }
 

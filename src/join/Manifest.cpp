@@ -132,6 +132,7 @@ void Manifest::write(const fs::path& path) const {
 
 void Manifest::check() const {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 48;
+  (void)partition::Partition::fromCuts(cuts);
   if (extents.size() != cuts.size() + 2) throw InvalidArgument("another number of cells than its cuts make");
   std::uint64_t boxes = 0;
   for (const Extent& extent : extents) {
@@ -160,7 +161,9 @@ std::optional<Manifest> Manifest::read(const fs::path& path) {
   const bool isWhole = content.starts_with(kFirstLine) && text.substr(content.size()) == last;
   try {
     if (!isWhole) throw InvalidArgument("its checksum is another");
-    return manifestOf(content.substr(kFirstLine.size() + 1));
+    Manifest manifest = manifestOf(content.substr(kFirstLine.size() + 1));
+    manifest.check();
+    return manifest;
   } catch (const InvalidArgument& problem) {
     throw FileError(path, std::string("is damaged: remove its folder and join anew (") + problem.what() + ")");
   }

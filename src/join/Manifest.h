@@ -41,7 +41,8 @@ struct Manifest {
   /// Replaces the file: whoever reads it finds the one before or this one, whole.
   void write(const std::filesystem::path& path) const;
 
-  /// Bad input: parts that do not fit each other throw InvalidArgument. What checksums cover is not looked at.
+  /// Bad input: parts that do not fit each other throw InvalidArgument. What checksums cover is not looked at. read()
+  /// checks.
   void check() const;
 
   /// None if there is no file.

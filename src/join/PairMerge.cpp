@@ -11,7 +11,7 @@
 namespace allpairs::join {
 namespace {
 
-constexpr std::size_t kBatch = std::size_t{1} << 16;  // pairs that are passed on, or read of a large range, at once
+constexpr std::size_t kBatch = std::size_t{1} << 16;  // pairs of a large range that are read at once
 constexpr std::size_t kParts = std::size_t{1} << 8;   // of a range that is divided
 
 template <class T>
@@ -188,7 +188,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
         count -= part;
       }
     });
-    for (const Run& run : writer.finish()) divided.push_back(run);
+    divided = writer.finish();
   }
   PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-");
   inner.merge(divided, receive);
