@@ -13,8 +13,8 @@ file(RELATIVE_PATH allpairs_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_IN
 set(CMAKE_BUILD_RPATH_USE_ORIGIN ON) # in the build folder too, whose name would leave its length behind
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${allpairs_lib_from_bin}")
 
-# What is installed belongs to one of three: runtime (the command and shared libraries), dev (what else a program is built
-# with), python (the module). Where nothing is said it is dev.
+# What is installed belongs to one of four: runtime (the command and shared libraries), dev (what else a program is built
+# with), python (the module), mpi (the program and the module for several machines, which are in no package). Where nothing is said it is dev.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 
 # Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend

@@ -15,7 +15,12 @@ import allpairs
 def of_modules():
     names = ["allpairs"] + [f"allpairs.{module.name}" for module in pkgutil.iter_modules(allpairs.__path__)]
     for name in names:
-        if name == "allpairs._core" or (name == "allpairs.dask" and importlib.util.find_spec("dask") is None):
+        if name in ("allpairs._core", "allpairs._mpi"):
+            continue
+        needed = {"allpairs.dask": "dask", "allpairs.mpi": "mpi4py"}.get(name)
+        if needed and importlib.util.find_spec(needed) is None:
+            continue
+        if name == "allpairs.mpi" and importlib.util.find_spec("allpairs._mpi") is None:
             continue
         yield name, doctest.testmod(importlib.import_module(name))
 

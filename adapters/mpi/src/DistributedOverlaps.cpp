@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/mpi/DistributedOverlaps.h"
+
+#include <array>
+#include <utility>
+
+#include "DistributedSearch.h"
+#include "Ranks.h"
+#include "Tuning.h"
+
+namespace allpairs::mpi {
+
+struct DistributedOverlaps::State {
+  Tuning tuning{};
+  Ranks ranks;
+  DistributedOptions options;
+
+  State(MPI_Comm communicator, DistributedOptions given)
+      : ranks(communicator, tuning.pieceWords), options(std::move(given)) {}
+
+  [[nodiscard]] DistributedSearch search() const { return {ranks, options, tuning}; }
+};
+
+DistributedOverlaps::DistributedOverlaps(MPI_Comm communicator, DistributedOptions options)
+    : m_state(std::make_unique<State>(communicator, std::move(options))) {}
+DistributedOverlaps::~DistributedOverlaps() = default;
+DistributedOverlaps::DistributedOverlaps(DistributedOverlaps&&) noexcept = default;
+DistributedOverlaps& DistributedOverlaps::operator=(DistributedOverlaps&&) noexcept = default;
+
+std::vector<IdPair> DistributedOverlaps::find(const LocalBoxes& boxes) { return m_state->search().find({&boxes, 1}); }
+
+std::vector<IdPair> DistributedOverlaps::find(const LocalBoxes& first, const LocalBoxes& second) {
+  return m_state->search().find(std::array{first, second});
+}
+
+std::uint64_t DistributedOverlaps::count(const LocalBoxes& boxes) { return m_state->search().count({&boxes, 1}); }
+
+std::uint64_t DistributedOverlaps::count(const LocalBoxes& first, const LocalBoxes& second) {
+  return m_state->search().count(std::array{first, second});
+}
+
+}  // namespace allpairs::mpi

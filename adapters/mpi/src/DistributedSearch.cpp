@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include "DistributedSearch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+
+namespace allpairs::mpi {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr unsigned kGroupBits = 12;  // of first boxes whose pairs are put in order together: they stay in the cache
+constexpr std::uint64_t kShortIds = std::uint64_t{1} << 32;
+
+double greatestMargin(const BoxView& boxes) {
+  double greatest = -kInfinity;
+  for (std::size_t i = 0; i < boxes.size(); ++i) greatest = std::max(greatest, boxes.margin(i));
+  return greatest;
+}
+
+}  // namespace
+
+std::vector<IdPair> DistributedSearch::find(std::span<const LocalBoxes> given) {
+  m_isCount = false;
+  search(given);
+  std::vector<IdPair> pairs;
+  m_ranks.onAll([&] { pairs = inOrder(); });
+  return pairs;
+}
+
+std::uint64_t DistributedSearch::count(std::span<const LocalBoxes> given) {
+  m_isCount = true;
+  search(given);
+  return m_count;
+}
+
+void DistributedSearch::search(std::span<const LocalBoxes> given) {
+  m_ranks.onAll([&] {
+    checkStop();
+    takeSets(given);
+    checkSets();
+    m_outgoing.resize(static_cast<std::size_t>(m_ranks.size()));
+  });
+  measureSets();
+  if (m_ranks.size() == 1) {
+    searchHere();
+    return;
+  }
+  const bool areAllEmpty =
+      std::any_of(m_sets.begin(), m_sets.end(), [](const LocalSet& set) { return set.allBoxes == 0; });
+  if (!areAllEmpty) {
+    const Distribution distribution(m_ranks, m_sets, m_options.distance, m_tuning);
+    for (std::size_t round = 0; round < distribution.rounds(); ++round) searchCells(distribution, round);
+    for (std::size_t set = 0; set < m_sets.size(); ++set) searchWide(distribution, set);
+  }
+  m_ranks.sum({&m_count, 1});
+  m_ranks.onAll([&] {
+    if (m_count > m_options.maxPairs)
+      throw LimitExceeded(m_count, std::to_string(m_count) + " pairs: more than allowed");
+  });
+}
+
+void DistributedSearch::takeSets(std::span<const LocalBoxes> given) {
+  for (const LocalBoxes& boxes : given) m_sets.push_back({.boxes = boxes.view()});
+  m_sets.front().bits = m_options.first;
+  if (m_sets.size() > 1) m_sets.back().bits = m_options.second;
+}
+
+/// What a search of no cell would not look at.
+void DistributedSearch::checkSets() const {
+  const bool hasSecond =
+      !m_options.second.categories.empty() || !m_options.second.masks.empty() || !m_options.second.groups.empty();
+  if (m_sets.size() == 1 && hasSecond) throw InvalidArgument("the filter of a second set, and one set");
+  const BoxView none;
+  for (const LocalSet& set : m_sets) {
+    for (const auto values : {set.bits.categories, set.bits.masks, set.bits.groups}) {
+      if (values.empty() || values.size() == set.boxes.size()) continue;
+      throw InvalidArgument("a filter of " + std::to_string(values.size()) + " values for " +
+                            std::to_string(set.boxes.size()) + " boxes");
+    }
+  }
+  OverlapOptions options = optionsFor({}, {});
+  options.executor = nullptr;
+  (void)countOverlaps(none, none, options);  // refuses a distance or region that makes no sense
+}
+
+/// Numbers the boxes, and finds what those of all ranks have in common.
+void DistributedSearch::measureSets() {
+  m_areIdsShort = true;
+  std::uint64_t flags = 0;
+  std::vector<double> margins;
+  m_ranks.onAll([&] {
+    for (const LocalSet& set : m_sets) {
+      flags |= RecordLayout::of(set).flags;
+      margins.push_back(greatestMargin(set.boxes));
+    }
+  });
+  m_ranks.bits({&flags, 1});
+  m_ranks.greatest(margins);
+  m_layout.flags = flags;
+  for (std::size_t k = 0; k < m_sets.size(); ++k) {
+    LocalSet& set = m_sets[k];
+    std::vector<std::uint64_t> ends = m_ranks.gather(set.boxes.size());
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    set.allBoxes = ends.back();
+    set.firstId = ends[static_cast<std::size_t>(m_ranks.rank())] - set.boxes.size();
+    set.maxMargin = m_sets.size() == 1 ? margins.front() : margins[1 - k];
+    m_areIdsShort = m_areIdsShort && set.allBoxes <= kShortIds;
+    if (k == 0) m_ends = std::move(ends);
+  }
+}
+
+/// One rank has all boxes: no cell is cut, and nothing is sent.
+void DistributedSearch::searchHere() {
+  const bool isOneSet = m_sets.size() == 1;
+  OverlapSearch search(optionsFor(m_sets.front().bits, isOneSet ? FilterBits() : m_sets.back().bits));
+  if (m_isCount) {
+    m_count = isOneSet ? search.count(m_sets.front().boxes) : search.count(m_sets.front().boxes, m_sets.back().boxes);
+    return;
+  }
+  const std::span<const Pair> pairs =
+      isOneSet ? search.find(m_sets.front().boxes) : search.find(m_sets.front().boxes, m_sets.back().boxes);
+  m_here.reserve(pairs.size());
+  for (const Pair pair : pairs) m_here.push_back({pair.first, pair.second});
+}
+
+/// On several ranks a search finds pairs that are another's too, and only add() knows how many count.
+OverlapOptions DistributedSearch::optionsFor(const FilterBits& first, const FilterBits& second) const {
+  const bool isAlone = m_ranks.size() == 1;
+  return {.order = isAlone ? Order::ByFirst : Order::Unordered,
+          .distance = m_options.distance,
+          .region = m_options.region,
+          .filter = {.first = first, .second = second},
+          .executor = m_options.executor,
+          .maxPairs = isAlone ? m_options.maxPairs : OverlapOptions().maxPairs,
+          .stop = m_options.stop};
+}
+
+BoxRecords DistributedSearch::fetchCell(const Distribution& distribution, std::size_t round, std::size_t set) const {
+  std::vector<std::vector<std::uint64_t>> bounds;
+  std::vector<std::vector<std::uint64_t>> others;
+  m_ranks.onAll([&] {
+    for (int rank = 0; rank < m_ranks.size(); ++rank) {
+      const std::optional<std::uint32_t> cell = distribution.cellOf(round, rank);
+      PackedBoxes packed;
+      if (cell) packed = packBoxes(m_sets[set], distribution.boxesOf(set, *cell), m_layout);
+      bounds.push_back(std::move(packed.bounds));
+      others.push_back(std::move(packed.others));
+    }
+  });
+  PackedBoxes packed;
+  packed.bounds = m_ranks.exchange(bounds);
+  packed.others = m_ranks.exchange(others);
+  std::optional<BoxRecords> records;
+  m_ranks.onAll([&] { records.emplace(std::move(packed), m_layout); });
+  return std::move(*records);
+}
+
+/// Each rank searches its cell of the round. Boxes come in the order of their numbers, so that the first of a pair has the
+/// lower one.
+void DistributedSearch::searchCells(const Distribution& distribution, std::size_t round) {
+  const BoxRecords first = fetchCell(distribution, round, 0);
+  std::optional<BoxRecords> second;
+  if (m_sets.size() > 1) second = fetchCell(distribution, round, 1);
+  m_ranks.onAll([&] {
+    checkStop();
+    const std::optional<std::uint32_t> cell = distribution.cellOf(round, m_ranks.rank());
+    if (!cell) return;
+    const partition::Cell bounds = distribution.bounds(*cell);
+    partition::CellSearch search(optionsFor(first.bits(), second ? second->bits() : FilterBits()));
+    if (second) {
+      search.stream(first.boxes(), second->boxes(), bounds, [&](std::span<const Pair> pairs) {
+        for (const Pair pair : pairs) add(first.id(pair.first), second->id(pair.second));
+      });
+    } else {
+      search.stream(first.boxes(), bounds, [&](std::span<const Pair> pairs) {
+        for (const Pair pair : pairs) add(first.id(pair.first), first.id(pair.second));
+      });
+    }
+  });
+  sendPairs();
+}
+
+/// The wide boxes of all ranks come to all of them, a part at a time, and each rank pairs them with its own boxes.
+void DistributedSearch::searchWide(const Distribution& distribution, std::size_t set) {
+  const std::span<const std::uint32_t> own = distribution.wide(set);
+  std::vector<std::uint64_t> ends = m_ranks.gather(own.size());
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  const std::uint64_t ownBegin = ends[static_cast<std::size_t>(m_ranks.rank())] - own.size();
+  const std::size_t other = m_sets.size() - 1 - set;
+  std::vector<char> isWideHere;
+  m_ranks.onAll([&] {
+    isWideHere.assign(m_sets[other].boxes.size(), 0);
+    for (const std::uint32_t box : distribution.wide(other)) isWideHere[box] = 1;
+  });
+  for (std::uint64_t begin = 0; begin < ends.back(); begin += m_tuning.wideAtOnce) {
+    const std::uint64_t end = std::min<std::uint64_t>(begin + m_tuning.wideAtOnce, ends.back());
+    PackedBoxes packed;
+    m_ranks.onAll([&] {
+      const std::uint64_t ownFrom = std::clamp(begin, ownBegin, ownBegin + own.size()) - ownBegin;
+      const std::uint64_t ownTo = std::clamp(end, ownBegin, ownBegin + own.size()) - ownBegin;
+      packed = packBoxes(m_sets[set], own.subspan(ownFrom, ownTo - ownFrom), m_layout);
+    });
+    packed.bounds = m_ranks.collect(packed.bounds);
+    packed.others = m_ranks.collect(packed.others);
+    m_ranks.onAll([&] {
+      checkStop();
+      const BoxRecords wide(std::move(packed), m_layout);
+      searchChunk(wide, set, isWideHere);
+    });
+    sendPairs();
+  }
+}
+
+/// Of one set, each pair is found as (lower number, higher number), in which order its margins are added; two wide boxes
+/// are a pair on the rank of the higher one.
+void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere) {
+  const LocalSet& local = m_sets[m_sets.size() - 1 - set];
+  const bool isOneSet = m_sets.size() == 1;
+  if (isOneSet || set == 0) {
+    OverlapSearch search(optionsFor(wide.bits(), local.bits));
+    search.stream(wide.boxes(), local.boxes, [&](std::span<const Pair> pairs) {
+      for (const Pair pair : pairs) {
+        const std::uint64_t id = wide.id(pair.first);
+        const std::uint64_t other = local.firstId + pair.second;
+        if (!isOneSet || id < other) add(id, other);
+      }
+    });
+  }
+  if (isOneSet || set == 1) {
+    OverlapSearch search(optionsFor(local.bits, wide.bits()));
+    search.stream(local.boxes, wide.boxes(), [&](std::span<const Pair> pairs) {
+      for (const Pair pair : pairs) {
+        const std::uint64_t id = local.firstId + pair.first;
+        const std::uint64_t other = wide.id(pair.second);
+        if (isWideHere[pair.first] == 0 && (!isOneSet || id < other)) add(id, other);
+      }
+    });
+  }
+}
+
+void DistributedSearch::checkStop() const {
+  if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+}
+
+void DistributedSearch::add(std::uint64_t first, std::uint64_t second) {
+  if (++m_count > m_options.maxPairs) throw LimitExceeded(m_count, "more pairs than allowed");
+  if (m_isCount) return;
+  const auto rank = std::upper_bound(m_ends.begin(), m_ends.end(), first) - m_ends.begin();
+  std::vector<std::uint64_t>& words = m_outgoing[static_cast<std::size_t>(rank)];
+  if (m_areIdsShort) {
+    words.push_back(first << 32 | second);
+  } else {
+    words.insert(words.end(), {first, second});
+  }
+}
+
+void DistributedSearch::sendPairs() {
+  if (m_isCount) return;
+  const std::vector<std::uint64_t> words = m_ranks.exchange(m_outgoing);
+  m_ranks.onAll([&] {
+    m_pairs.insert(m_pairs.end(), words.begin(), words.end());
+    for (auto& pairs : m_outgoing) pairs.clear();
+  });
+}
+
+std::uint64_t DistributedSearch::firstOf(std::span<const std::uint64_t> pair) const {
+  return m_areIdsShort ? pair[0] >> 32 : pair[0];
+}
+
+std::uint64_t DistributedSearch::secondOf(std::span<const std::uint64_t> pair) const {
+  return m_areIdsShort ? pair[0] & (kShortIds - 1) : pair[1];
+}
+
+/// Brings together the pairs of some thousand first boxes, whose rows then stay in the cache; returns where those
+/// of each begin, and the end.
+std::vector<std::uint64_t> DistributedSearch::groupPairs() {
+  const std::uint64_t firstId = m_sets.front().firstId;
+  const std::size_t words = pairWords();
+  const auto groupOf = [&](std::size_t at) {
+    return static_cast<std::size_t>((firstOf(std::span(m_pairs).subspan(at, words)) - firstId) >> kGroupBits);
+  };
+  std::vector<std::uint64_t> begins((m_sets.front().boxes.size() >> kGroupBits) + 2);
+  for (std::size_t at = 0; at < m_pairs.size(); at += words) ++begins[groupOf(at) + 1];
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<std::uint64_t> next = begins;
+  std::vector<std::uint64_t> grouped(m_pairs.size());
+  for (std::size_t at = 0; at < m_pairs.size(); at += words) {
+    std::copy_n(m_pairs.begin() + static_cast<std::ptrdiff_t>(at), words,
+                grouped.begin() + static_cast<std::ptrdiff_t>(next[groupOf(at)]++ * words));
+  }
+  m_pairs = std::move(grouped);
+  return begins;
+}
+
+/// Puts each pair into the row of its first box, and each row in order.
+std::vector<IdPair> DistributedSearch::inOrder() {
+  if (m_ranks.size() == 1) return std::move(m_here);
+  const std::vector<std::uint64_t> groups = groupPairs();
+  const std::size_t words = pairWords();
+  std::vector<IdPair> ordered(groups.back());
+  std::vector<std::uint64_t> rows;
+  for (std::size_t group = 0; group + 1 < groups.size(); ++group) {
+    const std::uint64_t firstRow = m_sets.front().firstId + (std::uint64_t{group} << kGroupBits);
+    const std::span pairs =
+        std::span(m_pairs).subspan(groups[group] * words, (groups[group + 1] - groups[group]) * words);
+    rows.assign((std::size_t{1} << kGroupBits) + 1, 0);
+    for (std::size_t at = 0; at < pairs.size(); at += words) ++rows[firstOf(pairs.subspan(at, words)) - firstRow + 1];
+    rows.front() = groups[group];
+    std::partial_sum(rows.begin(), rows.end(), rows.begin());
+    for (std::size_t at = 0; at < pairs.size(); at += words) {
+      const auto pair = pairs.subspan(at, words);
+      ordered[rows[firstOf(pair) - firstRow]++] = {firstOf(pair), secondOf(pair)};
+    }
+    auto begin = ordered.begin() + static_cast<std::ptrdiff_t>(groups[group]);
+    for (const std::uint64_t row : rows) {  // each ends where the one after it began
+      const auto end = ordered.begin() + static_cast<std::ptrdiff_t>(row);
+      std::sort(begin, end, [](const IdPair& a, const IdPair& b) { return a.second < b.second; });
+      begin = end;
+    }
+  }
+  return ordered;
+}
+
+}  // namespace allpairs::mpi

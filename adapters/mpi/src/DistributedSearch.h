@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "Distribution.h"
+#include "LocalSet.h"
+#include "Ranks.h"
+#include "Tuning.h"
+#include "allpairs/mpi/DistributedOverlaps.h"
+#include "allpairs/partition/Cell.h"
+
+namespace allpairs::mpi {
+
+/// One search on several ranks: distributes boxes, searches cells, and sends pairs to the rank of their first box.
+class DistributedSearch {
+ public:
+  DistributedSearch(const Ranks& ranks, const DistributedOptions& options, const Tuning& tuning)
+      : m_ranks(ranks), m_options(options), m_tuning(tuning) {}
+
+  /// The pairs whose first box is this rank's, of one set or two.
+  [[nodiscard]] std::vector<IdPair> find(std::span<const LocalBoxes> given);
+
+  /// The pairs of all ranks.
+  [[nodiscard]] std::uint64_t count(std::span<const LocalBoxes> given);
+
+ private:
+  void search(std::span<const LocalBoxes> given);
+  void takeSets(std::span<const LocalBoxes> given);
+  void checkSets() const;
+  void checkStop() const;
+  void measureSets();
+  void searchHere();
+  void searchCells(const Distribution& distribution, std::size_t round);
+  void searchWide(const Distribution& distribution, std::size_t set);
+  void searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere);
+  [[nodiscard]] BoxRecords fetchCell(const Distribution& distribution, std::size_t round, std::size_t set) const;
+  [[nodiscard]] OverlapOptions optionsFor(const FilterBits& first, const FilterBits& second) const;
+  void add(std::uint64_t first, std::uint64_t second);
+  void sendPairs();
+  [[nodiscard]] std::vector<IdPair> inOrder();
+  [[nodiscard]] std::size_t pairWords() const { return m_areIdsShort ? 1 : 2; }
+  [[nodiscard]] std::uint64_t firstOf(std::span<const std::uint64_t> pair) const;
+  [[nodiscard]] std::uint64_t secondOf(std::span<const std::uint64_t> pair) const;
+  [[nodiscard]] std::vector<std::uint64_t> groupPairs();
+
+  const Ranks& m_ranks;
+  const DistributedOptions& m_options;
+  const Tuning& m_tuning;
+  bool m_isCount = false;
+  std::vector<LocalSet> m_sets;
+  RecordLayout m_layout;
+  std::vector<std::uint64_t> m_ends;  ///< Of each rank, behind the number of its last box of the first set.
+  bool m_areIdsShort = true;          ///< All numbers have 32 bits: a pair is one word.
+  std::uint64_t m_count = 0;          ///< Found by this rank.
+  std::vector<std::vector<std::uint64_t>> m_outgoing;  ///< Pairs for each rank.
+  std::vector<std::uint64_t> m_pairs;                  ///< Those of this rank, as they came.
+  std::vector<IdPair> m_here;                          ///< Of one rank alone, in order.
+};
+
+}  // namespace allpairs::mpi

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "Distribution.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+#include "allpairs/Overlaps.h"
+#include "allpairs/partition/Cell.h"
+
+namespace allpairs::mpi {
+namespace {
+
+constexpr std::uint32_t kLast = std::uint32_t{1} << 31;  // marks the last cell of a box
+constexpr std::uint32_t kNoCell = kLast - 1;             // of an empty box
+constexpr int kRounds = 3;                               // of cutting cells again
+constexpr std::size_t kFewCells = 16;                    // a box in no more than these is never wide
+constexpr std::size_t kWideShare = 4;                    // one in more than a fourth of more cells is
+constexpr double kPairWork = 0.1;                        // of a pair, where that of a box is 1
+
+std::uint64_t wordOf(double value) { return std::bit_cast<std::uint64_t>(value); }
+double numberOf(std::uint64_t word) { return std::bit_cast<double>(word); }
+
+std::vector<std::uint64_t> wordsOf(std::span<const partition::Cut> cuts) {
+  std::vector<std::uint64_t> words;
+  for (const partition::Cut& cut : cuts) {
+    const std::uint64_t low = std::bit_cast<std::uint32_t>(cut.low);
+    words.insert(words.end(), {wordOf(cut.at), cut.axis, low << 32 | std::bit_cast<std::uint32_t>(cut.high)});
+  }
+  return words;
+}
+
+std::vector<partition::Cut> cutsOf(std::span<const std::uint64_t> words) {
+  std::vector<partition::Cut> cuts;
+  for (std::size_t i = 0; i < words.size(); i += 3) {
+    cuts.push_back({numberOf(words[i]), static_cast<std::uint32_t>(words[i + 1]),
+                    static_cast<std::int32_t>(words[i + 2] >> 32), static_cast<std::int32_t>(words[i + 2])});
+  }
+  return cuts;
+}
+
+std::vector<Box> everyNth(std::span<const Box> boxes, std::size_t n) {
+  std::vector<Box> some;
+  for (std::size_t i = 0; i < boxes.size(); i += n) some.push_back(boxes[i]);
+  return some;
+}
+
+}  // namespace
+
+Distribution::Distribution(const Ranks& ranks, std::span<const LocalSet> sets, double distance, const Tuning& tuning)
+    : m_ranks(ranks), m_sets(sets), m_distance(distance), m_tuning(tuning) {
+  for (const LocalSet& set : sets) m_allBoxes += set.allBoxes;
+  const auto size = static_cast<std::size_t>(ranks.size());
+  m_wanted = std::max(tuning.cellsPerRank * size, static_cast<std::size_t>(m_allBoxes / tuning.boxesPerCell));
+  for (std::size_t set = 0; set < sets.size(); ++set) takeSample(set);
+  ranks.onAll([&] {
+    if (ranks.rank() == 0) m_cells = partition::Partition(m_sample, m_wanted);
+  });
+  shareCells();
+  countBoxes();
+  for (int round = 0; round < kRounds; ++round) cutAgain();
+  spreadCrowded();
+  for (std::size_t set = 0; set < sets.size(); ++set) fillRows(set);
+  deal();
+  m_sample = {};
+}
+
+std::optional<std::uint32_t> Distribution::cellOf(std::size_t round, int rank) const {
+  const std::uint32_t cell = m_dealt[round * static_cast<std::size_t>(m_ranks.size()) + static_cast<std::size_t>(rank)];
+  return cell == kNoCell ? std::nullopt : std::optional(cell);
+}
+
+std::span<const std::uint32_t> Distribution::boxesOf(std::size_t set, std::uint32_t cell) const {
+  const Rows& rows = m_rows[set];
+  return std::span(rows.boxes).subspan(rows.begins[cell], rows.begins[cell + 1] - rows.begins[cell]);
+}
+
+/// Takes what the boxes reach, so that no margin has to be known where it is cut.
+void Distribution::takeSample(std::size_t set) {
+  std::vector<std::vector<std::uint64_t>> outgoing;
+  m_ranks.onAll([&] {
+    const LocalSet& local = m_sets[set];
+    outgoing.resize(static_cast<std::size_t>(m_ranks.size()));
+    const std::uint64_t size = std::max<std::uint64_t>(m_tuning.leastSample, m_tuning.samplePerCell * m_wanted);
+    const std::uint64_t step = m_allBoxes / size + 1;
+    for (std::uint64_t i = (step - local.firstId % step) % step; i < local.boxes.size(); i += step) {
+      const Box reach = partition::reachOf(local.boxes[i], local.boxes.margin(i), m_distance, local.maxMargin);
+      if (isEmpty(reach)) continue;
+      for (const double value : reach.min) outgoing.front().push_back(wordOf(value));
+      for (const double value : reach.max) outgoing.front().push_back(wordOf(value));
+    }
+  });
+  const std::vector<std::uint64_t> words = m_ranks.exchange(outgoing);
+  m_ranks.onAll([&] {
+    for (std::size_t i = 0; i < words.size(); i += 6) {
+      m_sample.push_back({{numberOf(words[i]), numberOf(words[i + 1]), numberOf(words[i + 2])},
+                          {numberOf(words[i + 3]), numberOf(words[i + 4]), numberOf(words[i + 5])}});
+    }
+  });
+  if (set == 0) m_firstSample = m_sample.size();
+}
+
+/// Gives the cells of rank 0 to all.
+void Distribution::shareCells() {
+  std::vector<std::uint64_t> words;
+  m_ranks.onAll([&] {
+    if (m_ranks.rank() == 0) words = wordsOf(m_cells.cuts());
+  });
+  std::uint64_t size = words.size();
+  m_ranks.broadcast({&size, 1}, 0);
+  m_ranks.onAll([&] { words.resize(size); });
+  m_ranks.broadcast(words, 0);
+  m_ranks.onAll([&] { m_cells = partition::Partition::fromCuts(cutsOf(words)); });
+}
+
+void Distribution::findCells(std::size_t set) {
+  const LocalSet& local = m_sets[set];
+  std::vector<std::uint32_t>& cells = m_rows[set].cells;
+  const std::size_t most = std::max(kFewCells, m_cells.size() / kWideShare);
+  cells.clear();
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < local.boxes.size(); ++i) {
+    m_cells.cellsOf(partition::reachOf(local.boxes[i], local.boxes.margin(i), m_distance, local.maxMargin), found);
+    if (found.empty()) found.assign(1, kNoCell);
+    if (found.size() > most) found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
+    found.back() |= kLast;
+    cells.insert(cells.end(), found.begin(), found.end());
+  }
+}
+
+void Distribution::countBoxes() {
+  m_ranks.onAll([&] {
+    m_counts.assign(m_cells.size() + 1, 0);
+    for (std::size_t set = 0; set < m_sets.size(); ++set) {
+      findCells(set);
+      for (const std::uint32_t cell : m_rows[set].cells) {
+        if ((cell & ~kLast) != kNoCell) ++m_counts[cell & ~kLast];
+      }
+    }
+  });
+  m_ranks.sum(m_counts);
+}
+
+/// Cuts each cell that has more than twice what it should.
+void Distribution::cutAgain() {
+  const std::uint64_t fair = std::max<std::uint64_t>(m_allBoxes / m_wanted, 1);
+  std::uint64_t isCut = 0;
+  m_ranks.onAll([&] {
+    if (m_ranks.rank() != 0) return;
+    const std::size_t before = m_cells.size();
+    for (std::size_t cell = 0; cell < before; ++cell) {
+      if (m_counts[cell] <= 2 * fair) continue;
+      const auto parts = static_cast<std::size_t>((m_counts[cell] + fair - 1) / fair);
+      if (m_cells.cutAgain(cell, m_sample, parts)) isCut = 1;
+    }
+  });
+  m_ranks.broadcast({&isCut, 1}, 0);
+  if (isCut == 0) return;
+  shareCells();
+  countBoxes();
+}
+
+void Distribution::spreadCrowded() {
+  const std::uint64_t most = std::max(m_allBoxes / static_cast<std::uint64_t>(m_ranks.size()), m_tuning.leastCrowded);
+  const auto wide = static_cast<std::uint32_t>(m_cells.size());
+  m_ranks.onAll([&] {
+    const auto isCrowded = [&](std::uint32_t entry) {
+      const std::uint32_t cell = entry & ~kLast;
+      return cell < wide && m_counts[cell] > most;
+    };
+    std::vector<std::uint64_t> counts(m_counts.size());
+    for (std::size_t set = 0; set < m_sets.size(); ++set) {
+      std::vector<std::uint32_t>& cells = m_rows[set].cells;
+      auto kept = cells.begin();
+      for (auto begin = cells.begin(); begin != cells.end();) {
+        const auto end = std::find_if(begin, cells.end(), [](std::uint32_t entry) { return (entry & kLast) != 0; }) + 1;
+        if (std::any_of(begin, end, isCrowded)) {
+          *kept++ = wide | kLast;
+        } else {
+          kept = std::copy(begin, end, kept);
+        }
+        begin = end;
+      }
+      cells.erase(kept, cells.end());
+      for (const std::uint32_t cell : cells) {
+        if ((cell & ~kLast) != kNoCell) ++counts[cell & ~kLast];
+      }
+    }
+    m_counts = std::move(counts);
+  });
+  m_ranks.sum(m_counts);
+}
+
+void Distribution::fillRows(std::size_t set) {
+  m_ranks.onAll([&] {
+    Rows& rows = m_rows[set];
+    rows.begins.assign(m_cells.size() + 2, 0);
+    const auto cellOf = [](std::uint32_t entry) { return entry & ~kLast; };
+    for (const std::uint32_t entry : rows.cells) {
+      if (cellOf(entry) != kNoCell) ++rows.begins[cellOf(entry) + 1];
+    }
+    std::partial_sum(rows.begins.begin(), rows.begins.end(), rows.begins.begin());
+    rows.boxes.resize(rows.begins.back());
+    std::vector<std::uint64_t> next = rows.begins;
+    std::uint32_t box = 0;
+    for (const std::uint32_t entry : rows.cells) {
+      if (cellOf(entry) != kNoCell) rows.boxes[next[cellOf(entry)]++] = box;
+      if ((entry & kLast) != 0) ++box;
+    }
+    rows.cells = {};
+    rows.cells.shrink_to_fit();
+  });
+}
+
+void Distribution::deal() {
+  std::uint64_t size = 0;
+  m_ranks.onAll([&] {
+    if (m_ranks.rank() == 0) m_dealt = dealByWork();
+    size = m_dealt.size();
+  });
+  m_ranks.broadcast({&size, 1}, 0);
+  std::vector<std::uint64_t> words;
+  m_ranks.onAll([&] {
+    words.assign(m_dealt.begin(), m_dealt.end());
+    words.resize(size);
+  });
+  m_ranks.broadcast(words, 0);
+  m_ranks.onAll([&] {
+    m_dealt.clear();
+    for (const std::uint64_t word : words) m_dealt.push_back(static_cast<std::uint32_t>(word));
+    m_rounds = m_dealt.size() / static_cast<std::size_t>(m_ranks.size());
+  });
+}
+
+/// Gives each cell, the one with the most work first, to the rank that has least until then.
+std::vector<std::uint32_t> Distribution::dealByWork() const {
+  const auto ranks = static_cast<std::size_t>(m_ranks.size());
+  std::vector<double> work = estimatePairs();
+  std::vector<std::uint32_t> cells;
+  for (std::uint32_t cell = 0; cell < m_cells.size(); ++cell) {
+    work[cell] = kPairWork * work[cell] + static_cast<double>(m_counts[cell]);
+    if (m_counts[cell] > 1) cells.push_back(cell);  // one box makes no pair
+  }
+  std::stable_sort(cells.begin(), cells.end(), [&work](auto a, auto b) { return work[a] > work[b]; });
+  using Load = std::pair<double, std::size_t>;
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
+  for (std::size_t rank = 0; rank < ranks; ++rank) least.emplace(0.0, rank);
+  std::vector<std::vector<std::uint32_t>> dealt(ranks);
+  std::size_t rounds = 0;
+  for (const std::uint32_t cell : cells) {
+    const auto [load, rank] = least.top();
+    least.pop();
+    least.emplace(load + work[cell], rank);
+    dealt[rank].push_back(cell);
+    rounds = std::max(rounds, dealt[rank].size());
+  }
+  std::vector<std::uint32_t> byRound(rounds * ranks, kNoCell);
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    for (std::size_t round = 0; round < dealt[rank].size(); ++round) {
+      byRound[round * ranks + rank] = dealt[rank][round];
+    }
+  }
+  return byRound;
+}
+
+/// Of each cell, from as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take
+/// long. Two reaches overlap where the boxes are a pair, and seldom elsewhere.
+std::vector<double> Distribution::estimatePairs() const {
+  std::vector<double> pairs(m_cells.size());
+  for (std::size_t step = 256; step > 0; step /= 4) {
+    const std::vector<Box> first = everyNth(std::span(m_sample).first(m_firstSample), step);
+    const std::vector<Box> second = everyNth(std::span(m_sample).subspan(m_firstSample), step);
+    const std::size_t size = first.size() + second.size();
+    if (size < 2) continue;
+    std::fill(pairs.begin(), pairs.end(), 0.0);
+    std::uint64_t found = 0;
+    const bool isOneSet = m_sets.size() == 1;
+    const double share = static_cast<double>(m_allBoxes) / static_cast<double>(size);
+    const auto count = [&](std::span<const Pair> batch) {
+      found += batch.size();
+      for (const Pair pair : batch) {
+        const Box& other = isOneSet ? first[pair.second] : second[pair.second];
+        pairs[m_cells.cellOf(partition::pairPoint(first[pair.first], other))] += share * share;
+      }
+    };
+    if (isOneSet) {
+      streamOverlaps(first, count);
+    } else {
+      streamOverlaps(first, second, count);
+    }
+    if (found >= kFewCells * m_cells.size()) break;
+  }
+  return pairs;
+}
+
+}  // namespace allpairs::mpi

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/BoxShare.h"
+
+#include <algorithm>
+#include <string>
+
+#include "allpairs/Error.h"
+#include "allpairs/scene/BoxRows.h"
+#include "allpairs/scene/FileError.h"
+
+namespace allpairs::app {
+
+BoxShare::BoxShare(std::span<const std::filesystem::path> paths, int rank, int ranks) : m_paths(paths) {
+  for (const auto& path : paths) {
+    const scene::BoxRows file(path);
+    m_allBoxes += file.size();
+    m_ends.push_back(m_allBoxes);
+    m_isFloat64 = m_isFloat64 || file.isFloat64();
+  }
+  const auto beginOf = [&](int which) {  // without a product that overflows
+    const auto count = static_cast<std::uint64_t>(ranks);
+    const auto number = static_cast<std::uint64_t>(which);
+    return m_allBoxes / count * number + std::min(m_allBoxes % count, number);
+  };
+  m_begin = beginOf(rank);
+  m_end = beginOf(rank + 1);
+  if (m_isFloat64) {
+    read(m_float64);
+  } else {
+    read(m_float32);
+  }
+}
+
+template <class Number>
+void BoxShare::read(std::vector<Number>& rows) {
+  rows.resize(6 * static_cast<std::size_t>(m_end - m_begin));
+  std::uint64_t fileBegin = 0;
+  for (std::size_t i = 0; i < m_paths.size(); ++i) {
+    const std::uint64_t begin = std::max(m_begin, fileBegin);
+    const std::uint64_t end = std::min(m_end, m_ends[i]);
+    if (begin < end) {
+      scene::BoxRows file(m_paths[i]);
+      if (file.size() != m_ends[i] - fileBegin) throw FileError(m_paths[i], "changed while it was read");
+      file.read(begin - fileBegin, std::span(rows).subspan(6 * (begin - m_begin), 6 * (end - begin)));
+    }
+    fileBegin = m_ends[i];
+  }
+}
+
+BoxView BoxShare::view() const {
+  try {
+    return m_isFloat64 ? BoxView::fromRows(m_float64) : BoxView::fromRows(m_float32);
+  } catch (const InvalidBox& problem) {
+    failAt(m_begin + problem.index());
+  }
+}
+
+void BoxShare::failAt(std::uint64_t box) const {
+  const auto file = std::upper_bound(m_ends.begin(), m_ends.end(), box) - m_ends.begin();
+  const std::uint64_t before = file == 0 ? 0 : m_ends[static_cast<std::size_t>(file) - 1];
+  throw FileError(m_paths[static_cast<std::size_t>(file)], "box " + std::to_string(box - before) + " has a NaN");
+}
+
+}  // namespace allpairs::app

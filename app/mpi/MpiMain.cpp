@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/mpi/DistributedOverlaps.h"
+#include "allpairs/mpi/OnAllRanks.h"
+#include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/FileError.h"
+#include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
+#include "cli/Text.h"
+#include "mpi/BoxShare.h"
+#include "mpi/PairFile.h"
+
+namespace {
+
+using allpairs::app::ExitStatus;
+using allpairs::app::UsageError;
+
+constexpr const char* kExamples =
+    R"(Boxes are .npy arrays (n, 6), float32 or float64: minx miny minz maxx maxy maxz.
+Several files are one set, numbered on from file to file; every rank must see
+them. The result is the file that 'allpairs detect -o' and 'allpairs join' write.
+
+Examples:
+  mpirun allpairs-mpi join boxes.npy -o pairs.npy
+  mpirun -n 64 allpairs-mpi join part*.npy --count
+  mpirun --map-by socket allpairs-mpi join boxes.npy -o pairs.npy --threads 16)";
+
+struct Settings {
+  std::vector<std::string> paths;
+  std::string output;
+  std::string distance;
+  std::string threads = "1";
+  bool count = false;
+};
+
+/// What each rank does; only rank 0 says what came out.
+class Join {
+ public:
+  explicit Join(const Settings& settings)
+      : m_settings(settings), m_paths(settings.paths.begin(), settings.paths.end()) {
+    MPI_Comm_rank(MPI_COMM_WORLD, &m_rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &m_ranks);
+  }
+
+  void run() {
+    check();
+    const std::size_t threads = allpairs::app::parseThreads(m_settings.threads);
+    allpairs::parallel::TbbExecutor executor(threads);
+    allpairs::mpi::DistributedOptions options;
+    if (!m_settings.distance.empty()) options.distance = allpairs::app::parseDistance(m_settings.distance);
+    if (threads != 1) options.executor = &executor;
+    std::optional<allpairs::app::BoxShare> share;
+    allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] { share.emplace(m_paths, m_rank, m_ranks); });
+    allpairs::mpi::DistributedOverlaps search(MPI_COMM_WORLD, options);
+    const auto boxes = [&share] { return share->view(); };
+    std::uint64_t pairs = 0;
+    if (m_settings.count) {
+      pairs = search.count(boxes);
+    } else {
+      pairs = allpairs::app::writePairs(MPI_COMM_WORLD, m_settings.output, search.find(boxes), share->allBoxes());
+    }
+    if (m_rank == 0) say(pairs, share->allBoxes());
+  }
+
+ private:
+  void check() const {
+    const std::string& output = m_settings.output;
+    if (output.empty() && !m_settings.count) throw UsageError("join takes -o FILE, or --count");
+    if (!output.empty() && m_settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
+    if (!output.empty() && !output.ends_with(".npy")) throw UsageError("join writes .npy files; name its output so");
+  }
+
+  void say(std::uint64_t pairs, std::uint64_t boxes) const {
+    using allpairs::app::counted;
+    fmt::print("{} among {} on {}", counted(pairs, "pair"), counted(boxes, "box", "boxes"),
+               counted(static_cast<std::uint64_t>(m_ranks), "rank"));
+    if (!m_settings.output.empty()) fmt::print(" -> {}", allpairs::app::printable(m_settings.output));
+    fmt::print("\n");
+  }
+
+  const Settings& m_settings;
+  std::vector<std::filesystem::path> m_paths;
+  int m_rank = 0;
+  int m_ranks = 1;
+};
+
+/// All ranks fail, and rank 0 says why.
+ExitStatus fail(ExitStatus status, const std::string& message) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) std::fprintf(stderr, "%s\n", allpairs::oneLine("allpairs-mpi: " + message).c_str());
+  return status;
+}
+
+void parse(CLI::App& program, int count, char** arguments) {
+  std::vector<std::string> given = allpairs::app::joinNumbers(count, arguments);
+  try {
+    program.parse(std::vector<std::string>(given.rbegin(), given.rend()));
+  } catch (const CLI::CallForHelp&) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const auto chosen = program.get_subcommands();
+    if (rank == 0) fmt::print("{}", chosen.empty() ? program.help() : chosen.front()->help());
+  } catch (const CLI::CallForVersion& version) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 0) fmt::print("{}\n", version.what());
+  } catch (const CLI::ParseError& problem) {
+    throw UsageError(problem.what());
+  }
+}
+
+void run(int count, char** arguments) {
+  CLI::App program("Finds the overlapping boxes of more boxes than one machine holds, on the ranks of MPI.",
+                   "allpairs-mpi");
+  program.set_version_flag("-V,--version", "allpairs-mpi " ALLPAIRS_VERSION, "Print the version and exit");
+  program.require_subcommand(1);
+  Settings settings;
+  CLI::App* join = program.add_subcommand("join", "Find the pairs, or count them");
+  join->footer(kExamples);
+  join->add_option("BOXES", settings.paths, "One or more .npy files of boxes")->required();
+  join->add_option("-o,--output", settings.output, "Write the pairs to this .npy file")->type_name("FILE");
+  join->add_option("--distance", settings.distance, "Pairs up to D apart on every axis")->type_name("D");
+  join->add_option("--threads", settings.threads, "Threads of each rank; 0 means all cores")->type_name("N");
+  join->add_flag("--count", settings.count, "Only count the pairs");
+  join->callback([&settings] { Join(settings).run(); });
+  parse(program, count, arguments);
+}
+
+ExitStatus runWithStatus(int count, char** arguments) {
+  try {
+    run(count, arguments);
+    return ExitStatus::Success;
+  } catch (const UsageError& problem) {
+    return fail(ExitStatus::WrongUsage, std::string(problem.what()) + " (see 'allpairs-mpi join --help')");
+  } catch (const std::bad_alloc&) {
+    return fail(ExitStatus::BadInput, "not enough memory for this input or its result");
+  } catch (const allpairs::mpi::MpiError& problem) {  // others may wait for this rank
+    fail(ExitStatus::BadInput, problem.what());
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitStatus::BadInput));
+    return ExitStatus::BadInput;
+  } catch (const std::exception& problem) {
+    return fail(ExitStatus::BadInput, problem.what());
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing it
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&count, &arguments, MPI_THREAD_FUNNELED, &provided);
+  const ExitStatus status = runWithStatus(count, arguments);
+  MPI_Finalize();
+  return static_cast<int>(status);
+}

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: MIT
+"""Overlapping pairs of boxes that lie on the ranks of an MPI communicator.
+
+Every function is collective: all ranks of the communicator call it, each with boxes of its own. The boxes of a rank are
+numbered after those of the ranks before it. What one rank raises is raised on all. Needs mpi4py (Debian:
+python3-mpi4py), and a build of this package for the same MPI.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Optional, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+from mpi4py import MPI
+
+from . import _core, _mpi, _search
+from ._errors import Error, InvalidArgument
+
+__all__ = ["count", "count_between", "overlaps", "overlaps_between"]
+
+#: Pairs by numbers of 64 bits: shape (m, 2).
+IdPairs = npt.NDArray[np.uint64]
+
+_Made = TypeVar("_Made")
+
+#: What the settings of a search have that a search on several ranks has not.
+_FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto"}
+
+
+def _on_all_ranks(comm: MPI.Comm, make: Callable[[], _Made]) -> _Made:
+    """Makes something on each rank, and raises on all ranks what one raises."""
+    problem: Optional[Exception] = None
+    made = None
+    try:
+        made = make()
+    except Exception as raised:
+        problem = raised
+    problems: list[Optional[Exception]] = comm.allgather(problem)
+    for rank, found in enumerate(problems):
+        if found is not None and comm.size > 1:
+            if isinstance(found, Error):
+                found.args = (f"rank {rank}: {found}",) + found.args[1:]
+            raise found
+    if problem is not None:
+        raise problem
+    assert made is not None
+    return made
+
+
+def _search_of(comm: MPI.Comm, options: _core.Options) -> _mpi.DistributedSearch:
+    if MPI.Get_library_version().strip("\0 \n") != _mpi.mpi_version().strip():
+        raise InvalidArgument("mpi4py and allpairs were built for different MPIs")
+    return _mpi.DistributedSearch(comm.py2f(), options)
+
+
+def _one(comm: MPI.Comm, values: dict[str, Any]) -> tuple[_mpi.DistributedSearch, _core.Boxes, None]:
+    boxes, options = _on_all_ranks(comm, lambda: _search._one({**_FIXED, **values}))
+    return _search_of(comm, options), boxes, None
+
+
+def _two(comm: MPI.Comm, values: dict[str, Any]) -> tuple[_mpi.DistributedSearch, _core.Boxes, _core.Boxes]:
+    first, second, options = _on_all_ranks(comm, lambda: _search._two({**_FIXED, **values}))
+    return _search_of(comm, options), first, second
+
+
+def overlaps(
+    comm: MPI.Comm,
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> IdPairs:
+    """The pairs of all ranks' boxes whose first box is this rank's.
+
+    Parameters
+    ----------
+    comm : mpi4py.MPI.Comm
+        The ranks that search together.
+    lower, upper, margin, group, category, mask
+        Of this rank's boxes, as in `allpairs.overlaps`. A rank may have none.
+    distance, region, max_pairs
+        As in `allpairs.overlaps`, and the same on all ranks; max_pairs limits the pairs of all of them together.
+    threads : int
+        Of this rank.
+
+    Returns
+    -------
+    ndarray, shape (m, 2), uint64
+        Ordered by (first, second). The ranks' arrays one after the other are the pairs of one process.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs.mpi
+    >>> from mpi4py import MPI
+    >>> allpairs.mpi.overlaps(MPI.COMM_SELF, np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]]))
+    array([[0, 1]], dtype=uint64)
+    """
+    values = locals()
+    search, boxes, none = _one(values.pop("comm"), values)
+    return np.asarray(search.find(boxes, none))
+
+
+def count(
+    comm: MPI.Comm,
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> int:
+    """The number of pairs of all ranks, on each of them. Parameters as in `overlaps`."""
+    values = locals()
+    search, boxes, none = _one(values.pop("comm"), values)
+    return search.count(boxes, none)
+
+
+def overlaps_between(
+    comm: MPI.Comm,
+    first: Any,
+    second: Any,
+    *,
+    distance: float = 0.0,
+    margin: _search.Both = None,
+    region: npt.ArrayLike | None = None,
+    group: _search.Both = None,
+    category: _search.Both = None,
+    mask: _search.Both = None,
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> IdPairs:
+    """The pairs of a box of the first set and a box of the second whose first box is this rank's.
+
+    Parameters as in `allpairs.overlaps_between` and `overlaps`; both sets are numbered by themselves.
+    """
+    values = locals()
+    search, a, b = _two(values.pop("comm"), values)
+    return np.asarray(search.find(a, b))
+
+
+def count_between(
+    comm: MPI.Comm,
+    first: Any,
+    second: Any,
+    *,
+    distance: float = 0.0,
+    margin: _search.Both = None,
+    region: npt.ArrayLike | None = None,
+    group: _search.Both = None,
+    category: _search.Both = None,
+    mask: _search.Both = None,
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> int:
+    """The number of pairs of two sets on all ranks, on each of them. Parameters as in `overlaps_between`."""
+    values = locals()
+    search, a, b = _two(values.pop("comm"), values)
+    return search.count(a, b)

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <mpi.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Bindings.h"
+#include "Boxes.h"
+#include "NumberArray.h"
+#include "Options.h"
+#include "allpairs/mpi/DistributedOverlaps.h"
+#include "allpairs/parallel/TbbExecutor.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+/// A search over the communicator that has this handle in Fortran, which is a number in every MPI.
+class DistributedSearch {
+ public:
+  DistributedSearch(MPI_Fint handle, const Options& options) {
+    const OverlapOptions& given = options.engine;
+    mpi::DistributedOptions settings{.distance = given.distance,
+                                     .region = given.region,
+                                     .first = given.filter.first,
+                                     .second = given.filter.second,
+                                     .maxPairs = given.maxPairs};
+    if (options.threads != 1) m_executor = std::make_unique<parallel::TbbExecutor>(options.threads);
+    settings.executor = m_executor.get();
+    m_search = std::make_unique<mpi::DistributedOverlaps>(MPI_Comm_f2c(handle), settings);
+  }
+
+  [[nodiscard]] std::unique_ptr<NumberArray<std::uint64_t>> find(const Boxes& first, const Boxes* second) {
+    std::vector<std::uint64_t> numbers;
+    {
+      const py::gil_scoped_release release;
+      const std::vector<mpi::IdPair> pairs =
+          second != nullptr ? m_search->find(first.set(), second->set()) : m_search->find(first.set());
+      numbers.reserve(2 * pairs.size());
+      for (const mpi::IdPair& pair : pairs) numbers.insert(numbers.end(), {pair.first, pair.second});
+    }
+    return std::make_unique<NumberArray<std::uint64_t>>(std::move(numbers), 2);
+  }
+
+  [[nodiscard]] std::uint64_t count(const Boxes& first, const Boxes* second) {
+    const py::gil_scoped_release release;
+    return second != nullptr ? m_search->count(first.set(), second->set()) : m_search->count(first.set());
+  }
+
+ private:
+  std::unique_ptr<Executor> m_executor;
+  std::unique_ptr<mpi::DistributedOverlaps> m_search;
+};
+
+std::string mpiVersion() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  return {text.data()};
+}
+
+}  // namespace
+}  // namespace allpairs::python
+
+PYBIND11_MODULE(_mpi, module) {
+  using allpairs::python::DistributedSearch;
+  namespace py = pybind11;
+  module.doc() = "What allpairs.mpi is made of.";
+  allpairs::python::bindErrors(module);
+  py::module_::import("allpairs._core");  // has the types of arguments and results
+  module.def("mpi_version", &allpairs::python::mpiVersion);
+  py::class_<DistributedSearch>(module, "DistributedSearch")
+      .def(py::init<MPI_Fint, const allpairs::python::Options&>(), py::keep_alive<1, 3>())
+      .def("find", &DistributedSearch::find)
+      .def("count", &DistributedSearch::count);
+}

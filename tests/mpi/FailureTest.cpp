@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "MpiCase.h"
+#include "allpairs/Error.h"
+#include "allpairs/mpi/OnAllRanks.h"
+#include "support/Boxes.h"
+
+namespace allpairs::test {
+namespace {
+
+const std::vector<Box>& someBoxes() {
+  static const std::vector<Box> boxes = [] {
+    std::vector<Box> made;
+    for (int i = 0; i < 90; ++i) made.push_back(cube(0.5 * i, 0, 0));
+    return made;
+  }();
+  return boxes;
+}
+
+/// Every rank throws, and the object can be used on.
+template <class Problem>
+void expectAllThrow(MpiSearch& search, const std::vector<mpi::LocalBoxes>& sets) {
+  EXPECT_THROW((void)search.find(sets), Problem);
+  const auto begins = evenly(someBoxes().size());
+  EXPECT_EQ(search.find({hereOf(someBoxes(), begins)}), pairsHere(oracle(someBoxes()), begins));
+}
+
+TEST(DistributedFailure, ANanOnOneRankIsThrownOnAll) {
+  std::vector<Box> boxes(20, cube(0, 0, 0));
+  if (rankHere() == rankCount() - 1) boxes[7].max[1] = std::numeric_limits<double>::quiet_NaN();
+  MpiSearch search;
+  expectAllThrow<InvalidBox>(search, {boxes});
+  try {
+    (void)search.find({boxes});
+    ADD_FAILURE();
+  } catch (const InvalidBox& problem) {
+    EXPECT_EQ(problem.index(), 7);
+    if (rankCount() > 1) {
+      EXPECT_EQ(std::string(problem.what()).rfind("rank " + std::to_string(rankCount() - 1) + ": box 7", 0), 0)
+          << problem.what();
+    }
+  }
+}
+
+TEST(DistributedFailure, MemoryOnOneRank) {
+  const auto fail = [] {
+    if (rankHere() == 0) throw std::bad_alloc();
+    return BoxView();
+  };
+  MpiSearch search;
+  expectAllThrow<std::bad_alloc>(search, {fail});
+}
+
+TEST(DistributedFailure, AnythingElseKeepsItsTypeWhereItWasThrown) {
+  const auto fail = [] {
+    if (rankHere() == 0) throw std::domain_error("the tape is torn");
+    return BoxView();
+  };
+  MpiSearch search;
+  if (rankHere() == 0) {
+    expectAllThrow<std::domain_error>(search, {fail});
+  } else {
+    expectAllThrow<Error>(search, {fail});
+  }
+}
+
+TEST(DistributedFailure, OptionsThatMakeNoSense) {
+  const std::vector<Box> boxes(3, cube(0, 0, 0));
+  EXPECT_THROW((void)MpiSearch({.distance = std::numeric_limits<double>::quiet_NaN()}).find({boxes}), InvalidArgument);
+  const std::array<std::uint32_t, 2> groups{1, 2};
+  mpi::DistributedOptions one;
+  if (rankHere() == 0) one.first.groups = groups;
+  EXPECT_THROW((void)MpiSearch(one).find({boxes}), InvalidArgument);
+  mpi::DistributedOptions second;
+  second.second.groups = groups;
+  EXPECT_THROW((void)MpiSearch(second).find({boxes}), InvalidArgument);
+}
+
+TEST(DistributedFailure, MorePairsThanAllowed) {
+  const auto begins = evenly(someBoxes().size());
+  const std::uint64_t pairs = oracle(someBoxes()).size();
+  EXPECT_EQ(MpiSearch({.maxPairs = pairs}).count({hereOf(someBoxes(), begins)}), pairs);
+  EXPECT_THROW((void)MpiSearch({.maxPairs = pairs - 1}).count({hereOf(someBoxes(), begins)}), LimitExceeded);
+  EXPECT_THROW((void)MpiSearch({.maxPairs = pairs - 1}).find({hereOf(someBoxes(), begins)}), LimitExceeded);
+  EXPECT_THROW((void)MpiSearch({.maxPairs = 1}).find({hereOf(someBoxes(), begins)}), LimitExceeded);
+}
+
+TEST(DistributedFailure, StoppedOnOneRank) {
+  StopFlag flag;
+  if (rankHere() == 0) flag.set();
+  const auto begins = evenly(someBoxes().size());
+  EXPECT_THROW((void)MpiSearch({.stop = &flag}).find({hereOf(someBoxes(), begins)}), Stopped);
+}
+
+TEST(DistributedFailure, TheLowestRankIsReported) {
+  try {
+    mpi::onAllRanks(MPI_COMM_WORLD, [] { throw InvalidArgument("mine is " + std::to_string(rankHere())); });
+    ADD_FAILURE();
+  } catch (const InvalidArgument& problem) {
+    EXPECT_EQ(std::string(problem.what()), rankCount() == 1 ? "mine is 0" : "rank 0: mine is 0");
+  }
+  EXPECT_NO_THROW(mpi::onAllRanks(MPI_COMM_WORLD, [] {}));
+}
+
+}  // namespace
+}  // namespace allpairs::test
