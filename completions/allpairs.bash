@@ -37,7 +37,7 @@ _allpairs() {
           --allow-outside --max-memory -h --help'
         ;;
       join) words='--memory --distance --work --threads --resume --count -o --output -h --help' ;;
-      plan) words='--memory --distance --work --threads -h --help' ;;
+      plan) words='--memory --distance --work --ranks --threads -h --help' ;;
       info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
       view) words='--sequence --distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
       report) words='--distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;

@@ -24,6 +24,7 @@ struct PlanSettings {
   JoinArguments shared;
   std::string work;
   std::string threads = "0";
+  std::size_t ranks = 0;
 };
 
 constexpr const char* kPlanExamples =
@@ -31,8 +32,11 @@ constexpr const char* kPlanExamples =
 pairs is estimated from a sample, and the time from two million boxes that are
 joined for it in a folder within --work, which is gone afterwards.
 
+With --ranks it says what 'allpairs-mpi join' would send over the network instead.
+
 Examples:
   allpairs plan boxes.npy
+  allpairs plan boxes.npy --ranks 64
   allpairs plan part*.npy --memory 4G --work /scratch)";
 
 std::string planText(const join::JoinSummary& plan, double seconds) {
@@ -47,11 +51,29 @@ std::string planText(const join::JoinSummary& plan, double seconds) {
   return text + fmt::format("time     about {:.{}f} s\n", seconds, seconds < 10.0 ? 1 : 0);
 }
 
+std::string mebibytes(std::uint64_t bytes) { return grouped((bytes >> 20) + 1) + " MiB"; }
+
+std::string ranksText(const join::RanksPlan& plan, std::size_t ranks) {
+  std::string text = fmt::format("boxes    {}, {} on each rank\n", grouped(plan.boxes), grouped(plan.boxes / ranks));
+  text += fmt::format("cells    {}\n", grouped(plan.cells));
+  text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
+  text += fmt::format("wide     {} in many cells, sent to all ranks\n", grouped(plan.wideBoxes));
+  text += fmt::format("pairs    about {}\n", grouped(plan.pairs));
+  return text + fmt::format("network  {} for boxes, about {} for pairs, at most\n", mebibytes(plan.boxBytes),
+                            mebibytes(plan.pairBytes));
+}
+
 void runPlan(const PlanSettings& settings) {
   join::JoinOptions options = joinOptions(settings.shared);
   const std::unique_ptr<Executor> executor = executorOf(settings.threads);
   options.executor = executor.get();
   std::optional<ProgressClock> clock(std::in_place, "counting");
+  if (settings.ranks != 0) {
+    const join::RanksPlan plan = join::planRanks(inputsOf(settings.shared), settings.ranks, options);
+    clock.reset();
+    Output(std::nullopt).write(ranksText(plan, settings.ranks));
+    return;
+  }
   const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
   clock.emplace("measuring the time of a join");
   const JoinCost cost = measureJoinCost(settings.work.empty() ? "." : settings.work, options);
@@ -68,6 +90,9 @@ void addPlan(CLI::App& program) {
   addJoinArguments(*command, settings->shared);
   command->add_option("--work", settings->work, "The folder that a join would work in; default: this one")
       ->type_name("DIR");
+  command->add_option("--ranks", settings->ranks, "What so many ranks of MPI would send")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
   addThreads(*command, settings->threads);
   command->callback([settings] { runPlan(*settings); });
 }

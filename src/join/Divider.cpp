@@ -12,6 +12,7 @@ namespace allpairs::join {
 namespace {
 
 constexpr std::size_t kCutSample = std::size_t{1} << 16;  // boxes that decide where to cut
+constexpr std::size_t kSamplePerCell = 256;               // of these, where there are many cells
 constexpr double kLoad = 0.7;                             // of what fits: samples err
 constexpr int kRounds = 3;                                // of cutting cells again, each of which reads the input
 constexpr std::size_t kFewCells = 16;                     // a box in no more than these is never wide
@@ -53,8 +54,10 @@ Divider::Divider(BoxInput& input, const JoinOptions& options, const Budget& budg
 
 Division Divider::divide() {
   Division division;
-  const std::vector<Box> sample = m_input.sample(std::min(kCutSample, m_budget.sampleBoxes));
-  division.cells = partition::Partition(sample, cellsFor(m_input.size(), m_budget), m_options.distance);
+  const std::size_t wanted = cellsFor(m_input.size(), m_budget);
+  const std::size_t sampleSize = std::max(kCutSample, kSamplePerCell * wanted);
+  const std::vector<Box> sample = m_input.sample(std::min(sampleSize, m_budget.sampleBoxes));
+  division.cells = partition::Partition(sample, wanted, m_options.distance);
   count(division);
   for (int round = 0; round < kRounds && cutFullCells(division, sample); ++round) count(division);
   division.pairs = estimatePairs();

@@ -116,4 +116,28 @@ JoinSummary planFiles(std::span<const fs::path> inputs, const JoinOptions& optio
           .pairBytes = division.pairs * pairSizeFor(input.size())};
 }
 
+RanksPlan planRanks(std::span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
+  constexpr std::size_t kCellsPerRank = 8;
+  constexpr std::uint64_t kBoxesPerCell = std::uint64_t{1} << 22;
+  checkOptions(inputs, options);
+  if (ranks == 0) throw InvalidArgument("a search on no ranks");
+  BoxInput input(inputs);
+  Budget budget = budgetOf(options, input);
+  const std::uint64_t cells = ranks == 1 ? 1 : std::max(kCellsPerRank * ranks, input.size() / kBoxesPerCell);
+  budget.workers = 1;
+  budget.cellBoxes =
+      static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);  // Divider fills cells to seven tenths
+  const Division division = Divider(input, options, budget).divide();
+  const std::uint64_t recordSize = RecordType{input.isFloat64()}.size();
+  const std::uint64_t wide = division.counts.back();
+  const auto leaving = [ranks](std::uint64_t bytes) { return bytes / ranks * (ranks - 1); };  // for another rank
+  return {.boxes = input.size(),
+          .pairs = division.pairs,
+          .cells = division.cells.size(),
+          .copies = division.copies(input.size()),
+          .wideBoxes = wide,
+          .boxBytes = leaving((division.records() - wide) * recordSize) + (ranks - 1) * wide * recordSize,
+          .pairBytes = leaving(division.pairs * pairSizeFor(input.size()))};
+}
+
 }  // namespace allpairs::join

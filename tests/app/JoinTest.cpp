@@ -108,6 +108,11 @@ TEST_F(JoinCommand, APlanLeavesNothing) {
   expectSuccess(run);
   EXPECT_TRUE(run.out.starts_with("boxes    300,000\ncells    ")) << run.out;
   EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
+  const ProgramRun ranks = runProgram({"plan", many, "--ranks", "16"});
+  expectSuccess(ranks);
+  EXPECT_TRUE(ranks.out.starts_with("boxes    300,000, 18,750 on each rank\ncells    ")) << ranks.out;
+  EXPECT_NE(ranks.out.find("\nnetwork  "), std::string::npos) << ranks.out;
+  expectFailure(runProgram({"plan", many, "--ranks", "0"}), kWrongUsage, "--ranks");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
 }
 

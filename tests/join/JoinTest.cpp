@@ -69,6 +69,26 @@ TEST(Join, APlanSaysWhatAJoinThenDoes) {
   EXPECT_NEAR(static_cast<double>(plan.pairs), static_cast<double>(done.pairs), 0.1 * static_cast<double>(done.pairs));
 }
 
+TEST(Join, APlanForRanksCountsWhatTravels) {
+  std::vector<Box> boxes = toDouble(randomBoxes(40'000, 13));
+  const JoinCase with(boxes);
+  const join::RanksPlan alone = join::planRanks(with.paths, 1, {});
+  EXPECT_EQ(alone.copies, 0);
+  EXPECT_EQ(alone.boxBytes, 0);
+  EXPECT_EQ(alone.pairBytes, 0);
+  std::uint64_t before = 0;
+  for (const std::size_t ranks : {2U, 4U, 8U}) {
+    const join::RanksPlan plan = join::planRanks(with.paths, ranks, {});
+    EXPECT_EQ(plan.boxes, boxes.size());
+    EXPECT_GE(plan.cells, 6 * ranks);
+    EXPECT_LE(plan.cells, 12 * ranks);
+    EXPECT_GT(plan.boxBytes, before);
+    EXPECT_LE(plan.boxBytes, 32 * (plan.boxes + plan.copies) * (ranks - 1) / ranks);
+    before = plan.boxBytes;
+  }
+  EXPECT_THROW((void)join::planRanks(with.paths, 0, {}), InvalidArgument);
+}
+
 TEST(Join, BadInputIsNamedAndNothingIsWritten) {
   std::vector<Box> boxes = toDouble(randomBoxes(100, 14));
   boxes[42].max[1] = kNan;

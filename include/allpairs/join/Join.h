@@ -91,6 +91,23 @@ JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, const std::
 /// Counts the pairs: no pairs are written, so that only the boxes take room on the disk.
 JoinSummary countFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
 
+/// What a search of the same boxes by as many ranks of MPI would send (see allpairs/mpi/DistributedOverlaps.h).
+struct RanksPlan {
+  std::uint64_t boxes = 0;
+  std::uint64_t pairs = 0;  ///< Estimated from a sample.
+  std::uint64_t cells = 0;
+  std::uint64_t copies = 0;
+  std::uint64_t wideBoxes = 0;  ///< Boxes in too many cells: each is sent to all ranks.
+  std::uint64_t boxBytes = 0;   ///< Sent between ranks, by all of them together, where boxes lie in no order of space.
+  std::uint64_t pairBytes = 0;  ///< Likewise.
+};
+
+/// Cuts space for `ranks` ranks, and counts. Reads the inputs as planFiles() does; one rank sends nothing.
+///
+/// Bad input: as joinFiles(); no ranks throw InvalidArgument.
+[[nodiscard]] RanksPlan planRanks(std::span<const std::filesystem::path> inputs, std::size_t ranks,
+                                  const JoinOptions& options);
+
 /// What joinFiles() would do: all but the pairs is exact. Reads the inputs once, or more where cells have to
 /// be cut again, and writes nothing.
 [[nodiscard]] JoinSummary planFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
