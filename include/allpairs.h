@@ -189,6 +189,28 @@ ALLPAIRS_C_API allpairs_status allpairs_find(allpairs_search* search, const allp
 ALLPAIRS_C_API allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first,
                                                      const allpairs_set* second, allpairs_pairs* pairs);
 
+/// In which rows a pair of boxes of one set is.
+typedef enum allpairs_rows_kind {
+  ALLPAIRS_FULL_ROWS = 0,  ///< In those of both boxes: row i has all partners of box i.
+  ALLPAIRS_HALF_ROWS = 1   ///< In that of the lower index: read one after the other, the rows are the pairs in order.
+} allpairs_rows_kind;
+
+/// Compressed sparse rows in memory of the search: row i is indices[offsets[i]] to indices[offsets[i + 1] - 1], ascending.
+typedef struct allpairs_rows {
+  const uint64_t* offsets;  ///< One more than there are rows.
+  const uint32_t* indices;
+  size_t count;  ///< The number of rows: that of the boxes.
+} allpairs_rows;
+
+/// The pairs of allpairs_find() as rows of the partners of each box, whatever the options' order; max_pairs counts a pair
+/// once. Valid until the next search, or the end of the handle.
+ALLPAIRS_C_API allpairs_status allpairs_find_neighbors(allpairs_search* search, const allpairs_set* set,
+                                                       allpairs_rows_kind kind, allpairs_rows* rows);
+
+/// The partners in `second` of each box of `first`.
+ALLPAIRS_C_API allpairs_status allpairs_find_neighbors_between(allpairs_search* search, const allpairs_set* first,
+                                                               const allpairs_set* second, allpairs_rows* rows);
+
 /// The number of pairs; uses memory independent of that number.
 ALLPAIRS_C_API allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set, uint64_t* count);
 ALLPAIRS_C_API allpairs_status allpairs_count_between(allpairs_search* search, const allpairs_set* first,

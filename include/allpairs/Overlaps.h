@@ -9,6 +9,7 @@
 
 #include "allpairs/BoxView.h"
 #include "allpairs/FunctionRef.h"
+#include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 
@@ -16,7 +17,7 @@ namespace allpairs {
 
 /// Statistics of the last search.
 struct OverlapStatistics {
-  std::uint64_t pairs = 0;       ///< The number of pairs in the result.
+  std::uint64_t pairs = 0;       ///< The number of pairs in the result; each is counted once, in rows of neighbors too.
   std::uint64_t boxTests = 0;    ///< Tests of two boxes, each in one lane of a vector.
   std::uint64_t groupTests = 0;  ///< Tests of the bounds of two groups, or of a box and a group.
   std::uint64_t exactTests = 0;  ///< Candidates that float32 could not decide, and that were tested in double.
@@ -64,6 +65,10 @@ class OverlapSearch {
   ///
   /// Bad input: options for two sets, filter.second, throw InvalidArgument with one set.
   [[nodiscard]] std::span<const Pair> find(const BoxView& first, const BoxView& second);
+
+  /// The pairs of find() as rows of partners: see neighbors(). Valid until the next search or the object's destruction.
+  [[nodiscard]] NeighborsView findNeighbors(const BoxView& boxes, NeighborRows rows = NeighborRows::Full);
+  [[nodiscard]] NeighborsView findNeighbors(const BoxView& first, const BoxView& second);
 
   /// The number of pairs of find(); uses memory independent of that number.
   [[nodiscard]] std::uint64_t count(const BoxView& boxes);

@@ -13,6 +13,7 @@ array([[0, 1],
 from ._core import version as __version__
 from ._elements import MeshCandidates
 from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded
+from ._neighbors import neighbors, neighbors_between
 from ._partition import JoinSummary, Partition, join, overlaps_in_cell
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
@@ -44,6 +45,8 @@ __all__ = [
     "instruction_sets",
     "join",
     "load",
+    "neighbors",
+    "neighbors_between",
     "overlaps",
     "overlaps_between",
     "overlaps_in_cell",

@@ -5,13 +5,16 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "Batches.h"
 #include "Bindings.h"
 #include "Boxes.h"
 #include "BufferProtocol.h"
+#include "NumberArray.h"
 #include "Options.h"
 #include "PairArray.h"
+#include "allpairs/Neighbors.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
@@ -26,6 +29,23 @@ std::unique_ptr<PairArray> findPairsBetween(const Boxes& first, const Boxes& sec
   return options.run(first.set().size() + second.set().size(), [&](const OverlapOptions& settings) {
     return toPython(overlaps(first.set(), second.set(), settings));
   });
+}
+
+py::tuple toTuple(Neighbors found) {
+  return py::make_tuple(std::make_unique<NumberArray<std::uint64_t>>(std::move(found.offsets)),
+                        std::make_unique<NumberArray<std::uint32_t>>(std::move(found.indices)));
+}
+
+py::tuple findNeighbors(const Boxes& boxes, NeighborRows rows, Options& options) {
+  const BoxView& set = boxes.set();
+  return toTuple(
+      options.run(set.size(), [&](const OverlapOptions& settings) { return neighbors(set, rows, settings); }));
+}
+
+py::tuple findNeighborsBetween(const Boxes& first, const Boxes& second, Options& options) {
+  return toTuple(options.run(first.set().size() + second.set().size(), [&](const OverlapOptions& settings) {
+    return neighbors(first.set(), second.set(), settings);
+  }));
 }
 
 std::uint64_t countPairs(const Boxes& boxes, Options& options) {
@@ -53,6 +73,7 @@ void bindOptions(py::module_& module) {
       .value("auto", Strategy::Automatic)
       .value("exhaustive", Strategy::Exhaustive)
       .value("bvh", Strategy::Bvh);
+  py::enum_<NeighborRows>(module, "NeighborRows").value("full", NeighborRows::Full).value("half", NeighborRows::Half);
   py::class_<Options, std::shared_ptr<Options>>(module, "Options")
       .def(py::init<>())
       .def_readwrite("threads", &Options::threads)
@@ -86,6 +107,8 @@ void bindSearch(py::module_& module) {
       .def("close", &Batches::close);
   module.def("overlaps", &findPairs);
   module.def("overlaps_between", &findPairsBetween);
+  module.def("neighbors", &findNeighbors);
+  module.def("neighbors_between", &findNeighborsBetween);
   module.def("count", &countPairs);
   module.def("count_between", &countPairsBetween);
   module.def("instruction_sets", [] {

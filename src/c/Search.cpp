@@ -45,6 +45,18 @@ void setOptions(allpairs_search& search, const allpairs_options* options) {
   search.second = given.second;
 }
 
+NeighborRows rowsOf(int kind) {
+  switch (kind) {
+    case ALLPAIRS_FULL_ROWS:
+      return NeighborRows::Full;
+    case ALLPAIRS_HALF_ROWS:
+      return NeighborRows::Half;
+  }
+  throw InvalidArgument("no kind of rows " + std::to_string(kind));
+}
+
+allpairs_rows toC(const NeighborsView& found) { return {found.offsets.data(), found.indices.data(), found.size()}; }
+
 /// The search, with its filters as long as the sets that it is about to look at.
 OverlapSearch& prepared(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) {
   allpairs_search& handle = required(search, "search");
@@ -113,6 +125,22 @@ allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_se
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
     required(pairs, "pairs") = toC(prepared(search, first, second).find(first->boxes, others));
+  });
+}
+
+allpairs_status allpairs_find_neighbors(allpairs_search* search, const allpairs_set* set, allpairs_rows_kind kind,
+                                        allpairs_rows* rows) {
+  return guarded([&] {
+    const allpairs::NeighborRows known = rowsOf(numberIn(kind));
+    required(rows, "rows") = toC(prepared(search, set, nullptr).findNeighbors(set->boxes, known));
+  });
+}
+
+allpairs_status allpairs_find_neighbors_between(allpairs_search* search, const allpairs_set* first,
+                                                const allpairs_set* second, allpairs_rows* rows) {
+  return guarded([&] {
+    const allpairs::BoxView& others = required(second, "second").boxes;
+    required(rows, "rows") = toC(prepared(search, first, second).findNeighbors(first->boxes, others));
   });
 }
 

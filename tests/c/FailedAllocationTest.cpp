@@ -154,6 +154,9 @@ TEST(FailedAllocationInC, OfSearches) {
   const allpairs_visitor visitor{takeAll, nullptr, 0};
   check([&](Handles& h) { return allpairs_find(h.search, h.set, &pairs); });
   check([&](Handles& h) { return allpairs_find_between(h.search, h.set, h.other, &pairs); });
+  allpairs_rows rows;
+  check([&](Handles& h) { return allpairs_find_neighbors(h.search, h.set, ALLPAIRS_FULL_ROWS, &rows); });
+  check([&](Handles& h) { return allpairs_find_neighbors_between(h.search, h.set, h.other, &rows); });
   check([&](Handles& h) { return allpairs_count(h.search, h.set, &count); });
   check([&](Handles& h) { return allpairs_count_between(h.search, h.set, h.other, &count); });
   check([&](Handles& h) { return allpairs_stream(h.search, h.set, visitor); });

@@ -144,6 +144,61 @@ static void twoSetsAreMet(allpairs_set* set) {
   allpairs_search_destroy(search);
 }
 
+/// Row by row what the double loop finds in its order.
+static void checkRow(const allpairs_rows* found, uint32_t row, bool half) {
+  uint64_t next = found->offsets[row];
+  for (uint32_t j = half ? row + 1 : 0; j < kBoxes; ++j) {
+    if (j == row || !checkMeet(&rows[6 * row], &rows[6 * j], 0)) continue;
+    ALLPAIRS_CHECK(next < found->offsets[row + 1] && found->indices[next] == j);
+    ++next;
+  }
+  ALLPAIRS_CHECK(next == found->offsets[row + 1]);
+}
+
+static void neighborsAreThoseOfTheDoubleLoop(allpairs_set* set) {
+  allpairs_search* search = NULL;
+  allpairs_rows found;
+  allpairs_options options = allpairs_default_options();
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
+  for (int strategy = ALLPAIRS_EXHAUSTIVE; strategy <= ALLPAIRS_BVH; ++strategy) {
+    options.strategy = (allpairs_strategy)strategy;
+    options.max_pairs = everyPair(0, NULL);
+    ALLPAIRS_CHECK(allpairs_search_set_options(search, &options) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(allpairs_find_neighbors(search, set, ALLPAIRS_FULL_ROWS, &found) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(found.count == kBoxes && found.offsets[0] == 0);
+    for (uint32_t i = 0; i < kBoxes; ++i) checkRow(&found, i, false);
+    ALLPAIRS_CHECK(allpairs_find_neighbors(search, set, ALLPAIRS_HALF_ROWS, &found) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(found.count == kBoxes && found.offsets[kBoxes] == options.max_pairs);
+    for (uint32_t i = 0; i < kBoxes; ++i) checkRow(&found, i, true);
+  }
+  ALLPAIRS_CHECK(allpairs_find_neighbors(search, set, (allpairs_rows_kind)2, &found) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(strcmp(allpairs_error_message(), "no kind of rows 2") == 0);
+  ALLPAIRS_CHECK(allpairs_find_neighbors(search, set, ALLPAIRS_HALF_ROWS, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  allpairs_search_destroy(search);
+}
+
+static void neighborsBetweenTwoSetsAreOfTheFirst(allpairs_set* set) {
+  enum { kOthers = 40 };
+  allpairs_search* search = NULL;
+  allpairs_set* others = NULL;
+  allpairs_rows found;
+  ALLPAIRS_CHECK(allpairs_set_create_f64(rows, kOthers, &others) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find_neighbors_between(search, set, others, &found) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(found.count == kBoxes && found.offsets[0] == 0 && found.offsets[kBoxes] > kOthers);
+  for (uint32_t i = 0; i < kBoxes; ++i) {
+    uint64_t next = found.offsets[i];
+    for (uint32_t j = 0; j < kOthers; ++j) {
+      if (!checkMeet(&rows[6 * i], &rows[6 * j], 0)) continue;
+      ALLPAIRS_CHECK(next < found.offsets[i + 1] && found.indices[next] == j);
+      ++next;
+    }
+    ALLPAIRS_CHECK(next == found.offsets[i + 1]);
+  }
+  allpairs_set_destroy(others);
+  allpairs_search_destroy(search);
+}
+
 static void marginsAreAdded(void) {
   const double near[12] = {0, 0, 0, 1, 1, 1, 2, 0, 0, 3, 1, 1};
   const double each[2] = {0.25, 0.75};
@@ -209,6 +264,8 @@ int main(void) {
     for (size_t k = 0; k < 6; ++k) single[k * kBoxes + i] = (float)rows[6 * i + k];
   }
   onSets(pairsAreThoseOfTheDoubleLoop);
+  onSets(neighborsAreThoseOfTheDoubleLoop);
+  onSets(neighborsBetweenTwoSetsAreOfTheFirst);
   onSets(optionsAreRead);
   onSets(aCallbackDecides);
   onSets(streamsComeInBatchesAndCanBeStopped);

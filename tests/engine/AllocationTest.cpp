@@ -41,6 +41,22 @@ TEST_P(Allocation, ASecondSearchOfTheSameSizeAllocatesNothing) {
   EXPECT_EQ(test::allocationCount() - before, 0U);
 }
 
+TEST_P(Allocation, ASecondSearchForNeighborsAllocatesNothing) {
+  OverlapOptions options;
+  options.strategy = GetParam().strategy;
+  for (const float size : {1.0F, 5.0F}) {
+    const std::vector<BoxF> boxes = test::randomBoxes(5000, 41, size);
+    OverlapSearch search(options);
+    static_cast<void>(search.findNeighbors(boxes));
+    static_cast<void>(search.findNeighbors(boxes, boxes));
+    const std::size_t before = test::allocationCount();
+    EXPECT_GT(search.findNeighbors(boxes).indices.size(), 2000U);
+    EXPECT_GT(search.findNeighbors(boxes, NeighborRows::Half).indices.size(), 1000U);
+    EXPECT_GT(search.findNeighbors(boxes, boxes).indices.size(), 1000U);
+    EXPECT_EQ(test::allocationCount() - before, 0U);
+  }
+}
+
 TEST(Allocation, ASecondSearchOfManyWorldsOfTheSameSizeAllocatesNothing) {
   const std::vector<BoxF> boxes = test::randomBoxes(3000, 3);
   const std::vector<Box> precise = test::toDouble(boxes);

@@ -91,6 +91,19 @@ TEST_P(FailedAllocation, LeavesFindOfTwoSetsUsable) {
   check([&](OverlapSearch& search, std::vector<Pair>& found) { keep(search.find(first, second), found); });
 }
 
+TEST_P(FailedAllocation, LeavesFindNeighborsUsable) {
+  const auto keepRows = [](const NeighborsView& rows, std::vector<Pair>& found) {
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+      for (const std::uint32_t partner : rows[i]) found.push_back({i, partner});
+    }
+  };
+  check([&](OverlapSearch& search, std::vector<Pair>& found) {
+    keepRows(search.findNeighbors(first, NeighborRows::Full), found);
+    keepRows(search.findNeighbors(first, NeighborRows::Half), found);
+    keepRows(search.findNeighbors(first, second), found);
+  });
+}
+
 TEST_P(FailedAllocation, LeavesCountUsable) {
   check([&](OverlapSearch& search, std::vector<Pair>& found) {
     found.push_back({static_cast<std::uint32_t>(search.count(first)), 0});

@@ -69,6 +69,7 @@ def test_searches(and_later, strategy):
     for call in (
         lambda _: allpairs.overlaps(*BOXES, strategy=strategy),
         lambda _: allpairs.overlaps(*BOXES, strategy=strategy, order="second", distance=1),
+        lambda _: allpairs.neighbors(*BOXES, strategy=strategy),
         lambda _: allpairs.count(*BOXES, strategy=strategy),
         lambda _: allpairs.overlaps_between(BOXES, OTHERS, strategy=strategy),
         lambda _: allpairs.count_between(BOXES, OTHERS, strategy=strategy),

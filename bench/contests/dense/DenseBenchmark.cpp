@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What order costs: the calls that a user makes, ordered and not, in turns, on equal cubes at random places that are others
-// for each repetition. Medians of processor time.
+// What order costs: the calls that a user makes, ordered, not ordered and as rows of neighbors, in turns, on equal cubes at
+// random places that are others for each repetition. Medians of processor time.
 //
 //   dense_benchmark [--instruction-set NAME] [--most-pairs N]
 #include <CLI/CLI.hpp>
@@ -70,13 +70,32 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
       return s.one ? search.find(s.first).size() : search.find(s.first, s.second).size();
     };
   };
+  const auto rows = [](OverlapSearch& search, NeighborRows kind) {
+    return [&search, kind](const Scene& s) {
+      if (!s.one) return search.findNeighbors(s.first, s.second).indices.size();
+      return search.findNeighbors(s.first, kind).indices.size() / (kind == NeighborRows::Full ? 2 : 1);
+    };
+  };
   const auto anew = [](const OverlapOptions& options) {
     return [&options](const Scene& s) {
       return s.one ? overlaps(s.first, options).size() : overlaps(s.first, s.second, options).size();
     };
   };
-  std::array<Call, 4> calls{Call{reused(unordered)}, Call{reused(ordered)}, Call{anew(inAnyOrder)},
-                            Call{anew(inOrder)}};
+  const auto rowsAnew = [](const OverlapOptions& options) {
+    return [&options](const Scene& s) {
+      return s.one ? neighbors(s.first, NeighborRows::Half, options).indices.size()
+                   : neighbors(s.first, s.second, options).indices.size();
+    };
+  };
+  OverlapSearch half(inOrder);
+  OverlapSearch full(inOrder);
+  std::array<Call, 7> calls{Call{reused(unordered)},
+                            Call{reused(ordered)},
+                            Call{rows(half, NeighborRows::Half)},
+                            Call{rows(full, NeighborRows::Full)},
+                            Call{anew(inAnyOrder)},
+                            Call{anew(inOrder)},
+                            Call{rowsAnew(inOrder)}};
   std::size_t found = 0;
   for (std::uint64_t repetition = 0; repetition <= kRepetitions; ++repetition) {
     const Scene scene = makeScene(boxes, pairs, one, 1000 * boxes + repetition);
@@ -89,10 +108,17 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
       found = size;
     }
   }
-  const double ms[] = {calls[0].median(), calls[1].median(), calls[2].median(), calls[3].median()};
-  std::printf("| %s | %zu | %.1f | %.2f | %.2f (%.1f) | %.2f | %.2f (%.1f) |\n", one ? "one" : "two", boxes,
-              static_cast<double>(found) / static_cast<double>(boxes), ms[0], ms[1], ms[1] / ms[0], ms[2], ms[3],
-              ms[3] / ms[2]);
+  std::printf("| %s | %zu | %.1f |", one ? "one" : "two", boxes,
+              static_cast<double>(found) / static_cast<double>(boxes));
+  double base = 0.0;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const double ms = calls[i].median();
+    const bool isUnordered = i == 0 || i == 4;
+    if (isUnordered) base = ms;
+    isUnordered ? std::printf(" %.2f |", ms) : std::printf(" %.2f (%.2f) |", ms, ms / base);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -104,9 +130,13 @@ int main(int argc, char** argv) {
   app.add_option("--instruction-set", instructionSet, "Default: the processor's best");
   app.add_option("--most-pairs", mostPairs, "In a scene; others are left out")->capture_default_str();
   return allpairs::bench::runMain(app, argc, argv, [&] {
-    std::printf("Milliseconds; in brackets ordered divided by unordered.\n\n");
-    std::printf("| sets | boxes | pairs a box | find(), unordered | find() | overlaps(), unordered | overlaps() |\n");
-    std::printf("|---|---:|---:|---:|---:|---:|---:|\n");
+    std::printf(
+        "Milliseconds; in brackets divided by the unordered call. Between two sets there is one kind of rows.\n\n");
+    std::printf(
+        "| sets | boxes | pairs a box | find(), unordered | find() | findNeighbors(), half | full | overlaps(), "
+        "unordered | "
+        "overlaps() | neighbors(), half |\n");
+    std::printf("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
     for (const bool one : {true, false}) {
       for (const std::size_t boxes : {std::size_t{10000}, std::size_t{100000}, std::size_t{1000000}}) {
         for (const double pairs : {2.0, 4.0, 8.0, 16.0, 30.0, 100.0}) {

@@ -18,6 +18,7 @@ enum class PairSide : std::uint8_t {
 /// Which columns each row is tested against.
 enum class Columns : std::uint8_t {
   All,        ///< Two sets.
+  Others,     ///< One set, each pair at both its indices.
   Following,  ///< One set, each pair at its smaller index.
   Preceding,  ///< One set, each pair at its larger index.
 };

@@ -265,6 +265,7 @@ class JoinRun {
     for (std::size_t leaf = begin; leaf < end; ++leaf) {
       const LaneBox leafBounds = leaves.blocks[node].get(leaf - node * kFanOut);
       m_task.lists->kept == Columns::All         ? listLeaf<Columns::All>(leaf, leafBounds)
+      : m_task.lists->kept == Columns::Others    ? listLeaf<Columns::Others>(leaf, leafBounds)
       : m_task.lists->kept == Columns::Following ? listLeaf<Columns::Following>(leaf, leafBounds)
                                                  : listLeaf<Columns::Preceding>(leaf, leafBounds);
     }
@@ -337,6 +338,7 @@ class JoinRun {
       std::uint32_t bits = 0;
       for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
         auto mask = hn::RebindMask(d, leaf.overlappingWith(q, v));
+        if constexpr (kKept == Columns::Others) mask = hn::And(mask, hn::Ne(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(leaf.id[v], hn::Set(d, id)));
         lengths[v] = hn::Sub(lengths[v], hn::VecFromMask(d, mask));

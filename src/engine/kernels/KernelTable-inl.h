@@ -39,6 +39,7 @@ const Kernels* kernelTable() {
                              &boundBlocks,
                              &writePairs,
                              &orderRows,
+                             &orderPartners,
                              &curveKeys,
                              &readRun32,
                              &readFloat32,

@@ -174,8 +174,9 @@ struct Kernels {
   /// Turns hits into pairs.
   void (*writePairs)(const Hits& hits, PairSide side, Pair* pairs);
 
-  /// Writes each row as pairs in order.
+  /// Writes each row as pairs in order, or only the other index of each.
   void (*orderRows)(const NumberRows& rows, Pair* to);
+  void (*orderPartners)(const NumberRows& rows, std::uint32_t* to);
 
   /// The keys of the boxes of some blocks, sixteen of each.
   void (*curveKeys)(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys);

@@ -201,9 +201,10 @@ void writePairs(const Hits& hits, PairSide side, Pair* pairs) {
   }
 }
 
-/// A number goes to where its rank says: how many of its row are less. The rows after it are greater, so that whole vectors count.
-template <bool kBySecond>
-HWY_INLINE void orderRowsBy(const NumberRows& rows, Pair* to) {
+/// Calls write(place, key, other) for each number. Its place is what its rank says: how many of its row are less. The rows after
+/// it are greater, so that whole vectors count.
+template <class Write>
+HWY_INLINE void placeByRank(const NumberRows& rows, const Write& write) {
   const hn::RebindToSigned<IdTag> d;
   const std::size_t lanes = hn::Lanes(d);
   auto* const numbers = reinterpret_cast<std::int32_t*>(rows.numbers);
@@ -220,13 +221,25 @@ HWY_INLINE void orderRowsBy(const NumberRows& rows, Pair* to) {
       place += hn::CountTrue(d, hn::Lt(hn::LoadU(d, numbers + at), compared));
       at += lanes;
     } while (at < end);
-    const std::uint32_t other = number & otherMask;
-    to[place] = kBySecond ? Pair{other, rows.firstKey + key} : Pair{rows.firstKey + key, other};
+    write(place, key, number & otherMask);
   }
 }
 
 void orderRows(const NumberRows& rows, Pair* to) {
-  rows.bySecond ? orderRowsBy<true>(rows, to) : orderRowsBy<false>(rows, to);
+  const std::uint32_t firstKey = rows.firstKey;
+  if (rows.bySecond) {
+    placeByRank(rows, [=](std::size_t place, std::uint32_t key, std::uint32_t other) HWY_ATTR {
+      to[place] = {other, firstKey + key};
+    });
+  } else {
+    placeByRank(rows, [=](std::size_t place, std::uint32_t key, std::uint32_t other) HWY_ATTR {
+      to[place] = {firstKey + key, other};
+    });
+  }
+}
+
+void orderPartners(const NumberRows& rows, std::uint32_t* to) {
+  placeByRank(rows, [=](std::size_t place, std::uint32_t /*key*/, std::uint32_t other) HWY_ATTR { to[place] = other; });
 }
 
 }  // namespace

@@ -42,41 +42,54 @@ constexpr std::size_t kLongestRow = 64;
 
 /// All numbers of a bucket.
 template <class Use>
-void forEachNumber(std::size_t bucket, std::span<const PairBuckets> ofWorkers, const Use& use) {
-  for (const PairBuckets& buckets : ofWorkers) {
-    buckets.forEachChunk(bucket, [&](std::span<const std::uint32_t> numbers) {
+void forEachNumber(const Bucket& bucket, const Use& use) {
+  for (const PairBuckets& buckets : bucket.ofWorkers) {
+    buckets.forEachChunk(bucket.number, [&](std::span<const std::uint32_t> numbers) {
       for (const std::uint32_t number : numbers) use(number);
     });
   }
 }
 
-/// Puts the pairs of a bucket into rows, one for each key. `begin` has room for two more than the keys, and has where each row
-/// begins at the end. Returns the length of the longest, and writes no rows if that is too long.
-std::size_t putInRows(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                      std::uint32_t* begin, std::uint32_t* rows) noexcept {
-  const unsigned otherBits = rule.otherBits;
-  const std::size_t keys = std::size_t{1} << rule.keyBits;
-  std::fill_n(begin, keys + 2, 0U);
-  std::uint32_t* const lengths = begin + 2;  // Only sums stand before the length that is added next.
-  forEachNumber(bucket, ofWorkers, [=](std::uint32_t number) { ++lengths[number >> otherBits]; });
-  const std::size_t longest = *std::max_element(lengths, lengths + keys);
-  if (longest > kLongestRow) return longest;
-  std::partial_sum(lengths, lengths + keys, lengths);
-  std::uint32_t* const next = begin + 1;
-  forEachNumber(bucket, ofWorkers, [=](std::uint32_t number) { rows[next[number >> otherBits]++] = number; });
+/// Where the row of each key begins: in `next`, which has room for one more than the keys. Returns the length of the longest.
+std::size_t measureRows(const Bucket& bucket, std::uint32_t* next) noexcept {
+  const unsigned otherBits = bucket.rule.otherBits;
+  std::fill_n(next, bucket.keys() + 1, 0U);
+  std::uint32_t* const lengths = next + 1;  // Only sums stand before the length that is added next.
+  forEachNumber(bucket, [=](std::uint32_t number) { ++lengths[number >> otherBits]; });
+  const std::size_t longest = *std::max_element(lengths, lengths + bucket.keys());
+  std::partial_sum(lengths, lengths + bucket.keys(), lengths);
   return longest;
 }
 
-template <bool kBySecond>
-void radixSortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                     std::span<Pair> place) noexcept {
-  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
-  const std::size_t size = place.size();
-  auto* const first = reinterpret_cast<std::uint32_t*>(place.data());
-  std::uint32_t* to = first + size;
-  forEachNumber(bucket, ofWorkers, [&](std::uint32_t number) { *to++ = number; });
-  unpackAll<kBySecond>(radixSort(first + size, first, size, 0, rule.keyBits + rule.otherBits),
-                       static_cast<std::uint32_t>(bucket << rule.keyBits), rule.otherBits, place);
+/// Puts the pairs of a bucket into rows, one for each key; `next`, where they begin, then has where they end.
+void putInRows(const Bucket& bucket, std::uint32_t* next, std::uint32_t* rows) noexcept {
+  const unsigned otherBits = bucket.rule.otherBits;
+  forEachNumber(bucket, [=](std::uint32_t number) { rows[next[number >> otherBits]++] = number; });
+}
+
+/// Sorts all numbers of a bucket, in two arrays for as many; returns which of them holds the result.
+std::uint32_t* radixSortBucket(const Bucket& bucket, std::size_t size, std::uint32_t* from,
+                               std::uint32_t* to) noexcept {
+  std::uint32_t* next = from;
+  forEachNumber(bucket, [&](std::uint32_t number) { *next++ = number; });
+  return radixSort(from, to, size, 0, bucket.rule.keyBits + bucket.rule.otherBits);
+}
+
+/// Scratch memory of a bucket: where the row of each key begins and where its next number goes, and the rows. While they are
+/// filled, what is next of one key becomes where the row of the following one begins.
+struct RowMemory {
+  RowMemory(const Bucket& bucket, std::span<std::uint32_t> scratch) noexcept
+      : begin(scratch.data()), next(begin + 1), rows(next + bucket.keys() + 1) {
+    *begin = 0;
+  }
+
+  std::uint32_t* begin;
+  std::uint32_t* next;
+  std::uint32_t* rows;
+};
+
+std::size_t scratchFor(const Bucket& bucket, std::size_t size) noexcept {
+  return bucket.keys() + 2 + size + kVectorSlack;
 }
 
 }  // namespace
@@ -89,20 +102,41 @@ BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : b
   otherBits = static_cast<unsigned>(std::bit_width(others - 1));
 }
 
-void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                std::span<Pair> place, std::span<std::uint32_t> scratch, const Kernels& kernels) noexcept {
-  const std::size_t keys = std::size_t{1} << rule.keyBits;
-  if (keys + 2 + place.size() + kVectorSlack <= scratch.size()) {
-    std::uint32_t* const begin = scratch.data();
-    std::uint32_t* const rows = begin + keys + 2;
-    if (putInRows(rule, bucket, ofWorkers, begin, rows) <= kLongestRow) {
-      const auto firstKey = static_cast<std::uint32_t>(bucket << rule.keyBits);
-      kernels.orderRows({rows, place.size(), begin, rule.otherBits, firstKey, rule.bySecond}, place.data());
+void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch,
+                const Kernels& kernels) noexcept {
+  const BucketRule& rule = bucket.rule;
+  if (scratchFor(bucket, place.size()) <= scratch.size()) {
+    const RowMemory memory(bucket, scratch);
+    if (measureRows(bucket, memory.next) <= kLongestRow) {
+      putInRows(bucket, memory.next, memory.rows);
+      kernels.orderRows({memory.rows, place.size(), memory.begin, rule.otherBits, bucket.firstKey(), rule.bySecond},
+                        place.data());
       return;
     }
   }
-  rule.bySecond ? radixSortBucket<true>(rule, bucket, ofWorkers, place)
-                : radixSortBucket<false>(rule, bucket, ofWorkers, place);
+  static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t));
+  auto* const numbers = reinterpret_cast<std::uint32_t*>(place.data());
+  const std::uint32_t* const sorted = radixSortBucket(bucket, place.size(), numbers + place.size(), numbers);
+  rule.bySecond ? unpackAll<true>(sorted, bucket.firstKey(), rule.otherBits, place)
+                : unpackAll<false>(sorted, bucket.firstKey(), rule.otherBits, place);
+}
+
+std::size_t scratchToList(const Bucket& bucket) noexcept { return scratchFor(bucket, bucket.size()); }
+
+void listBucket(const Bucket& bucket, const RowsPlace& place, std::uint64_t before, const ListTools& tools) noexcept {
+  const unsigned otherBits = bucket.rule.otherBits;
+  const std::size_t size = place.indices.size();
+  const RowMemory memory(bucket, tools.scratch);
+  const std::size_t longest = measureRows(bucket, memory.next);
+  for (std::size_t key = 0; key < place.offsets.size(); ++key) place.offsets[key] = before + memory.next[key];
+  if (longest <= kLongestRow) {
+    putInRows(bucket, memory.next, memory.rows);
+    tools.kernels.orderPartners({memory.rows, size, memory.begin, otherBits}, place.indices.data());
+    return;
+  }
+  const std::uint32_t* const sorted = radixSortBucket(bucket, size, memory.rows, place.indices.data());
+  const std::uint32_t otherMask = (std::uint32_t{1} << otherBits) - 1;
+  std::transform(sorted, sorted + size, place.indices.data(), [=](std::uint32_t number) { return number & otherMask; });
 }
 
 void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
@@ -131,6 +165,11 @@ void PairBuckets::makeRoom(std::size_t chunks) {
 }
 
 void PairBuckets::add(std::span<const Pair> pairs) { m_bySecond ? distribute<true>(pairs) : distribute<false>(pairs); }
+
+void PairBuckets::addBothWays(std::span<const Pair> pairs) {
+  distribute<false>(pairs);
+  distribute<true>(pairs);
+}
 
 template <bool kBySecond>
 void PairBuckets::distribute(std::span<const Pair> pairs) {

@@ -10,6 +10,7 @@
 #include "allpairs/Pair.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
+#include "order/RowsPlace.h"
 
 namespace allpairs::engine {
 
@@ -47,6 +48,9 @@ class PairBuckets {
 
   void add(std::span<const Pair> pairs);
 
+  /// Adds each pair by both its indices; the rule is of one set, by first.
+  void addBothWays(std::span<const Pair> pairs);
+
   [[nodiscard]] std::size_t size(std::size_t bucket) const noexcept {
     return m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
   }
@@ -82,11 +86,38 @@ class PairBuckets {
   Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
 };
 
-/// Puts the pairs of a bucket, which each worker has some of, in order into their place in the result.
+/// The pairs of a bucket, which each worker has some of.
+struct Bucket {
+  const BucketRule& rule;
+  std::size_t number;
+  std::span<const PairBuckets> ofWorkers;
+
+  [[nodiscard]] std::size_t size() const noexcept {
+    std::size_t size = 0;
+    for (const PairBuckets& buckets : ofWorkers) size += buckets.size(number);
+    return size;
+  }
+  [[nodiscard]] std::size_t keys() const noexcept { return std::size_t{1} << rule.keyBits; }
+  [[nodiscard]] std::uint32_t firstKey() const noexcept { return static_cast<std::uint32_t>(number << rule.keyBits); }
+};
+
+/// Puts the pairs of a bucket in order into their place in the result.
 ///
 /// Where they fit into the scratch memory and no key has many, each pair goes to its key's row, and then to where its rank in
 /// the row says; else they are radix sorted in the memory of the result.
-void sortBucket(const BucketRule& rule, std::size_t bucket, std::span<const PairBuckets> ofWorkers,
-                std::span<Pair> place, std::span<std::uint32_t> scratch, const Kernels& kernels) noexcept;
+void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch,
+                const Kernels& kernels) noexcept;
+
+/// What listBucket() works with: scratch memory has room for as many numbers as scratchToList() says.
+struct ListTools {
+  const Kernels& kernels;
+  std::span<std::uint32_t> scratch;
+};
+
+/// Puts the other index of each pair of a bucket into its place in order, in the same ways, and the beginning of each key's row.
+///
+/// `place` has the offsets of the keys, without the one after the last, and the indices of the bucket, which `before` others precede.
+void listBucket(const Bucket& bucket, const RowsPlace& place, std::uint64_t before, const ListTools& tools) noexcept;
+[[nodiscard]] std::size_t scratchToList(const Bucket& bucket) noexcept;
 
 }  // namespace allpairs::engine

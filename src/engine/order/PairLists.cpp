@@ -19,8 +19,8 @@ constexpr unsigned kPlaceBits = 48;
 constexpr std::size_t kPrefetchDistance = 8;
 
 template <bool kBySecond>
-void expandRow(std::uint32_t row, const std::uint32_t* partners, std::size_t size, Pair* to) noexcept {
-  for (std::size_t i = 0; i < size; ++i) to[i] = kBySecond ? Pair{partners[i], row} : Pair{row, partners[i]};
+void expandRow(std::uint32_t row, std::span<const std::uint32_t> list, Pair* to) noexcept {
+  for (std::size_t i = 0; i < list.size(); ++i) to[i] = kBySecond ? Pair{list[i], row} : Pair{row, list[i]};
 }
 
 }  // namespace
@@ -57,7 +57,9 @@ std::size_t PairLists::size() const noexcept {
   return size;
 }
 
-void PairLists::expand(std::span<Pair> to, bool bySecond, Executor& executor) {
+/// Calls use(row, list, before) for each row, of which the lists before it have so many partners.
+template <class Use>
+void PairLists::forEachList(Executor& executor, const Use& use) {
   m_places.clear();
   std::size_t place = 0;
   for (std::size_t begin = 0; begin < m_rows; begin += kPartSize) {
@@ -66,22 +68,35 @@ void PairLists::expand(std::span<Pair> to, bool bySecond, Executor& executor) {
     place = std::accumulate(length + begin, length + std::min(m_rows, begin + kPartSize), place);
   }
   runInParts(m_rows, kPartSize, executor, [&](std::size_t begin, std::size_t end) {
-    Pair* at = to.data() + m_places[begin / kPartSize];
-    const auto listOf = [this](std::size_t row) {
+    std::size_t before = m_places[begin / kPartSize];
+    const auto listOf = [this](std::size_t row) -> std::span<const std::uint32_t> {
+      if (m_length[row] == 0) return {};
       const std::uint64_t first = m_begin[row];
-      return m_ofWorkers[first >> kPlaceBits].partners + (first & ((std::uint64_t{1} << kPlaceBits) - 1));
+      const std::uint32_t* const partners = m_ofWorkers[first >> kPlaceBits].partners;
+      return {partners + (first & ((std::uint64_t{1} << kPlaceBits) - 1)), m_length[row]};
     };
     for (std::size_t row = begin; row < end; ++row) {
-      if (row + kPrefetchDistance < end && m_length[row + kPrefetchDistance] != 0) {
-        __builtin_prefetch(listOf(row + kPrefetchDistance));
-      }
-      const std::size_t size = m_length[row];
-      if (size == 0) continue;
-      bySecond ? expandRow<true>(static_cast<std::uint32_t>(row), listOf(row), size, at)
-               : expandRow<false>(static_cast<std::uint32_t>(row), listOf(row), size, at);
-      at += size;
+      if (row + kPrefetchDistance < end) __builtin_prefetch(listOf(row + kPrefetchDistance).data());
+      const std::span<const std::uint32_t> list = listOf(row);
+      use(row, list, before);
+      before += list.size();
     }
   });
+}
+
+void PairLists::expand(std::span<Pair> to, bool bySecond, Executor& executor) {
+  forEachList(executor, [&](std::size_t row, std::span<const std::uint32_t> list, std::size_t before) {
+    bySecond ? expandRow<true>(static_cast<std::uint32_t>(row), list, to.data() + before)
+             : expandRow<false>(static_cast<std::uint32_t>(row), list, to.data() + before);
+  });
+}
+
+void PairLists::gather(const RowsPlace& to, Executor& executor) {
+  forEachList(executor, [&](std::size_t row, std::span<const std::uint32_t> list, std::size_t before) {
+    to.offsets[row] = before;
+    std::copy(list.begin(), list.end(), to.indices.data() + before);
+  });
+  to.offsets[m_rows] = size();
 }
 
 }  // namespace allpairs::engine

@@ -12,10 +12,11 @@
 #include "allpairs/Pair.h"
 #include "kernels/Hits.h"
 #include "memory/Memory.h"
+#include "order/RowsPlace.h"
 
 namespace allpairs::engine {
 
-/// The partners of each box as a join lists them, by worker, and the pairs in order that they expand to.
+/// The partners of each box as a join lists them, by worker, and what they are put together to: pairs in order, or rows.
 class PairLists {
  public:
   explicit PairLists(std::pmr::memory_resource* memory)
@@ -30,13 +31,19 @@ class PairLists {
   /// Provides more memory for the lists of a worker; keeps what is there.
   void grow(NeighborLists& lists, std::size_t more);
 
-  /// All pairs.
+  /// The length of all lists.
   [[nodiscard]] std::size_t size() const noexcept;
 
   /// Writes the pairs in the order of the rows, of which each is first in its pairs, or second.
   void expand(std::span<Pair> to, bool bySecond, Executor& executor);
 
+  /// Copies all lists, in the order of the rows.
+  void gather(const RowsPlace& to, Executor& executor);
+
  private:
+  template <class Use>
+  void forEachList(Executor& executor, const Use& use);
+
   std::pmr::vector<NeighborLists> m_ofWorkers;
   std::pmr::vector<Buffer<std::uint32_t>> m_partners;  ///< By worker.
   Buffer<std::uint64_t> m_begin;

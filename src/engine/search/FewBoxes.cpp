@@ -112,10 +112,10 @@ bool arePlain(const Sets& sets, const OverlapOptions& options) {
          (boxes.isFloat64() ? boxes.float64().isPacked() : boxes.float32().isPacked());
 }
 
-OverlapStatistics findPlain(const BoxView& boxes, const OverlapOptions& options,
+OverlapStatistics findPlain(const BoxView& boxes, const OverlapOptions& options, Order order,
                             FunctionRef<void(std::span<const Pair>)> take) {
   std::array<Pair, kPlainBoxes * kPlainBoxes / 2> pairs;
-  const bool bySecond = options.order == Order::BySecond;
+  const bool bySecond = order == Order::BySecond;
   OverlapStatistics statistics;
   statistics.pairs = boxes.isFloat64() ? testAll(boxes.float64().min.data, boxes.size(), bySecond, pairs.data())
                                        : testAll(boxes.float32().min.data, boxes.size(), bySecond, pairs.data());
@@ -125,12 +125,12 @@ OverlapStatistics findPlain(const BoxView& boxes, const OverlapOptions& options,
   return statistics;
 }
 
-OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options,
+OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order,
                               FunctionRef<void(std::span<const Pair>)> take) {
   checkOptions(sets, options);
   const Kernels& kernels = chooseKernels(options);
   PairTest test = PairTest::of(sets, options);
-  const bool bySecond = options.order == Order::BySecond;
+  const bool bySecond = order == Order::BySecond;
   const Readers readers = Readers::of(sets, options, kernels);
   const BoxReader& rowSet = bySecond ? readers.second : readers.first;
   const BoxReader& columnSet = bySecond ? readers.first : readers.second;
@@ -159,9 +159,10 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   return kernels == nullptr || options.strategy == Strategy::Exhaustive || size <= kernels->flatBoxes(options.order);
 }
 
-OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options,
+OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
-  return arePlain(sets, options) ? findPlain(sets.first, options, take) : findInTiles(sets, options, take);
+  return arePlain(sets, options) ? findPlain(sets.first, options, order, take)
+                                 : findInTiles(sets, options, order, take);
 }
 
 }  // namespace allpairs::engine

@@ -16,12 +16,12 @@ namespace allpairs::engine {
 /// unknown instruction set is refused by findFew().
 [[nodiscard]] bool areFew(const Sets& sets, const OverlapOptions& options);
 
-/// Calls take(pairs) with the pairs of a few boxes, in the order of the options and in parts; an unordered search gives
-/// them by first box. Uses some 40 KB of stack and no other memory: with so few boxes, preparing a search would take
+/// Calls take(pairs) with the pairs of a few boxes, in an order that may be another than that of the options, and in parts; an
+/// unordered search gives them by first box. Uses some 40 KB of stack and no other memory: with so few boxes, preparing a search would take
 /// longer than the search.
 ///
 /// Bad input: as for Search::find().
-OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options,
+OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take);
 
 }  // namespace allpairs::engine

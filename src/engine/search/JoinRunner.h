@@ -54,10 +54,10 @@ class JoinRunner {
   /// Runs all tasks of a job. Sinks keep what they have.
   void run(const Job& job, Executor& executor);
 
-  /// Calls use(scratch), between runs, with memory of a worker that no other task has meanwhile.
+  /// Calls use(scratch), between runs, with memory of a worker, for so many numbers at least, that no other task has meanwhile.
   template <class Use>
-  void withScratch(const Use& use) {
-    m_workers.withOne([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory()); });
+  void withScratch(std::size_t size, const Use& use) {
+    m_workers.withOne([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory(size)); });
   }
 
   [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.memory(); }

@@ -56,6 +56,18 @@ std::span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& s
   return state.search.find({first, second, false}, state.options);
 }
 
+NeighborsView OverlapSearch::findNeighbors(const BoxView& boxes, NeighborRows rows) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.findNeighbors({boxes, boxes, true}, state.options, rows);
+}
+
+NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& second) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.findNeighbors({first, second, false}, state.options, NeighborRows::Half);
+}
+
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
@@ -100,7 +112,7 @@ std::vector<Pair> takeOverlaps(const engine::Sets& sets, const OverlapOptions& o
   if (engine::areFew(sets, options)) {
     std::vector<Pair> taken;
     const auto append = [&](std::span<const Pair> pairs) { taken.insert(taken.end(), pairs.begin(), pairs.end()); };
-    engine::findFew(sets, options, append);
+    engine::findFew(sets, options, options.order, append);
     return taken;
   }
   return searchOnce(sets, options, [&](engine::Search& search) { return search.take(sets, options); });
@@ -114,6 +126,17 @@ std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) 
 
 std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
   return takeOverlaps({first, second, false}, options);
+}
+
+Neighbors neighbors(const BoxView& boxes, NeighborRows rows, const OverlapOptions& options) {
+  const engine::Sets sets{boxes, boxes, true};
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
+}
+
+Neighbors neighbors(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
+  const engine::Sets sets{first, second, false};
+  const NeighborRows rows = NeighborRows::Half;
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
 }
 
 std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {

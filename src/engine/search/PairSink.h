@@ -84,8 +84,11 @@ class PairSink {
 
   [[nodiscard]] Buffer<Pair>& pairs() noexcept { return m_pairs; }
 
-  /// The memory that hits are received in, free between runs.
-  [[nodiscard]] std::span<std::uint32_t> idleMemory() noexcept { return {m_memory.data(), m_memory.capacity()}; }
+  /// The memory that hits are received in, free between a search and the start() of the next; at least for so many numbers.
+  [[nodiscard]] std::span<std::uint32_t> idleMemory(std::size_t size) {
+    m_memory.require(size);
+    return {m_memory.data(), m_memory.capacity()};
+  }
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
   /// Those of all hits so far; the pairs include emitted ones.

@@ -39,7 +39,8 @@ struct ListReceiver {
   PairLists& memory;
   const PairTest& test;
   const SinkOptions& sink;
-  bool bySecond;
+  PairSide side;
+  std::size_t timesListed = 1;  ///< Each pair.
 
   void attach(NeighborLists& lists) {
     lists.receiver = this;
@@ -52,7 +53,7 @@ struct ListReceiver {
     };
     lists.grow = [](NeighborLists& of, std::size_t more) {
       const auto& self = *static_cast<const ListReceiver*>(of.receiver);
-      checkLimit(self.sink, of.size);
+      checkLimit(self.sink, of.size / self.timesListed);
       checkStop(self.sink.stop);
       self.memory.grow(of, more);
     };
@@ -63,9 +64,14 @@ struct ListReceiver {
     if (test.exactTestNeeded()) lists.exactTests += partners.size();
     std::size_t kept = 0;
     for (const std::uint32_t partner : partners) {
-      if (test.keeps(bySecond ? Pair{partner, row} : Pair{row, partner})) partners[kept++] = partner;
+      if (test.keeps(pairOf(row, partner))) partners[kept++] = partner;
     }
     return kept;
+  }
+
+  [[nodiscard]] Pair pairOf(std::uint32_t row, std::uint32_t partner) const noexcept {
+    const bool isRowFirst = side == PairSide::SmallerFirst ? row < partner : side == PairSide::RowFirst;
+    return isRowFirst ? Pair{row, partner} : Pair{partner, row};
   }
 };
 
@@ -126,6 +132,8 @@ void Search::shrink() noexcept {
   m_buckets = std::pmr::vector<PairBuckets>(memory);
   m_places = std::pmr::vector<std::size_t>(memory);
   m_lists = PairLists(memory);
+  if (m_rowsFound.offsets.empty()) m_offsets.release();
+  if (m_rowsFound.indices.empty()) m_indices.release();
   m_sort = PairSort(memory);
 }
 
@@ -135,6 +143,7 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_executor = &m_stoppable.over(options.executor, options.stop);
   m_statistics = {};
   m_pairs = {};
+  m_rowsFound = {};
   m_taken = nullptr;
 }
 
@@ -149,11 +158,11 @@ void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& pla
   std::size_t likelyPairs = 0;
   const bool flat = choosesFlat(readers, options, likelyPairs);
   plan.sink.likelyPairs = std::min(likelyPairs / m_executor->concurrency(), options.maxPairs);
-  flat ? planFlat(readers, options, plan) : planJoin(readers, plan);
+  flat ? planFlat(readers, plan) : planJoin(readers, plan);
 }
 
-void Search::planFlat(const Readers& readers, const OverlapOptions& options, Plan& plan) {
-  const bool bySecond = options.order == Order::BySecond;
+void Search::planFlat(const Readers& readers, Plan& plan) {
+  const bool bySecond = plan.order == Order::BySecond;
   const BoxReader& rowSet = bySecond ? readers.second : readers.first;
   const BoxReader& columnSet = bySecond ? readers.first : readers.second;
   FlatSearch& flat = plan.job.flat;
@@ -226,28 +235,29 @@ void Search::concatenate() {
 }
 
 std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options, std::vector<Pair>* into) {
-  if (areFew(sets, options)) return findAmongFew(sets, options);
+  if (areFew(sets, options)) return findAmongFew(sets, options, options.order);
   begin(sets, options);
   m_taken = into;
-  Plan plan{PairTest::of(sets, options)};
+  Plan plan{PairTest::of(sets, options), options.order};
   makePlan(sets, options, plan);
-  if (!plan.job.isFlat && (findInLists(sets, options, plan) || findInBuckets(sets, options, plan))) return m_pairs;
+  if (!plan.job.isFlat && (findInLists(sets, plan) || findInBuckets(sets, plan))) return m_pairs;
   run(plan, *m_executor);
   concatenate();
   if (!plan.job.isFlat) sortPairs(sets, options.order);
   return m_pairs;
 }
 
-std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOptions& options) {
+std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOptions& options, Order order) {
   m_statistics = {};
   m_pairs = {};
+  m_rowsFound = {};
   std::size_t size = 0;
   const auto append = [&](std::span<const Pair> pairs) {
     m_joined.grow(size + pairs.size());
     std::copy(pairs.begin(), pairs.end(), m_joined.data() + size);
     size += pairs.size();
   };
-  m_statistics = findFew(sets, options, append);
+  m_statistics = findFew(sets, options, order, append);
   m_pairs = {m_joined.data(), size};
   return m_pairs;
 }
@@ -259,43 +269,51 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
   return taken;
 }
 
-bool Search::findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan) {
-  if (options.order == Order::Unordered || plan.job.units == 0) return false;
-  const BucketRule rule(sets.first.size(), sets.second.size(), options.order);
-  if (!rule.packs()) return false;
+bool Search::findInBuckets(const Sets& sets, Plan& plan) {
+  if (plan.order == Order::Unordered) return false;
+  const BucketRule rule(sets.first.size(), sets.second.size(), plan.order);
+  if (!fillBuckets(rule, plan, &PairBuckets::add)) return false;
+  m_pairs = roomForPairs();
+  m_executor->run(rule.buckets, [&](std::size_t b) {
+    const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
+    m_runner.withScratch(0, [&](std::span<std::uint32_t> scratch) {
+      sortBucket({rule, b, m_buckets}, place, scratch, *m_kernels);
+    });
+  });
+  return true;
+}
+
+bool Search::fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
+  if (plan.job.units == 0 || !rule.packs()) return false;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   while (m_buckets.size() < workers) m_buckets.emplace_back(m_runner.memory());
   for (PairBuckets& buckets : m_buckets) buckets.start(rule, m_buckets.size());
   const auto toBuckets = [&](std::span<Pair> pairs, std::size_t worker) {
-    m_buckets[worker].add(pairs);
+    (m_buckets[worker].*add)(pairs);
     return pairs.size();
   };
   plan.sink.emit.emplace(toBuckets);
   plan.sink.likelyPairs = 0;
   run(plan, *m_executor);
-  sortBuckets(rule);
+  m_places.resize(rule.buckets + 1);
+  m_places[0] = 0;
+  for (std::size_t b = 0; b < rule.buckets; ++b) m_places[b + 1] = m_places[b] + Bucket{rule, b, m_buckets}.size();
   return true;
 }
 
-void Search::sortBuckets(const BucketRule& rule) {
+bool Search::findInLists(const Sets& sets, Plan& plan) {
+  const bool bySecond = plan.order == Order::BySecond;
+  const Columns kept = !sets.one ? Columns::All : bySecond ? Columns::Preceding : Columns::Following;
+  if (plan.order == Order::Unordered || !listPartners(sets, plan, kept)) return false;
   m_pairs = roomForPairs();
-  m_places.resize(rule.buckets + 1);
-  m_places[0] = 0;
-  for (std::size_t b = 0; b < rule.buckets; ++b) {
-    m_places[b + 1] = m_places[b];
-    for (const PairBuckets& buckets : m_buckets) m_places[b + 1] += buckets.size(b);
-  }
-  m_executor->run(rule.buckets, [&](std::size_t b) {
-    const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
-    m_runner.withScratch(
-        [&](std::span<std::uint32_t> scratch) { sortBucket(rule, b, m_buckets, place, scratch, *m_kernels); });
-  });
+  m_lists.expand(m_pairs, bySecond, *m_executor);
+  return true;
 }
 
-bool Search::findInLists(const Sets& sets, const OverlapOptions& options, Plan& plan) {
-  if (options.order == Order::Unordered || plan.job.units == 0 || plan.job.first->depth < 2) return false;
+bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
+  if (plan.job.units == 0 || plan.job.first->depth < 2) return false;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
-  const bool bySecond = options.order == Order::BySecond;
+  const bool bySecond = plan.order == Order::BySecond;
   JoinRunner::Job job = plan.job;
   if (bySecond && !sets.one) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
@@ -303,21 +321,24 @@ bool Search::findInLists(const Sets& sets, const OverlapOptions& options, Plan& 
   }
   const std::size_t rows = (bySecond ? sets.second : sets.first).size();
   if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
-  if (m_runner.partnersPerBox(job) < (sets.one ? kDenseBothWays : kDense)) return false;
-  ListReceiver receiver{m_lists, plan.test, plan.sink, bySecond};
+  const bool keepsAll = kept == Columns::All || kept == Columns::Others;
+  if (m_runner.partnersPerBox(job) < (keepsAll ? kDense : kDenseBothWays)) return false;
+  ListReceiver receiver{m_lists, plan.test, plan.sink, bySecond ? PairSide::RowSecond : PairSide::RowFirst};
+  if (kept == Columns::Others) {
+    receiver.side = PairSide::SmallerFirst;
+    receiver.timesListed = 2;
+  }
   m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers);
   for (NeighborLists& lists : m_lists.ofWorkers()) {
-    lists.kept = !sets.one ? Columns::All : bySecond ? Columns::Preceding : Columns::Following;
+    lists.kept = kept;
     receiver.attach(lists);
   }
   job.lists = m_lists.ofWorkers();
   m_runner.run(job, *m_executor);
   m_statistics = m_runner.totals();
-  m_statistics.pairs = m_lists.size();
+  m_statistics.pairs = m_lists.size() / receiver.timesListed;
   for (const NeighborLists& lists : m_lists.ofWorkers()) m_statistics.exactTests += lists.exactTests;
   checkLimit(plan.sink, m_statistics.pairs);
-  m_pairs = roomForPairs();
-  m_lists.expand(m_pairs, bySecond, *m_executor);
   return true;
 }
 
@@ -330,11 +351,11 @@ std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
   if (areFew(sets, options)) {
     m_statistics = {};
     const auto ignore = [](std::span<const Pair>) {};
-    m_statistics = findFew(sets, options, ignore);
+    m_statistics = findFew(sets, options, options.order, ignore);
     return m_statistics.pairs;
   }
   begin(sets, options);
-  Plan plan{PairTest::of(sets, options)};
+  Plan plan{PairTest::of(sets, options), options.order};
   makePlan(sets, options, plan);
   plan.sink.countOnly = true;
   plan.sink.likelyPairs = 0;

@@ -9,6 +9,7 @@
 
 #include "allpairs/BoxView.h"
 #include "allpairs/FunctionRef.h"
+#include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
 #include "bvh/BvhBuilder.h"
@@ -18,6 +19,7 @@
 #include "order/PairBuckets.h"
 #include "order/PairLists.h"
 #include "order/PairSort.h"
+#include "order/RowsPlace.h"
 #include "search/JoinRunner.h"
 #include "search/StoppableExecutor.h"
 
@@ -56,6 +58,8 @@ class Search {
         m_buckets(memory),
         m_lists(memory),
         m_joined(memory),
+        m_offsets(memory),
+        m_indices(memory),
         m_places(memory),
         m_sort(memory) {}
 
@@ -65,6 +69,12 @@ class Search {
   /// The pairs of find() as a vector, into which they are put in order at once: another copy of many pairs is memory that
   /// is touched for the first time.
   [[nodiscard]] std::vector<Pair> take(const Sets& sets, const OverlapOptions& options);
+
+  /// The partners of each box of the first set, whatever the options' order; of two sets the rows are Half ones.
+  NeighborsView findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
+                              Neighbors* into = nullptr);
+  [[nodiscard]] Neighbors takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind);
+
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
   void stream(const Sets& sets, const OverlapOptions& options, Batches to);
 
@@ -77,6 +87,7 @@ class Search {
   /// One search over all rows, or part of them, ready to run.
   struct Plan {
     PairTest test;
+    Order order;
     JoinRunner::Job job = {};
     SinkOptions sink = {};
   };
@@ -84,10 +95,10 @@ class Search {
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
-  std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options);
+  std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options, Order order);
   void begin(const Sets& sets, const OverlapOptions& options);
   void makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan);
-  void planFlat(const Readers& readers, const OverlapOptions& options, Plan& plan);
+  void planFlat(const Readers& readers, Plan& plan);
   void planJoin(const Readers& readers, Plan& plan);
 
   void joinBoth(bool one, Plan& plan);
@@ -98,11 +109,24 @@ class Search {
   void sortPairs(const Sets& sets, Order order);
 
   /// Finds pairs and orders them by buckets if that pays off; else does nothing and returns false.
-  bool findInBuckets(const Sets& sets, const OverlapOptions& options, Plan& plan);
-  void sortBuckets(const BucketRule& rule);
+  bool findInBuckets(const Sets& sets, Plan& plan);
 
-  /// Lists the partners of each box, in order, if that pays off; else does nothing and returns false.
-  bool findInLists(const Sets& sets, const OverlapOptions& options, Plan& plan);
+  /// Finds pairs and adds them to buckets; in m_places is how many precede each. Does nothing and returns false where a bucket
+  /// cannot hold the pairs of this rule.
+  bool fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
+
+  /// Finds pairs in order by lists of the partners of each box if that pays off; else does nothing and returns false.
+  bool findInLists(const Sets& sets, Plan& plan);
+
+  /// Lists those partners of each box that are kept, in order, if that pays off; else does nothing and returns false.
+  bool listPartners(const Sets& sets, Plan& plan, Columns kept);
+
+  RowsPlace roomForRows(std::size_t rows, std::size_t indices);
+  void writePairsAsRows(const Sets& sets, NeighborRows kind);
+
+  /// The two ways to find rows without pairs; where one does not pay off, it does nothing and returns false.
+  bool listRows(const Sets& sets, NeighborRows kind, Plan& plan);
+  bool bucketRows(const Sets& sets, NeighborRows kind, Plan& plan);
 
   void streamAll(Plan& plan, Batches& to);
   void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers, Batches& to);
@@ -125,8 +149,12 @@ class Search {
   PairLists m_lists;
   Buffer<Pair> m_joined;
   std::vector<Pair>* m_taken = nullptr;  ///< Where given, what is used instead of m_joined.
+  Buffer<std::uint64_t> m_offsets;
+  Buffer<std::uint32_t> m_indices;
+  Neighbors* m_takenRows = nullptr;  ///< Where given, what is used instead of these two.
   std::pmr::vector<std::size_t> m_places;
   std::span<Pair> m_pairs;  ///< The result: concatenated from several tasks, or in the memory of a single one.
+  RowsPlace m_rowsFound;    ///< The result, where it is rows.
   PairSort m_sort;
 };
 

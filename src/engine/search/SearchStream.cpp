@@ -42,7 +42,7 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to)
     streamInRanges(sets, options, readers, to);
     return;
   }
-  Plan plan{PairTest::of(sets, options)};
+  Plan plan{PairTest::of(sets, options), options.order};
   makePlan(sets, options, plan);
   plan.sink.likelyPairs = 0;                    // passed on before there are many
   plan.sink.maxPairs = SinkOptions().maxPairs;  // the batches are counted
@@ -87,7 +87,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   BoxReader reader(range, options, *m_kernels);
   reader.setOrigin(origin);
   m_first.build(reader, *m_executor);
-  Plan plan{PairTest::of(sets, options)};
+  Plan plan{PairTest::of(sets, options), options.order};
   joinBoth(false, plan);
   plan.test.requireExactTest(!m_first.exact() || !m_second.exact());
   plan.sink.kernels = m_kernels;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Searches whose result is the partners of each box, in rows.
+#include <algorithm>
+
+#include "search/FewBoxes.h"
+#include "search/Search.h"
+
+namespace allpairs::engine {
+
+NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
+                                    Neighbors* into) {
+  m_takenRows = into;
+  if (areFew(sets, options)) {
+    findAmongFew(sets, options, Order::ByFirst);
+    writePairsAsRows(sets, kind);
+    return {m_rowsFound.offsets, m_rowsFound.indices};
+  }
+  begin(sets, options);
+  Plan plan{PairTest::of(sets, options), Order::ByFirst};
+  makePlan(sets, options, plan);
+  if (plan.job.isFlat || !(listRows(sets, kind, plan) || bucketRows(sets, kind, plan))) {
+    run(plan, *m_executor);
+    concatenate();
+    if (!plan.job.isFlat) sortPairs(sets, plan.order);
+    writePairsAsRows(sets, kind);
+  }
+  return {m_rowsFound.offsets, m_rowsFound.indices};
+}
+
+Neighbors Search::takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind) {
+  Neighbors taken;
+  findNeighbors(sets, options, kind, &taken);
+  return taken;
+}
+
+RowsPlace Search::roomForRows(std::size_t rows, std::size_t indices) {
+  if (m_takenRows != nullptr) {
+    m_takenRows->offsets.resize(rows + 1);
+    m_takenRows->indices.resize(indices);
+    return {m_takenRows->offsets, m_takenRows->indices};
+  }
+  m_offsets.require(rows + 1);
+  m_indices.require(indices);
+  return {{m_offsets.data(), rows + 1}, {m_indices.data(), indices}};
+}
+
+void Search::writePairsAsRows(const Sets& sets, NeighborRows kind) {
+  m_rowsFound = roomForRows(sets.first.size(), (kind == NeighborRows::Full ? 2 : 1) * m_pairs.size());
+  writeRows(m_pairs, kind, m_rowsFound);
+  m_pairs = {};
+}
+
+bool Search::listRows(const Sets& sets, NeighborRows kind, Plan& plan) {
+  const Columns inOneSet = kind == NeighborRows::Full ? Columns::Others : Columns::Following;
+  if (!listPartners(sets, plan, sets.one ? inOneSet : Columns::All)) return false;
+  m_rowsFound = roomForRows(sets.first.size(), m_lists.size());
+  m_lists.gather(m_rowsFound, *m_executor);
+  return true;
+}
+
+bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
+  const std::size_t rows = sets.first.size();
+  const BucketRule rule(rows, sets.second.size(), Order::ByFirst);
+  if (!fillBuckets(rule, plan, kind == NeighborRows::Full ? &PairBuckets::addBothWays : &PairBuckets::add)) {
+    return false;
+  }
+  m_rowsFound = roomForRows(rows, m_places.back());
+  m_rowsFound.offsets.back() = m_places.back();
+  m_executor->run(rule.buckets, [&](std::size_t b) {
+    const Bucket bucket{rule, b, m_buckets};
+    const std::size_t firstRow = bucket.firstKey();
+    const RowsPlace place{m_rowsFound.offsets.subspan(firstRow, std::min(bucket.keys(), rows - firstRow)),
+                          m_rowsFound.indices.subspan(m_places[b], m_places[b + 1] - m_places[b])};
+    m_runner.withScratch(scratchToList(bucket), [&](std::span<std::uint32_t> scratch) {
+      listBucket(bucket, place, m_places[b], {*m_kernels, scratch});
+    });
+  });
+  return true;
+}
+
+}  // namespace allpairs::engine
