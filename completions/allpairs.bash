@@ -11,6 +11,8 @@ _allpairs() {
       words='table csv json npy'
       [[ $command != elements ]] || words='table json'
       ;;
+    --group) words='body file none' ;;
+    --up) words='x y z' ;;
     --data | --work)
       compopt -o filenames 2>/dev/null
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
@@ -39,8 +41,8 @@ _allpairs() {
       join) words='--memory --distance --work --threads --resume --count -o --output -h --help' ;;
       plan) words='--memory --distance --work --threads -h --help' ;;
       info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
-      view) words='--sequence --distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
-      report) words='--distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;
+      view) words='--sequence --distance --box --exact --boxes --clearance --group --up --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
+      report) words='--distance --box --exact --boxes --clearance --group --up --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;
       track) words='--distance --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
       elements) words='--distance --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
       generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;

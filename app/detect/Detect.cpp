@@ -160,7 +160,7 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   outcome.result.warnings = scene.warnings;
   for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
-  outcome.result.model = [&models](std::size_t i) { return scene::modelRecord(*models[i]); };
+  outcome.result.model = [&scene](std::size_t i) { return scene::modelRecord(scene, i); };
   return outcome;
 }
 
