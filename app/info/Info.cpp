@@ -127,7 +127,7 @@ void addInfo(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Show the models of the input, and what was ignored");
   command->footer(kInfoExamples);
   addInputs(*command, *settings);
-  command->callback([settings] { runInfo(*settings); });
+  command->callback([settings] { withInputs(*settings, [settings] { runInfo(*settings); }); });
 }
 
 }  // namespace allpairs::app
