@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
+#include "cli/HelpFormatter.h"
 #include "cli/Output.h"
 #include "cli/SignalCleanup.h"
 #include "cli/Suggestion.h"
@@ -172,6 +174,7 @@ int runProgram(int count, char** arguments) {
   CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
   program.set_version_flag("-V,--version", "allpairs " ALLPAIRS_VERSION, "Print the version and exit");
   program.require_subcommand(1);
+  program.formatter(std::make_shared<allpairs::app::HelpFormatter>());
   program.footer(kProgramExamples);
   allpairs::app::addDetect(program);
   allpairs::app::addJoin(program);
@@ -183,6 +186,7 @@ int runProgram(int count, char** arguments) {
   allpairs::app::addReport(program);
   allpairs::app::addGenerate(program);
   allpairs::app::addBench(program);
+  allpairs::app::addCompletion(program);
   return static_cast<int>(run(program, count, arguments));
 }
 

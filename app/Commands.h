@@ -9,6 +9,7 @@ namespace allpairs::app {
 
 /// Each command has a file of its own that declares its options and runs it when it is chosen.
 void addBench(CLI::App& program);
+void addCompletion(CLI::App& program);
 void addDetect(CLI::App& program);
 void addElements(CLI::App& program);
 void addGenerate(CLI::App& program);

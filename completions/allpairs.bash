@@ -1,62 +1,182 @@
-# Completion of the command allpairs for bash.
+# Completion of the command allpairs for bash; made by 'allpairs completion bash'.
 
 _allpairs() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local command=${COMP_WORDS[1]} words=''
-  local scenes='uniform clusters power-law city needles all-overlap mesh' motions='brownian free-fall rotating-gravity'
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
+  local words='' options='' files=''
   COMPREPLY=()
-  case $previous in
-    --strategy) words='auto exhaustive bvh' ;;
-    --format)
-      words='table csv json npy'
-      [[ $command != elements ]] || words='table json'
+  ((COMP_CWORD > 1)) || command=''
+  case $command in
+    '') words='detect join plan info elements track view report generate bench completion help -h --help -V --version' ;;
+    help) words='detect join plan info elements track view report generate bench completion' ;;
+    detect)
+      case $previous in
+        --data) files=-d ;;
+        --sofa) words='20.06 26.12' ;;
+        --max-memory) return ;;
+        --input-format) return ;;
+        --distance) return ;;
+        --box) return ;;
+        --clearance) return ;;
+        --strategy) words='auto exhaustive bvh' ;;
+        --threads) return ;;
+        --format) words='table csv json npy' ;;
+        -o | --output) files=-f ;;
+        --color) words='auto always never' ;;
+        *)
+          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --strategy --threads --verify --exact --worlds --format -o --output --color'
+          files=-f
+          ;;
+      esac
       ;;
-    --data | --work)
-      compopt -o filenames 2>/dev/null
-      mapfile -t COMPREPLY < <(compgen -d -- "$current")
-      return
+    join)
+      case $previous in
+        --memory) return ;;
+        --distance) return ;;
+        --work) files=-d ;;
+        --threads) return ;;
+        -o | --output) files=-f ;;
+        *)
+          options='-h --help --memory --distance --work --resume --count --threads -o --output'
+          files=-f
+          ;;
+      esac
       ;;
-    --distance | --box | --max-memory | --memory | --port | --pictures | --metres-per-unit | --threads | --boxes | -n | --frames | --seed | --repetitions | --instruction-set) return ;;
+    plan)
+      case $previous in
+        --memory) return ;;
+        --distance) return ;;
+        --work) files=-d ;;
+        --ranks) return ;;
+        --threads) return ;;
+        *)
+          options='-h --help --memory --distance --work --ranks --threads'
+          files=-f
+          ;;
+      esac
+      ;;
+    info)
+      case $previous in
+        --data) files=-d ;;
+        --sofa) words='20.06 26.12' ;;
+        --max-memory) return ;;
+        --input-format) return ;;
+        *)
+          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format'
+          files=-f
+          ;;
+      esac
+      ;;
+    elements)
+      case $previous in
+        --distance) return ;;
+        --threads) return ;;
+        --format) words='table json' ;;
+        --max-memory) return ;;
+        --input-format) return ;;
+        -o | --output) files=-f ;;
+        *)
+          options='-h --help --distance --between --threads --format --allow-outside --max-memory --input-format -o --output'
+          files=-f
+          ;;
+      esac
+      ;;
+    track)
+      case $previous in
+        --distance) return ;;
+        --threads) return ;;
+        --format) words='table csv json npy' ;;
+        --max-memory) return ;;
+        --input-format) return ;;
+        -o | --output) files=-f ;;
+        *)
+          options='-h --help --distance --threads --verify --format --allow-outside --max-memory --input-format -o --output'
+          files=-f
+          ;;
+      esac
+      ;;
+    view)
+      case $previous in
+        --data) files=-d ;;
+        --sofa) words='20.06 26.12' ;;
+        --max-memory) return ;;
+        --input-format) return ;;
+        --distance) return ;;
+        --box) return ;;
+        --clearance) return ;;
+        --group) words='body file none' ;;
+        --up) words='x y z' ;;
+        -o | --output) files=-f ;;
+        --port) return ;;
+        *)
+          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up --sequence -o --output --open --serve --port'
+          files=-f
+          ;;
+      esac
+      ;;
+    report)
+      case $previous in
+        --data) files=-d ;;
+        --sofa) words='20.06 26.12' ;;
+        --max-memory) return ;;
+        --input-format) return ;;
+        --distance) return ;;
+        --box) return ;;
+        --clearance) return ;;
+        --group) words='body file none' ;;
+        --up) words='x y z' ;;
+        -o | --output) files=-d ;;
+        --pictures) return ;;
+        --metres-per-unit) return ;;
+        *)
+          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up -o --output --force --open --pictures --metres-per-unit'
+          files=-f
+          ;;
+      esac
+      ;;
+    generate)
+      case $previous in
+        -n | --boxes) return ;;
+        --seed) return ;;
+        --frames) return ;;
+        -o | --output) files=-f ;;
+        *)
+          options='-h --help -n --boxes --seed --sorted --frames -o --output'
+          words='uniform clusters power-law city needles all-overlap mesh brownian free-fall rotating-gravity'
+          ;;
+      esac
+      ;;
+    bench)
+      case $previous in
+        -n | --boxes) return ;;
+        --seed) return ;;
+        --threads) return ;;
+        --repetitions) return ;;
+        --strategy) words='auto exhaustive bvh' ;;
+        --instruction-set) return ;;
+        *)
+          options='-h --help -n --boxes --seed --sorted --threads --repetitions --unordered --count --strategy --instruction-set --json'
+          words='uniform clusters power-law city needles all-overlap mesh' files=-f
+          ;;
+      esac
+      ;;
+    completion)
+      case $previous in
+        *)
+          options='-h --help'
+          words='bash zsh fish'
+          ;;
+      esac
+      ;;
   esac
+  if [[ -n $options && $current == -* ]]; then
+    words=$options files=''
+  fi
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
-    return
   fi
-  if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'detect join plan info track elements view report generate bench help --help -h --version -V' -- "$current")
-    return
-  fi
-  if [[ $command == help ]]; then
-    mapfile -t COMPREPLY < <(compgen -W 'detect join plan info track elements view report generate bench' -- "$current")
-    return
-  fi
-  if [[ $current == -* ]]; then
-    case $command in
-      detect)
-        words='--distance --box --strategy --threads --verify --exact --clearance --worlds --format -o --output --partial --data --sofa
-          --allow-outside --max-memory -h --help'
-        ;;
-      join) words='--memory --distance --work --threads --resume --count -o --output -h --help' ;;
-      plan) words='--memory --distance --work --ranks --threads -h --help' ;;
-      info) words='--partial --data --sofa --allow-outside --max-memory -h --help' ;;
-      view) words='--sequence --distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --open --serve --port -h --help' ;;
-      report) words='--distance --box --exact --boxes --clearance --up --partial --data --sofa --allow-outside --max-memory -o --output --force --pictures --metres-per-unit -h --help' ;;
-      track) words='--distance --threads --verify --format --allow-outside --max-memory -o --output -h --help' ;;
-      elements) words='--distance --between --threads --format --allow-outside --max-memory -o --output -h --help' ;;
-      generate) words='--boxes -n --frames --seed --sorted -o --output -h --help' ;;
-      bench)
-        words='--boxes -n --seed --sorted --threads --repetitions --unordered --count --strategy --instruction-set --json
-          -h --help'
-        ;;
-    esac
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
-    return
-  fi
-  compopt -o filenames 2>/dev/null
-  mapfile -t COMPREPLY < <(compgen -f -- "$current")
-  [[ $command != generate ]] || scenes+=" $motions"
-  if [[ $command == generate || $command == bench ]]; then
-    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$scenes" -- "$current")
+  if [[ -n $files ]]; then
+    compopt -o filenames 2>/dev/null
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen "$files" -- "$current")
   fi
 }
 

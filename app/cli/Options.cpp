@@ -5,6 +5,7 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
+#include <CLI/Error.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <charconv>
@@ -19,6 +20,15 @@ void addReadLimits(CLI::App& command, ReadLimits& limits) {
   command.add_flag("--allow-outside", limits.allowOutside, "Let inputs name files outside of their own folders");
   command.add_option("--max-memory", limits.maxMemory, "Read within so much memory; by default half of the machine's")
       ->type_name("SIZE");
+  command
+      .add_option("--input-format", limits.inputFormat,
+                  "What standard input (-) and pipes hold, as a file's extension: npy, csv, obj, stl, ...")
+      ->type_name("EXT")
+      ->check([](const std::string& text) {
+        const bool isWord =
+            !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == std::string::npos;
+        return isWord ? std::string() : "'" + text + "' is no extension of a file, such as npy";
+      });
 }
 
 void addInputs(CLI::App& command, InputSettings& settings) {
@@ -37,12 +47,12 @@ void addInputs(CLI::App& command, InputSettings& settings) {
 }
 
 CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
-                       std::vector<std::string> choices) {
-  const auto check = [choices = std::move(choices)](const std::string& text) {
+                       const std::vector<std::string>& choices) {
+  const auto check = [choices](const std::string& text) {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
     return fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", "));
   };
-  return command.add_option(name, value)->type_name("WORD")->check(check);
+  return command.add_option(name, value)->type_name(fmt::format("{}", fmt::join(choices, "|")))->check(check);
 }
 
 CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::string& description) {
@@ -68,14 +78,13 @@ void takeCount(CLI::Option& option) {
 
 void addStrategy(CLI::App& command, std::string& strategy) {
   addChoice(command, "--strategy", strategy, {"auto", "exhaustive", "bvh"})
-      ->description("Algorithm: auto, exhaustive or bvh; all give the same pairs")
+      ->description("Algorithm; all give the same pairs")
       ->capture_default_str();
 }
 
 void addFormat(CLI::App& command, std::string& format, const std::vector<std::string>& formats) {
   addChoice(command, "--format", format, formats)
-      ->description(fmt::format("Output format: {}; default: by the extension of FILE, else {}",
-                                fmt::join(formats, ", "), formats.front()));
+      ->description(fmt::format("Output format; default: by the extension of FILE, else {}", formats.front()));
 }
 
 std::string formatOf(const std::string& format, const std::string& output, const std::vector<std::string>& formats) {
@@ -92,9 +101,12 @@ std::string formatOf(const std::string& format, const std::string& output, const
 }
 
 void addOutput(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "Write to FILE; it appears only when complete")
+  command.add_option("-o,--output", path, "Write to FILE, which appears only when complete; -: standard output")
       ->type_name("FILE")
-      ->check([](const std::string& text) { return text.empty() ? "the name of a file is needed" : std::string(); });
+      ->transform([](const std::string& text) -> std::string {
+        if (text.empty()) throw CLI::ValidationError("-o", "the name of a file is needed");
+        return text == "-" ? "" : text;
+      });
 }
 
 std::string lowerExtension(const std::string& path) {

@@ -11,10 +11,13 @@ class Option;
 
 namespace allpairs::app {
 
+class SpooledInputs;
+
 /// What the inputs may touch: the files that they name, and memory.
 struct ReadLimits {
   bool allowOutside = false;
-  std::string maxMemory;  ///< As written; empty for the default.
+  std::string maxMemory;    ///< As written; empty for the default.
+  std::string inputFormat;  ///< What standard input and pipes hold, as an extension; empty: as their names say.
 };
 
 /// Which inputs to read, and how: what every command that reads has in common.
@@ -24,9 +27,10 @@ struct InputSettings {
   bool partial = false;
   std::string sofa{};  ///< The word of --sofa; empty for the default.
   ReadLimits limits{};
+  const SpooledInputs* spooled = nullptr;  ///< Knows what paths that are temporary files stand for.
 };
 
-/// Declares --allow-outside and --max-memory SIZE.
+/// Declares --allow-outside, --max-memory SIZE and --input-format EXT.
 void addReadLimits(CLI::App& command, ReadLimits& limits);
 
 /// Declares these, INPUT..., --partial and --data, which every command that reads has.
@@ -34,7 +38,7 @@ void addInputs(CLI::App& command, InputSettings& settings);
 
 /// Declares an option whose value is one of a few words.
 CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,
-                       std::vector<std::string> choices);
+                       const std::vector<std::string>& choices);
 
 /// Declares --distance D, whose value parseDistance() takes.
 CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::string& description);
@@ -57,7 +61,7 @@ void addFormat(CLI::App& command, std::string& format, const std::vector<std::st
 [[nodiscard]] std::string formatOf(const std::string& format, const std::string& output,
                                    const std::vector<std::string>& formats);
 
-/// Declares -o FILE; `path` stays empty where it isn't given.
+/// Declares -o FILE; `path` stays empty where it isn't given, or is "-".
 void addOutput(CLI::App& command, std::string& path);
 
 /// The end of a file's name from its last dot, in lower case; empty where there is none.

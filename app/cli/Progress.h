@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <thread>
 
 #include "cli/Timer.h"
 
 namespace allpairs::app {
+
+/// How far work is, as text for a line of so many columns: "frame 3 of 10  [######              ]  30 %, 7 s left".
+[[nodiscard]] std::string progressText(const std::string& now, double part, double seconds, std::size_t width);
 
 /// A line on standard error that says what long work is doing; nothing is shown unless it is a terminal.
 class ProgressLine {
@@ -18,6 +22,9 @@ class ProgressLine {
 
   /// Shows the text, unless the work is young or another text was shown just before.
   void show(const std::string& text);
+
+  /// Shows how much of the work is done, and how long the rest will take if it goes on like this; `now` says what is done next.
+  void show(std::size_t done, std::size_t total, const std::string& now);
 
   /// Shows the text whatever the time.
   void showNow(const std::string& text);

@@ -7,28 +7,36 @@
 #include <array>
 #include <climits>
 #include <csignal>
+#include <cstddef>
 
 namespace allpairs::app {
 namespace {
 
 // A signal handler sees nothing but what is global.
-std::array<char, PATH_MAX> removedPath{};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-volatile std::sig_atomic_t hasPath = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+struct Removed {
+  std::array<char, PATH_MAX> path{};
+  volatile std::sig_atomic_t isSet = 0;
+};
+constexpr std::size_t kSlots = 3;
+std::array<Removed, kSlots> removed{};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 /// Calls only what is safe in a handler.
 extern "C" void removeAndEnd(int signal) {
-  if (hasPath != 0) ::unlink(removedPath.data());
+  for (const Removed& one : removed) {
+    if (one.isSet != 0 && ::unlink(one.path.data()) != 0) ::rmdir(one.path.data());
+  }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 
 }  // namespace
 
-void removeOnSignal(const std::string& path) {
-  hasPath = 0;
-  if (path.empty() || path.size() >= removedPath.size()) return;
-  *std::copy(path.begin(), path.end(), removedPath.begin()) = '\0';
-  hasPath = 1;
+void removeOnSignal(const std::string& path, SignalSlot slot) {
+  Removed& one = removed[static_cast<std::size_t>(slot)];
+  one.isSet = 0;
+  if (path.empty() || path.size() >= one.path.size()) return;
+  *std::copy(path.begin(), path.end(), one.path.begin()) = '\0';
+  one.isSet = 1;
 }
 
 void installSignalCleanup() {

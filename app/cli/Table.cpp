@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
@@ -18,17 +20,21 @@ std::string duration(double seconds) {
   return fmt::format("{:.2f} s", seconds);
 }
 
-std::string pairLines(const scene::ResultView& result) {
+std::string pairLines(const scene::ResultView& result, const TableNotes& notes) {
   const std::size_t shown = std::min(result.pairs.size(), kPairsShown);
   std::vector<std::pair<std::string, std::string>> names;
   std::size_t width = 0;
   for (const Pair& pair : result.pairs.first(shown)) {
     names.emplace_back(printable(result.model(result.swapped ? pair.second : pair.first).name),
                        printable(result.model(result.swapped ? pair.first : pair.second).name));
-    width = std::max(width, std::min(names.back().first.size(), kNameWidth));
+    width = std::max(width, std::min(columnsOf(names.back().first), kNameWidth));
   }
+  constexpr std::size_t kAround = 5;  // the blanks before and between two names
+  const std::size_t most = mostOfName(notes, kAround);
+  width = std::min(width, most);
   std::string text;
-  for (const auto& [first, second] : names) text += fmt::format("  {:<{}}   {}\n", first, width, second);
+  for (const auto& [first, second] : names)
+    text += "  " + padded(elided(first, most), width) + "   " + elided(second, most) + '\n';
   text += moreLine(result.pairs.size() - shown);
   return text.empty() ? text : text + '\n';
 }
@@ -46,6 +52,12 @@ std::string testLines(const scene::DetectionStatistics& statistics) {
 std::string moreLine(std::size_t left) {
   if (left == 0) return {};
   return fmt::format("  ... and {} more; --format csv or json gives all\n", grouped(left));
+}
+
+std::size_t mostOfName(const TableNotes& notes, std::size_t others) {
+  constexpr std::size_t kLeast = 12;  // less says nothing, and a line that wraps is better
+  if (!notes.width) return std::numeric_limits<std::size_t>::max();
+  return std::max(kLeast, (*notes.width - std::min(*notes.width, others)) / 2);
 }
 
 std::string tableHead(const scene::ResultView& result, const TableNotes& notes) {
@@ -70,7 +82,7 @@ std::string tableFoot(const scene::ResultView& result, std::optional<double> exa
 
 void writeTable(const scene::ResultView& result, const TableNotes& notes, scene::ByteSink sink) {
   const std::string count = fmt::format("pairs    {}\n\n", grouped(result.pairs.size()));
-  sink(tableHead(result, notes) + count + pairLines(result) + tableFoot(result));
+  sink(tableHead(result, notes) + count + pairLines(result, notes) + tableFoot(result));
 }
 
 }  // namespace allpairs::app

@@ -11,10 +11,12 @@ namespace allpairs::app {
 
 /// What the table says besides the result itself.
 struct TableNotes {
-  std::string method{};         ///< How models are tested, in words.
-  std::size_t simulated = 0;    ///< How many models are.
-  std::size_t remarkCount = 0;  ///< How much of the input was left out.
-  bool isPartial = false;       ///< Whether --partial was given, which info needs then too.
+  std::string method{};                ///< How models are tested, in words.
+  std::size_t simulated = 0;           ///< How many models are.
+  std::size_t remarkCount = 0;         ///< How much of the input was left out.
+  std::optional<std::size_t> width{};  ///< Of the terminal: names are shortened in the middle to stay within it.
+  bool isColoured = false;
+  bool isPartial = false;  ///< Whether --partial was given, which info needs then too.
 };
 
 inline constexpr std::size_t kPairsShown = 50;  ///< A screenful.
@@ -22,6 +24,9 @@ inline constexpr std::size_t kNameWidth = 48;   ///< Wider names push what follo
 
 /// The line that says how many pairs a table leaves out; empty for none.
 [[nodiscard]] std::string moreLine(std::size_t left);
+
+/// How wide each of two names may be beside so many other columns.
+[[nodiscard]] std::size_t mostOfName(const TableNotes& notes, std::size_t others);
 
 /// What stands above and below the pairs of a table; where shapes were looked at too, with how long that took.
 [[nodiscard]] std::string tableHead(const scene::ResultView& result, const TableNotes& notes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -18,6 +19,7 @@
 #include "cli/Output.h"
 #include "cli/Progress.h"
 #include "cli/Table.h"
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "detect/DetectWorlds.h"
@@ -39,6 +41,7 @@ struct DetectSettings {
   bool worlds = false;
   std::string format;  ///< Empty: as the output file's extension says, else a table.
   std::string output;
+  std::string color = "auto";
 };
 
 constexpr const char* kDetectExamples = R"(INPUT is one or more of
@@ -118,6 +121,11 @@ void writeExact(const Outcome& outcome, const std::string& format, Output& outpu
   }
 }
 
+std::string summaryOf(const Outcome& outcome) {
+  if (outcome.exact) return countText(countStates(outcome.exact->pairs));
+  return counted(outcome.result.pairs.size(), "pair");
+}
+
 template <class Work>
 Detection withClock(std::size_t count, const Work& work) {
   const ProgressClock clock("finding pairs among " + counted(count, "model"));
@@ -160,7 +168,7 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   outcome.result.warnings = scene.warnings;
   for (const auto& model : models) outcome.notes.simulated += model->isSimulated() ? 1U : 0U;
   outcome.result.modelCount = models.size();
-  outcome.result.model = [&models](std::size_t i) { return scene::modelRecord(*models[i]); };
+  outcome.result.model = [&scene](std::size_t i) { return scene::modelRecord(scene, i); };
   return outcome;
 }
 
@@ -193,6 +201,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   outcome.result.swapped = outcome.detection.swapped;
   outcome.result.statistics = outcome.detection.statistics;
   outcome.result.statistics.readSeconds = readSeconds;
+  outcome.notes.width = output.isTerminal() ? terminalWidth(STDOUT_FILENO) : std::nullopt;
+  outcome.notes.isColoured = wantsColour(settings.color, output.isTerminal());
   std::optional<ProgressClock> clock;
   if (!settings.output.empty()) clock.emplace("writing");  // not into a pager, which may wait for long
   if (outcome.exact) {
@@ -201,6 +211,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
     write(outcome.result, outcome.notes, settings.format, output);
   }
   output.commit();
+  clock.reset();
+  if (!settings.output.empty()) sayWritten(summaryOf(outcome), settings.output);
 }
 
 }  // namespace
@@ -219,9 +231,11 @@ void addDetect(CLI::App& program) {
   command->add_flag("--worlds", settings->worlds, "A .npy array (w, n, 6): pairs of boxes of the same world only");
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);
+  addChoice(*command, "--color", settings->color, {"auto", "always", "never"})
+      ->description("Colours in the table; auto: on a terminal, unless NO_COLOR is set");
   command->callback([settings] {
     settings->format = formatOf(settings->format, settings->output, kDetectFormats);
-    runDetect(*settings, detectionOptions(*settings));
+    withInputs(settings->input, [settings] { runDetect(*settings, detectionOptions(*settings)); });
   });
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "detect/Exact.h"
 
@@ -54,26 +56,58 @@ std::pair<std::string, std::string> namesOf(const scene::ResultView& result, std
   return {result.model(pair.first).name, result.model(pair.second).name};
 }
 
-std::string pairLines(const scene::ResultView& result, const ExactReport& report) {
+/// The colour of a state on a terminal: red what is to be repaired, yellow what touches or is too near.
+std::string coloured(const std::string& text, ExactState state, bool isColoured) {
+  const bool isToNote =
+      state == ExactState::Touching || state == ExactState::WithinClearance || state == ExactState::Undecided;
+  if (!isColoured || (!isClash(state) && !isToNote)) return text;
+  return (isToNote ? "\033[33m" : "\033[1;31m") + text + "\033[0m";
+}
+
+struct PairLine {
+  ExactState state{};
+  std::string first;
+  std::string second;
+  std::string finding;
+};
+
+/// The first pairs of a table, the worst first.
+std::vector<PairLine> worstLines(const scene::ResultView& result, const ExactReport& report) {
   std::vector<std::size_t> order = worstFirst(report.pairs);
-  const std::size_t left = order.size() - std::min(order.size(), kPairsShown);
-  order.resize(order.size() - left);
+  order.resize(std::min(order.size(), kPairsShown));
+  std::vector<PairLine> lines;
+  for (const std::size_t i : order) {
+    const auto [first, second] = namesOf(result, i);
+    lines.push_back({report.pairs[i].state, printable(first), printable(second), finding(report.pairs[i])});
+  }
+  return lines;
+}
+
+std::string pairLines(const scene::ResultView& result, const ExactReport& report, const TableNotes& notes) {
+  constexpr std::size_t kStateWidth = 12;
+  constexpr std::size_t kAround = kStateWidth + 9;  // the state, and the blanks before and between four columns
+  const std::vector<PairLine> lines = worstLines(result, report);
   std::size_t firstWidth = 0;
   std::size_t secondWidth = 0;
-  for (const std::size_t i : order) {
-    const auto [first, second] = namesOf(result, i);
-    firstWidth = std::max(firstWidth, std::min(printable(first).size(), kNameWidth));
-    secondWidth = std::max(secondWidth, std::min(printable(second).size(), kNameWidth));
+  std::size_t findingWidth = 0;
+  for (const PairLine& line : lines) {
+    firstWidth = std::max(firstWidth, std::min(columnsOf(line.first), kNameWidth));
+    secondWidth = std::max(secondWidth, std::min(columnsOf(line.second), kNameWidth));
+    findingWidth = std::max(findingWidth, columnsOf(line.finding));
   }
+  const std::size_t most = mostOfName(notes, kAround + findingWidth);
+  firstWidth = std::min(firstWidth, most);
+  secondWidth = std::min(secondWidth, most);
   std::string text;
-  for (const std::size_t i : order) {
-    const auto [first, second] = namesOf(result, i);
-    std::string line = fmt::format("  {:<12} {:<{}}   {:<{}}   {}", stateName(report.pairs[i].state), printable(first),
-                                   firstWidth, printable(second), secondWidth, finding(report.pairs[i]));
+  for (const PairLine& pair : lines) {
+    const std::string state = padded(std::string(stateName(pair.state)), kStateWidth);
+    std::string line = "  " + coloured(state, pair.state, notes.isColoured) + ' ' +
+                       padded(elided(pair.first, most), firstWidth) + "   " +
+                       padded(elided(pair.second, most), secondWidth) + "   " + pair.finding;
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + '\n';
   }
-  text += moreLine(left);
+  text += moreLine(report.pairs.size() - lines.size());
   return text.empty() ? text : text + '\n';
 }
 
@@ -130,7 +164,7 @@ void writeExactTable(const scene::ResultView& result, const ExactReport& report,
                      scene::ByteSink sink) {
   std::string text = tableHead(result, notes);
   text += countLine(countStates(report.pairs));
-  text += pairLines(result, report);
+  text += pairLines(result, report, notes);
   text += tableFoot(result, report.seconds);
   sink(text);
 }

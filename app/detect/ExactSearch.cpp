@@ -18,7 +18,8 @@ ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates,
   FclNarrowPhase phase({.clearance = request.clearance, .lineLimit = request.lineLimit});
   phase.beginNarrowPhase();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    line.show("examining pair " + std::to_string(i + 1) + " of " + std::to_string(candidates.size()));
+    line.show(i, candidates.size(),
+              "examining pair " + std::to_string(i + 1) + " of " + std::to_string(candidates.size()));
     phase.addCollisionPair({scene.models[candidates[i].first].get(), scene.models[candidates[i].second].get()});
   }
   phase.endNarrowPhase();

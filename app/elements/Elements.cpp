@@ -24,6 +24,7 @@
 #include "elements/ElementReport.h"
 #include "input/Inputs.h"
 #include "input/MeshSteps.h"
+#include "input/SpooledInputs.h"
 
 namespace allpairs::app {
 namespace {
@@ -187,7 +188,10 @@ void addElements(CLI::App& program) {
   addFormat(*command, settings->format, kElementFormats);
   addReadLimits(*command, settings->limits);
   addOutput(*command, settings->output);
-  command->callback([settings] { runElements(*settings); });
+  command->callback([settings] {
+    withSpooledInputs(settings->paths, settings->limits.inputFormat,
+                      [settings](const SpooledInputs&) { runElements(*settings); });
+  });
 }
 
 }  // namespace allpairs::app

@@ -19,6 +19,7 @@
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "generate/SceneArguments.h"
 
@@ -75,7 +76,7 @@ void writeFrames(const GenerateSettings& settings, Output& output) {
   NpyOutput file(output, "<f4", {settings.frames, settings.scene.count, 6});
   ProgressLine line;
   for (std::uint64_t frame = 0; frame < settings.frames; ++frame) {
-    line.show("frame " + grouped(frame + 1) + " of " + grouped(settings.frames));
+    line.show(frame, settings.frames, "frame " + grouped(frame + 1) + " of " + grouped(settings.frames));
     file.add(motion.next());
   }
 }
@@ -104,6 +105,7 @@ void runGenerate(const GenerateSettings& settings) {
   }
   isMotion(settings.scene.scene) ? writeFrames(settings, output) : writeBoxes(settings.scene, output);
   output.commit();
+  if (!settings.output.empty()) sayWritten(counted(settings.scene.count, "box", "boxes"), settings.output);
 }
 
 }  // namespace

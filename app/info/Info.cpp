@@ -107,7 +107,7 @@ std::string describe(scene::Scene& scene) {
   }
   std::string text = fmt::format("models   {}, with {}\n", grouped(scene.models.size()), counted(elements, "element"));
   text += fmt::format("method   {}\nbox      {}\n\n", methodText(scene), boxText(whole));
-  text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(*scene.models[i]); });
+  text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(scene, i); });
   text += scene.remarks.empty() ? "\nnothing was ignored\n" : "\nignored\n";
   for (const scene::Remark& remark : scene.remarks) text += remarkText(remark);
   if (!scene.warnings.empty()) text += "\nwarnings\n";
@@ -127,7 +127,7 @@ void addInfo(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Show the models of the input, and what was ignored");
   command->footer(kInfoExamples);
   addInputs(*command, *settings);
-  command->callback([settings] { runInfo(*settings); });
+  command->callback([settings] { withInputs(*settings, [settings] { runInfo(*settings); }); });
 }
 
 }  // namespace allpairs::app

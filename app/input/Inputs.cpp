@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "cli/Arguments.h"
 #include "cli/Progress.h"
 #include "cli/Text.h"
+#include "input/SpooledInputs.h"
 
 namespace allpairs::app {
 namespace {
@@ -32,16 +35,44 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   if (!settings.sofa.empty())
     options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.progress = [&line](const scene::Progress& progress) {
-    const std::string count =
-        progress.total == 0 ? "" : ' ' + std::to_string(progress.done + 1) + " of " + std::to_string(progress.total);
-    line.show("reading" + count + ": " + printable(progress.file.filename().string()));
+    const std::string name = printable(progress.file.filename().string());
+    if (progress.total < 2) return line.show("reading: " + name);
+    line.show(progress.done, progress.total,
+              fmt::format("reading {} of {}: {}", progress.done + 1, progress.total, name));
   };
   return options;
 }
 
-scene::BoxArray readBoxArrays(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+/// Says on standard error where boxes are empty, as a rule by mistake. Infinite bounds are meant.
+void warnOfEmpty(const scene::BoxArray& boxes, const std::string& file) {
+  const auto axisOf = [](const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool isFinite = std::isfinite(box.min[axis]) && std::isfinite(box.max[axis]);
+      if (isFinite && box.min[axis] > box.max[axis]) return axis;
+    }
+    return std::size_t{3};
+  };
+  std::size_t count = 0;
+  std::string first;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::size_t axis = axisOf(boxes.boxes()[i]);
+    if (axis == 3) continue;
+    if (++count > 1) continue;
+    const std::string name = boxes.name(i) == std::to_string(i) ? "" : " '" + boxes.name(i) + "'";
+    first = fmt::format("box {}{} has min above max on {}", i, name, "xyz"[axis]);
+  }
+  if (count == 0) return;
+  const std::string more = count > 1 ? " (and " + counted(count - 1, "other box", "other boxes") + ")" : "";
+  fmt::print(stderr, "allpairs: warning: {}\n", printable(file + ": " + first + more + ": empty, in no pair"));
+}
+
+scene::BoxArray readBoxArrays(const InputSettings& settings, const scene::ReadOptions& options, ProgressLine& line) {
   std::vector<scene::BoxArray> arrays;
-  for (const std::string& path : paths) arrays.push_back(scene::readBoxArray(path, options));
+  for (const std::string& path : settings.paths) {
+    arrays.push_back(scene::readBoxArray(path, options));
+    line.clear();
+    warnOfEmpty(arrays.back(), settings.spooled == nullptr ? path : settings.spooled->shown(path).string());
+  }
   return scene::BoxArray::concatenate(std::move(arrays));
 }
 
@@ -49,6 +80,13 @@ scene::Scene readScenes(const std::vector<std::string>& paths, const scene::Read
   scene::Scene scene = scene::readInput(paths.front(), options);
   for (std::size_t i = 1; i < paths.size(); ++i) scene::append(scene, scene::readInput(paths[i], options));
   return scene;
+}
+
+/// Files by the names that the user gave them.
+void nameAsGiven(const SpooledInputs& spooled, scene::Scene& scene) {
+  for (auto& file : scene.files) file = spooled.shown(file);
+  for (scene::Remark& remark : scene.remarks) remark.file = spooled.shown(remark.file);
+  for (scene::Remark& warning : scene.warnings) warning.file = spooled.shown(warning.file);
 }
 
 std::string pipelineText(const scene::ScenePipeline& pipeline) {
@@ -78,13 +116,22 @@ scene::ReadOptions readOptions(const ReadLimits& limits) {
   return options;
 }
 
+void withInputs(InputSettings& settings, const std::function<void()>& work) {
+  withSpooledInputs(settings.paths, settings.limits.inputFormat, [&](const SpooledInputs& spooled) {
+    settings.spooled = &spooled;
+    work();
+    settings.spooled = nullptr;
+  });
+}
+
 Inputs readInputs(const InputSettings& settings) {
   ProgressLine line;
   const scene::ReadOptions options = readOptions(settings, line);
   const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
                                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
-  if (areBoxes) return readBoxArrays(settings.paths, options);
+  if (areBoxes) return readBoxArrays(settings, options, line);
   scene::Scene scene = readScenes(settings.paths, options);
+  if (settings.spooled != nullptr) nameAsGiven(*settings.spooled, scene);
   warn(scene, line);
   return scene;
 }

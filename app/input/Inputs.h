@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +20,9 @@ using Inputs = std::variant<scene::BoxArray, scene::Scene>;
 
 /// Bad input: throws UsageError.
 [[nodiscard]] scene::ReadOptions readOptions(const ReadLimits& limits);
+
+/// Does work on inputs of which those that can be read only once, such as standard input, are files meanwhile.
+void withInputs(InputSettings& settings, const std::function<void()>& work);
 
 /// Reads the inputs and puts them together in the order given.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,8 +25,11 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Progress.h"
+#include "cli/Terminal.h"
+#include "input/Inputs.h"
 #include "report/ReportFolder.h"
 #include "view/MakeViewScene.h"
+#include "view/OpenFile.h"
 #include "view/ViewRequest.h"
 
 namespace allpairs::app {
@@ -38,6 +42,7 @@ struct ReportSettings {
   std::size_t pictures = 500;
   std::optional<double> metresPerUnit;
   bool force = false;
+  bool open = false;
 };
 
 constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
@@ -66,7 +71,7 @@ std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<co
   ProgressLine line;
   std::vector<std::string> pictures;
   for (const view::Clash& clash : clashes) {
-    line.show(fmt::format("drawing {} of {}", clash.number, clashes.size()));
+    line.show(clash.number - 1, clashes.size(), fmt::format("drawing {} of {}", clash.number, clashes.size()));
     pictures.push_back(view::encodePng(view::pictureOf(scene, clash, view::cameraOf(scene, clash))));
   }
   return pictures;
@@ -104,6 +109,9 @@ void runReport(const ReportSettings& settings) {
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
   if (scene.frames.size() > 1) throw UsageError("a report shows one frame: the input has several");
   writeReport(scene, settings);
+  const std::filesystem::path page = std::filesystem::path(settings.folder) / "index.html";
+  sayWritten(view::headlineOf(scene), page);
+  if (settings.open) openInBrowser(std::filesystem::absolute(page));
 }
 
 }  // namespace
@@ -118,6 +126,7 @@ void addReport(CLI::App& program) {
   command->add_option("-o,--output", settings->folder, "Write to the folder DIR; it is created if missing")
       ->type_name("DIR");
   command->add_flag("--force", settings->force, "Write to DIR although it holds other files");
+  command->add_flag("--open", settings->open, "Open the report in the browser");
   command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
       ->type_name("N")
       ->capture_default_str();
@@ -125,7 +134,7 @@ void addReport(CLI::App& program) {
       ->add_option("--metres-per-unit", settings->metresPerUnit,
                    "Length of a unit of the input, for BCF's cameras; by default as the format says, else 1")
       ->type_name("M");
-  command->callback([settings] { runReport(*settings); });
+  command->callback([settings] { withInputs(settings->input, [settings] { runReport(*settings); }); });
 }
 
 }  // namespace allpairs::app

@@ -20,10 +20,12 @@
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "detect/Detection.h"
 #include "input/Inputs.h"
+#include "input/SpooledInputs.h"
 #include "track/FrameSource.h"
 #include "track/TrackReport.h"
 
@@ -92,7 +94,7 @@ class Tracker {
     const std::size_t count = m_source.frameCount();
     ProgressLine line;
     for (std::size_t frame = 0; frame < count; ++frame) {
-      line.show("frame " + grouped(frame + 1) + " of " + grouped(count));
+      line.show(frame, count, "frame " + grouped(frame + 1) + " of " + grouped(count));
       const BoxView boxes = m_source.next();
       if (frame == 0) begin(boxes);
       const Timer timer;
@@ -140,8 +142,10 @@ void runTrack(const TrackSettings& settings) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }
   const std::unique_ptr<FrameSource> source = openFrames(settings.paths, readOptions(settings.limits));
-  writeTrack(Tracker(settings, *source).run(), format, output);
+  const TrackReport report = Tracker(settings, *source).run();
+  writeTrack(report, format, output);
   output.commit();
+  if (!settings.output.empty()) sayWritten(counted(report.frames.size(), "frame"), settings.output);
 }
 
 }  // namespace
@@ -160,7 +164,10 @@ void addTrack(CLI::App& program) {
   addFormat(*command, settings->format, kTrackFormats);
   addReadLimits(*command, settings->limits);
   addOutput(*command, settings->output);
-  command->callback([settings] { runTrack(*settings); });
+  command->callback([settings] {
+    withSpooledInputs(settings->paths, settings->limits.inputFormat,
+                      [settings](const SpooledInputs&) { runTrack(*settings); });
+  });
 }
 
 }  // namespace allpairs::app

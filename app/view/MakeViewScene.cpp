@@ -14,6 +14,7 @@
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "detect/Exact.h"
+#include "view/Bodies.h"
 #include "view/ViewBoxes.h"
 #include "view/ViewFrames.h"
 
@@ -138,6 +139,7 @@ void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   to.ignored = from.remarks;
   to.statistics = detection.statistics;
   addColumns(from, to);
+  addBodies(from, request.grouping, to);
   to.frames.push_back(frameOf(from, detection));
   to.frames.front().excluded = view::excludedPairs(to, to.frames.front());
   addExact(from, request, to);

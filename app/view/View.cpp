@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "Clash.h"
 #include "Commands.h"
 #include "WritePage.h"
 #include "allpairs/Error.h"
@@ -20,6 +21,9 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
+#include "cli/Terminal.h"
+#include "cli/Text.h"
+#include "input/Inputs.h"
 #include "view/MakeViewScene.h"
 #include "view/OpenFile.h"
 #include "view/ServePage.h"
@@ -84,6 +88,10 @@ void serve(const view::ViewScene& scene, const ViewSettings& settings) {
   });
 }
 
+std::string whatIsIn(const view::ViewScene& scene) {
+  return scene.frames.size() > 1 ? counted(scene.frames.size(), "frame") : view::headlineOf(scene);
+}
+
 view::ViewScene sceneOf(const ViewSettings& settings) {
   const ViewRequest request = viewRequest(settings.view);
   if (!settings.sequence) return makeViewScene(settings.input, request);
@@ -99,6 +107,7 @@ void runView(const ViewSettings& settings) {
   if (!settings.output.empty()) path = settings.output;
   if (!path && settings.open && !settings.serve) path = temporaryFile();
   if (path || !settings.serve) writeFile(scene, path);
+  if (path) sayWritten(whatIsIn(scene), *path);
   if (settings.serve) return serve(scene, settings);
   if (settings.open) openInBrowser(std::filesystem::absolute(*path));
 }
@@ -124,7 +133,7 @@ void addView(CLI::App& program) {
     if (!extension.empty() && extension != ".html" && extension != ".htm") {
       throw UsageError("-o: '" + settings->output + "': a page is written as .html");
     }
-    runView(*settings);
+    withInputs(settings->input, [settings] { runView(*settings); });
   });
 }
 

@@ -85,7 +85,7 @@ view::ViewScene makeBoxFrames(const InputSettings& input, const DetectionOptions
   FrameSearch search(scene, options, frames.frameCount());
   ProgressLine line;
   for (std::size_t i = 0; i < frames.frameCount(); ++i) {
-    line.show(fmt::format("frame {} of {}", grouped(i + 1), grouped(frames.frameCount())));
+    line.show(i, frames.frameCount(), fmt::format("frame {} of {}", grouped(i + 1), grouped(frames.frameCount())));
     search.add(frames.next());
   }
   scene.statistics.readSeconds = timer.seconds() - scene.statistics.detectSeconds;
@@ -138,8 +138,8 @@ view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOption
   FrameSearch search(scene, options, paths.size());
   ProgressLine line;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    line.show(
-        fmt::format("frame {} of {}: {}", i + 1, paths.size(), std::filesystem::path(paths[i]).filename().string()));
+    const std::string name = printable(std::filesystem::path(paths[i]).filename().string());
+    line.show(i, paths.size(), fmt::format("frame {} of {}: {}", i + 1, paths.size(), name));
     const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(paths[i], limits);
     checkSameMeshes(first, paths.front(), meshes, paths[i]);
     std::vector<double> positions = positionsOf(meshes);

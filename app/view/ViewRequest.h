@@ -7,6 +7,7 @@
 
 #include "detect/Detection.h"
 #include "detect/SearchArguments.h"
+#include "view/Bodies.h"
 
 namespace allpairs::app {
 
@@ -21,6 +22,7 @@ enum class ShapeTest : std::uint8_t {
 struct ViewRequest {
   DetectionOptions detection{};
   ShapeTest shapes = ShapeTest::Never;
+  Grouping grouping = Grouping::Body;
   std::optional<int> up{};  ///< The axis that points up, 1 to 3 for x to z; else as the input says.
 };
 
@@ -29,10 +31,11 @@ struct ViewArguments {
   SearchArguments search;
   bool exact = false;
   bool boxes = false;
+  std::string group = "body";
   std::string up;
 };
 
-/// Declares --distance, --box, --clearance, --exact, --boxes and --up.
+/// Declares --distance, --box, --clearance, --exact, --boxes, --group and --up.
 void addViewOptions(CLI::App& command, ViewArguments& arguments);
 
 /// Bad input: UsageError for values that are none, for --exact in a program that has not the library for it, and for options

@@ -8,6 +8,7 @@
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadSofaScene.h"
 #include "input/FileBytes.h"
+#include "input/ModelNames.h"
 #include "input/ReadScope.h"
 #include "mesh/MeshObject.h"
 
@@ -34,7 +35,9 @@ Scene readBoxes(const std::filesystem::path& path, const ReadOptions& options) {
   ReadScope scope(path, options);
   scope.admit(path);
   scope.take(ReadScope::kBytesPerModel * boxes.size());
-  return toScene(boxes);
+  Scene scene = toScene(boxes);
+  noteSources(scene, path);
+  return scene;
 }
 
 }  // namespace

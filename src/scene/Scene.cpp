@@ -7,7 +7,7 @@
 
 #include "allpairs/Error.h"
 #include "allpairs/collision/DiscreteIntersection.h"
-#include "input/UniqueNames.h"
+#include "input/ModelNames.h"
 
 namespace allpairs::scene {
 namespace {
@@ -17,13 +17,13 @@ void moveBehind(std::vector<T>& target, std::vector<T>& more) {
   target.insert(target.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// Names that repeat within `more` stay as they are: that is how its file has them.
-void renameTaken(const Scene& scene, Scene& more) {
-  UniqueNames names;
-  for (const auto& model : scene.models) names.add(model->getName());
-  for (const auto& model : more.models) {
-    if (names.contains(model->getName())) model->setName(names.unique(model->getName()));
-  }
+/// Behind the sources that a scene has.
+void moveSources(Scene& scene, Scene& more) {
+  noteSources(scene, {});
+  noteSources(more, {});
+  for (ModelSource& source : more.sources) source.file += scene.files.size();
+  moveBehind(scene.files, more.files);
+  moveBehind(scene.sources, more.sources);
 }
 
 void chooseMethod(Scene& scene, Scene& more) {
@@ -77,7 +77,7 @@ std::vector<SceneSearch> searchesOf(const Scene& scene) {
 void append(Scene& scene, Scene more) {
   if (!scene.pipelines.empty() || !more.pipelines.empty())
     throw InvalidArgument("a scene with several collision pipelines cannot be taken together with other inputs");
-  renameTaken(scene, more);
+  moveSources(scene, more);
   moveBehind(scene.remarks, more.remarks);
   moveBehind(scene.warnings, more.warnings);
   chooseMethod(scene, more);
@@ -86,6 +86,7 @@ void append(Scene& scene, Scene more) {
   if (!scene.metresPerUnit) scene.metresPerUnit = more.metresPerUnit;
   moveBehind(scene.models, more.models);
   moveBehind(scene.owners, more.owners);
+  nameModels(scene);
 }
 
 }  // namespace allpairs::scene

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
+#include <vector>
 
 #include "ClashPicture.h"
 #include "Text.h"
@@ -56,7 +58,9 @@ std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions&
   addText(topic, "Index", std::to_string(clash.number));
   addText(topic, "CreationDate", options.date);
   addText(topic, "CreationAuthor", "Allpairs");
-  addText(topic, "Description", findingOf(scene, clash));
+  const std::string more =
+      clash.inside.empty() ? "" : fmt::format(" It is the worst of {} pairs.", clash.inside.size() + 1);
+  addText(topic, "Description", findingOf(scene, clash) + more);
   Node viewpoints = addElement(root, "Viewpoints", "Guid", viewpointGuid(clash));
   addText(viewpoints, "Viewpoint", "viewpoint.bcfv");
   addText(viewpoints, "Snapshot", "snapshot.png");
@@ -77,6 +81,21 @@ void addComponent(Node selection, const std::string& name) {
   addText(component, "AuthoringToolId", name);
 }
 
+/// The models of all pairs of a row, each once.
+std::vector<std::uint32_t> modelsOf(const Clash& clash) {
+  std::vector<std::uint32_t> models;
+  const auto add = [&models](std::uint32_t model) {
+    if (std::find(models.begin(), models.end(), model) == models.end()) models.push_back(model);
+  };
+  const auto addPair = [&add](const Clash& pair) {
+    add(pair.first);
+    add(pair.second);
+  };
+  addPair(clash);
+  for (const Clash& pair : clash.inside) addPair(pair);
+  return models;
+}
+
 void addCamera(Node parent, const ParallelCamera& camera, double metresPerUnit) {
   std::array<double, 3> eye{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -94,8 +113,7 @@ std::string viewpoint(const ViewScene& scene, const Clash& clash, double metresP
   Node root = addElement(document.root(), "VisualizationInfo", "Guid", viewpointGuid(clash));
   Node components = root.append_child("Components");
   Node selection = components.append_child("Selection");
-  addComponent(selection, scene.name(clash.first));
-  if (!clash.isSelf()) addComponent(selection, scene.name(clash.second));
+  for (const std::uint32_t model : modelsOf(clash)) addComponent(selection, scene.name(model));
   addElement(components, "Visibility", "DefaultVisibility", "true");
   addCamera(root, cameraOf(scene, clash), metresPerUnit);
   return textOf(document);

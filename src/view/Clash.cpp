@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace allpairs::view {
 namespace {
@@ -95,6 +98,43 @@ std::string exactFinding(const ViewScene& scene, const Clash& clash) {
   return clash.isSelf() ? "The model may touch itself." : "Their shapes could not be examined.";
 }
 
+using BodyPair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// The two bodies of a pair, in one order.
+BodyPair bodiesOf(const ViewScene& scene, std::uint32_t first, std::uint32_t second) {
+  return std::minmax({scene.bodyOf(first), scene.bodyOf(second)});
+}
+
+/// How many rows came out how: each as its worst pair.
+ExactCounts countRows(const ViewScene& scene) {
+  ExactCounts counts;
+  std::set<BodyPair> rows;
+  for (const std::size_t i : worstFirst(scene.exact)) {
+    const auto& [first, second] = scene.frames.front().pairs[i];
+    const bool isNew = scene.bodies.empty() || rows.insert(bodiesOf(scene, first, second)).second;
+    if (isNew) ++counts.ofState[static_cast<std::size_t>(scene.exact[i].state)];
+  }
+  return counts;
+}
+
+/// Whichever pair of the two bodies is the worst.
+std::string guidOfBodies(const ViewScene& scene, const Clash& clash) {
+  const auto [low, high] = bodiesOf(scene, clash.first, clash.second);
+  return guidOf({scene.title, scene.bodyNames[low], scene.bodyNames[high], std::to_string(low), std::to_string(high)});
+}
+
+/// Pairs, the worst first, as rows.
+std::vector<Clash> rowsOf(const ViewScene& scene, std::vector<Clash> pairs) {
+  if (scene.bodies.empty()) return pairs;
+  std::vector<Clash> rows;
+  std::map<BodyPair, std::size_t> places;
+  for (Clash& pair : pairs) {
+    const auto [place, isNew] = places.emplace(bodiesOf(scene, pair.first, pair.second), rows.size());
+    (isNew ? rows : rows[place->second].inside).push_back(std::move(pair));
+  }
+  return rows;
+}
+
 }  // namespace
 
 Clash clashOf(const ViewScene& scene, std::size_t index) {
@@ -148,9 +188,13 @@ std::string findingOf(const ViewScene& scene, const Clash& clash) {
 }
 
 std::string headlineOf(const ViewScene& scene) {
-  if (scene.isExact) return countText(countStates(scene.exact));
+  if (scene.isExact) return countText(countRows(scene));
   const std::size_t count = scene.frames.front().pairs.size();
-  return fmt::format("{} {} of boxes", count, count == 1 ? "pair" : "pairs");
+  std::set<BodyPair> rows;
+  for (const auto& [first, second] : scene.frames.front().pairs) rows.insert(bodiesOf(scene, first, second));
+  const std::string boxes = fmt::format("{} {} of boxes", count, count == 1 ? "pair" : "pairs");
+  if (rows.size() == count) return boxes;
+  return fmt::format("{} {} of bodies, {}", rows.size(), rows.size() == 1 ? "pair" : "pairs", boxes);
 }
 
 std::vector<Clash> clashesOf(const ViewScene& scene) {
@@ -159,11 +203,13 @@ std::vector<Clash> clashesOf(const ViewScene& scene) {
     if (!scene.isExact || scene.exact[i].state != ExactState::Apart) clashes.push_back(clashOf(scene, i));
   }
   std::stable_sort(clashes.begin(), clashes.end(), comesBefore);
+  clashes = rowsOf(scene, std::move(clashes));
   for (std::size_t i = 0; i < clashes.size(); ++i) {
     Clash& clash = clashes[i];
     clash.number = i + 1;
-    clash.guid = guidOf({scene.title, scene.name(clash.first), scene.name(clash.second), std::to_string(clash.first),
-                         std::to_string(clash.second)});
+    clash.guid = scene.bodies.empty() ? guidOf({scene.title, scene.name(clash.first), scene.name(clash.second),
+                                                std::to_string(clash.first), std::to_string(clash.second)})
+                                      : guidOfBodies(scene, clash);
   }
   return clashes;
 }
@@ -182,9 +228,19 @@ Box placeOf(const ViewScene& scene, const Clash& clash) {
   return result;
 }
 
+std::string firstNameOf(const ViewScene& scene, const Clash& clash) {
+  return clash.inside.empty() ? scene.name(clash.first) : scene.bodyName(clash.first);
+}
+
+std::string secondNameOf(const ViewScene& scene, const Clash& clash) {
+  return clash.inside.empty() ? scene.name(clash.second) : scene.bodyName(clash.second);
+}
+
 std::string titleOf(const ViewScene& scene, const Clash& clash) {
-  if (clash.isSelf()) return scene.name(clash.first) + " with itself";
-  return scene.name(clash.first) + " and " + scene.name(clash.second);
+  const std::string first = firstNameOf(scene, clash);
+  const bool isOneBody =
+      clash.isSelf() || (!clash.inside.empty() && scene.bodyOf(clash.first) == scene.bodyOf(clash.second));
+  return isOneBody ? first + " with itself" : first + " and " + secondNameOf(scene, clash);
 }
 
 std::string guidOf(const std::vector<std::string>& texts) {

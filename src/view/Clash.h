@@ -9,7 +9,8 @@
 
 namespace allpairs::view {
 
-/// One pair of a report, and what its boxes have in common.
+/// One row of a report: a pair, and what its boxes have in common. Where models are parts of bodies, the worst pair of two
+/// bodies.
 struct Clash {
   std::size_t number = 0;  ///< From 1, the worst first.
   std::uint32_t first = 0;
@@ -17,13 +18,14 @@ struct Clash {
   std::array<double, 3> overlap{};   ///< Per axis; negative where the boxes are apart.
   double volume = 0.0;               ///< Of what both boxes share.
   const ExactPair* exact = nullptr;  ///< What the shapes say, in the scene; null where only boxes were asked.
-  std::string guid;                  ///< The same for the same scene and models, so that a later report renews a topic.
+  std::vector<Clash> inside{};  ///< The other pairs of the same two bodies, the worst first, without number and GUID.
+  std::string guid;             ///< The same for the same scene and models, so that a later report renews a topic.
 
   [[nodiscard]] bool isSelf() const { return first == second; }
 };
 
-/// The pairs of the scene's first frame. Where shapes were asked: those that are not apart, the worst first. Else the largest
-/// overlap first, those of equal volume as they were found; self pairs last.
+/// The rows of the scene's first frame. Where shapes were asked: pairs that are not apart, the worst first. Else the largest
+/// overlap first, those of equal volume as they were found; self pairs last. Pairs of the same two bodies are one row.
 [[nodiscard]] std::vector<Clash> clashesOf(const ViewScene& scene);
 
 /// The pair at one place of the first frame's, without number and GUID.
@@ -43,6 +45,10 @@ struct Clash {
 
 /// The coordinates of a point as short numbers; what is nothing beside the largest of them is 0.
 [[nodiscard]] std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point);
+
+/// What the two of a row are called: by their bodies where it holds several pairs.
+[[nodiscard]] std::string firstNameOf(const ViewScene& scene, const Clash& clash);
+[[nodiscard]] std::string secondNameOf(const ViewScene& scene, const Clash& clash);
 
 /// "A and B", or "A with itself".
 [[nodiscard]] std::string titleOf(const ViewScene& scene, const Clash& clash);

@@ -30,6 +30,7 @@ figure img{display:block;width:100%;height:auto;aspect-ratio:4/3}figcaption{padd
 .first,.second{font-weight:600}.first::before,.second::before{content:"";display:inline-block;width:.7em;height:.7em;
 border-radius:50%;margin-right:.4em;background:#0072b2}.second::before{background:#e69f00}
 .fact{color:var(--soft);font-variant-numeric:tabular-nums}.scroll{overflow-x:auto}
+details{margin-top:.4rem;color:var(--soft)}summary{cursor:pointer}details ul{margin:.3rem 0;padding-left:1.2rem}
 table{border-collapse:collapse;background:var(--paper);margin-top:1rem;min-width:100%}
 th,td{text-align:left;padding:.3rem .8rem;border-bottom:1px solid var(--line);overflow-wrap:anywhere}
 td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
@@ -39,9 +40,9 @@ td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-spa
 constexpr std::size_t kMostRows = 10'000;  // of more, browsers take seconds to lay out the page
 
 std::string namesOf(const ViewScene& scene, const Clash& clash) {
-  std::string text = fmt::format("<span class=\"first\">{}</span>", escapeHtml(scene.name(clash.first)));
+  std::string text = fmt::format("<span class=\"first\">{}</span>", escapeHtml(firstNameOf(scene, clash)));
   if (clash.isSelf()) return text + " with itself";
-  return text + fmt::format("<br><span class=\"second\">{}</span>", escapeHtml(scene.name(clash.second)));
+  return text + fmt::format("<br><span class=\"second\">{}</span>", escapeHtml(secondNameOf(scene, clash)));
 }
 
 /// The state as a word with a colour.
@@ -51,11 +52,30 @@ std::string badgeOf(const Clash& clash) {
   return fmt::format("<span class=\"state {}\">{}</span> ", name, name);
 }
 
+/// The pairs of a row's bodies, to be opened.
+std::string partsOf(const ViewScene& scene, const Clash& clash) {
+  constexpr std::size_t kMostListed = 20;
+  if (clash.inside.empty()) return {};
+  const auto item = [&scene](const Clash& pair) {
+    const std::string second = pair.isSelf() ? "itself" : scene.name(pair.second);
+    return fmt::format("<li>{}{} and {}: {}</li>", badgeOf(pair), escapeHtml(scene.name(pair.first)),
+                       escapeHtml(second), escapeHtml(findingOf(scene, pair)));
+  };
+  std::string text = fmt::format("<details><summary>{} pairs of their parts</summary><ul>", clash.inside.size() + 1);
+  text += item(clash);
+  const std::size_t listed = std::min(clash.inside.size(), kMostListed);
+  for (const Clash& pair : std::span(clash.inside).first(listed)) text += item(pair);
+  if (listed < clash.inside.size())
+    text += fmt::format("<li>and {} more, in clashes.csv</li>", clash.inside.size() - listed);
+  return text + "</ul></details>";
+}
+
 std::string figureOf(const ViewScene& scene, const Clash& clash) {
   std::string text = fmt::format("<figure id=\"clash-{}\"><img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" ",
                                  clash.number, pictureName(clash.number), escapeHtml(titleOf(scene, clash)));
   text += fmt::format("loading=\"lazy\"><figcaption>{}. {}", clash.number, namesOf(scene, clash));
   text += fmt::format("<br><span class=\"fact\">{}{}</span>", badgeOf(clash), escapeHtml(findingOf(scene, clash)));
+  text += partsOf(scene, clash);
   return text + "</figcaption></figure>\n";
 }
 
@@ -81,9 +101,10 @@ std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
   const std::string number =
       hasPicture ? fmt::format("<a href=\"#clash-{0}\">{0}</a>", clash.number) : std::to_string(clash.number);
   const std::string state = clash.exact == nullptr ? "" : "<td>" + badgeOf(clash) + "</td>";
-  return fmt::format("<tr>{}{}<td>{}</td><td>{}</td>{}</tr>\n", numberCell(number), state,
-                     escapeHtml(scene.name(clash.first)),
-                     clash.isSelf() ? "itself" : escapeHtml(scene.name(clash.second)), measuresOf(clash));
+  const std::string more = clash.inside.empty() ? "" : fmt::format(" (worst of {} pairs)", clash.inside.size() + 1);
+  return fmt::format("<tr>{}{}<td>{}</td><td>{}{}</td>{}</tr>\n", numberCell(number), state,
+                     escapeHtml(firstNameOf(scene, clash)),
+                     clash.isSelf() ? "itself" : escapeHtml(secondNameOf(scene, clash)), more, measuresOf(clash));
 }
 
 std::string quoted(const std::string& text) {
@@ -130,6 +151,7 @@ std::string worstOf(const ViewScene& scene, std::span<const Clash> clashes) {
 std::string scopeOf(const ViewScene& scene, std::size_t candidates) {
   std::string text = fmt::format("<p>{}, {} by their boxes. {}.", counted(scene.modelCount, "model"),
                                  counted(candidates, "candidate"), escapeHtml(scene.method));
+  if (!scene.bodies.empty()) text += " Pairs of the same two bodies are one row: the worst of them.";
   if (scene.clearance > 0.0) text += fmt::format(" Clearance {}.", shortNumber(scene.clearance));
   const std::uint64_t apart = scene.isExact ? countStates(scene.exact).of(ExactState::Apart) : 0;
   if (apart != 0)
@@ -206,9 +228,13 @@ void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scen
   if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
   sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts,guid\n"
                      : "number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
+  const auto write = [&](const Clash& row, const Clash& pair) {
+    sink(fmt::format("{},{},{},{},{}\n", row.number, cellOf(scene.name(pair.first)), cellOf(scene.name(pair.second)),
+                     csvMeasuresOf(pair), row.guid));
+  };
   for (const Clash& clash : clashes) {
-    sink(fmt::format("{},{},{},{},{}\n", clash.number, cellOf(scene.name(clash.first)),
-                     cellOf(scene.name(clash.second)), csvMeasuresOf(clash), clash.guid));
+    write(clash, clash);
+    for (const Clash& pair : clash.inside) write(clash, pair);
   }
 }
 

@@ -15,7 +15,7 @@ namespace allpairs::view {
 void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured,
                      scene::ByteSink sink);
 
-/// Writes a line for each clash: number, names, overlap per axis, volume and GUID (RFC 4180).
+/// Writes a line for each pair, those of a row with its number and GUID: number, names, overlap per axis, volume and GUID (RFC 4180).
 void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink);
 
 }  // namespace allpairs::view

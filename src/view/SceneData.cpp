@@ -176,6 +176,7 @@ void addModels(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("types", scene.types);
   arrays.add("groups", scene.groups);
   arrays.add("owners", scene.owners);
+  arrays.add("bodies", scene.bodies);
   arrays.add("elements", scene.elements);
   arrays.add("contactDistances", scene.contactDistances);
 }
@@ -240,6 +241,7 @@ SceneData::SceneData(const ViewScene& scene) {
             {"frames", scene.frames.size()},
             {"meshIsShortened", scene.mesh.isShortened},
             {"names", scene.names},
+            {"bodyNames", scene.bodyNames},
             {"typeNames", scene.typeNames},
             {"groupSets", scene.groupSets},
             {"statistics", statisticsOf(scene)},

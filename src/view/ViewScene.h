@@ -76,6 +76,15 @@ struct ViewScene {
 
   bool isExact = false;  ///< Whether shapes were asked.
 
+  /// Models whose pairs are one row: of each the number of its body, or of its file. Empty where each is for itself.
+  std::vector<std::uint32_t> bodies{};
+  std::vector<std::string> bodyNames{};
+
+  [[nodiscard]] std::uint32_t bodyOf(std::uint32_t model) const { return bodies.empty() ? model : bodies[model]; }
+  [[nodiscard]] std::string bodyName(std::uint32_t model) const {
+    return bodies.empty() ? name(model) : bodyNames[bodies[model]];
+  }
+
   [[nodiscard]] std::string name(std::size_t model) const {
     return names.empty() ? std::to_string(model) : names[model];
   }

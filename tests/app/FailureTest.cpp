@@ -82,11 +82,10 @@ TEST(BadInput, NamesOfFilesCannotSendCommandsToTheTerminal) {
   EXPECT_EQ(run.err.find('\x1b'), std::string::npos);
 }
 
-TEST(BadInput, APipeIsRefusedAndNotWaitedFor) {
+TEST(BadInput, APipeInAFolderIsLeftOutAndNotWaitedFor) {
   const TempFolder folder;
   const std::string pipe = folder.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  expectFailure(runProgram({"info", pipe}), kBadInput, pipe + ": is not a regular file");
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const ProgramRun run = runProgram({"info", folder.path()});
   expectSuccess(run);

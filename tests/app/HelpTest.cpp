@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                                          std::vector<std::string>{"elements"}, std::vector<std::string>{"generate"},
                                          std::vector<std::string>{"bench"}, std::vector<std::string>{"view"},
                                          std::vector<std::string>{"report"}, std::vector<std::string>{"join"},
-                                         std::vector<std::string>{"plan"}));
+                                         std::vector<std::string>{"plan"}, std::vector<std::string>{"completion"}));
 
 TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
   const std::set<std::string> options = optionsOf(runProgram({"detect", "--help"}).out);
@@ -85,7 +85,7 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
   expectUsage({"detect", "--margn", "1", "a.npy"}, "unknown option '--margn' - did you mean --margin? (see");
   expectUsage({"detect", "a.npy", "--treads=2"}, "unknown option '--treads' - did you mean --threads? (see");
   expectUsage({"track", "a.npy", "--verfy"}, "unknown option '--verfy' - did you mean --verify? (see");
-  expectUsage({"detect", "a.npy", "--colour"}, "unknown option '--colour' (see");
+  expectUsage({"detect", "a.npy", "--picture"}, "unknown option '--picture' (see");
   expectUsage({"detect", "a.npy", "-x"}, "unknown option '-x' (see");
   expectUsage({"detect", "a.npy", "--" + std::string(5000, 'x')}, "unknown option '--xxx");
   expectUsage({"detct", "a.npy"}, "unknown command 'detct' - did you mean detect? (see");

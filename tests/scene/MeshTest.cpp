@@ -146,7 +146,7 @@ TEST(MeshFolder, ReadsMeshesByNameAndRemarksOnTheRest) {
   const scene::Scene scene = scene::readInput(folder.path());
   EXPECT_EQ(namesOf(scene),
             "part one TTriangleModel 1\npart two TTriangleModel 3\npart one#2 TLineModel 2\npart one#3 TPointModel 2\n"
-            "two words TTriangleModel 1\ntwo words#2 TTriangleModel 1\n");
+            "b.stl › two words TTriangleModel 1\nc.stl › two words TTriangleModel 1\n");
   ASSERT_EQ(scene.remarks.size(), 2U);
   EXPECT_EQ(scene.remarks[0].subject, "more");
   EXPECT_EQ(scene.remarks[1].subject, "readme.txt");

@@ -56,6 +56,56 @@ TEST(Scene, AppendingKeepsTheOrderAndTellsNamesApart) {
   EXPECT_TRUE(scene.remarks.empty());
 }
 
+std::string triangle(const std::string& name) { return "o " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"; }
+
+TEST(SceneNames, OfSeveralFilesAreByFileAndObjectWhereTheyWouldNotTellModelsApart) {
+  const TempFolder folder;
+  folder.write("a.obj", triangle("wheel") + triangle("axle") + triangle("wheel"));
+  folder.write("b.obj", triangle("wheel") + triangle("Cylinder.002"));
+  folder.write("c.obj", triangle("default"));
+  folder.write("d.obj", triangle("Bolt 12"));
+  const scene::Scene scene = scene::readInput(folder.path());
+  EXPECT_EQ(namesOf(scene),
+            "a.obj › wheel TTriangleModel 1\naxle TTriangleModel 1\na.obj › wheel#2 TTriangleModel 1\n"
+            "b.obj › wheel TTriangleModel 1\nb.obj › Cylinder.002 TTriangleModel 1\nc.obj TTriangleModel 1\n"
+            "Bolt 12 TTriangleModel 1\n");
+  ASSERT_EQ(scene.sources.size(), 7U);
+  EXPECT_EQ(scene.files.at(scene.sources[4].file), folder.path() / "b.obj");
+  EXPECT_EQ(scene.sources[4].name, "Cylinder.002");
+}
+
+TEST(SceneNames, OfOneFileStayAsTheyAre) {
+  const TempFolder folder;
+  const auto path = folder.write("a.obj", triangle("default") + triangle("Cube.001"));
+  EXPECT_EQ(namesOf(scene::readInput(path)), "default TTriangleModel 1\nCube.001 TTriangleModel 1\n");
+}
+
+TEST(SceneNames, OfFilesThatAreCalledAlikeHaveTheirFolders) {
+  const TempFolder folder;
+  const auto left = folder.write("left/wheel.obj", triangle("wheel"));
+  const auto right = folder.write("right/wheel.obj", triangle("wheel"));
+  const auto axle = folder.write("axle.obj", triangle("axle"));
+  scene::Scene scene = scene::readInput(left);
+  scene::append(scene, scene::readInput(axle));
+  scene::append(scene, scene::readInput(right));
+  EXPECT_EQ(
+      namesOf(scene),
+      "left/wheel.obj › wheel TTriangleModel 1\naxle TTriangleModel 1\nright/wheel.obj › wheel TTriangleModel 1\n");
+  scene::append(scene, scene::readInput(right));
+  EXPECT_EQ(scene.models.back()->getName(), "right/wheel.obj › wheel#2") << "the same file again";
+}
+
+TEST(SceneNames, OfScenesThatHaveTheSameNodesAreByScene) {
+  const TempFolder folder;
+  const std::string text =
+      "<Node><CollisionPipeline/><Node name=\"A\"><MechanicalObject position=\"0 0 0\"/>"
+      "<SphereCollisionModel name=\"s\" radius=\"1\"/></Node></Node>";
+  scene::Scene scene = scene::readInput(folder.write("one.scn", text));
+  scene::append(scene, scene::readInput(folder.write("two.scn", text)));
+  EXPECT_EQ(scene.models[0]->getName(), "one.scn › /A/s");
+  EXPECT_EQ(scene.models[1]->getName(), "two.scn › /A/s");
+}
+
 TEST(Scene, TheFirstMethodThatAFileNamesCounts) {
   scene::Scene scene = scene::emptyScene();
   scene::append(scene, sceneOf("a", 0.25));

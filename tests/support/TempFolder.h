@@ -31,8 +31,9 @@ class TempFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
 
-  /// Writes a file into the folder and says where it is.
+  /// Writes a file into the folder, or into one in it that is made, and says where it is.
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    std::filesystem::create_directories((m_path / name).parent_path());
     std::ofstream(m_path / name, std::ios::binary) << bytes;
     return m_path / name;
   }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -108,7 +109,7 @@ void expectViewpoint(const std::string& text) {
 
 TEST(Report, BcfHasATopicAViewpointAndAPictureForEachPairInTheFormOfVersion21) {
   const TempFolder folder;
-  expectSuccess(runProgram({"report", kDemo, "--boxes", "-o", folder.path() / "out"}));
+  expectSuccess(runProgram({"report", kDemo, "--boxes", "--group", "none", "-o", folder.path() / "out"}));
   const auto files = filesOf(folder.path() / "out/clashes.bcf");
   const pugi::xml_document version = parse(files.at("bcf.version"));
   EXPECT_STREQ(version.child("Version").attribute("VersionId").value(), "2.1");
@@ -297,6 +298,79 @@ TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
   expectSuccess(runProgram({"report", kDemo, "-o", work, "--pictures", "0", "--force"}));
   EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
   EXPECT_TRUE(fs::exists(work / "index.html"));
+}
+
+/// The lines of a report's table, without its head.
+std::vector<std::string> tableOf(const fs::path& report) {
+  std::istringstream text(readBytes(report / "clashes.csv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  lines.erase(lines.begin());
+  return lines;
+}
+
+std::string lastCell(const std::string& line) { return line.substr(line.rfind(',') + 1); }
+
+/// Two bodies of two models each, which all overlap, and a third one that overlaps one of them.
+const std::string kBodies = R"(<Node name="root"><CollisionPipeline/>
+<Node name="A"><MechanicalObject position="0 0 0  1 0 0"/><SphereCollisionModel name="s" radius="1"/>
+<PointCollisionModel name="p"/></Node>
+<Node name="B"><MechanicalObject position="0.5 0 0  1.5 0 0"/><SphereCollisionModel name="s" radius="1"/>
+<PointCollisionModel name="p"/></Node>
+<Node name="C"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)";
+
+TEST(ReportOfBodies, HasARowForAllPairsOfTheSameTwo) {
+  const TempFolder folder;
+  const std::string scene = folder.write("bodies.scn", kBodies);
+  const auto report = [&](const std::string& group) {
+    const fs::path out = folder.path() / group;
+    expectSuccess(runProgram({"report", scene, "--boxes", "--group", group, "-o", out}));
+    return out;
+  };
+  const std::size_t pairs =
+      nlohmann::json::parse(runProgram({"detect", scene, "--format", "json"}).out)["pairs"].size();
+  ASSERT_EQ(pairs, 6U);  // four between A and B, C's with two of their models
+  EXPECT_EQ(filesOf(report("none") / "clashes.bcf").size(), 3 * pairs + 1);
+  const fs::path out = report("body");
+  const auto files = filesOf(out / "clashes.bcf");
+  const std::vector<std::string> lines = tableOf(out);
+  ASSERT_EQ(lines.size(), pairs) << "the table has every pair";
+  std::map<std::string, std::set<std::string>> guids;
+  for (const std::string& line : lines) guids[line.substr(0, line.find(','))].insert(lastCell(line));
+  EXPECT_EQ(files.size(), 3 * guids.size() + 1);
+  std::size_t most = 0;
+  for (const auto& [number, all] : guids) {
+    EXPECT_EQ(all.size(), 1U) << "a row has one topic";
+    const pugi::xml_document document = parse(files.at(*all.begin() + "/viewpoint.bcfv"));
+    const auto selection = document.child("VisualizationInfo").child("Components").child("Selection").children();
+    most = std::max<std::size_t>(most, static_cast<std::size_t>(std::distance(selection.begin(), selection.end())));
+  }
+  EXPECT_EQ(most, 4U) << "all models of a row are selected";
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find("<span class=\"first\">/B</span><br><span class=\"second\">/A</span>"), std::string::npos);
+  EXPECT_NE(page.find("<summary>4 pairs of their parts</summary>"), std::string::npos);
+  EXPECT_NE(page.find("pairs of bodies, 6 pairs of boxes</p>"), std::string::npos);
+}
+
+TEST(ReportOfBodies, MayBeOfFiles) {
+  const TempFolder folder;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -3 -2 -1\n";
+  folder.write("parts/left.obj", "o axle\n" + triangle + "o wheel\n" + triangle);
+  folder.write("parts/right.obj", "o rim\n" + triangle + "o wheel\n" + triangle);
+  const auto report = [&](const std::string& group) {
+    const fs::path out = folder.path() / group;
+    expectSuccess(runProgram({"report", folder.path() / "parts", "--boxes", "--group", group, "-o", out}));
+    return out;
+  };
+  const fs::path out = report("file");
+  EXPECT_EQ(tableOf(out).size(), 6U);
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find("3 pairs of bodies, 6 pairs of boxes</p>"), std::string::npos);
+  EXPECT_NE(page.find("<span class=\"first\">right.obj</span><br><span class=\"second\">left.obj</span>"),
+            std::string::npos);
+  EXPECT_NE(page.find("left.obj › wheel"), std::string::npos);
+  EXPECT_NE(readBytes(report("body") / "index.html").find("6 pairs of boxes</p>"), std::string::npos);
+  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--group", "all"}), 2, "is not one of body");
 }
 
 #ifdef ALLPAIRS_HAS_FCL

@@ -43,7 +43,7 @@ export class App extends EventTarget {
   setFrame(index, { flash = false } = {}) {
     const before = this.index;
     this.index = index;
-    this.table = new PairTable(this.frame, this.scene.exact);
+    this.table = new PairTable(this.frame, this.scene);
     this.kinds = modelKinds(this.table, this.scene.models);
     this.partners = partnerCounts(this.table, this.scene.models);
     this.counts = this.table.counts();

@@ -42,7 +42,10 @@ export function parseScene(json, base64) {
   const distance = arrays.distance[0];
   const nameOf = scene.names.length > 0 ? (i) => scene.names[i] : String;
   const exact = scene.isExact ? new ExactPairs(scene, arrays) : null;
-  return { ...scene, exact, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
+  const { bodies } = arrays;
+  const bodyOf = bodies.length > 0 ? (i) => bodies[i] : (i) => i;
+  const bodyNameOf = bodies.length > 0 ? (i) => scene.bodyNames[bodies[i]] : nameOf;
+  return { ...scene, exact, bodyOf, bodyNameOf, hasBodies: bodies.length > 0, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
 }
 
 /** The scene in a document, or null where the page is an empty template. */

@@ -2,7 +2,7 @@
 // The bottom of the panel: what is chosen. A pair: what its boxes share. A model: its partners, and why others are none.
 
 import { byId, button, fillWith, make, nameLine } from "./dom.js";
-import { contactCorners, findingOf, headingOf, state } from "./exact.js";
+import { contactCorners, findingOf, headingOf, shortFinding, state, stateWords } from "./exact.js";
 import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
 import { tagsOf } from "./lists.js";
 import { VirtualList } from "./list.js";
@@ -51,7 +51,26 @@ export class Details {
     const names = make("p", "names", this.modelButton(first, "first"));
     if (!isSelf) names.append(make("span", "and", isPair ? "may touch" : "and"), this.modelButton(second, "second"));
     const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${selfReasonText(reason)}.`) : isPair ? "" : `No pair: ${reasonText(reason)}.`;
-    fillWith(this.element, this.head(isSelf ? "Self pair" : "Pair"), names, ...(verdict ? [make("p", "verdict", verdict)] : []), this.pairFacts(first, second));
+    fillWith(this.element, this.head(isSelf ? "Self pair" : "Pair"), names, ...(verdict ? [make("p", "verdict", verdict)] : []), this.pairFacts(first, second), ...this.partsOfRow());
+  }
+
+  /** The other pairs of the same two bodies, each to be chosen. */
+  partsOfRow() {
+    const { app } = this;
+    const entries = app.entry >= 0 ? app.table.rowOf(app.entry) : [];
+    if (entries.length < 2) return [];
+    const mostListed = 200; // of more, nobody reads on
+    const items = entries.slice(0, mostListed).map((entry) => {
+      const models = [app.table.first(entry), app.table.second(entry)];
+      const finding = app.scene.exact && entry < app.table.found ? app.scene.exact.of(entry) : null;
+      const text = models.map(app.scene.nameOf).join(" and ");
+      const item = make("li", "", button(text, () => app.choose(models), { className: "link", title: text }));
+      if (finding) item.append(make("span", "note", ` ${[stateWords[finding.state], shortFinding(finding)].filter(Boolean).join(", ")}`));
+      if (entry === app.entry) item.setAttribute("aria-current", "true");
+      return item;
+    });
+    if (entries.length > mostListed) items.push(make("li", "note", `and ${grouped(entries.length - mostListed)} more`));
+    return [make("h3", "", `${grouped(entries.length)} pairs of their parts`), make("ul", "parts", ...items)];
   }
 
   showFinding(finding, first, second) {
@@ -75,7 +94,7 @@ export class Details {
     if (finding.depth > 0) add("Way out of the second", point(finding.normal));
     this.addBox(add, "First box", first);
     this.addBox(add, "Second box", second);
-    fillWith(this.element, this.head(headingOf(finding)), names, ...(words ? [make("p", "verdict", words)] : []), facts);
+    fillWith(this.element, this.head(headingOf(finding)), names, ...(words ? [make("p", "verdict", words)] : []), facts, ...this.partsOfRow());
   }
 
   pairFacts(first, second) {

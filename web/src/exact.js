@@ -51,11 +51,6 @@ export class ExactPairs {
     return entries.sort((a, b) => this.stateOf(a) - this.stateOf(b) || key(a) - key(b) || a - b);
   }
 
-  counts() {
-    const counts = new Array(states.length).fill(0);
-    for (let entry = 0; entry < this.count; ++entry) ++counts[this.stateOf(entry)];
-    return counts;
-  }
 }
 
 export const clashCount = (counts) => counts[state.duplicate] + counts[state.contained] + counts[state.clash];

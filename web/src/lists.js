@@ -103,7 +103,7 @@ export class PairPanel extends Panel {
 
   makeChips() {
     const { counts, scene } = this.app;
-    if (scene.exact !== null) return this.makeStateChips(scene.exact.counts(), counts[kind.excluded]);
+    if (scene.exact !== null) return this.makeStateChips(this.app.table.stateCounts(), counts[kind.excluded]);
     return [["overlapping", kind.pair], ["self", kind.self], ["excluded", kind.excluded]]
       .filter(([, is]) => counts[is] > 0)
       .map(([label, is]) => chip(label, counts[is], kindNames[is], this.filter(is), () => this.update()));
@@ -124,12 +124,10 @@ export class PairPanel extends Panel {
 
   select(masks) {
     const { table } = this.app;
+    const has = (entry) => masks.every((mask) => mask[table.first(entry)] || mask[table.second(entry)]);
     const items = [];
     for (let entry = 0; entry < table.size; ++entry) {
-      if (!this.filterOf(entry).on) continue;
-      const a = table.first(entry);
-      const b = table.second(entry);
-      if (masks.every((mask) => mask[a] || mask[b])) items.push(entry);
+      if (table.isRow(entry) && this.filterOf(entry).on && table.rowOf(entry).some(has)) items.push(entry);
     }
     return this.ordered(items);
   }
@@ -156,7 +154,8 @@ export class PairPanel extends Panel {
   }
 
   chosenItem() {
-    return this.app.entry ?? -1;
+    const { entry, table } = this.app;
+    return entry >= 0 ? table.rowOf(entry)[0] : -1;
   }
 
   modelsOf(entry) {
@@ -166,11 +165,13 @@ export class PairPanel extends Panel {
   fill(row, entry) {
     const { table, scene } = this.app;
     const is = table.kindOf(entry);
-    const [first, second] = this.modelsOf(entry).map((model) => scene.nameOf(model));
+    const inside = table.rowOf(entry).length;
+    const [first, second] = this.modelsOf(entry).map(inside > 1 ? scene.bodyNameOf : scene.nameOf);
     const finding = table.exact !== null && entry < table.found ? table.exact.of(entry) : null;
     row.classList.add(finding ? states[finding.state] : kindNames[is]);
     const names = first === second ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
-    row.append(make("span", "dot"), make("span", "names", ...names), make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
+    const count = inside > 1 ? [make("span", "tag", `${grouped(inside)} pairs`)] : [];
+    row.append(make("span", "dot"), make("span", "names", ...names), ...count, make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
     row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
   }
 }

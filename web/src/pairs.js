@@ -8,11 +8,49 @@ import { isEmpty } from "./rules.js";
 export const kind = { free: 0, pair: 1, self: 2, excluded: 3, out: 4 };
 
 export class PairTable {
-  constructor(frame, exact) {
+  constructor(frame, { exact, bodyOf, hasBodies }) {
     this.frame = frame;
     this.exact = exact; // what shapes say of the pairs that were found, or null
     this.found = frame.pairs.length / 2;
     this.size = this.found + frame.excluded.length / 2;
+    this.rows = hasBodies ? this.makeRows(bodyOf) : null;
+  }
+
+  /** The entries of the same two bodies, for each entry of them: the worst first. */
+  makeRows(bodyOf) {
+    const rows = new Map();
+    for (let entry = 0; entry < this.size; ++entry) {
+      const [a, b] = [bodyOf(this.first(entry)), bodyOf(this.second(entry))];
+      const key = `${Math.min(a, b)} ${Math.max(a, b)} ${entry < this.found}`;
+      if (!rows.has(key)) rows.set(key, []);
+      rows.get(key).push(entry);
+    }
+    const rowOf = new Array(this.size);
+    for (const entries of rows.values()) {
+      const isTested = this.exact !== null && entries[0] < this.found;
+      if (isTested) this.exact.worstFirst(entries);
+      else entries.sort((a, b) => this.volume(b) - this.volume(a) || a - b);
+      for (const entry of entries) rowOf[entry] = entries;
+    }
+    return rowOf;
+  }
+
+  /** All entries of the row that an entry is in; it stands for them if it is the first. */
+  rowOf(entry) {
+    return this.rows?.[entry] ?? [entry];
+  }
+
+  isRow(entry) {
+    return this.rows === null || this.rows[entry][0] === entry;
+  }
+
+  /** How many rows there are in each state of shapes. */
+  stateCounts() {
+    const counts = new Array(Object.keys(state).length).fill(0);
+    for (let entry = 0; entry < this.found; ++entry) {
+      if (this.isRow(entry)) ++counts[this.exact.stateOf(entry)];
+    }
+    return counts;
   }
 
   first(entry) {
@@ -34,10 +72,12 @@ export class PairTable {
     return this.exact !== null && entry < this.found && this.exact.stateOf(entry) === state.apart;
   }
 
-  /** How many entries there are of each kind. */
+  /** How many rows there are of each kind. */
   counts() {
-    const counts = { [kind.free]: 0, [kind.pair]: 0, [kind.self]: 0, [kind.excluded]: this.size - this.found };
-    for (let entry = 0; entry < this.found; ++entry) ++counts[this.kindOf(entry)];
+    const counts = { [kind.free]: 0, [kind.pair]: 0, [kind.self]: 0, [kind.excluded]: 0 };
+    for (let entry = 0; entry < this.size; ++entry) {
+      if (this.isRow(entry)) ++counts[this.kindOf(entry)];
+    }
     return counts;
   }
 

@@ -32,9 +32,9 @@ function effort({ statistics, frames, exact }) {
 }
 
 /** How many clash and how bad, then what does not. */
-function exactFacts({ scene }) {
+function exactFacts({ scene, table }) {
   const { exact } = scene;
-  const counts = exact.counts();
+  const counts = table.stateCounts();
   const clashes = clashCount(counts);
   const worst = exact.worstFirst(Array.from({ length: exact.count }, (_, e) => e));
   const deepest = worst.reduce((most, e) => (exact.stateOf(e) <= state.clash ? Math.max(most, exact.of(e).depth ?? 0) : most), 0);
@@ -44,7 +44,7 @@ function exactFacts({ scene }) {
   return [
     fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ") || (clashes === 0 ? "no two models share space" : "")),
     ...others.filter(([is]) => counts[is] > 0).map(([is, label, id]) => fact(label, grouped(counts[is]), `fact-${id}`, is === state.clearance ? `within ${measure(exact.clearance)}` : "")),
-    fact("Apart", grouped(counts[state.apart]), "fact-apart", `of ${counted(exact.count, "candidate")}`),
+    fact("Apart", grouped(counts[state.apart]), "fact-apart", `of ${counted(counts.reduce((sum, count) => sum + count), "candidate")}`),
   ];
 }
 
@@ -68,13 +68,13 @@ export function showSummary(app) {
   fillWith(byId("remarks"), ...remarks(scene));
   byId("effort").textContent = effort(scene);
   const update = () => {
-    const found = scene.exact ? exactFacts(app) : [fact("Pairs", grouped(app.table.found), "fact-pairs", pairNotes(app))];
+    const found = scene.exact ? exactFacts(app) : [fact(scene.hasBodies ? "Pairs of bodies" : "Pairs", grouped(app.counts[kind.pair] + app.counts[kind.self]), "fact-pairs", pairNotes(app))];
     fillWith(
       byId("facts"),
       ...found,
       fact("Models", grouped(scene.models), "fact-models"),
     );
-    byId("fact-clashes")?.classList.toggle("none", clashCount(scene.exact.counts()) === 0);
+    byId("fact-clashes")?.classList.toggle("none", clashCount(app.table.stateCounts()) === 0);
   };
   app.addEventListener("frame", update);
   update();

@@ -18,7 +18,7 @@ const count = async (selector) => Number((await browser.run(`return document.que
 
 async function view(name, ...inputs) {
   const path = join(folder, `${name}.html`);
-  allpairs("view", ...inputs, ...(inputs.includes("--sequence") ? [] : ["--boxes"]), "-o", path);
+  allpairs("view", ...inputs, "--group", "none", ...(inputs.includes("--sequence") ? [] : ["--boxes"]), "-o", path);
   await browser.open(path);
   await browser.until("document.documentElement.dataset.ready");
   assert.equal(await text("#no-picture"), "");

@@ -74,6 +74,39 @@ test("the demo: summary, list, search, order, choice and reasons are those of de
   await page.close();
 });
 
+test("pairs of the same two bodies are one row, with its pairs inside", async () => {
+  const triangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -3 -2 -1\n";
+  const left = write("bodies/left.obj", `o axle\n${triangle}o wheel\n${triangle}`);
+  const right = write("bodies/right.obj", `o rim\n${triangle}o wheel\n${triangle}`);
+  const result = detect(left, right);
+  const page = await view("bodies", [left, right, "--group", "file"]);
+  const rows = new Map(); // of two files: the pairs of their models
+  for (const [a, b] of result.pairs) {
+    const key = [a, b].map((i) => (result.models[i].file === left ? "left.obj" : "right.obj")).sort().join(" ");
+    rows.set(key, [...(rows.get(key) ?? []), [a, b]]);
+  }
+  assert.equal(rows.size, 3);
+  const shown = await rowsOf(page, "pairs-list");
+  const isRow = (row) => rows.get(row.join(" ")) !== undefined || row.every((name) => !name.endsWith(".obj"));
+  assert.equal(shown.length, rows.size);
+  assert.ok(shown.every((row) => isRow([...row].sort())), JSON.stringify(shown));
+  assert.equal(await number(page, "#fact-pairs"), rows.size);
+  assert.deepEqual(await texts(page, "#pairs-list .tag"), ["4 pairs"]);
+  const place = shown.findIndex((row) => row.includes("left.obj") && row.includes("right.obj"));
+  await page.click(`#pairs-list .row[data-index="${place}"]`);
+  const inside = rows.get("left.obj right.obj").map((pair) => namesOf(result, pair).sort().join(" and ")).sort();
+  assert.deepEqual((await texts(page, "#details .parts .link")).map((text) => text.split(" and ").sort().join(" and ")).sort(), inside);
+  await page.click("#details .parts li:last-child .link");
+  assert.equal(await page.$eval("#details .parts li:last-child", (item) => item.getAttribute("aria-current")), "true");
+  assert.equal(await page.getAttribute(`#pairs-list .row[data-index="${place}"]`, "aria-selected"), "true");
+  await page.fill("#pairs-search", "rim axle");
+  assert.equal((await rowsOf(page, "pairs-list")).length, 1, "a row is found by what is inside");
+  await page.fill("#pairs-search", "");
+  await screenshot(page, "bodies");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("keys choose, leave, switch and explain", async () => {
   const page = await view("keys", [demo], { colorScheme: "dark" });
   assert.equal(await page.getAttribute("html", "data-theme"), "dark");
@@ -443,7 +476,7 @@ test("what is up is as the input says, and stays as the reader has turned it", a
 });
 
 test("the report shows a picture of each pair", async () => {
-  allpairs("report", demo, "--boxes", "-o", join(folder, "report"));
+  allpairs("report", demo, "--boxes", "--group", "none", "-o", join(folder, "report"));
   const page = await open(join(folder, "report/index.html"));
   await page.$$eval("img", (images) => images.forEach((image) => (image.loading = "eager")));
   await page.waitForFunction(() => [...document.images].every((image) => image.naturalWidth === 640));

@@ -88,7 +88,8 @@ export async function open(path, { init, ...options } = {}) {
 /** Writes the page of some inputs, opens it and waits for its picture. */
 export async function view(name, inputs, { exact = false, ...options } = {}) {
   const path = join(folder, `${name}.html`);
-  allpairs("view", ...inputs, ...(exact || inputs.includes("--sequence") ? [] : ["--boxes"]), "-o", path);
+  const group = inputs.includes("--group") ? [] : ["--group", "none"]; // a row for each pair, as detect has them
+  allpairs("view", ...inputs, ...group, ...(exact || inputs.includes("--sequence") ? [] : ["--boxes"]), "-o", path);
   const page = await open(path, options);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;

@@ -28,6 +28,12 @@ struct Owner {
   std::string path;
 };
 
+/// Where a model comes from.
+struct ModelSource {
+  std::size_t file = 0;  ///< An index into Scene::files.
+  std::string name{};    ///< As the file has it; a file's name where it has none.
+};
+
 /// One of several collision pipelines of a scene: it tests its own models against one another, in its own way.
 struct ScenePipeline {
   std::string name{};                 ///< As in the file: "/Node/Name".
@@ -41,6 +47,8 @@ struct ScenePipeline {
 struct Scene {
   std::vector<std::unique_ptr<collision::CollisionModel>> models;
   std::vector<std::unique_ptr<Owner>> owners;
+  std::vector<std::filesystem::path> files{};  ///< What models were read from, in the order in which it was read.
+  std::vector<ModelSource> sources{};          ///< Of each model; models behind the last one are of no file.
   std::unique_ptr<collision::Intersection> intersection;  ///< Never null.
   std::string intersectionName;                           ///< As in the file; empty if it names none.
   std::optional<Box> region;
@@ -72,8 +80,10 @@ struct SceneSearch {
 
 /// Appends the models of `more` to those of `scene`.
 ///
-/// A model whose name exists in `scene` gets a number: "wheel#2". The first method and the first region
-/// that a file names apply to all; others give a remark. The first input that says which axis is up, and how long a unit
+/// Where files have objects of the same name, or of one that says nothing, such as "default" or "Cylinder.002", their models are
+/// named by file and object: "left.obj › wheel"; where the object's name says nothing and it is alone in its file, by the file
+/// alone: "left.obj". Models of the same name that this does not tell apart get a number: "wheel#2". The first method and the first region that a file names apply to
+/// all; others give a remark. The first input that says which axis is up, and how long a unit
 /// is, says it for all.
 ///
 /// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method, and

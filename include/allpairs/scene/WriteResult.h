@@ -20,6 +20,7 @@ namespace allpairs::scene {
 /// The record of one model in a result.
 struct ModelRecord {
   std::string name;
+  std::string file{};  ///< What it was read from; empty where that is not known.
   std::string type;
   std::size_t elements = 0;
   Box box = kEmptyBox;  ///< Of the root; empty without elements.
@@ -33,6 +34,9 @@ struct ModelRecord {
 
 /// The record of a model whose bounding tree was computed.
 [[nodiscard]] ModelRecord modelRecord(const collision::CollisionModel& model);
+
+/// The record of a scene's model, with the file that it comes from.
+[[nodiscard]] ModelRecord modelRecord(const Scene& scene, std::size_t model);
 
 /// Statistics of a detection: the last part of a result.
 struct DetectionStatistics {

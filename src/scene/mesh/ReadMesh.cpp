@@ -12,6 +12,7 @@
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "input/FileBytes.h"
+#include "input/ModelNames.h"
 #include "input/UniqueNames.h"
 #include "mesh/MeshObject.h"
 
@@ -115,7 +116,8 @@ void requireAllowed(const fs::path& path, const ReadScope& scope) {
 }
 
 /// Reads the objects of one file behind what the scene has.
-void readInto(Scene& scene, UniqueNames& names, const fs::path& path, ReadScope& scope) {
+void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
+  UniqueNames names;
   ObjectModels models(scene, names, scope);
   const std::size_t before = scene.models.size();
   MeshFrame frame;
@@ -130,6 +132,7 @@ void readInto(Scene& scene, UniqueNames& names, const fs::path& path, ReadScope&
   if (scene.up == 0) scene.up = frame.up;
   if (!scene.metresPerUnit && frame.metresPerUnit > 0.0) scene.metresPerUnit = frame.metresPerUnit;
   if (scene.models.size() == before) throw FileError(path, "holds no triangles, lines or points");
+  noteSources(scene, path);
 }
 
 }  // namespace
@@ -137,15 +140,13 @@ void readInto(Scene& scene, UniqueNames& names, const fs::path& path, ReadScope&
 Scene readMesh(const fs::path& path, const ReadOptions& options) {
   if (options.progress) options.progress({.done = 0, .total = 1, .file = path});
   Scene scene = emptyScene();
-  UniqueNames names;
   ReadScope scope(path, options);
-  readInto(scene, names, path, scope);
+  readInto(scene, path, scope);
   return scene;
 }
 
 Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
   Scene scene = emptyScene();
-  UniqueNames names;
   ReadScope scope(path, options);
   const std::vector<fs::path> meshes = chooseMeshes(sortedEntries(path), scene.remarks);
   if (meshes.empty()) throw FileError(path, "is a folder without mesh files");
@@ -153,7 +154,7 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
     if (options.progress) options.progress({.done = i, .total = meshes.size(), .file = meshes[i]});
     try {
       requireAllowed(meshes[i], scope);
-      readInto(scene, names, meshes[i], scope);
+      readInto(scene, meshes[i], scope);
     } catch (const FileError& problem) {
       if (!options.partial) throw;
       scene.remarks.push_back({.file = meshes[i],
@@ -163,6 +164,7 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
                                .isPartial = true});
     }
   }
+  nameModels(scene);
   return scene;
 }
 

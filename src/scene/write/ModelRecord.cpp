@@ -18,4 +18,10 @@ ModelRecord modelRecord(const collision::CollisionModel& model) {
           .contactDistance = elements.getContactDistance()};
 }
 
+ModelRecord modelRecord(const Scene& scene, std::size_t model) {
+  ModelRecord record = modelRecord(*scene.models[model]);
+  if (model < scene.sources.size()) record.file = scene.files[scene.sources[model].file].string();
+  return record;
+}
+
 }  // namespace allpairs::scene

@@ -15,6 +15,7 @@
 #include "allpairs/collision/TriangleModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadSofaScene.h"
+#include "input/ModelNames.h"
 #include "sofa/models/ModelDescription.h"
 
 namespace allpairs::scene {
@@ -183,6 +184,7 @@ Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& option
   moveRemarks(description.outside, false, scene.remarks);
   moveRemarks(description.warnings, false, scene.warnings);
   const Kept kept = addModels(description, options.partial, scene);
+  noteSources(scene, path);
   if (description.pipelines.size() > 1)
     for (auto& pipeline : description.pipelines) scene.pipelines.push_back(makePipeline(pipeline, kept));
   return scene;

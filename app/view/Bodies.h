@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "ViewScene.h"
+#include "allpairs/scene/Scene.h"
+
+namespace allpairs::app {
+
+/// Which pairs of models are one row of a list.
+enum class Grouping : std::uint8_t {
+  Body,  ///< Those of the same two bodies: the triangles, lines and points of a SOFA node, or of an object of a mesh file.
+  File,  ///< Those of the same two files.
+  None,  ///< Each pair is a row.
+};
+
+/// Gives a scene that is shown the bodies of the one that was read, and what these are called. Where each is one model, it gets
+/// none.
+void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to);
+
+}  // namespace allpairs::app

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "Expect.h"
+#include "support/Boxes.h"
+#include "support/Npy.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+/// Runs scripts in a folder that is the one for temporary files too, and must not hold any at the end.
+class StandardInput : public testing::Test {
+ protected:
+  StandardInput() {
+    m_folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(1, 1, 1), cube(5, 5, 5)}));
+    m_folder.write("boxes.csv", "a,0,0,0,2,2,2\nb,1,1,1,3,3,3\n");
+    m_folder.write("part.obj",
+                   "o part\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf 4 5 6\n");
+    std::filesystem::create_directory(m_folder.path() / "tmp");
+  }
+
+  [[nodiscard]] ProgramRun run(const std::string& script) const {
+    const ProgramRun result =
+        runScript("cd '" + m_folder.path().string() + "' && export TMPDIR=\"$PWD/tmp\" && " + script);
+    EXPECT_TRUE(std::filesystem::is_empty(m_folder.path() / "tmp")) << "something is left behind";
+    return result;
+  }
+
+  void expectSame(const std::string& script, const std::string& script2) const {
+    const ProgramRun first = run(script);
+    const ProgramRun second = run(script2);
+    expectSuccess(first);
+    EXPECT_EQ(first.out, second.out);
+    EXPECT_NE(first.out, "");
+  }
+
+ private:
+  TempFolder m_folder;
+};
+
+TEST_F(StandardInput, GivesWhatAFileGives) {
+  const std::string file = "\"$0\" detect boxes.npy --format csv";
+  expectSame("cat boxes.npy | \"$0\" detect - --input-format npy --format csv", file);
+  expectSame("\"$0\" detect - --input-format npy --format csv -o - < boxes.npy", file);
+  expectSame("cat boxes.npy | \"$0\" detect /dev/stdin --input-format npy --format csv -o /dev/stdout", file);
+  expectSame("cat boxes.csv | \"$0\" detect - --input-format csv --format csv", "\"$0\" detect boxes.csv --format csv");
+  expectSame("cat part.obj | \"$0\" detect - --input-format obj --format csv", "\"$0\" detect part.obj --format csv");
+  expectSame("cat boxes.csv | \"$0\" info - --input-format csv", "\"$0\" info boxes.csv");
+  expectSame("cat part.obj | \"$0\" elements - part.obj --input-format obj --format json | grep -c edge_edge",
+             "\"$0\" elements part.obj part.obj --format json | grep -c edge_edge");
+  expectSame(
+      "\"$0\" generate brownian -n 20 --frames 3 -o - | \"$0\" track - --input-format npy --format csv | cut -d, -f1-4",
+      "\"$0\" generate brownian -n 20 --frames 3 -o f.npy; \"$0\" track f.npy --format csv | cut -d, -f1-4");
+}
+
+TEST_F(StandardInput, MayBeAPipeWithAName) {
+  expectSame("mkfifo pipe.npy && { cat boxes.npy > pipe.npy & \"$0\" detect pipe.npy boxes.csv --format csv; }",
+             "rm pipe.npy; cp boxes.npy pipe.npy; \"$0\" detect pipe.npy boxes.csv --format csv");
+}
+
+TEST_F(StandardInput, IsNamedInResultsAndErrors) {
+  const ProgramRun result = run("\"$0\" detect - --input-format obj --format json < part.obj");
+  expectSuccess(result);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["models"][0]["file"], "standard input");
+  expectFailure(run("printf 'a,0,0\\nb,1\\n' | \"$0\" detect - --input-format csv"), kBadInput,
+                "allpairs: standard input:1");
+  expectFailure(run("printf '' | \"$0\" detect - --input-format npy"), kBadInput, "allpairs: standard input: ");
+}
+
+TEST_F(StandardInput, IsAskedForOnceAndWithItsFormat) {
+  expectFailure(run("\"$0\" detect - < boxes.npy"), kWrongUsage, "standard input: --input-format must say what it is");
+  expectFailure(run("\"$0\" detect - - --input-format npy < boxes.npy"), kWrongUsage, "can be read only once");
+  expectFailure(run("\"$0\" detect boxes.npy --input-format npy"), kWrongUsage, "--input-format is for standard input");
+  expectFailure(run("\"$0\" detect - --input-format ../x < boxes.npy"), kWrongUsage, "is no extension of a file");
+}
+
+TEST_F(StandardInput, IsTakenAwayWhenASignalEndsTheProgram) {
+  const ProgramRun result =
+      run("mkfifo pipe.npy && { \"$0\" detect pipe.npy & child=$!; exec 3>pipe.npy; i=0; "
+          "until [ -n \"$(ls tmp)\" ] || [ $i = 600 ]; do sleep 0.05; i=$((i + 1)); done; kill -TERM $child; wait "
+          "$child; }");
+  EXPECT_GT(result.status, 128) << "a shell's word for a signal";
+}
+
+TEST(BoxWithMinAboveMax, IsNamedInAWarning) {
+  const TempFolder folder;
+  const std::string csv = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,3,3,3,4,2,4\nc,9,3,3,4,2,4\n");
+  ProgramRun run = runProgram({"detect", csv, "--format", "csv"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err,
+            "allpairs: warning: " + csv + ": box 1 'b' has min above max on y (and 1 other box): empty, in no pair\n");
+  const std::string npy = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), Box{{0, 0, 1}, {1, 1, 0}}, kEmptyBox}));
+  run = runProgram({"detect", npy, "--format", "csv"});
+  EXPECT_EQ(run.err, "allpairs: warning: " + npy + ": box 1 has min above max on z: empty, in no pair\n")
+      << "infinite bounds are meant";
+}
+
+}  // namespace
+}  // namespace allpairs::test

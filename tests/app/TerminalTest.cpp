@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "cli/Terminal.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "Expect.h"
+#include "cli/Progress.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+TEST(Elided, TextKeepsItsBeginAndItsEnd) {
+  EXPECT_EQ(app::elided("left.obj", 8), "left.obj");
+  EXPECT_EQ(app::elided("abcdefghij", 7), "abc…hij");
+  EXPECT_EQ(app::elided("abcdefghij", 6), "abc…ij");
+  EXPECT_EQ(app::elided("ääääöööö", 5), "ää…öö");
+  EXPECT_EQ(app::elided("abc", 1), "…");
+  EXPECT_EQ(app::elided("abc", 0), "");
+}
+
+TEST(Wrapped, TextBreaksAtBlanks) {
+  EXPECT_EQ(app::wrapped("one two three", 7), "one two\nthree");
+  EXPECT_EQ(app::wrapped("one two three", 8), "one two\nthree");
+  EXPECT_EQ(app::wrapped("immeasurably long", 4), "immeasurably\nlong");
+  EXPECT_EQ(app::wrapped("", 4), "");
+}
+
+TEST(ProgressText, HasABarAndTheTimeLeft) {
+  EXPECT_EQ(app::progressText("frame 3", 0.25, 10.0, 78), "frame 3  [#####               ]  25 %, 30 s left");
+  EXPECT_EQ(app::progressText("x", 0.5, 600.0, 78), "x  [##########          ]  50 %, 10 min left");
+  EXPECT_EQ(app::progressText("x", 0.1, 3600.0, 78), "x  [##                  ]  10 %, 9 h left");
+  EXPECT_EQ(app::progressText("x", 0.0, 1.0, 78), "x  [                    ]   0 %") << "nothing is known yet";
+  EXPECT_EQ(app::progressText("reading a-long-name.obj", 0.5, 2.0, 50),
+            "readi….obj  [##########          ]  50 %, 2 s left");
+}
+
+/// A folder with two parts of long names that overlap, and what a terminal of so many columns shows.
+class Terminal : public testing::Test {
+ protected:
+  Terminal() {
+    const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
+    m_folder.write("parts/a.obj", "o " + m_first + '\n' + triangle);
+    m_folder.write("parts/b.obj", "o the second part with a long name\n" + triangle);
+  }
+
+  void SetUp() override {
+    if (runScript("command -v script").status != 0) GTEST_SKIP() << "script, which makes a terminal, is not here";
+  }
+
+  [[nodiscard]] std::string shown(const std::string& command, const std::string& environment = {}) const {
+    const ProgramRun run =
+        runScript("cd '" + m_folder.path().string() + "' && unset NO_COLOR && export TERM=xterm && " + environment +
+                  " script -qefc \"stty cols 60; $0 " + command + "\" shown </dev/null");
+    EXPECT_EQ(run.status, 0) << run.out;
+    return std::regex_replace(run.out, std::regex("\r|\033\\[K"), "");
+  }
+
+  const std::string m_first = "the first part with a long name";
+
+ private:
+  TempFolder m_folder;
+};
+
+std::size_t widest(const std::string& text) {
+  std::istringstream stream(text);
+  std::size_t most = 0;
+  for (std::string line; std::getline(stream, line);) most = std::max(most, app::columnsOf(line));
+  return most;
+}
+
+TEST_F(Terminal, TablesAndOptionsStayWithinItsWidth) {
+  const std::string table = shown("detect parts");
+  const std::size_t pair = table.find("  the second");
+  ASSERT_NE(pair, std::string::npos) << table;
+  const std::string line = table.substr(pair, table.find('\n', pair) - pair);
+  EXPECT_LE(app::columnsOf(line), 60U) << line;
+  EXPECT_NE(line.find("the second pa…h a long name   the first par…h a long name"), std::string::npos) << line;
+  const std::string help = shown("detect --help");
+  const std::size_t begin = help.find("Options:");
+  EXPECT_LE(widest(help.substr(begin, help.find("INPUT is one") - begin)), 60U) << help;
+  EXPECT_NE(runProgram({"detect", "--help"}).out.find("Ignore models outside of this region\n"), std::string::npos);
+}
+
+TEST_F(Terminal, LastLineSaysWhatWasWritten) {
+  EXPECT_TRUE(shown("detect parts -o pairs.csv").ends_with("1 pair → pairs.csv\n"));
+  EXPECT_TRUE(shown("generate uniform -n 30 -o b.npy").ends_with("30 boxes → b.npy\n"));
+  EXPECT_TRUE(shown("report parts --boxes -o r").ends_with("1 pair of boxes → r/index.html\n"));
+  EXPECT_TRUE(shown("view parts --boxes -o v.html").ends_with("1 pair of boxes → v.html\n"));
+}
+
+#ifdef ALLPAIRS_HAS_FCL
+TEST_F(Terminal, HasColoursUnlessTheyAreNotWanted) {
+  const std::string colour = "\033[";
+  EXPECT_NE(shown("detect parts --exact").find(colour), std::string::npos);
+  EXPECT_EQ(shown("detect parts --exact", "NO_COLOR=1").find(colour), std::string::npos);
+  EXPECT_EQ(shown("detect parts --exact", "TERM=dumb").find(colour), std::string::npos);
+  EXPECT_NE(shown("detect parts --exact --color always", "NO_COLOR=1").find(colour), std::string::npos);
+  EXPECT_EQ(shown("detect parts --exact --color never").find(colour), std::string::npos);
+  EXPECT_EQ(shown("detect parts").find(colour), std::string::npos) << "there is nothing to colour";
+}
+#endif
+
+}  // namespace
+}  // namespace allpairs::test
