@@ -34,7 +34,7 @@ TEST(DistributedMemory, AnyAllocationOfOneRankMayFail) {
   MpiSearch search;
   for (const bool andLater : {false, true}) {
     bool hasFailed = true;
-    for (std::uint64_t k = 1; hasFailed; k += 3) {
+    for (std::uint64_t k = 1; hasFailed; k += 7) {
       const bool isFailing = rankHere() == static_cast<int>(k) % rankCount();
       std::vector<IdPair> found;
       bool isComplete = true;

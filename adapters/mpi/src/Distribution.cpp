@@ -168,10 +168,12 @@ void Distribution::cutAgain() {
 void Distribution::spreadCrowded() {
   const std::uint64_t most = std::max(m_allBoxes / static_cast<std::uint64_t>(m_ranks.size()), m_tuning.leastCrowded);
   const auto wide = static_cast<std::uint32_t>(m_cells.size());
+  const auto isTooMany = [most](std::uint64_t count) { return count > most; };
+  if (std::none_of(m_counts.begin(), m_counts.end() - 1, isTooMany)) return;  // on all ranks alike
   m_ranks.onAll([&] {
     const auto isCrowded = [&](std::uint32_t entry) {
       const std::uint32_t cell = entry & ~kLast;
-      return cell < wide && m_counts[cell] > most;
+      return cell < wide && isTooMany(m_counts[cell]);
     };
     std::vector<std::uint64_t> counts(m_counts.size());
     for (std::size_t set = 0; set < m_sets.size(); ++set) {
