@@ -35,8 +35,9 @@ typedef enum allpairs_status {
   ALLPAIRS_OK = 0,
   ALLPAIRS_INVALID_ARGUMENT = 1,  ///< An invalid argument or setting.
   ALLPAIRS_INVALID_BOX = 2,       ///< An invalid box or per-box value; allpairs_error_index() is its index.
-  ALLPAIRS_LIMIT_EXCEEDED = 3,    ///< More pairs than max_pairs; allpairs_error_index() is the number found so far.
-  ALLPAIRS_STOPPED = 4,           ///< A visitor stopped the search.
+  ALLPAIRS_LIMIT_EXCEEDED = 3,  ///< More pairs than max_pairs, or than there is room for: allpairs_error_index() is the
+                                ///< number found so far, or in all.
+  ALLPAIRS_STOPPED = 4,         ///< A visitor stopped the search.
   ALLPAIRS_OUT_OF_MEMORY = 5,
   ALLPAIRS_INTERNAL = 6  ///< Any other failure; allpairs_error_message() may say more.
 } allpairs_status;
@@ -189,6 +190,22 @@ ALLPAIRS_C_API allpairs_status allpairs_find(allpairs_search* search, const allp
 ALLPAIRS_C_API allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first,
                                                      const allpairs_set* second, allpairs_pairs* pairs);
 
+/// Memory of the caller for pairs. The library writes `count`, which is the number of pairs also if there is no room for them.
+typedef struct allpairs_pair_memory {
+  allpairs_pair* data;
+  size_t capacity;
+  size_t count;
+} allpairs_pair_memory;
+
+/// Writes the pairs of allpairs_find() to memory of the caller. Count them first.
+///
+/// Bad input: more pairs than the capacity are an ALLPAIRS_LIMIT_EXCEEDED; unordered pairs, or those of an exhaustive search,
+///            may then have been written.
+ALLPAIRS_C_API allpairs_status allpairs_find_into(allpairs_search* search, const allpairs_set* set,
+                                                  allpairs_pair_memory* memory);
+ALLPAIRS_C_API allpairs_status allpairs_find_between_into(allpairs_search* search, const allpairs_set* first,
+                                                          const allpairs_set* second, allpairs_pair_memory* memory);
+
 /// In which rows a pair of boxes of one set is.
 typedef enum allpairs_rows_kind {
   ALLPAIRS_FULL_ROWS = 0,  ///< In those of both boxes: row i has all partners of box i.
@@ -210,6 +227,24 @@ ALLPAIRS_C_API allpairs_status allpairs_find_neighbors(allpairs_search* search, 
 /// The partners in `second` of each box of `first`.
 ALLPAIRS_C_API allpairs_status allpairs_find_neighbors_between(allpairs_search* search, const allpairs_set* first,
                                                                const allpairs_set* second, allpairs_rows* rows);
+
+/// Memory of the caller for rows: `offsets` for one more than there are boxes, `indices` for the pairs, twice in full rows. The
+/// library writes `count`, which is the number of indices also if there is no room for them.
+typedef struct allpairs_rows_memory {
+  uint64_t* offsets;
+  uint32_t* indices;
+  size_t capacity;  ///< Of indices.
+  size_t count;
+} allpairs_rows_memory;
+
+/// Writes the rows of allpairs_find_neighbors() to memory of the caller.
+///
+/// Bad input: more indices than the capacity are an ALLPAIRS_LIMIT_EXCEEDED; nothing has been written then.
+ALLPAIRS_C_API allpairs_status allpairs_find_neighbors_into(allpairs_search* search, const allpairs_set* set,
+                                                            allpairs_rows_kind kind, allpairs_rows_memory* memory);
+ALLPAIRS_C_API allpairs_status allpairs_find_neighbors_between_into(allpairs_search* search, const allpairs_set* first,
+                                                                    const allpairs_set* second,
+                                                                    allpairs_rows_memory* memory);
 
 /// The number of pairs; uses memory independent of that number.
 ALLPAIRS_C_API allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set, uint64_t* count);

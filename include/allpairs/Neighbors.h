@@ -42,6 +42,12 @@ struct NeighborsView {
   }
 };
 
+/// Memory of the caller for rows of neighbors.
+struct NeighborsMemory {
+  std::span<std::uint64_t> offsets;  ///< For one more than there are rows.
+  std::span<std::uint32_t> indices;  ///< For the pairs, twice in Full rows.
+};
+
 /// The partners of each box among the boxes of one set: the pairs of overlaps() as rows of a sparse matrix.
 ///
 /// Options:   all apply but `order`: rows and what is in them ascend. maxPairs counts a pair once, in Full rows too.

@@ -70,6 +70,21 @@ class OverlapSearch {
   [[nodiscard]] NeighborsView findNeighbors(const BoxView& boxes, NeighborRows rows = NeighborRows::Full);
   [[nodiscard]] NeighborsView findNeighbors(const BoxView& first, const BoxView& second);
 
+  /// Writes the pairs of find() to memory of the caller, and returns the part of it that they take. Count them first.
+  ///
+  /// Bad input: memory for fewer pairs than there are throws LimitExceeded, whose count() is their number. It is then as it was,
+  ///            unless the pairs are unordered or tested exhaustively.
+  /// Cost:      no second copy of the result, unless several threads find unordered pairs or test exhaustively.
+  std::span<Pair> findInto(const BoxView& boxes, std::span<Pair> memory);
+  std::span<Pair> findInto(const BoxView& first, const BoxView& second, std::span<Pair> memory);
+
+  /// Writes the rows of findNeighbors() to memory of the caller, and returns the part of it that they take.
+  ///
+  /// Bad input: memory for too few offsets throws InvalidArgument; for fewer indices than there are, LimitExceeded, whose count()
+  ///            is their number. The memory is then as it was.
+  NeighborsView findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory);
+  NeighborsView findNeighborsInto(const BoxView& first, const BoxView& second, const NeighborsMemory& memory);
+
   /// The number of pairs of find(); uses memory independent of that number.
   [[nodiscard]] std::uint64_t count(const BoxView& boxes);
   [[nodiscard]] std::uint64_t count(const BoxView& first, const BoxView& second);

@@ -8,8 +8,16 @@ namespace allpairs::python {
 
 static_assert(sizeof(Pair) == 2 * sizeof(std::uint32_t) && offsetof(Pair, second) == sizeof(std::uint32_t));
 
-PairArray::PairArray(std::vector<Pair> pairs) : m_pairs(std::move(pairs)) {
-  m_table = tableOf(reinterpret_cast<std::uint32_t*>(m_pairs.data()), 2 * m_pairs.size(), 2);
-}
+namespace {
+
+Table pairTable(Pair* pairs, std::size_t size) { return tableOf(reinterpret_cast<std::uint32_t*>(pairs), 2 * size, 2); }
+
+}  // namespace
+
+PairArray::PairArray(std::vector<Pair> pairs)
+    : m_pairs(std::move(pairs)), m_table(pairTable(m_pairs.data(), m_pairs.size())) {}
+
+PairArray::PairArray(OverlapSearch search, std::span<const Pair> pairs)
+    : m_search(std::move(search)), m_table(pairTable(const_cast<Pair*>(pairs.data()), pairs.size())) {}
 
 }  // namespace allpairs::python

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "BufferProtocol.h"
+#include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"
 
 namespace allpairs::python {
@@ -14,6 +17,9 @@ namespace allpairs::python {
 class PairArray {
  public:
   explicit PairArray(std::vector<Pair> pairs);
+
+  /// Those that a search has found last, in its memory.
+  PairArray(OverlapSearch search, std::span<const Pair> pairs);
   PairArray(const PairArray&) = delete;
   PairArray& operator=(const PairArray&) = delete;
 
@@ -21,6 +27,7 @@ class PairArray {
 
  private:
   std::vector<Pair> m_pairs;
+  std::optional<OverlapSearch> m_search;
   Table m_table;
 };
 

@@ -3,7 +3,9 @@
 
 #include <pybind11/stl.h>
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -20,15 +22,28 @@ namespace allpairs::python {
 namespace py = pybind11;
 namespace {
 
+/// From so many boxes on Python gets the pairs in the memory of the search: a vector of many pairs would be touched, and filled with
+/// zeros, for the first time.
+constexpr std::size_t kManyBoxes = 512;
+
+template <class... Sets>
+std::unique_ptr<PairArray> pairsOf(const OverlapOptions& settings, const Sets&... sets) {
+  if ((sets.size() + ...) < kManyBoxes) return toPython(overlaps(sets..., settings));
+  OverlapSearch search(settings);
+  const std::span<const Pair> pairs = search.find(sets...);
+  search.setOptions({});  // what the settings refer to is gone before the pairs are
+  search.shrink();
+  return std::make_unique<PairArray>(std::move(search), pairs);
+}
+
 std::unique_ptr<PairArray> findPairs(const Boxes& boxes, Options& options) {
   const BoxView& set = boxes.set();
-  return options.run(set.size(), [&](const OverlapOptions& settings) { return toPython(overlaps(set, settings)); });
+  return options.run(set.size(), [&](const OverlapOptions& settings) { return pairsOf(settings, set); });
 }
 
 std::unique_ptr<PairArray> findPairsBetween(const Boxes& first, const Boxes& second, Options& options) {
-  return options.run(first.set().size() + second.set().size(), [&](const OverlapOptions& settings) {
-    return toPython(overlaps(first.set(), second.set(), settings));
-  });
+  return options.run(first.set().size() + second.set().size(),
+                     [&](const OverlapOptions& settings) { return pairsOf(settings, first.set(), second.set()); });
 }
 
 py::tuple toTuple(Neighbors found) {

@@ -55,6 +55,27 @@ NeighborRows rowsOf(int kind) {
   throw InvalidArgument("no kind of rows " + std::to_string(kind));
 }
 
+/// Calls find(span) with memory of the caller, for `count` of which it gives how much it has put there.
+template <class T, class Find>
+void findInto(T* data, std::size_t capacity, std::size_t& count, const Find& find) {
+  count = 0;
+  const std::span<T> memory = requiredSpan(data, capacity, "memory");
+  try {
+    count = find(memory);
+  } catch (const LimitExceeded& error) {
+    count = static_cast<std::size_t>(error.count());
+    throw;
+  }
+}
+
+std::span<Pair> pairsIn(std::span<allpairs_pair> memory) {
+  return {reinterpret_cast<Pair*>(memory.data()), memory.size()};
+}
+
+std::span<std::uint64_t> offsetsIn(const allpairs_rows_memory& memory, const allpairs_set* set) {
+  return {&required(memory.offsets, "memory.offsets"), required(set, "set").boxes.size() + 1};
+}
+
 allpairs_rows toC(const NeighborsView& found) { return {found.offsets.data(), found.indices.data(), found.size()}; }
 
 /// The search, with its filters as long as the sets that it is about to look at.
@@ -125,6 +146,50 @@ allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_se
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
     required(pairs, "pairs") = toC(prepared(search, first, second).find(first->boxes, others));
+  });
+}
+
+allpairs_status allpairs_find_into(allpairs_search* search, const allpairs_set* set, allpairs_pair_memory* memory) {
+  return guarded([&] {
+    allpairs_pair_memory& to = required(memory, "memory");
+    findInto(to.data, to.capacity, to.count, [&](std::span<allpairs_pair> room) {
+      return prepared(search, set, nullptr).findInto(set->boxes, pairsIn(room)).size();
+    });
+  });
+}
+
+allpairs_status allpairs_find_between_into(allpairs_search* search, const allpairs_set* first,
+                                           const allpairs_set* second, allpairs_pair_memory* memory) {
+  return guarded([&] {
+    allpairs_pair_memory& to = required(memory, "memory");
+    const allpairs::BoxView& others = required(second, "second").boxes;
+    findInto(to.data, to.capacity, to.count, [&](std::span<allpairs_pair> room) {
+      return prepared(search, first, second).findInto(first->boxes, others, pairsIn(room)).size();
+    });
+  });
+}
+
+allpairs_status allpairs_find_neighbors_into(allpairs_search* search, const allpairs_set* set, allpairs_rows_kind kind,
+                                             allpairs_rows_memory* memory) {
+  return guarded([&] {
+    allpairs_rows_memory& to = required(memory, "memory");
+    const allpairs::NeighborRows known = rowsOf(numberIn(kind));
+    findInto(to.indices, to.capacity, to.count, [&](std::span<std::uint32_t> room) {
+      allpairs::OverlapSearch& overlaps = prepared(search, set, nullptr);
+      return overlaps.findNeighborsInto(set->boxes, known, {offsetsIn(to, set), room}).indices.size();
+    });
+  });
+}
+
+allpairs_status allpairs_find_neighbors_between_into(allpairs_search* search, const allpairs_set* first,
+                                                     const allpairs_set* second, allpairs_rows_memory* memory) {
+  return guarded([&] {
+    allpairs_rows_memory& to = required(memory, "memory");
+    const allpairs::BoxView& others = required(second, "second").boxes;
+    findInto(to.indices, to.capacity, to.count, [&](std::span<std::uint32_t> room) {
+      allpairs::OverlapSearch& overlaps = prepared(search, first, second);
+      return overlaps.findNeighborsInto(first->boxes, others, {offsetsIn(to, first), room}).indices.size();
+    });
   });
 }
 

@@ -154,6 +154,9 @@ TEST(FailedAllocationInC, OfSearches) {
   const allpairs_visitor visitor{takeAll, nullptr, 0};
   check([&](Handles& h) { return allpairs_find(h.search, h.set, &pairs); });
   check([&](Handles& h) { return allpairs_find_between(h.search, h.set, h.other, &pairs); });
+  std::vector<allpairs_pair> memory(100000);
+  allpairs_pair_memory into{memory.data(), memory.size(), 0};
+  check([&](Handles& h) { return allpairs_find_into(h.search, h.set, &into); });
   allpairs_rows rows;
   check([&](Handles& h) { return allpairs_find_neighbors(h.search, h.set, ALLPAIRS_FULL_ROWS, &rows); });
   check([&](Handles& h) { return allpairs_find_neighbors_between(h.search, h.set, h.other, &rows); });

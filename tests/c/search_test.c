@@ -177,6 +177,43 @@ static void neighborsAreThoseOfTheDoubleLoop(allpairs_set* set) {
   allpairs_search_destroy(search);
 }
 
+static void resultsGoToMemoryOfTheCaller(allpairs_set* set) {
+  static allpairs_pair pairs[kPairs];
+  static uint64_t offsets[kBoxes + 1];
+  static uint32_t indices[kPairs];
+  const size_t count = everyPair(0, NULL);
+  allpairs_pair_memory memory = {pairs, kPairs, 0};
+  allpairs_rows_memory place = {offsets, indices, kPairs, 0};
+  allpairs_search* search = NULL;
+  allpairs_rows found;
+  ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find_into(search, set, &memory) == ALLPAIRS_OK && memory.count == count);
+  ALLPAIRS_CHECK(memcmp(pairs, expected, count * sizeof(allpairs_pair)) == 0);
+  memory.capacity = count - 1;
+  ALLPAIRS_CHECK(allpairs_find_into(search, set, &memory) == ALLPAIRS_LIMIT_EXCEEDED && memory.count == count);
+  ALLPAIRS_CHECK(allpairs_error_index() == count);
+  memory.capacity = kPairs;
+  ALLPAIRS_CHECK(allpairs_find_between_into(search, set, set, &memory) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(memory.count > 2 * count && memory.count <= 2 * count + kBoxes);
+  ALLPAIRS_CHECK(allpairs_find_neighbors_into(search, set, ALLPAIRS_FULL_ROWS, &place) == ALLPAIRS_OK);
+  found.offsets = offsets;
+  found.indices = indices;
+  ALLPAIRS_CHECK(place.count == 2 * count && offsets[kBoxes] == place.count);
+  for (uint32_t i = 0; i < kBoxes; ++i) checkRow(&found, i, false);
+  ALLPAIRS_CHECK(allpairs_find_neighbors_between_into(search, set, set, &place) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(place.count == memory.count && offsets[kBoxes] == place.count);
+  place.capacity = place.count - 1;
+  ALLPAIRS_CHECK(allpairs_find_neighbors_between_into(search, set, set, &place) == ALLPAIRS_LIMIT_EXCEEDED);
+  ALLPAIRS_CHECK(place.count == memory.count);
+  place.offsets = NULL;
+  ALLPAIRS_CHECK(allpairs_find_neighbors_into(search, set, ALLPAIRS_FULL_ROWS, &place) == ALLPAIRS_INVALID_ARGUMENT);
+  memory.data = NULL;
+  ALLPAIRS_CHECK(allpairs_find_into(search, set, &memory) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(strcmp(allpairs_error_message(), "memory is null") == 0);
+  ALLPAIRS_CHECK(allpairs_find_into(search, set, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  allpairs_search_destroy(search);
+}
+
 static void neighborsBetweenTwoSetsAreOfTheFirst(allpairs_set* set) {
   enum { kOthers = 40 };
   allpairs_search* search = NULL;
@@ -266,6 +303,7 @@ int main(void) {
   onSets(pairsAreThoseOfTheDoubleLoop);
   onSets(neighborsAreThoseOfTheDoubleLoop);
   onSets(neighborsBetweenTwoSetsAreOfTheFirst);
+  onSets(resultsGoToMemoryOfTheCaller);
   onSets(optionsAreRead);
   onSets(aCallbackDecides);
   onSets(streamsComeInBatchesAndCanBeStopped);

@@ -91,6 +91,11 @@ TEST_P(FailedAllocation, LeavesFindOfTwoSetsUsable) {
   check([&](OverlapSearch& search, std::vector<Pair>& found) { keep(search.find(first, second), found); });
 }
 
+TEST_P(FailedAllocation, LeavesFindIntoUsable) {
+  std::vector<Pair> memory(overlaps(first, options).size() + 1);
+  check([&](OverlapSearch& search, std::vector<Pair>& found) { keep(search.findInto(first, memory), found); });
+}
+
 TEST_P(FailedAllocation, LeavesFindNeighborsUsable) {
   const auto keepRows = [](const NeighborsView& rows, std::vector<Pair>& found) {
     for (std::uint32_t i = 0; i < rows.size(); ++i) {

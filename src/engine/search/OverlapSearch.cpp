@@ -68,6 +68,32 @@ NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& 
   return state.search.findNeighbors({first, second, false}, state.options, NeighborRows::Half);
 }
 
+std::span<Pair> OverlapSearch::findInto(const BoxView& boxes, std::span<Pair> memory) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.findInto({boxes, boxes, true}, state.options, memory);
+}
+
+std::span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, std::span<Pair> memory) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.findInto({first, second, false}, state.options, memory);
+}
+
+NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.findNeighborsInto({boxes, boxes, true}, state.options, rows, {memory.offsets, memory.indices});
+}
+
+NeighborsView OverlapSearch::findNeighborsInto(const BoxView& first, const BoxView& second,
+                                               const NeighborsMemory& memory) {
+  State& state = this->state();
+  const engine::InUse::Scope scope(state.inUse);
+  return state.search.findNeighborsInto({first, second, false}, state.options, NeighborRows::Half,
+                                        {memory.offsets, memory.indices});
+}
+
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);

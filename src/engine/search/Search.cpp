@@ -144,7 +144,7 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_statistics = {};
   m_pairs = {};
   m_rowsFound = {};
-  m_taken = nullptr;
+  m_room = nullptr;
 }
 
 void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
@@ -205,10 +205,7 @@ void Search::run(const Plan& plan, Executor& executor) {
 
 /// Where the pairs of all tasks are concatenated.
 std::span<Pair> Search::roomForPairs() {
-  if (m_taken != nullptr) {
-    m_taken->resize(m_statistics.pairs);
-    return *m_taken;
-  }
+  if (m_room != nullptr) return (*m_room)(m_statistics.pairs);
   m_joined.require(m_statistics.pairs);
   return {m_joined.data(), m_statistics.pairs};
 }
@@ -234,16 +231,20 @@ void Search::concatenate() {
   });
 }
 
-std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options, std::vector<Pair>* into) {
+std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options, const PairRoom* room) {
   if (areFew(sets, options)) return findAmongFew(sets, options, options.order);
   begin(sets, options);
-  m_taken = into;
   Plan plan{PairTest::of(sets, options), options.order};
   makePlan(sets, options, plan);
+  return findPlanned(sets, plan, room);
+}
+
+std::span<const Pair> Search::findPlanned(const Sets& sets, Plan& plan, const PairRoom* room) {
+  m_room = room;
   if (!plan.job.isFlat && (findInLists(sets, plan) || findInBuckets(sets, plan))) return m_pairs;
   run(plan, *m_executor);
   concatenate();
-  if (!plan.job.isFlat) sortPairs(sets, options.order);
+  if (!plan.job.isFlat) sortPairs(sets, plan.order);
   return m_pairs;
 }
 
@@ -264,7 +265,12 @@ std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOption
 
 std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) {
   std::vector<Pair> taken;
-  const std::span<const Pair> pairs = find(sets, options, &taken);
+  const auto resized = [&](std::uint64_t pairs) -> std::span<Pair> {
+    taken.resize(pairs);
+    return taken;
+  };
+  const PairRoom room(resized);
+  const std::span<const Pair> pairs = find(sets, options, &room);
   if (pairs.data() != taken.data()) taken.assign(pairs.begin(), pairs.end());
   return taken;
 }

@@ -45,6 +45,10 @@ class Batches {
   std::uint64_t m_given = 0;
 };
 
+/// Where a result is put, asked for once its size is known: a vector, or memory of the caller, which may be too small and throw.
+using PairRoom = FunctionRef<std::span<Pair>(std::uint64_t pairs)>;
+using RowRoom = FunctionRef<RowsPlace(std::size_t rows, std::uint64_t indices)>;
+
 /// The state of a search, and the memory that it keeps for the next one.
 class Search {
  public:
@@ -63,17 +67,22 @@ class Search {
         m_places(memory),
         m_sort(memory) {}
 
-  /// With a vector, pairs that have to be put together or in order are put there.
-  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options, std::vector<Pair>* into = nullptr);
+  /// With a room, pairs that have to be put together or in order are put there.
+  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options, const PairRoom* room = nullptr);
 
   /// The pairs of find() as a vector, into which they are put in order at once: another copy of many pairs is memory that
   /// is touched for the first time.
   [[nodiscard]] std::vector<Pair> take(const Sets& sets, const OverlapOptions& options);
 
+  /// The same in memory of the caller; returns how much of it. Throws LimitExceeded if it is too small.
+  std::span<Pair> findInto(const Sets& sets, const OverlapOptions& options, std::span<Pair> memory);
+
   /// The partners of each box of the first set, whatever the options' order; of two sets the rows are Half ones.
   NeighborsView findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
-                              Neighbors* into = nullptr);
+                              const RowRoom* room = nullptr);
   [[nodiscard]] Neighbors takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind);
+  NeighborsView findNeighborsInto(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
+                                  const RowsPlace& memory);
 
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
   void stream(const Sets& sets, const OverlapOptions& options, Batches to);
@@ -95,6 +104,7 @@ class Search {
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
+  std::span<const Pair> findPlanned(const Sets& sets, Plan& plan, const PairRoom* room);
   std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options, Order order);
   void begin(const Sets& sets, const OverlapOptions& options);
   void makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan);
@@ -104,6 +114,7 @@ class Search {
   void joinBoth(bool one, Plan& plan);
 
   void run(const Plan& plan, Executor& executor);
+  std::span<Pair> copyInto(Plan& plan, std::span<Pair> memory);
   std::span<Pair> roomForPairs();
   void concatenate();
   void sortPairs(const Sets& sets, Order order);
@@ -148,10 +159,10 @@ class Search {
   std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
   PairLists m_lists;
   Buffer<Pair> m_joined;
-  std::vector<Pair>* m_taken = nullptr;  ///< Where given, what is used instead of m_joined.
+  const PairRoom* m_room = nullptr;  ///< Where given, what is used instead of m_joined.
   Buffer<std::uint64_t> m_offsets;
   Buffer<std::uint32_t> m_indices;
-  Neighbors* m_takenRows = nullptr;  ///< Where given, what is used instead of these two.
+  const RowRoom* m_rowRoom = nullptr;  ///< Where given, what is used instead of these two.
   std::pmr::vector<std::size_t> m_places;
   std::span<Pair> m_pairs;  ///< The result: concatenated from several tasks, or in the memory of a single one.
   RowsPlace m_rowsFound;    ///< The result, where it is rows.

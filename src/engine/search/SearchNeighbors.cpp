@@ -8,8 +8,8 @@
 namespace allpairs::engine {
 
 NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
-                                    Neighbors* into) {
-  m_takenRows = into;
+                                    const RowRoom* room) {
+  m_rowRoom = room;
   if (areFew(sets, options)) {
     findAmongFew(sets, options, Order::ByFirst);
     writePairsAsRows(sets, kind);
@@ -29,16 +29,18 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
 
 Neighbors Search::takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind) {
   Neighbors taken;
-  findNeighbors(sets, options, kind, &taken);
+  const auto resized = [&](std::size_t rows, std::uint64_t indices) -> RowsPlace {
+    taken.offsets.resize(rows + 1);
+    taken.indices.resize(indices);
+    return {taken.offsets, taken.indices};
+  };
+  const RowRoom room(resized);
+  findNeighbors(sets, options, kind, &room);
   return taken;
 }
 
 RowsPlace Search::roomForRows(std::size_t rows, std::size_t indices) {
-  if (m_takenRows != nullptr) {
-    m_takenRows->offsets.resize(rows + 1);
-    m_takenRows->indices.resize(indices);
-    return {m_takenRows->offsets, m_takenRows->indices};
-  }
+  if (m_rowRoom != nullptr) return (*m_rowRoom)(rows, indices);
   m_offsets.require(rows + 1);
   m_indices.require(indices);
   return {{m_offsets.data(), rows + 1}, {m_indices.data(), indices}};

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Searches whose result is put into memory of the caller.
+#include <algorithm>
+#include <string>
+
+#include "allpairs/Error.h"
+#include "search/FewBoxes.h"
+#include "search/Search.h"
+
+namespace allpairs::engine {
+namespace {
+
+/// Throws unless there is room for what was found.
+void checkRoom(std::uint64_t found, std::size_t room, const char* what) {
+  if (found <= room) return;
+  throw LimitExceeded(found,
+                      "memory for " + std::to_string(room) + ' ' + what + ", but there are " + std::to_string(found));
+}
+
+}  // namespace
+
+std::span<Pair> Search::findInto(const Sets& sets, const OverlapOptions& options, std::span<Pair> memory) {
+  std::span<const Pair> found;
+  if (areFew(sets, options)) {
+    found = findAmongFew(sets, options, options.order);
+  } else {
+    begin(sets, options);
+    Plan plan{PairTest::of(sets, options), options.order};
+    makePlan(sets, options, plan);
+    // In no order but that in which one thread finds them, pairs are copied from the nearest cache.
+    if ((plan.job.isFlat || plan.order == Order::Unordered) && m_executor->concurrency() == 1) {
+      return copyInto(plan, memory);
+    }
+    const auto checked = [&](std::uint64_t pairs) {
+      checkRoom(pairs, memory.size(), "pairs");
+      return memory.first(pairs);
+    };
+    const PairRoom room(checked);
+    found = findPlanned(sets, plan, &room);
+  }
+  checkRoom(found.size(), memory.size(), "pairs");
+  if (found.data() != memory.data()) std::copy(found.begin(), found.end(), memory.begin());
+  m_pairs = {};
+  return memory.first(found.size());
+}
+
+/// Copies pairs as they are found, and only counts those that there is no room for.
+std::span<Pair> Search::copyInto(Plan& plan, std::span<Pair> memory) {
+  std::uint64_t size = 0;
+  const auto copy = [&](std::span<Pair> pairs, std::size_t) {
+    if (size + pairs.size() <= memory.size()) std::copy(pairs.begin(), pairs.end(), memory.data() + size);
+    size += pairs.size();
+    return pairs.size();
+  };
+  plan.sink.emit.emplace(copy);
+  plan.sink.likelyPairs = 0;
+  run(plan, *m_executor);
+  checkRoom(size, memory.size(), "pairs");
+  return memory.first(size);
+}
+
+NeighborsView Search::findNeighborsInto(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
+                                        const RowsPlace& memory) {
+  if (memory.offsets.size() <= sets.first.size()) {
+    throw InvalidArgument("memory for " + std::to_string(memory.offsets.size()) +
+                          " offsets: there is one more than the " + std::to_string(sets.first.size()) + " boxes");
+  }
+  const auto checked = [&](std::size_t rows, std::uint64_t indices) -> RowsPlace {
+    checkRoom(indices, memory.indices.size(), "indices");
+    return {memory.offsets.first(rows + 1), memory.indices.first(indices)};
+  };
+  const RowRoom room(checked);
+  const NeighborsView found = findNeighbors(sets, options, kind, &room);
+  m_rowsFound = {};
+  return found;
+}
+
+}  // namespace allpairs::engine
