@@ -126,6 +126,7 @@ def build_package(folder, config_settings):
     run("cmake", *cmake_arguments(build, prefix, config_settings))
     run("cmake", "--build", str(build), "--parallel", jobs, "--target", "allpairs_python")
     run("cmake", "--install", str(build), "--component", "python", "--strip")
+    run("cmake", "--install", str(build), "--component", "mpi", "--strip")  # nothing, where there is no MPI
     return prefix / PACKAGE_FOLDER
 
 

@@ -15,8 +15,13 @@ import numpy as np
 import numpy.typing as npt
 from mpi4py import MPI
 
-from . import _core, _mpi, _search
+from . import _core, _search
 from ._errors import Error, InvalidArgument
+
+try:
+    from . import _mpi
+except ImportError as problem:
+    raise ImportError("this build of allpairs has no MPI: it was not there when it was built") from problem
 
 __all__ = ["count", "count_between", "overlaps", "overlaps_between"]
 
