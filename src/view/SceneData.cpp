@@ -242,6 +242,8 @@ SceneData::SceneData(const ViewScene& scene) {
             {"meshIsShortened", scene.mesh.isShortened},
             {"names", scene.names},
             {"bodyNames", scene.bodyNames},
+            {"kinds", scene.kinds},
+            {"ids", scene.ids},
             {"typeNames", scene.typeNames},
             {"groupSets", scene.groupSets},
             {"statistics", statisticsOf(scene)},

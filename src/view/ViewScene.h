@@ -80,6 +80,15 @@ struct ViewScene {
   std::vector<std::uint32_t> bodies{};
   std::vector<std::string> bodyNames{};
 
+  /// What a model, and a body, is known by in reports to come: an IFC's GlobalId, or its file's name and its own in there. Empty
+  /// where nothing but names and numbers is known.
+  std::vector<std::string> identities{};
+  std::vector<std::string> bodyIdentities{};
+
+  std::vector<std::string>
+      kinds{};                     ///< Of each model, in the format's own words: "IfcColumn"; empty where none has one.
+  std::vector<std::string> ids{};  ///< Of each model its GlobalId, where it has one.
+
   [[nodiscard]] std::uint32_t bodyOf(std::uint32_t model) const { return bodies.empty() ? model : bodies[model]; }
   [[nodiscard]] std::string bodyName(std::uint32_t model) const {
     return bodies.empty() ? name(model) : bodyNames[bodies[model]];
