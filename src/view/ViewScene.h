@@ -42,7 +42,9 @@ struct ViewFrame {
   std::vector<Box> boxes;
   std::vector<std::uint8_t> flags;
   std::vector<Pair> pairs;
-  std::vector<Pair> excluded;       ///< (newer, older): the boxes are near enough, and a rule says no.
+  std::vector<Pair> excluded;  ///< (newer, older): the boxes are near enough, and a rule says no.
+  std::size_t began = 0;       ///< Of a sequence: how many pairs the frame before did not have, and of its how many
+  std::size_t ended = 0;       ///< are none any more.
   std::vector<double> positions{};  ///< Of a sequence of meshes: x y z of each vertex; its boxes are the triangles'.
 };
 
