@@ -125,10 +125,12 @@ _allpairs() {
         --group) words='body file none' ;;
         --up) words='x y z' ;;
         -o | --output) files=-d ;;
+        --bcf) words='2.1 3.0' ;;
+        --since) files=-d ;;
         --pictures) return ;;
         --metres-per-unit) return ;;
         *)
-          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up -o --output --force --open --pictures --metres-per-unit'
+          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up -o --output --force --bcf --since --open --pictures --metres-per-unit'
           files=-f
           ;;
       esac

@@ -115,6 +115,8 @@ complete -c allpairs -n '__fish_seen_subcommand_from report' -l group -x -a 'bod
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l up -x -a 'x y z' -d 'The axis that points up; by default as the format says, else z'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -s o -l output -x -a '(__fish_complete_directories)' -d 'Write to the folder DIR; it is created if missing'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l force -d 'Write to DIR although it holds other files'
+complete -c allpairs -n '__fish_seen_subcommand_from report' -l bcf -x -a '2.1 3.0' -d 'Version of clashes.bcf'
+complete -c allpairs -n '__fish_seen_subcommand_from report' -l since -x -a '(__fish_complete_directories)' -d 'Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l open -d 'Open the report in the browser'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l pictures -x -d 'Number of pairs with a picture and a BCF topic, at most'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l metres-per-unit -x -d 'Length of a unit of the input, for BCF\'s cameras; by default as the format says, else 1'

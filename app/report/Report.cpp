@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,6 +24,8 @@
 #include "ClashPicture.h"
 #include "Commands.h"
 #include "Png.h"
+#include "Since.h"
+#include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Progress.h"
@@ -41,11 +45,13 @@ struct ReportSettings {
   std::string folder;
   std::size_t pictures = 500;
   std::optional<double> metresPerUnit;
+  std::string bcf = "2.1";
+  std::string since;
   bool force = false;
   bool open = false;
 };
 
-constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (BCF 2.1, for BIM tools)
+constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (for BIM tools)
 and a folder of pictures. Shapes are tested where the input has any: clashes come
 first, the worst before all, and pairs that are apart are only counted. With
 --boxes all pairs of boxes are listed, those with the largest shared volume first.
@@ -53,7 +59,14 @@ first, the worst before all, and pairs that are apart are only counted. With
 Examples:
   allpairs report parts/ -o report
   allpairs report assembly.glb --clearance 0.01 -o report --pictures 100
-  allpairs report parts/ --metres-per-unit 0.001 -o report)";
+  allpairs report parts/ --metres-per-unit 0.001 -o report
+  allpairs report building.ifc --since monday -o tuesday --bcf 3.0)";
+
+/// The report that this one is compared with.
+struct Earlier {
+  std::string name;
+  std::vector<view::EarlierClash> rows;
+};
 
 /// Now, or the moment that builds which must repeat exactly give in SOURCE_DATE_EPOCH.
 std::string dateText() {
@@ -78,40 +91,62 @@ std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<co
 }
 
 std::string bcfOf(const view::ViewScene& scene, std::span<const view::Clash> pictured,
-                  const std::vector<std::string>& pictures, double metresPerUnit) {
-  view::BcfOptions options;
+                  const std::vector<std::string>& pictures, view::BcfOptions options) {
   options.date = dateText();
-  options.metresPerUnit = metresPerUnit;
   options.picture = [&pictures](const view::Clash& clash) { return pictures[clash.number - 1]; };
   return view::makeBcf(scene, pictured, options);
 }
 
 /// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind.
-void writeReport(const view::ViewScene& scene, const ReportSettings& settings) {
-  const std::vector<view::Clash> clashes = view::clashesOf(scene);
+void writeReport(const view::ViewScene& scene, const ReportSettings& settings, const std::optional<Earlier>& earlier) {
+  std::vector<view::Clash> clashes = view::clashesOf(scene);
+  std::optional<view::Since> since;
+  if (earlier) since = view::compareWith(earlier->rows, earlier->name, clashes);
   const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
   const std::vector<std::string> pictures = drawPictures(scene, pictured);
-  const std::string bcf =
-      bcfOf(scene, pictured, pictures, settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0)));
+  view::BcfOptions options;
+  options.version = settings.bcf == "3.0" ? view::BcfVersion::V30 : view::BcfVersion::V21;
+  options.metresPerUnit = settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0));
+  if (since) options.resolved = since->resolved;
+  const std::string bcf = bcfOf(scene, pictured, pictures, options);
+  const view::Report report{scene, clashes, pictured.size(), since ? &*since : nullptr};
   ReportFolder folder(settings.folder);
   for (const view::Clash& clash : pictured) folder.write(view::pictureName(clash.number), pictures[clash.number - 1]);
   folder.write("clashes.bcf", bcf);
-  folder.write("clashes.csv", [&](scene::ByteSink sink) { view::writeReportCsv(scene, clashes, sink); });
+  folder.write("clashes.csv", [&](scene::ByteSink sink) { view::writeReportCsv(report, sink); });
   folder.write("index.html",  // last, so that what it refers to is there
-               [&](scene::ByteSink sink) { view::writeReportPage(scene, clashes, pictured.size(), sink); });
+               [&](scene::ByteSink sink) { view::writeReportPage(report, sink); });
   folder.commit(pictured.size());
+  const std::string changes = since ? " (" + view::countText(*since) + ')' : "";
+  sayWritten(view::headlineOf(scene) + changes, std::filesystem::path(settings.folder) / "index.html");
+}
+
+/// The earlier report, by its folder or its table; before the work, and before a report in the same folder replaces it.
+std::optional<Earlier> readEarlier(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  std::error_code ignored;
+  const bool isFolder = std::filesystem::is_directory(path, ignored);
+  const std::filesystem::path table =
+      isFolder ? std::filesystem::path(path) / "clashes.csv" : std::filesystem::path(path);
+  std::ifstream stream(table, std::ios::binary);
+  if (!stream) throw FileError(path, "holds no report to compare with: there is no clashes.csv");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  try {
+    return Earlier{path, view::readReportCsv(text)};
+  } catch (const Error& problem) {
+    throw FileError(table, problem.what());
+  }
 }
 
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
   if (!(settings.metresPerUnit.value_or(1.0) > 0.0)) throw UsageError("--metres-per-unit must be above 0");
   checkReportFolder(settings.folder, settings.force);
+  const std::optional<Earlier> earlier = readEarlier(settings.since);
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
   if (scene.frames.size() > 1) throw UsageError("a report shows one frame: the input has several");
-  writeReport(scene, settings);
-  const std::filesystem::path page = std::filesystem::path(settings.folder) / "index.html";
-  sayWritten(view::headlineOf(scene), page);
-  if (settings.open) openInBrowser(std::filesystem::absolute(page));
+  writeReport(scene, settings, earlier);
+  if (settings.open) openInBrowser(std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html"));
 }
 
 }  // namespace
@@ -126,6 +161,14 @@ void addReport(CLI::App& program) {
   command->add_option("-o,--output", settings->folder, "Write to the folder DIR; it is created if missing")
       ->type_name("DIR");
   command->add_flag("--force", settings->force, "Write to DIR although it holds other files");
+  addChoice(*command, "--bcf", settings->bcf, {"2.1", "3.0"})
+      ->description("Version of clashes.bcf")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--since", settings->since,
+          "Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved")
+      ->type_name("DIR");
   command->add_flag("--open", settings->open, "Open the report in the browser");
   command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
       ->type_name("N")

@@ -46,7 +46,14 @@ void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to)
   std::map<std::pair<std::size_t, const void*>, std::uint32_t> numbers;
   std::vector<std::uint32_t> bodies;
   std::vector<std::string> names;
+  std::vector<std::string> identities;
   std::vector<std::size_t> sizes;
+  const auto identityOf = [&](std::size_t model, bool isOneOfSeveral) {
+    const std::string file = from.files[from.sources[model].file].filename().string();
+    if (grouping == Grouping::File) return file;
+    const auto path = paths.find(from.models[model]->getOwner());
+    return isOneOfSeveral && path != paths.end() ? file + '\n' + *path->second : to.identities[model];
+  };
   for (std::size_t i = 0; i < from.models.size(); ++i) {
     const bool isByFile = grouping == Grouping::File;
     const std::pair key(from.sources[i].file, isByFile ? nullptr : from.models[i]->getOwner());
@@ -54,13 +61,16 @@ void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to)
     if (isNew) {
       names.push_back(isByFile ? fileName(from, i) : from.models[i]->getName());
       sizes.push_back(0);
+      identities.emplace_back();
     }
     if (++sizes[body->second] == 2 && !isByFile) names[body->second] = nameOfSeveral(from, i, paths);
+    if (sizes[body->second] < 3) identities[body->second] = identityOf(i, sizes[body->second] > 1);
     bodies.push_back(body->second);
   }
   if (names.size() == from.models.size()) return;
   to.bodies = std::move(bodies);
   to.bodyNames = std::move(names);
+  to.bodyIdentities = std::move(identities);
 }
 
 }  // namespace allpairs::app

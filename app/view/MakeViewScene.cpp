@@ -63,6 +63,24 @@ class ModelProbe : public collision::BruteForceBroadPhase {
   }
 };
 
+/// By what models are known later, and what their format says that they are.
+void addSources(const scene::Scene& from, view::ViewScene& to) {
+  if (from.sources.size() != from.models.size()) return;
+  std::map<std::string, std::size_t> counts;
+  bool hasKinds = false;
+  for (const scene::ModelSource& source : from.sources) {
+    std::string identity =
+        source.id.empty() ? from.files[source.file].filename().string() + '\n' + source.name : source.id;
+    const std::size_t count = ++counts[identity];
+    to.identities.push_back(count == 1 ? std::move(identity) : identity + '\n' + std::to_string(count));
+    to.kinds.push_back(source.kind);
+    to.ids.push_back(source.id);
+    hasKinds = hasKinds || !source.kind.empty();
+  }
+  if (!hasKinds) to.kinds.clear();
+  if (!hasKinds) to.ids.clear();
+}
+
 void addColumns(const scene::Scene& from, view::ViewScene& to) {
   Numbering<std::string> types;
   Numbering<std::vector<int>> groups;
@@ -80,6 +98,7 @@ void addColumns(const scene::Scene& from, view::ViewScene& to) {
   }
   to.typeNames = types.keys();
   to.groupSets = groups.keys();
+  addSources(from, to);
 }
 
 view::ViewFrame frameOf(const scene::Scene& scene, const Detection& detection) {

@@ -48,6 +48,7 @@ class FrameSearch {
     view::ViewFrame frame = boxFrame(boxes, m_options);
     frame.positions = std::move(positions);
     for (const auto& [first, second] : m_search.find(boxes)) frame.pairs.push_back({second, first});
+    noteChanges(frame);
     const std::uint64_t n = count();
     m_scene.statistics.testsOfAllPairs += n == 0 ? 0 : n * (n - 1) / 2;
     m_scene.statistics.testsMade += m_search.statistics().boxTests + m_search.statistics().groupTests;
@@ -59,6 +60,23 @@ class FrameSearch {
 
  private:
   [[nodiscard]] std::size_t count() const { return m_scene.modelCount; }
+
+  /// Counts the pairs that one of two frames has and the other has not, as `track` does; both are ordered by their newer box.
+  void noteChanges(view::ViewFrame& frame) const {
+    if (m_scene.frames.empty()) {
+      frame.began = frame.pairs.size();
+      return;
+    }
+    const std::vector<Pair>& before = m_scene.frames.back().pairs;
+    std::size_t kept = 0;
+    auto was = before.begin();
+    for (const Pair& pair : frame.pairs) {
+      while (was != before.end() && *was < pair) ++was;
+      if (was != before.end() && *was == pair) ++kept;
+    }
+    frame.began = frame.pairs.size() - kept;
+    frame.ended = before.size() - kept;
+  }
 
   view::ViewScene& m_scene;
   const DetectionOptions& m_options;

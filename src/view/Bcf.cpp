@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <pugixml.hpp>
 #include <sstream>
 #include <vector>
@@ -41,30 +42,99 @@ std::string textOf(pugi::xml_document& document) {
   return text.str();
 }
 
-std::string version() {
+std::string version(BcfVersion version) {
   pugi::xml_document document;
-  addText(addElement(document.root(), "Version", "VersionId", "2.1"), "DetailedVersion", "2.1");
+  if (version == BcfVersion::V30) {
+    addElement(document.root(), "Version", "VersionId", "3.0");
+  } else {
+    addText(addElement(document.root(), "Version", "VersionId", "2.1"), "DetailedVersion", "2.1");
+  }
   return textOf(document);
 }
 
-std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
+/// The words that topics use, which 3.0 wants declared.
+std::string extensions() {
   pugi::xml_document document;
-  Node root = document.append_child("Markup");
-  addText(addElement(root.append_child("Header"), "File", "isExternal", "true"), "Filename", scene.title);
-  Node topic = addElement(root, "Topic", "Guid", clash.guid);
-  topic.append_attribute("TopicType").set_value("Clash");
-  topic.append_attribute("TopicStatus").set_value("Open");
-  addText(topic, "Title", titleOf(scene, clash));
-  addText(topic, "Index", std::to_string(clash.number));
-  addText(topic, "CreationDate", options.date);
-  addText(topic, "CreationAuthor", "Allpairs");
+  Node root = document.append_child("Extensions");
+  addText(root.append_child("TopicTypes"), "TopicType", "Clash");
+  Node statuses = root.append_child("TopicStatuses");
+  addText(statuses, "TopicStatus", "Open");
+  addText(statuses, "TopicStatus", "Closed");
+  Node labels = root.append_child("TopicLabels");
+  addText(labels, "TopicLabel", "new");
+  addText(labels, "TopicLabel", "persisting");
+  addText(labels, "TopicLabel", "resolved");
+  return textOf(document);
+}
+
+/// What a topic says besides its viewpoint.
+struct TopicText {
+  std::string guid;
+  std::string status;
+  std::string title;
+  std::string description;
+  std::string label{};     ///< Empty: none.
+  std::size_t number = 0;  ///< 0: none.
+};
+
+TopicText topicOf(const ViewScene& scene, const Clash& clash) {
   const std::string more =
       clash.inside.empty() ? "" : fmt::format(" It is the worst of {} pairs.", clash.inside.size() + 1);
-  addText(topic, "Description", findingOf(scene, clash) + more);
-  Node viewpoints = addElement(root, "Viewpoints", "Guid", viewpointGuid(clash));
-  addText(viewpoints, "Viewpoint", "viewpoint.bcfv");
-  addText(viewpoints, "Snapshot", "snapshot.png");
-  addText(viewpoints, "Index", "0");
+  TopicText topic{clash.guid, "Open", titleOf(scene, clash), findingOf(scene, clash) + more};
+  if (clash.isNew) topic.label = *clash.isNew ? "new" : "persisting";
+  topic.number = clash.number;
+  return topic;
+}
+
+TopicText topicOf(const EarlierClash& clash) {
+  return {clash.guid, "Closed", clash.first + " and " + clash.second,
+          "It was in the report before, and is none any more.", "resolved"};
+}
+
+void addHeader(Node root, const ViewScene& scene, bool isThree) {
+  Node header = root.append_child("Header");
+  Node files = isThree ? header.append_child("Files") : header;
+  addText(addElement(files, "File", isThree ? "IsExternal" : "isExternal", "true"), "Filename", scene.title);
+}
+
+Node addTopic(Node root, const TopicText& text, const BcfOptions& options) {
+  const bool isThree = options.version == BcfVersion::V30;
+  Node topic = addElement(root, "Topic", "Guid", text.guid);
+  topic.append_attribute("TopicType").set_value("Clash");
+  topic.append_attribute("TopicStatus").set_value(text.status.c_str());
+  addText(topic, "Title", text.title);
+  if (text.number != 0) addText(topic, "Index", std::to_string(text.number));
+  if (!text.label.empty())
+    isThree ? addText(topic.append_child("Labels"), "Label", text.label) : addText(topic, "Labels", text.label);
+  addText(topic, "CreationDate", options.date);
+  addText(topic, "CreationAuthor", "Allpairs");
+  addText(topic, "Description", text.description);
+  return topic;
+}
+
+void addViewpoint(Node parent, const char* name, const Clash& clash) {
+  Node viewpoint = addElement(parent, name, "Guid", viewpointGuid(clash));
+  addText(viewpoint, "Viewpoint", "viewpoint.bcfv");
+  addText(viewpoint, "Snapshot", "snapshot.png");
+  addText(viewpoint, "Index", "0");
+}
+
+std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
+  const bool isThree = options.version == BcfVersion::V30;
+  pugi::xml_document document;
+  Node root = document.append_child("Markup");
+  addHeader(root, scene, isThree);
+  Node topic = addTopic(root, topicOf(scene, clash), options);
+  isThree ? addViewpoint(topic.append_child("Viewpoints"), "ViewPoint", clash)
+          : addViewpoint(root, "Viewpoints", clash);
+  return textOf(document);
+}
+
+std::string markup(const ViewScene& scene, const EarlierClash& clash, const BcfOptions& options) {
+  pugi::xml_document document;
+  Node root = document.append_child("Markup");
+  addHeader(root, scene, options.version == BcfVersion::V30);
+  addTopic(root, topicOf(clash), options);
   return textOf(document);
 }
 
@@ -75,10 +145,31 @@ void addVector(Node parent, const char* name, const std::array<double, 3>& v) {
   addNumber(vector, "Z", v[2]);
 }
 
-void addComponent(Node selection, const std::string& name) {
-  Node component = selection.append_child("Component");
+bool isIfcGuid(const std::string& id) {
+  constexpr std::size_t kLength = 22;
+  return id.size() == kLength && std::all_of(id.begin(), id.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$';
+         });
+}
+
+void addComponent(Node parent, const ViewScene& scene, std::uint32_t model) {
+  Node component = parent.append_child("Component");
+  if (!scene.ids.empty() && isIfcGuid(scene.ids[model]))
+    component.append_attribute("IfcGuid").set_value(scene.ids[model].c_str());
   addText(component, "OriginatingSystem", "Allpairs");
-  addText(component, "AuthoringToolId", name);
+  const std::string name = printable(scene.name(model));
+  const bool isBlank = name.find_first_not_of(' ') == std::string::npos;
+  addText(component, "AuthoringToolId", isBlank ? fmt::format("model {}", model) : name);
+}
+
+/// The two models of a row in the colours of its picture.
+void addColouring(Node components, const ViewScene& scene, const Clash& clash, bool isThree) {
+  constexpr std::array<const char*, 2> kColours{"FF0072B2", "FFE69F00"};  // opaque blue and orange
+  Node colouring = components.append_child("Coloring");
+  for (std::size_t i = 0; i < (clash.isSelf() ? 1U : 2U); ++i) {
+    Node colour = addElement(colouring, "Color", "Color", kColours[i]);
+    addComponent(isThree ? colour.append_child("Components") : colour, scene, i == 0 ? clash.first : clash.second);
+  }
 }
 
 /// The models of all pairs of a row, each once.
@@ -96,26 +187,29 @@ std::vector<std::uint32_t> modelsOf(const Clash& clash) {
   return models;
 }
 
-void addCamera(Node parent, const ParallelCamera& camera, double metresPerUnit) {
+void addCamera(Node parent, const ParallelCamera& camera, const BcfOptions& options) {
+  constexpr double kAspectRatio = 4.0 / 3.0;  // of the pictures
   std::array<double, 3> eye{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    eye[axis] = (camera.centre[axis] - 2.0 * camera.height * camera.direction[axis]) * metresPerUnit;
+    eye[axis] = (camera.centre[axis] - 2.0 * camera.height * camera.direction[axis]) * options.metresPerUnit;
   }
   Node element = parent.append_child("OrthogonalCamera");
   addVector(element, "CameraViewPoint", eye);
   addVector(element, "CameraDirection", camera.direction);
   addVector(element, "CameraUpVector", camera.up);
-  addNumber(element, "ViewToWorldScale", camera.height * metresPerUnit);
+  addNumber(element, "ViewToWorldScale", camera.height * options.metresPerUnit);
+  if (options.version == BcfVersion::V30) addNumber(element, "AspectRatio", kAspectRatio);
 }
 
-std::string viewpoint(const ViewScene& scene, const Clash& clash, double metresPerUnit) {
+std::string viewpoint(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
   pugi::xml_document document;
   Node root = addElement(document.root(), "VisualizationInfo", "Guid", viewpointGuid(clash));
   Node components = root.append_child("Components");
   Node selection = components.append_child("Selection");
-  for (const std::uint32_t model : modelsOf(clash)) addComponent(selection, scene.name(model));
+  for (const std::uint32_t model : modelsOf(clash)) addComponent(selection, scene, model);
   addElement(components, "Visibility", "DefaultVisibility", "true");
-  addCamera(root, cameraOf(scene, clash), metresPerUnit);
+  addColouring(components, scene, clash, options.version == BcfVersion::V30);
+  addCamera(root, cameraOf(scene, clash), options);
   return textOf(document);
 }
 
@@ -123,12 +217,15 @@ std::string viewpoint(const ViewScene& scene, const Clash& clash, double metresP
 
 std::string makeBcf(const ViewScene& scene, std::span<const Clash> clashes, const BcfOptions& options) {
   Zip archive;
-  archive.add("bcf.version", version());
+  archive.add("bcf.version", version(options.version));
+  if (options.version == BcfVersion::V30) archive.add("extensions.xml", extensions());
   for (const Clash& clash : clashes) {
     archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
-    archive.add(clash.guid + "/viewpoint.bcfv", viewpoint(scene, clash, options.metresPerUnit));
+    archive.add(clash.guid + "/viewpoint.bcfv", viewpoint(scene, clash, options));
     archive.add(clash.guid + "/snapshot.png", options.picture(clash));
   }
+  for (const EarlierClash& clash : options.resolved)
+    archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
   return archive.finish();
 }
 

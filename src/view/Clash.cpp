@@ -117,10 +117,18 @@ ExactCounts countRows(const ViewScene& scene) {
   return counts;
 }
 
-/// Whichever pair of the two bodies is the worst.
-std::string guidOfBodies(const ViewScene& scene, const Clash& clash) {
-  const auto [low, high] = bodiesOf(scene, clash.first, clash.second);
-  return guidOf({scene.title, scene.bodyNames[low], scene.bodyNames[high], std::to_string(low), std::to_string(high)});
+/// What the body of a model is known by.
+std::string identityOf(const ViewScene& scene, std::uint32_t model) {
+  if (!scene.bodies.empty()) return scene.bodyIdentities[scene.bodies[model]];
+  if (!scene.identities.empty()) return scene.identities[model];
+  return scene.title + '\n' + scene.name(model) + '\n' + std::to_string(model);
+}
+
+/// Whichever of the two comes first, and whichever pair of their parts is the worst.
+std::string guidOfRow(const ViewScene& scene, const Clash& clash) {
+  std::vector<std::string> identities{identityOf(scene, clash.first), identityOf(scene, clash.second)};
+  std::sort(identities.begin(), identities.end());
+  return guidOf(identities);
 }
 
 /// Pairs, the worst first, as rows.
@@ -207,9 +215,7 @@ std::vector<Clash> clashesOf(const ViewScene& scene) {
   for (std::size_t i = 0; i < clashes.size(); ++i) {
     Clash& clash = clashes[i];
     clash.number = i + 1;
-    clash.guid = scene.bodies.empty() ? guidOf({scene.title, scene.name(clash.first), scene.name(clash.second),
-                                                std::to_string(clash.first), std::to_string(clash.second)})
-                                      : guidOfBodies(scene, clash);
+    clash.guid = guidOfRow(scene, clash);
   }
   return clashes;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct Clash {
   double volume = 0.0;               ///< Of what both boxes share.
   const ExactPair* exact = nullptr;  ///< What the shapes say, in the scene; null where only boxes were asked.
   std::vector<Clash> inside{};  ///< The other pairs of the same two bodies, the worst first, without number and GUID.
-  std::string guid;             ///< The same for the same scene and models, so that a later report renews a topic.
+  std::optional<bool> isNew{};  ///< Whether an earlier report, if there is one, did not have it.
+  std::string guid;             ///< The same for the same two models or bodies, so that a later report renews a topic.
 
   [[nodiscard]] bool isSelf() const { return first == second; }
 };

@@ -22,7 +22,7 @@ p{color:var(--soft);max-width:60rem}.headline{color:var(--ink);font-size:1.6rem;
 margin:.6rem 0 .3rem}.worst{color:var(--ink);margin:.3rem 0}
 .state{display:inline-block;border-radius:.3rem;padding:0 .4rem;font-size:.85em;font-weight:600;color:#fff;background:#5a6672}
 .state.duplicate{background:#7a0f5a}.state.contained{background:#a3123a}.state.clash{background:#c2330f}
-.state.touching{background:#7d6e00}.state.clearance{background:#1f6f8b}
+.state.new{background:#1d6b34}.state.touching{background:#7d6e00}.state.clearance{background:#1f6f8b}
 .clashes{display:grid;gap:1rem;
 grid-template-columns:repeat(auto-fill,minmax(min(20rem,100%),1fr))}
 figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:.5rem;overflow:hidden}
@@ -39,17 +39,29 @@ td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-spa
 
 constexpr std::size_t kMostRows = 10'000;  // of more, browsers take seconds to lay out the page
 
-std::string namesOf(const ViewScene& scene, const Clash& clash) {
-  std::string text = fmt::format("<span class=\"first\">{}</span>", escapeHtml(firstNameOf(scene, clash)));
-  if (clash.isSelf()) return text + " with itself";
-  return text + fmt::format("<br><span class=\"second\">{}</span>", escapeHtml(secondNameOf(scene, clash)));
+/// The class and the GlobalId of a model that has them.
+std::string kindOf(const ViewScene& scene, const Clash& clash, std::uint32_t model) {
+  if (scene.ids.empty() || !clash.inside.empty() || scene.ids[model].empty()) return {};
+  return fmt::format("<br><span class=\"fact\">{} {}</span>", escapeHtml(scene.kinds[model]),
+                     escapeHtml(scene.ids[model]));
 }
 
-/// The state as a word with a colour.
+std::string namesOf(const ViewScene& scene, const Clash& clash) {
+  std::string text = fmt::format("<span class=\"first\">{}</span>", escapeHtml(firstNameOf(scene, clash)));
+  text += kindOf(scene, clash, clash.first);
+  if (clash.isSelf()) return text + " with itself";
+  text += fmt::format("<br><span class=\"second\">{}</span>", escapeHtml(secondNameOf(scene, clash)));
+  return text + kindOf(scene, clash, clash.second);
+}
+
+/// The state as a word with a colour, and whether it is new.
 std::string badgeOf(const Clash& clash) {
-  if (clash.exact == nullptr) return {};
+  std::string text;
+  if (clash.isNew)
+    text = *clash.isNew ? "<span class=\"state new\">new</span> " : "<span class=\"state\">persisting</span> ";
+  if (clash.exact == nullptr) return text;
   const std::string_view name = stateName(clash.exact->state);
-  return fmt::format("<span class=\"state {}\">{}</span> ", name, name);
+  return fmt::format("<span class=\"state {}\">{}</span> ", name, name) + text;
 }
 
 /// The pairs of a row's bodies, to be opened.
@@ -100,7 +112,7 @@ std::string measuresOf(const Clash& clash) {
 std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
   const std::string number =
       hasPicture ? fmt::format("<a href=\"#clash-{0}\">{0}</a>", clash.number) : std::to_string(clash.number);
-  const std::string state = clash.exact == nullptr ? "" : "<td>" + badgeOf(clash) + "</td>";
+  const std::string state = clash.exact == nullptr && !clash.isNew ? "" : "<td>" + badgeOf(clash) + "</td>";
   const std::string more = clash.inside.empty() ? "" : fmt::format(" (worst of {} pairs)", clash.inside.size() + 1);
   return fmt::format("<tr>{}{}<td>{}</td><td>{}{}</td>{}</tr>\n", numberCell(number), state,
                      escapeHtml(firstNameOf(scene, clash)),
@@ -130,6 +142,19 @@ std::string csvMeasuresOf(const Clash& clash) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{}", stateName(pair.state),
                      pair.depth ? fmt::to_string(*pair.depth) : "", pair.distance, x, y, z, pair.normal[0],
                      pair.normal[1], pair.normal[2], pair.contactCount);
+}
+
+std::string idCellsOf(const ViewScene& scene, std::uint32_t model) {
+  if (scene.ids.empty()) return {};
+  return ',' + cellOf(scene.kinds[model]) + ',' + cellOf(scene.ids[model]);
+}
+
+/// A pair of a row.
+void writeCsvLine(const ViewScene& scene, const Clash& row, const Clash& pair, scene::ByteSink sink) {
+  const std::string since = row.isNew ? (*row.isNew ? ",new" : ",persisting") : "";
+  sink(fmt::format("{},{},{},{}{}{}{},{}\n", row.number, cellOf(scene.name(pair.first)),
+                   cellOf(scene.name(pair.second)), csvMeasuresOf(pair), idCellsOf(scene, pair.first),
+                   idCellsOf(scene, pair.second), since, row.guid));
 }
 
 bool isAscii(const std::string& text) {
@@ -171,12 +196,24 @@ constexpr const char* kOfBoxes =
     "their shapes says whether they do. Red is what the two boxes share. The largest comes first; models that may "
     "touch themselves come last.</p>\n";
 
-std::string introduction(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured) {
+/// What has changed since the earlier report.
+std::string changesOf(const Since* since) {
+  if (since == nullptr) return {};
+  std::string text = fmt::format("<p class=\"worst\">Since {}: {}.</p>\n", escapeHtml(since->name), countText(*since));
+  if (since->resolved.empty()) return text;
+  text += "<details><summary>Resolved</summary><ul>";
+  for (const EarlierClash& clash : std::span(since->resolved).first(std::min(since->resolved.size(), kMostRows)))
+    text += fmt::format("<li>{} and {}</li>", escapeHtml(clash.first), escapeHtml(clash.second));
+  return text + "</ul></details>\n";
+}
+
+std::string introduction(const Report& report) {
+  const auto& [scene, clashes, pictured, since] = report;
   const std::size_t candidates = scene.frames.front().pairs.size();
   const std::size_t count = clashes.size();
   std::string text =
       fmt::format("<h1>{}</h1>\n<p class=\"headline\">{}</p>\n", escapeHtml(scene.title), headlineOf(scene));
-  text += worstOf(scene, clashes) + scopeOf(scene, candidates);
+  text += changesOf(since) + worstOf(scene, clashes) + scopeOf(scene, candidates);
   if (candidates == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
   if (count == 0) return text + "<p>No two models touch: there is nothing to look at.</p>\n";
   text += scene.isExact ? kOfShapes : kOfBoxes;
@@ -189,7 +226,7 @@ std::string introduction(const ViewScene& scene, std::span<const Clash> clashes,
 void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured, scene::ByteSink sink) {
   if (clashes.empty()) return;
   sink("<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th>");
-  if (scene.isExact) sink("<th>state</th>");
+  if (scene.isExact || clashes.front().isNew) sink("<th>state</th>");
   sink("<th>first</th><th>second</th>");
   if (scene.isExact) {
     sink("<th class=\"number\">depth</th><th class=\"number\">distance</th>");
@@ -207,15 +244,15 @@ void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::siz
 
 std::string pictureName(std::size_t number) { return fmt::format("pictures/{:04}.png", number); }
 
-void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured,
-                     scene::ByteSink sink) {
+void writeReportPage(const Report& report, scene::ByteSink sink) {
+  const auto& [scene, clashes, pictured, since] = report;
   sink("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
   sink("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
   sink("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self' file:; ");
   sink("style-src 'unsafe-inline'\">\n");
   sink(fmt::format("<title>{} – clashes</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", escapeHtml(scene.title),
                    kStyle));
-  sink(introduction(scene, clashes, pictured));
+  sink(introduction(report));
   sink("<section class=\"clashes\">\n");
   for (const Clash& clash : clashes.first(pictured)) sink(figureOf(scene, clash));
   sink("</section>\n");
@@ -223,18 +260,23 @@ void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std
   sink("</main>\n</body>\n</html>\n");
 }
 
-void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink) {
+void writeReportCsv(const Report& report, scene::ByteSink sink) {
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
+  const ViewScene& scene = report.scene;
   if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
-  sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts,guid\n"
-                     : "number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");
-  const auto write = [&](const Clash& row, const Clash& pair) {
-    sink(fmt::format("{},{},{},{},{}\n", row.number, cellOf(scene.name(pair.first)), cellOf(scene.name(pair.second)),
-                     csvMeasuresOf(pair), row.guid));
-  };
-  for (const Clash& clash : clashes) {
-    write(clash, clash);
-    for (const Clash& pair : clash.inside) write(clash, pair);
+  sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts"
+                     : "number,first,second,overlap_x,overlap_y,overlap_z,volume");
+  if (!scene.ids.empty()) sink(",first_type,first_id,second_type,second_id");
+  sink(report.since == nullptr ? ",guid\n" : ",since,guid\n");
+  for (const Clash& clash : report.clashes) {
+    writeCsvLine(scene, clash, clash, sink);
+    for (const Clash& pair : clash.inside) writeCsvLine(scene, clash, pair, sink);
+  }
+  if (report.since == nullptr) return;
+  const std::size_t left = (scene.isExact ? 10U : 4U) + (scene.ids.empty() ? 0U : 4U);
+  for (const EarlierClash& clash : report.since->resolved) {
+    sink(fmt::format(",{},{},{}resolved,{}\n", cellOf(clash.first), cellOf(clash.second), std::string(left, ','),
+                     clash.guid));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "Clash.h"
+#include "Since.h"
 #include "allpairs/scene/WriteResult.h"
 
 namespace allpairs::view {
@@ -11,11 +12,21 @@ namespace allpairs::view {
 /// Where a clash's picture lies in the folder of a report: pictures/0001.png.
 [[nodiscard]] std::string pictureName(std::size_t number);
 
-/// Writes the page of a report. The first `pictured` clashes have pictures beside it.
-void writeReportPage(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured,
-                     scene::ByteSink sink);
+/// What a report is of.
+struct Report {
+  const ViewScene& scene;
+  std::span<const Clash> clashes;
+  std::size_t pictured = 0;      ///< How many, from the first one, have pictures beside the page.
+  const Since* since = nullptr;  ///< What has become of an earlier report, if there is one.
+};
+
+/// Writes the page of a report.
+void writeReportPage(const Report& report, scene::ByteSink sink);
 
 /// Writes a line for each pair, those of a row with its number and GUID: number, names, overlap per axis, volume and GUID (RFC 4180).
-void writeReportCsv(const ViewScene& scene, std::span<const Clash> clashes, scene::ByteSink sink);
+///
+/// Where models have a GlobalId, four columns more: the class and the GlobalId of each. With an earlier report one more, "since":
+/// new, persisting or resolved; those that are resolved come last and have no number.
+void writeReportCsv(const Report& report, scene::ByteSink sink);
 
 }  // namespace allpairs::view

@@ -94,6 +94,18 @@ void addMesh(const ViewMesh& mesh, const std::vector<double>& origin, ArrayWrite
   arrays.add("pointEnds", mesh.pointEnds);
 }
 
+/// How many pairs begin and end in each frame.
+void addChanges(const ViewScene& scene, ArrayWriter& arrays) {
+  std::vector<std::uint32_t> began;
+  std::vector<std::uint32_t> ended;
+  for (const ViewFrame& frame : scene.frames) {
+    began.push_back(static_cast<std::uint32_t>(frame.began));
+    ended.push_back(static_cast<std::uint32_t>(frame.ended));
+  }
+  arrays.add("began", began);
+  arrays.add("ended", ended);
+}
+
 void addFrames(const ViewScene& scene, ArrayWriter& arrays) {
   std::vector<double> boxes;
   std::vector<std::uint8_t> flags;
@@ -115,6 +127,7 @@ void addFrames(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("pairEnds", pairEnds);
   arrays.add("excluded", excluded);
   arrays.add("excludedEnds", excludedEnds);
+  addChanges(scene, arrays);
 }
 
 /// Where the vertices of a sequence of meshes are, frame by frame: in float32 where that holds them exactly.
@@ -242,6 +255,8 @@ SceneData::SceneData(const ViewScene& scene) {
             {"meshIsShortened", scene.mesh.isShortened},
             {"names", scene.names},
             {"bodyNames", scene.bodyNames},
+            {"kinds", scene.kinds},
+            {"ids", scene.ids},
             {"typeNames", scene.typeNames},
             {"groupSets", scene.groupSets},
             {"statistics", statisticsOf(scene)},

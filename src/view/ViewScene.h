@@ -42,7 +42,9 @@ struct ViewFrame {
   std::vector<Box> boxes;
   std::vector<std::uint8_t> flags;
   std::vector<Pair> pairs;
-  std::vector<Pair> excluded;       ///< (newer, older): the boxes are near enough, and a rule says no.
+  std::vector<Pair> excluded;  ///< (newer, older): the boxes are near enough, and a rule says no.
+  std::size_t began = 0;       ///< Of a sequence: how many pairs the frame before did not have, and of its how many
+  std::size_t ended = 0;       ///< are none any more.
   std::vector<double> positions{};  ///< Of a sequence of meshes: x y z of each vertex; its boxes are the triangles'.
 };
 
@@ -79,6 +81,15 @@ struct ViewScene {
   /// Models whose pairs are one row: of each the number of its body, or of its file. Empty where each is for itself.
   std::vector<std::uint32_t> bodies{};
   std::vector<std::string> bodyNames{};
+
+  /// What a model, and a body, is known by in reports to come: an IFC's GlobalId, or its file's name and its own in there. Empty
+  /// where nothing but names and numbers is known.
+  std::vector<std::string> identities{};
+  std::vector<std::string> bodyIdentities{};
+
+  std::vector<std::string>
+      kinds{};                     ///< Of each model, in the format's own words: "IfcColumn"; empty where none has one.
+  std::vector<std::string> ids{};  ///< Of each model its GlobalId, where it has one.
 
   [[nodiscard]] std::uint32_t bodyOf(std::uint32_t model) const { return bodies.empty() ? model : bodies[model]; }
   [[nodiscard]] std::string bodyName(std::uint32_t model) const {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "ReportFiles.h"
 #include "app/Expect.h"
 #include "support/IfcText.h"
 #include "support/Numbers.h"
@@ -23,47 +24,12 @@
 namespace allpairs::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 const std::string kDemo = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
-
-/// All files of a zip archive by their names.
-std::map<std::string, std::string> filesOf(const fs::path& path) {
-  std::map<std::string, std::string> files;
-  zip_t* archive = zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, nullptr);
-  EXPECT_NE(archive, nullptr) << path;
-  if (archive == nullptr) return files;
-  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
-    zip_stat_t status{};
-    EXPECT_EQ(zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &status), 0);
-    std::string bytes(status.size, '\0');
-    zip_file_t* file = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
-    EXPECT_EQ(zip_fread(file, bytes.data(), bytes.size()), static_cast<zip_int64_t>(bytes.size()));
-    zip_fclose(file);
-    files.emplace(status.name, bytes);
-  }
-  zip_close(archive);
-  return files;
-}
-
-pugi::xml_document parse(const std::string& text) {
-  pugi::xml_document document;
-  EXPECT_TRUE(document.load_string(text.c_str())) << text;
-  return document;
-}
-
-std::vector<std::string> childrenOf(const pugi::xml_node& node) {
-  std::vector<std::string> names;
-  for (const pugi::xml_node& child : node.children()) names.emplace_back(child.name());
-  return names;
-}
 
 bool isGuid(const std::string& text) {
   static const std::regex kForm("[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}");
   return std::regex_match(text, kForm);
 }
-
-using Names = std::vector<std::string>;
 
 /// The order and the names of BCF 2.1's markup.xsd.
 void expectMarkup(const std::string& text, const std::string& folder) {
@@ -90,7 +56,7 @@ void expectViewpoint(const std::string& text) {
   const pugi::xml_node info = document.child("VisualizationInfo");
   EXPECT_TRUE(isGuid(info.attribute("Guid").value()));
   EXPECT_EQ(childrenOf(info), (Names{"Components", "OrthogonalCamera"}));
-  EXPECT_EQ(childrenOf(info.child("Components")), (Names{"Selection", "Visibility"}));
+  EXPECT_EQ(childrenOf(info.child("Components")), (Names{"Selection", "Visibility", "Coloring"}));
   for (const pugi::xml_node& component : info.child("Components").child("Selection").children()) {
     EXPECT_STREQ(component.name(), "Component");
     EXPECT_EQ(childrenOf(component), (Names{"OriginatingSystem", "AuthoringToolId"}));
@@ -298,79 +264,6 @@ TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
   expectSuccess(runProgram({"report", kDemo, "-o", work, "--pictures", "0", "--force"}));
   EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
   EXPECT_TRUE(fs::exists(work / "index.html"));
-}
-
-/// The lines of a report's table, without its head.
-std::vector<std::string> tableOf(const fs::path& report) {
-  std::istringstream text(readBytes(report / "clashes.csv"));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  lines.erase(lines.begin());
-  return lines;
-}
-
-std::string lastCell(const std::string& line) { return line.substr(line.rfind(',') + 1); }
-
-/// Two bodies of two models each, which all overlap, and a third one that overlaps one of them.
-const std::string kBodies = R"(<Node name="root"><CollisionPipeline/>
-<Node name="A"><MechanicalObject position="0 0 0  1 0 0"/><SphereCollisionModel name="s" radius="1"/>
-<PointCollisionModel name="p"/></Node>
-<Node name="B"><MechanicalObject position="0.5 0 0  1.5 0 0"/><SphereCollisionModel name="s" radius="1"/>
-<PointCollisionModel name="p"/></Node>
-<Node name="C"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)";
-
-TEST(ReportOfBodies, HasARowForAllPairsOfTheSameTwo) {
-  const TempFolder folder;
-  const std::string scene = folder.write("bodies.scn", kBodies);
-  const auto report = [&](const std::string& group) {
-    const fs::path out = folder.path() / group;
-    expectSuccess(runProgram({"report", scene, "--boxes", "--group", group, "-o", out}));
-    return out;
-  };
-  const std::size_t pairs =
-      nlohmann::json::parse(runProgram({"detect", scene, "--format", "json"}).out)["pairs"].size();
-  ASSERT_EQ(pairs, 6U);  // four between A and B, C's with two of their models
-  EXPECT_EQ(filesOf(report("none") / "clashes.bcf").size(), 3 * pairs + 1);
-  const fs::path out = report("body");
-  const auto files = filesOf(out / "clashes.bcf");
-  const std::vector<std::string> lines = tableOf(out);
-  ASSERT_EQ(lines.size(), pairs) << "the table has every pair";
-  std::map<std::string, std::set<std::string>> guids;
-  for (const std::string& line : lines) guids[line.substr(0, line.find(','))].insert(lastCell(line));
-  EXPECT_EQ(files.size(), 3 * guids.size() + 1);
-  std::size_t most = 0;
-  for (const auto& [number, all] : guids) {
-    EXPECT_EQ(all.size(), 1U) << "a row has one topic";
-    const pugi::xml_document document = parse(files.at(*all.begin() + "/viewpoint.bcfv"));
-    const auto selection = document.child("VisualizationInfo").child("Components").child("Selection").children();
-    most = std::max<std::size_t>(most, static_cast<std::size_t>(std::distance(selection.begin(), selection.end())));
-  }
-  EXPECT_EQ(most, 4U) << "all models of a row are selected";
-  const std::string page = readBytes(out / "index.html");
-  EXPECT_NE(page.find("<span class=\"first\">/B</span><br><span class=\"second\">/A</span>"), std::string::npos);
-  EXPECT_NE(page.find("<summary>4 pairs of their parts</summary>"), std::string::npos);
-  EXPECT_NE(page.find("pairs of bodies, 6 pairs of boxes</p>"), std::string::npos);
-}
-
-TEST(ReportOfBodies, MayBeOfFiles) {
-  const TempFolder folder;
-  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -3 -2 -1\n";
-  folder.write("parts/left.obj", "o axle\n" + triangle + "o wheel\n" + triangle);
-  folder.write("parts/right.obj", "o rim\n" + triangle + "o wheel\n" + triangle);
-  const auto report = [&](const std::string& group) {
-    const fs::path out = folder.path() / group;
-    expectSuccess(runProgram({"report", folder.path() / "parts", "--boxes", "--group", group, "-o", out}));
-    return out;
-  };
-  const fs::path out = report("file");
-  EXPECT_EQ(tableOf(out).size(), 6U);
-  const std::string page = readBytes(out / "index.html");
-  EXPECT_NE(page.find("3 pairs of bodies, 6 pairs of boxes</p>"), std::string::npos);
-  EXPECT_NE(page.find("<span class=\"first\">right.obj</span><br><span class=\"second\">left.obj</span>"),
-            std::string::npos);
-  EXPECT_NE(page.find("left.obj › wheel"), std::string::npos);
-  EXPECT_NE(readBytes(report("body") / "index.html").find("6 pairs of boxes</p>"), std::string::npos);
-  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--group", "all"}), 2, "is not one of body");
 }
 
 #ifdef ALLPAIRS_HAS_FCL

@@ -41,31 +41,28 @@ export class App extends EventTarget {
   }
 
   setFrame(index, { flash = false } = {}) {
-    const before = this.index;
     this.index = index;
     this.table = new PairTable(this.frame, this.scene);
     this.kinds = modelKinds(this.table, this.scene.models);
     this.partners = partnerCounts(this.table, this.scene.models);
     this.counts = this.table.counts();
-    this.changes = this.changesFrom(before);
     this.stage?.setFrame(this.frame);
-    if (flash) this.flash();
+    if (flash && index > 0) this.flash();
     else this.clearFlash();
     this.restyle();
     this.emit("frame");
     this.emit("choice");
   }
 
-  /** The pairs that began and ended since another frame. */
-  changesFrom(before) {
-    if (before === undefined || before === this.index) return { began: [], ended: [] };
-    const was = this.scene.frames[before].pairs;
-    const count = this.scene.models;
-    return { began: pairsWithout(this.frame.pairs, was, count), ended: pairsWithout(was, this.frame.pairs, count) };
+  /** The pairs that began and ended since the frame before, whichever was shown then. */
+  changesOf(index) {
+    const { frames, models } = this.scene;
+    const [was, now] = [frames[index - 1].pairs, frames[index].pairs];
+    return { began: pairsWithout(now, was, models), ended: pairsWithout(was, now, models) };
   }
 
   flash() {
-    const { began, ended } = this.changes;
+    const { began, ended } = this.changesOf(this.index);
     this.flashing = new Map();
     for (const pair of ended) pair.forEach((model) => this.flashing.set(model, tone.ended));
     for (const pair of began) pair.forEach((model) => this.flashing.set(model, tone.began));

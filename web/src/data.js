@@ -45,7 +45,8 @@ export function parseScene(json, base64) {
   const { bodies } = arrays;
   const bodyOf = bodies.length > 0 ? (i) => bodies[i] : (i) => i;
   const bodyNameOf = bodies.length > 0 ? (i) => scene.bodyNames[bodies[i]] : nameOf;
-  return { ...scene, exact, bodyOf, bodyNameOf, hasBodies: bodies.length > 0, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
+  const { began, ended } = arrays; // how many pairs, in each frame
+  return { ...scene, began, ended, exact, bodyOf, bodyNameOf, hasBodies: bodies.length > 0, types, groups, owners, elements, contactDistances, origin, region, distance, frames, nameOf, sequence, mesh: sequence?.mesh() ?? arrays };
 }
 
 /** The scene in a document, or null where the page is an empty template. */

@@ -129,6 +129,10 @@ export class Details {
     const facts = make("dl", "facts-small");
     const add = (label, value) => facts.append(make("dt", "", label), make("dd", "", value));
     add("Type", `${scene.typeNames[scene.types[model]]}, ${counted(scene.elements[model], "element")}`);
+    if (scene.ids[model]) {
+      add("IFC type", scene.kinds[model]);
+      add("GlobalId", scene.ids[model]);
+    }
     this.addBox(add, "Box", model);
     if (scene.contactDistances[model] !== 0) add("Contact distance", measure(scene.contactDistances[model]));
     const tags = tagsOf(this.app, model).map((tag) => make("span", "tag", tag));

@@ -18,9 +18,11 @@ export class Timeline {
     this.slider.addEventListener("input", () => this.go(Number(this.slider.value)));
     this.playButton = byId("play");
     this.playButton.addEventListener("click", () => this.toggle());
+    byId("speed").addEventListener("change", () => this.timer && this.restart());
     byId("step-back").addEventListener("click", () => this.step(-1));
     byId("step-on").addEventListener("click", () => this.step(1));
     this.drawCounts();
+    this.drawMarks();
     app.addEventListener("frame", () => this.update());
     this.update();
   }
@@ -40,16 +42,31 @@ export class Timeline {
     byId("time-most").textContent = `at most ${counted(most, "pair")}`;
   }
 
+  /** Where pairs begin, above, and where they end, below: a stroke at each frame, as high as there are many. */
+  drawMarks() {
+    const { began, ended } = this.app.scene;
+    const most = Math.max(1, ...began.subarray(1), ...ended); // in the first frame all begin
+    const stroke = (count, frame, from, to) => (count === 0 ? "" : `M${frame},${from}L${frame},${from + (to - from) * (0.25 + (0.75 * Math.min(count, most)) / most)}`);
+    const strokes = (counts, from, to) => Array.from(counts, (count, frame) => stroke(count, frame, from, to)).join("");
+    const makePath = (className, data) => {
+      const path = document.createElementNS(svg, "path");
+      path.setAttribute("class", className);
+      path.setAttribute("d", data);
+      return path;
+    };
+    this.mark.before(makePath("began", strokes(began, 0, 0.3)), makePath("ended", strokes(ended, 1, 0.7)));
+  }
+
   update() {
     const { app } = this;
     this.slider.value = app.index;
-    this.slider.setAttribute("aria-valuetext", `frame ${app.index + 1} of ${this.count}, ${counted(app.table.found, "pair")}`);
+    this.slider.setAttribute("aria-valuetext", `frame ${app.index} of 0 to ${this.count - 1}, ${counted(app.table.found, "pair")}`);
     this.mark.setAttribute("x1", app.index);
     this.mark.setAttribute("x2", app.index);
-    byId("time-frame").textContent = `Frame ${grouped(app.index + 1)} of ${grouped(this.count)}`;
+    byId("time-frame").textContent = `Frame ${grouped(app.index)} of 0 to ${grouped(this.count - 1)}`;
     byId("time-pairs").textContent = counted(app.table.found, "pair");
-    byId("time-began").replaceChildren(make("b", "", `+${grouped(app.changes.began.length)}`), " began");
-    byId("time-ended").replaceChildren(make("b", "", `−${grouped(app.changes.ended.length)}`), " ended");
+    byId("time-began").replaceChildren(make("b", "", `+${grouped(app.scene.began[app.index])}`), " began");
+    byId("time-ended").replaceChildren(make("b", "", `−${grouped(app.scene.ended[app.index])}`), " ended");
   }
 
   go(index) {
@@ -71,11 +88,22 @@ export class Timeline {
   play() {
     this.playButton.textContent = "❚❚";
     this.playButton.setAttribute("aria-label", "Pause");
-    const next = () => {
-      this.go((this.app.index + 1) % this.count);
-      this.timer = setTimeout(next, 1000 / Number(byId("speed").value));
-    };
-    this.timer = setTimeout(next, 0);
+    this.speed = Number(byId("speed").value);
+    this.begin = { index: this.app.index, time: performance.now() };
+    this.timer = setTimeout(() => this.goOn(), 1000 / this.speed);
+  }
+
+  /** Shows the frame that is due: after one that took long, some are left out, so that time goes on as it is chosen. */
+  goOn() {
+    const due = Math.max(1, Math.floor(((performance.now() - this.begin.time) * this.speed) / 1000));
+    this.go((this.begin.index + due) % this.count);
+    const next = this.begin.time + ((due + 1) * 1000) / this.speed;
+    this.timer = setTimeout(() => this.goOn(), Math.max(0, next - performance.now()));
+  }
+
+  restart() {
+    this.pause();
+    this.play();
   }
 
   pause() {

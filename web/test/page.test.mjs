@@ -281,7 +281,7 @@ test("a sequence of frames has the pairs of each frame, and what began and ended
   const pairs = frames.map((boxes, t) => detect(write(`frame${t}.npy`, npy([30, 6], boxes.flat()))).pairs.map(String));
   const page = await view("frames", [sequence]);
   for (let t = 0; t < frames.length; ++t) {
-    assert.equal(await page.textContent("#time-frame"), `Frame ${t + 1} of 12`);
+    assert.equal(await page.textContent("#time-frame"), `Frame ${t} of 0 to 11`);
     assert.equal(await number(page, "#fact-pairs"), pairs[t].length, `frame ${t}`);
     if (t > 0) {
       const began = pairs[t].filter((pair) => !pairs[t - 1].includes(pair)).length;
@@ -293,10 +293,66 @@ test("a sequence of frames has the pairs of each frame, and what began and ended
     await page.keyboard.press(".");
   }
   await page.keyboard.press(" ");
-  await page.waitForFunction(() => document.getElementById("time-frame").textContent === "Frame 3 of 12");
+  await page.waitForFunction(() => document.getElementById("time-frame").textContent === "Frame 2 of 0 to 11");
   await page.keyboard.press(" ");
   assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
   assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("a frame has the numbers of track whichever way it is reached, and marks where pairs begin and end", async () => {
+  const frames = movingBoxes(12, 30);
+  const sequence = write("frames.npy", npy([12, 30, 6], frames.flat(2)));
+  const track = JSON.parse(allpairs("track", sequence, "--format", "json"));
+  const page = await view("jumps", [sequence]);
+  const go = (t) => page.$eval("#time-slider", (slider, value) => {
+    slider.value = value;
+    slider.dispatchEvent(new Event("input"));
+  }, t);
+  const expectFrame = async (t) => {
+    assert.equal(await page.textContent("#time-frame"), `Frame ${t} of 0 to 11`);
+    assert.equal(await number(page, "#fact-pairs"), track.pairs[t], `frame ${t}`);
+    assert.equal(toNumber(await page.textContent("#time-began b")), track.began[t], `frame ${t}`);
+    assert.equal(-toNumber(await page.textContent("#time-ended b")), track.ended[t], `frame ${t}`);
+  };
+  await expectFrame(0);
+  for (const t of [7, 2, 11, 0, 5]) {
+    await go(t);
+    await expectFrame(t);
+  }
+  await page.keyboard.press(",");
+  await expectFrame(4);
+  const marks = async (name) => (await page.getAttribute(`#time-chart .${name}`, "d")).split("M").slice(1).map((part) => Number(part.split(",")[0]));
+  const framesWith = (counts) => counts.flatMap((count, t) => (count > 0 ? [t] : []));
+  assert.deepEqual(await marks("began"), framesWith(track.began));
+  assert.deepEqual(await marks("ended"), framesWith(track.ended));
+  await screenshot(page, "jumps");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("a sequence that is slow to show plays as fast as chosen, and leaves frames out", async () => {
+  const count = 400;
+  const sequence = write("long.npy", npy([count, 5, 6], movingBoxes(count, 5).flat(2)));
+  const page = await view("long", [sequence]);
+  await page.selectOption("#speed", "30");
+  await page.evaluate(() => {
+    window.seen = [];
+    new MutationObserver(() => {
+      const frame = Number(document.getElementById("time-frame").textContent.match(/\d+/)[0]);
+      const now = performance.now();
+      window.seen.push([frame, now]);
+      while (performance.now() < now + 200) continue; // as long as six frames
+    }).observe(document.getElementById("time-frame"), { childList: true });
+  });
+  await page.keyboard.press(" ");
+  await page.waitForFunction(() => window.seen.length >= 10);
+  await page.keyboard.press(" ");
+  const seen = await page.evaluate(() => window.seen);
+  const [[firstFrame, firstTime], [lastFrame, lastTime]] = [seen[0], seen.at(-1)];
+  const due = (30 * (lastTime - firstTime)) / 1000;
+  assert.ok(Math.abs(lastFrame - firstFrame - due) < 0.25 * due, `${lastFrame - firstFrame} frames where ${due} are due`);
+  assert.ok(lastFrame - firstFrame > 2 * seen.length, "frames are left out");
   await page.close();
 });
 

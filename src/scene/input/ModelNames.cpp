@@ -109,7 +109,7 @@ void noteSources(Scene& scene, const fs::path& file) {
   if (scene.sources.size() == scene.models.size()) return;
   scene.files.push_back(file);
   while (scene.sources.size() < scene.models.size()) {
-    scene.sources.push_back({scene.files.size() - 1, scene.models[scene.sources.size()]->getName()});
+    scene.sources.push_back({.file = scene.files.size() - 1, .name = scene.models[scene.sources.size()]->getName()});
   }
 }
 

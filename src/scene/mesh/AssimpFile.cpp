@@ -49,9 +49,26 @@ bool isMadeUp(std::string_view name) {
   return name.empty() || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
 }
 
+/// Takes Assimp's name of an IFC object, IfcColumn_name_2AvctVUKr0kugbFTf53O9L, apart. One without a name of its own is called by
+/// its class.
+void splitIfcName(MeshObject& object) {
+  constexpr std::size_t kIdLength = 22;
+  constexpr std::string_view kUnnamed = "Unnamed";  // what Assimp writes where there is no name
+  const std::string& text = object.name;
+  const std::size_t kindEnd = text.find('_');
+  if (!text.starts_with("Ifc") || text.size() < kindEnd + 2 + kIdLength) return;
+  const std::size_t idBegin = text.size() - kIdLength;
+  if (kindEnd == std::string::npos || text[idBegin - 1] != '_') return;
+  object.kind = text.substr(0, kindEnd);
+  object.id = text.substr(idBegin);
+  const std::string name = kindEnd + 1 < idBegin - 1 ? text.substr(kindEnd + 1, idBegin - 2 - kindEnd) : "";
+  object.name = name.empty() || name == kUnnamed ? object.kind : name;
+}
+
 class NodeReader {
  public:
-  NodeReader(const aiScene& scene, const Path& path, ReadScope& scope) : m_scene(scene), m_path(path), m_scope(scope) {}
+  NodeReader(const aiScene& scene, const Path& path, ReadScope& scope)
+      : m_scene(scene), m_path(path), m_scope(scope), m_isIfc(lowerExtension(path).starts_with(".ifc")) {}
 
   std::vector<MeshObject> read(MeshFrame& frame) {
     addNode(*m_scene.mRootNode, rootOfFile(m_scene, lowerExtension(m_path), frame), 0);
@@ -64,6 +81,7 @@ class NodeReader {
     if (node.mNumMeshes != 0) {
       MeshObject& object = m_objects.emplace_back();
       object.name = nameOf(node);
+      if (m_isIfc) splitIfcName(object);
       for (const unsigned index : std::span(node.mMeshes, node.mNumMeshes)) {
         addMesh(object, *m_scene.mMeshes[index], world);
       }
@@ -118,6 +136,7 @@ class NodeReader {
   const aiScene& m_scene;
   const Path& m_path;
   ReadScope& m_scope;
+  bool m_isIfc;
   std::vector<MeshObject> m_objects;
 };
 
@@ -174,6 +193,8 @@ class ObjectTransfer {
     bytes.append(reinterpret_cast<const char*>(&frame), sizeof(frame));
     for (const MeshObject& object : objects) {
       put(bytes, object.name);
+      put(bytes, object.kind);
+      put(bytes, object.id);
       put(bytes, object.positions);
       put(bytes, object.triangles);
       put(bytes, object.lines);
@@ -189,6 +210,8 @@ class ObjectTransfer {
     while (!bytes.empty()) {
       MeshObject& object = objects.emplace_back();
       take(bytes, object.name);
+      take(bytes, object.kind);
+      take(bytes, object.id);
       take(bytes, object.positions);
       take(bytes, object.triangles);
       take(bytes, object.lines);

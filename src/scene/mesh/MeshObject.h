@@ -15,7 +15,9 @@ using Point = std::array<double, 3>;
 
 /// One object of a mesh file, or one node that shows a mesh, where it lies in the world.
 struct MeshObject {
-  std::string name;  ///< As in the file; empty where it has none.
+  std::string name;    ///< As in the file; empty where it has none.
+  std::string kind{};  ///< "IfcColumn", where the format has classes of objects.
+  std::string id{};    ///< What identifies it for good, where the format has such: an IFC's GlobalId.
   std::vector<Point> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> lines;

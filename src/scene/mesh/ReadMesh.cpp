@@ -33,7 +33,7 @@ std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, Mesh
   return readGltfObjects(path, scope);
 }
 
-/// Makes the models of one object, all of one owner.
+/// Makes the models of one object of the scene's last file, all of one owner.
 class ObjectModels {
  public:
   ObjectModels(Scene& scene, UniqueNames& names, ReadScope& scope) : m_scene(scene), m_names(names), m_scope(scope) {}
@@ -43,6 +43,8 @@ class ObjectModels {
                  4 * object.name.size());  // its owner, its model and the names in use have it too
     m_scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
     m_name = std::move(object.name);
+    m_kind = std::move(object.kind);
+    m_id = std::move(object.id);
     std::vector<Point> isolated;
     for (const std::uint32_t index : object.points) isolated.push_back(object.positions[index]);
     if (!isolated.empty()) m_points = std::make_unique<collision::PointModel>(m_name, std::move(isolated));
@@ -61,6 +63,7 @@ class ObjectModels {
     if (!model) return;
     model->setName(m_names.unique(m_name));
     model->setOwner(m_scene.owners.back().get());
+    m_scene.sources.push_back({m_scene.files.size() - 1, model->getName(), m_kind, m_id});
     m_scene.models.push_back(std::move(model));
   }
 
@@ -68,6 +71,8 @@ class ObjectModels {
   UniqueNames& m_names;
   ReadScope& m_scope;
   std::string m_name;
+  std::string m_kind;
+  std::string m_id;
   std::unique_ptr<collision::CollisionModel> m_lines;
   std::unique_ptr<collision::CollisionModel> m_points;
 };
@@ -117,6 +122,7 @@ void requireAllowed(const fs::path& path, const ReadScope& scope) {
 
 /// Reads the objects of one file behind what the scene has.
 void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
+  scene.files.push_back(path);
   UniqueNames names;
   ObjectModels models(scene, names, scope);
   const std::size_t before = scene.models.size();
@@ -132,7 +138,6 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   if (scene.up == 0) scene.up = frame.up;
   if (!scene.metresPerUnit && frame.metresPerUnit > 0.0) scene.metresPerUnit = frame.metresPerUnit;
   if (scene.models.size() == before) throw FileError(path, "holds no triangles, lines or points");
-  noteSources(scene, path);
 }
 
 }  // namespace

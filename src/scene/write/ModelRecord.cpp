@@ -20,7 +20,11 @@ ModelRecord modelRecord(const collision::CollisionModel& model) {
 
 ModelRecord modelRecord(const Scene& scene, std::size_t model) {
   ModelRecord record = modelRecord(*scene.models[model]);
-  if (model < scene.sources.size()) record.file = scene.files[scene.sources[model].file].string();
+  if (model >= scene.sources.size()) return record;
+  const ModelSource& source = scene.sources[model];
+  record.file = scene.files[source.file].string();
+  record.kind = source.kind;
+  record.id = source.id;
   return record;
 }
 

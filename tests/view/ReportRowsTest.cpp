@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "ReportFiles.h"
+#include "app/Expect.h"
+#include "support/IfcText.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+const std::string kDemoScene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
+
+/// All BCF files of a report of the wall and the column, by version.
+std::map<std::string, std::string> bcfOfIfc(const TempFolder& folder, const std::string& version) {
+  const std::string input = folder.write("two.ifc", kIfc);
+  expectSuccess(runProgram({"report", input, "--bcf", version, "-o", folder.path() / version}));
+  return filesOf(folder.path() / version / "clashes.bcf");
+}
+
+Names guidsOf(const pugi::xml_node& components) {
+  Names guids;
+  for (const pugi::xml_node& component : components.children("Component"))
+    guids.emplace_back(component.attribute("IfcGuid").value());
+  return guids;
+}
+
+TEST(ReportOfIfc, TopicsSelectAndColourComponentsByTheirGlobalIds) {
+  const TempFolder folder;
+  const Names expected{"2AvctVUKr0kugbFTf53O9L", "1AvctVUKr0kugbFTf53O9L"};
+  for (const std::string version : {"2.1", "3.0"}) {
+    std::size_t count = 0;
+    for (const auto& [name, bytes] : bcfOfIfc(folder, version)) {
+      if (!name.ends_with("viewpoint.bcfv")) continue;
+      const pugi::xml_document document = parse(bytes);
+      const pugi::xml_node components = document.child("VisualizationInfo").child("Components");
+      EXPECT_EQ(guidsOf(components.child("Selection")), expected);
+      Names coloured;
+      for (const pugi::xml_node& colour : components.child("Coloring").children("Color")) {
+        const Names guids = guidsOf(version == "3.0" ? colour.child("Components") : colour);
+        coloured.insert(coloured.end(), guids.begin(), guids.end());
+      }
+      EXPECT_EQ(coloured, expected);
+      ++count;
+    }
+    EXPECT_EQ(count, 1U) << version;
+  }
+}
+
+TEST(ReportOfIfc, BcfOfVersion30HasItsForm) {
+  const TempFolder folder;
+  const auto files = bcfOfIfc(folder, "3.0");
+  EXPECT_STREQ(parse(files.at("bcf.version")).child("Version").attribute("VersionId").value(), "3.0");
+  EXPECT_EQ(childrenOf(parse(files.at("extensions.xml")).child("Extensions")),
+            (Names{"TopicTypes", "TopicStatuses", "TopicLabels"}));
+  for (const auto& [name, bytes] : files) {
+    const pugi::xml_document document =
+        name.ends_with("markup.bcf") || name.ends_with(".bcfv") ? parse(bytes) : pugi::xml_document();
+    const pugi::xml_node topic = document.child("Markup").child("Topic");
+    if (topic) {
+      EXPECT_EQ(childrenOf(document.child("Markup")), (Names{"Header", "Topic"}));
+      EXPECT_EQ(childrenOf(topic),
+                (Names{"Title", "Index", "CreationDate", "CreationAuthor", "Description", "Viewpoints"}));
+      EXPECT_STREQ(topic.child_value("Title"), "column and wall");
+      EXPECT_EQ(childrenOf(topic.child("Viewpoints")), (Names{"ViewPoint"}));
+    }
+    const pugi::xml_node camera = document.child("VisualizationInfo").child("OrthogonalCamera");
+    if (camera) {
+      EXPECT_NEAR(camera.child("AspectRatio").text().as_double(), 4.0 / 3.0, 1e-9);
+    }
+  }
+}
+
+TEST(ReportOfIfc, ClassNameAndGlobalIdAreApart) {
+  const TempFolder folder;
+  const std::string input = folder.write("two.ifc", kIfc);
+  const auto models = nlohmann::json::parse(runProgram({"detect", input, "--format", "json"}).out)["models"];
+  EXPECT_EQ(models[0]["name"], "wall");
+  EXPECT_EQ(models[0]["ifcType"], "IfcWallStandardCase");
+  EXPECT_EQ(models[0]["globalId"], "1AvctVUKr0kugbFTf53O9L");
+  EXPECT_EQ(models[1]["name"], "column");
+  expectSuccess(runProgram({"report", input, "--boxes", "-o", folder.path() / "out"}));
+  EXPECT_NE(readBytes(folder.path() / "out/index.html").find("IfcColumn 2AvctVUKr0kugbFTf53O9L"), std::string::npos);
+  EXPECT_NE(readBytes(folder.path() / "out/clashes.csv")
+                .find(",IfcColumn,2AvctVUKr0kugbFTf53O9L,IfcWallStandardCase,1AvctVUKr0kugbFTf53O9L,"),
+            std::string::npos);
+}
+
+/// Two bodies of two models each, which all overlap, and a third one that overlaps one of them.
+const std::string kBodies = R"(<Node name="root"><CollisionPipeline/>
+<Node name="A"><MechanicalObject position="0 0 0  1 0 0"/><SphereCollisionModel name="s" radius="1"/>
+<PointCollisionModel name="p"/></Node>
+<Node name="B"><MechanicalObject position="0.5 0 0  1.5 0 0"/><SphereCollisionModel name="s" radius="1"/>
+<PointCollisionModel name="p"/></Node>
+<Node name="C"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)";
+
+TEST(ReportOfBodies, HasARowForAllPairsOfTheSameTwo) {
+  const TempFolder folder;
+  const std::string scene = folder.write("bodies.scn", kBodies);
+  const auto report = [&](const std::string& group) {
+    const fs::path out = folder.path() / group;
+    expectSuccess(runProgram({"report", scene, "--boxes", "--group", group, "-o", out}));
+    return out;
+  };
+  const std::size_t pairs =
+      nlohmann::json::parse(runProgram({"detect", scene, "--format", "json"}).out)["pairs"].size();
+  ASSERT_EQ(pairs, 6U);  // four between A and B, C's with two of their models
+  EXPECT_EQ(filesOf(report("none") / "clashes.bcf").size(), 3 * pairs + 1);
+  const fs::path out = report("body");
+  const auto files = filesOf(out / "clashes.bcf");
+  const std::vector<std::string> lines = tableOf(out);
+  ASSERT_EQ(lines.size(), pairs) << "the table has every pair";
+  std::map<std::string, std::set<std::string>> guids;
+  for (const std::string& line : lines) guids[line.substr(0, line.find(','))].insert(lastCell(line));
+  EXPECT_EQ(files.size(), 3 * guids.size() + 1);
+  std::size_t most = 0;
+  for (const auto& [number, all] : guids) {
+    EXPECT_EQ(all.size(), 1U) << "a row has one topic";
+    const pugi::xml_document document = parse(files.at(*all.begin() + "/viewpoint.bcfv"));
+    const auto selection = document.child("VisualizationInfo").child("Components").child("Selection").children();
+    most = std::max<std::size_t>(most, static_cast<std::size_t>(std::distance(selection.begin(), selection.end())));
+  }
+  EXPECT_EQ(most, 4U) << "all models of a row are selected";
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find("<span class=\"first\">/B</span><br><span class=\"second\">/A</span>"), std::string::npos);
+  EXPECT_NE(page.find("<summary>4 pairs of their parts</summary>"), std::string::npos);
+  EXPECT_NE(page.find("pairs of bodies, 6 pairs of boxes</p>"), std::string::npos);
+}
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -3 -2 -1\n";
+
+/// GUIDs of a report by the names of their two models, in order.
+std::map<std::string, std::string> guidsByNames(const fs::path& report) {
+  std::map<std::string, std::string> guids;
+  for (const std::string& line : tableOf(report)) {
+    std::istringstream text(line);
+    std::string number;
+    Names names(2);
+    std::getline(text, number, ',');
+    for (std::string& name : names) std::getline(text, name, ',');
+    std::sort(names.begin(), names.end());
+    guids[names[0] + ' ' + names[1]] = lastCell(line);
+  }
+  return guids;
+}
+
+TEST(ReportSince, GuidsStayWhenTheFolderMovesAndOtherPartsCome) {
+  const TempFolder folder;
+  for (const char* name : {"b", "c"})
+    folder.write("here/" + std::string(name) + ".obj", "o " + std::string(name) + '\n' + kTriangle);
+  expectSuccess(runProgram({"report", folder.path() / "here", "--boxes", "-o", folder.path() / "one"}));
+  fs::create_directory(folder.path() / "there");
+  fs::rename(folder.path() / "here", folder.path() / "there/new");
+  folder.write("there/new/a.obj", "o b\n" + kTriangle);  // now b is no name of one part alone
+  expectSuccess(runProgram({"report", folder.path() / "there/new", "--boxes", "-o", folder.path() / "two"}));
+  const auto one = guidsByNames(folder.path() / "one");
+  const auto two = guidsByNames(folder.path() / "two");
+  ASSERT_EQ(one.size(), 1U);
+  ASSERT_EQ(two.size(), 3U);
+  EXPECT_EQ(one.at("b c"), two.at("b.obj › b c"));
+}
+
+TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
+  const TempFolder folder;
+  const auto part = [&](const std::string& name, const std::string& text) {
+    folder.write("parts/" + name + ".obj", "o " + name + '\n' + text);
+  };
+  const std::string away = "v 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n";
+  part("a", kTriangle);
+  part("=b", kTriangle);
+  part("c", away);
+  const fs::path out = folder.path() / "out";
+  const std::string parts = folder.path() / "parts";
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", out}));
+  part("c", kTriangle);  // c comes in, and =b goes
+  part("=b", away);
+  part("d", away);
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", out, "--since", out}));
+  std::map<std::string, std::string> states;
+  for (const std::string& line : tableOf(out)) {
+    Names cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 9U) << line;
+    states[cells[1] + ' ' + cells[2]] = cells[7] + ' ' + (cells[0].empty() ? "-" : cells[0]);
+  }
+  // Before: a with =b. Now: a with c, and d with =b.
+  EXPECT_EQ(states,
+            (std::map<std::string, std::string>{{"c a", "new 1"}, {"d '=b", "new 2"}, {"a '=b", "resolved -"}}));
+  EXPECT_NE(readBytes(out / "index.html").find(": 2 new, 0 persisting, 1 resolved.</p>"), std::string::npos);
+  Names topics;
+  for (const auto& [name, bytes] : filesOf(out / "clashes.bcf")) {
+    if (!name.ends_with("markup.bcf")) continue;
+    const pugi::xml_document document = parse(bytes);
+    const pugi::xml_node topic = document.child("Markup").child("Topic");
+    topics.push_back(std::string(topic.child_value("Title")) + ' ' + topic.child_value("Labels") + ' ' +
+                     topic.attribute("TopicStatus").value());
+  }
+  std::sort(topics.begin(), topics.end());
+  EXPECT_EQ(topics, (Names{"a and =b resolved Closed", "c and a new Open", "d and =b new Open"}));
+  // The same again: nothing is new, and what was resolved before is not resolved again.
+  expectSuccess(
+      runProgram({"report", parts, "--boxes", "-o", folder.path() / "again", "--since", out / "clashes.csv"}));
+  EXPECT_NE(readBytes(folder.path() / "again/index.html").find(": 0 new, 2 persisting, 0 resolved.</p>"),
+            std::string::npos);
+}
+
+TEST(ReportSince, SaysWhatIsNoReport) {
+  const TempFolder folder;
+  const std::string out = folder.path() / "out";
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path()}), 3,
+                "holds no report to compare with");
+  const std::string table = folder.write("other.csv", "a,b\n1,2\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", table}), 3,
+                "other.csv: is no table of a report");
+  const std::string cut = folder.write("cut.csv", "number,first,second,guid\n1,a\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", cut}), 3, "a line has other columns");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(ReportOfBodies, MayBeOfFiles) {
+  const TempFolder folder;
+  folder.write("parts/left.obj", "o axle\n" + kTriangle + "o wheel\n" + kTriangle);
+  folder.write("parts/right.obj", "o rim\n" + kTriangle + "o wheel\n" + kTriangle);
+  const auto report = [&](const std::string& group) {
+    const fs::path out = folder.path() / group;
+    expectSuccess(runProgram({"report", folder.path() / "parts", "--boxes", "--group", group, "-o", out}));
+    return out;
+  };
+  const fs::path out = report("file");
+  EXPECT_EQ(tableOf(out).size(), 6U);
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find("3 pairs of bodies, 6 pairs of boxes</p>"), std::string::npos);
+  EXPECT_NE(page.find("<span class=\"first\">right.obj</span><br><span class=\"second\">left.obj</span>"),
+            std::string::npos);
+  EXPECT_NE(page.find("left.obj › wheel"), std::string::npos);
+  EXPECT_NE(readBytes(report("body") / "index.html").find("6 pairs of boxes</p>"), std::string::npos);
+  expectFailure(runProgram({"report", kDemoScene, "-o", folder.path() / "o", "--group", "all"}), 2,
+                "is not one of body");
+}
+
+}  // namespace
+}  // namespace allpairs::test
