@@ -112,8 +112,13 @@ TEST(Neighbors, OfAnyNumberOfBoxesWithAnyNumberOfPartnersAreTheOraclesPairs) {
 TEST(Neighbors, OfAnExhaustiveSearchAreTheOraclesPairs) {
   for (const float size : {1.0F, 50.0F}) {
     const std::vector<BoxF> boxes = test::randomBoxes(700, 3, size);
+    const std::vector<BoxF> others = test::randomBoxes(1500, 4, size);
     const std::vector<Pair> expected = test::oracle(test::toDouble(boxes));
-    for (const OverlapOptions& options : waysToSearch(Strategy::Exhaustive)) expectRows(boxes, options, expected);
+    const std::vector<Pair> between = test::oracleBetween(test::toDouble(boxes), test::toDouble(others));
+    for (const OverlapOptions& options : waysToSearch(Strategy::Exhaustive)) {
+      expectRows(boxes, options, expected);
+      ASSERT_EQ(rowsIn(neighbors(boxes, others, options)), rowsOf(between, boxes.size(), NeighborRows::Half));
+    }
   }
 }
 
@@ -154,25 +159,40 @@ TEST(Neighbors, OfMoreBoxesThanBucketsAreForAscend) {
   expectRows(boxes, {}, chain);
 }
 
-TEST(Neighbors, AreDecidedInDoubleWhereLanesCannot) {
-  // The lattice's faces touch, or are apart by less than float32 can tell; margins make the sum of a pair's depend on its order.
+/// A lattice, three boxes a place, whose faces touch, or are apart by less than float32 can tell. Margins make the sum of a pair's
+/// depend on its order.
+struct Lattice {
+  Lattice(std::size_t count, std::size_t side) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double apart = i % 3 == 0 ? 1e-12 : 0.0;
+      const std::size_t place = i / 3;
+      boxes.push_back(test::cube(static_cast<double>(place % side) + apart,
+                                 static_cast<double>(place / side % side) / 3.0,
+                                 static_cast<double>(place / (side * side))));
+      margins.push_back(i % 2 == 0 ? 0.1 : -1.0 / 3.0);
+    }
+  }
+
   std::vector<Box> boxes;
   std::vector<double> margins;
-  for (std::size_t i = 0; i < 1500; ++i) {
-    const double apart = i % 3 == 0 ? 1e-12 : 0.0;
-    const std::size_t place = i / 3;
-    boxes.push_back(test::cube(static_cast<double>(place % 8) + apart, static_cast<double>(place / 8 % 8) / 3.0,
-                               static_cast<double>(place / 64)));
-    margins.push_back(i % 2 == 0 ? 0.1 : -1.0 / 3.0);
-  }
-  BoxView wide(boxes);
-  wide.setMargins(margins);
-  const std::vector<Pair> expected = test::oracle(boxes);
-  const std::vector<Pair> ofWide = test::oracle(boxes, 0.2, margins);
-  for (OverlapOptions options : waysToSearch(Strategy::Bvh)) {
-    expectRows(boxes, options, expected);
-    options.distance = 0.2;
-    expectRows(wide, options, ofWide);
+};
+
+TEST(Neighbors, AreDecidedInDoubleWhereLanesCannot) {
+  for (const Lattice& lattice : {Lattice(1500, 8), Lattice(300, 3)}) {
+    const std::vector<Box>& boxes = lattice.boxes;
+    BoxView wide(boxes);
+    wide.setMargins(lattice.margins);
+    const std::vector<Pair> expected = test::oracle(boxes);
+    const std::vector<Pair> ofWide = test::oracle(boxes, 0.2, lattice.margins);
+    const std::vector<Pair> between = test::oracleBetween(boxes, boxes);
+    for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
+      for (OverlapOptions options : waysToSearch(strategy)) {
+        expectRows(boxes, options, expected);
+        ASSERT_EQ(rowsIn(neighbors(boxes, boxes, options)), rowsOf(between, boxes.size(), NeighborRows::Half));
+        options.distance = 0.2;
+        expectRows(wide, options, ofWide);
+      }
+    }
   }
 }
 
@@ -209,7 +229,7 @@ struct FilteredScene {
 };
 
 TEST(Neighbors, AreFilteredAndTheFilterSeesTheLowerIndexFirst) {
-  for (const float size : {1.0F, 4.0F}) {
+  for (const float size : {1.0F, 4.0F, 30.0F}) {
     const FilteredScene scene(size);
     const std::vector<Pair> expected = scene.expected();
     ASSERT_GT(expected.size(), scene.boxes.size() / 4);
@@ -256,7 +276,7 @@ TEST(Neighbors, DoNotDependOnTheOrderOfPairs) {
 
 TEST(Neighbors, AreLimitedByTheNumberOfPairs) {
   for (const std::size_t n : {6U, 100U, 1500U}) {
-    for (const float size : {1.5F, 5.0F}) {
+    for (const float size : {1.5F, 5.0F, 50.0F}) {
       const std::vector<Box> boxes = test::toDouble(test::randomBoxes(n, 9, size));
       const std::vector<Pair> expected = test::oracle(boxes);
       for (OverlapOptions options : waysToSearch(Strategy::Automatic)) {
@@ -276,7 +296,7 @@ TEST(Neighbors, AreLimitedByTheNumberOfPairs) {
 TEST(Neighbors, OfAKeptSearchComeFromSearchToSearch) {
   OverlapSearch search;
   for (const std::size_t n : {900U, 5U, 1500U, 0U, 100U, 1200U}) {
-    for (const float size : {0.5F, 3.0F}) {
+    for (const float size : {0.5F, 3.0F, 60.0F}) {
       const std::vector<Box> boxes = test::toDouble(test::randomBoxes(n, 11, size));
       const std::vector<Box> others = test::toDouble(test::randomBoxes(n / 2, 12, size));
       const std::vector<Pair> expected = test::oracle(boxes);

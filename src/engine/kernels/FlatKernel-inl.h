@@ -194,6 +194,17 @@ struct PairWriter {
   }
 };
 
+/// The hits of a query among the columns [begin, end), tile by tile.
+template <class Emitter>
+HWY_INLINE void emitColumns(const Query& q, const LaneList& columns, Range range, Emitter& emitter) {
+  for (std::size_t begin = range.begin; begin < range.end;) {
+    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
+    const std::size_t stop = std::min(range.end, first + LaneTile::kCapacity);
+    emitRow<Density::Dense>(q, columns.tileOf(begin), begin - first, stop - first, emitter);
+    begin = stop;
+  }
+}
+
 /// One row that is expected to have many pairs; returns their number.
 HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range columns, PairStream& stream,
                                 Hits& hits) {
@@ -201,12 +212,7 @@ HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range
   const RoomForPairs room = hits.roomForPairs(hits.receiver, hits, columns.size());
   stream.begin(room.pairs, room.before);
   PairWriter writer{stream, hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
-  for (std::size_t begin = columns.begin; begin < columns.end;) {
-    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
-    const std::size_t stop = std::min(columns.end, first + LaneTile::kCapacity);
-    emitRow<Density::Dense>(q, search.columns.tileOf(begin), begin - first, stop - first, writer);
-    begin = stop;
-  }
+  emitColumns(q, search.columns, columns, writer);
   hits.takePairs(hits.receiver, writer.size);
   return writer.size;
 }
@@ -237,7 +243,44 @@ void searchRows(const FlatSearch& search, std::size_t rowBegin, Hits& hits) {
   }
 }
 
+/// Lists the partners of one row.
+void listRow(const FlatSearch& search, std::size_t row) {
+  NeighborLists& lists = *search.lists;
+  const Query q = broadcast(search.rows.get(row));
+  const std::uint32_t id = search.rows.id(row);
+  const bool others = search.tested == Columns::Others;
+  const Range range = columnsOf(search, row);
+  const std::array<Range, 2> ranges{others ? Range{0, row} : range,
+                                    others ? Range{row + 1, search.columns.size} : Range{0, 0}};
+  lists.require(range.size() + kVectorSlack);
+  std::uint32_t* const to = lists.partners + lists.size;
+  PartnerWriter writer{to, 0};
+  for (const Range& part : ranges) emitColumns(q, search.columns, part, writer);
+  std::size_t size = writer.size;
+  bool tested = lists.tested == NeighborLists::Tested::All;
+  if (lists.tested == NeighborLists::Tested::InDoubt) {
+    HitCounter certain;
+    for (const Range& part : ranges) emitColumns(inward(q), search.columns, part, certain);
+    tested = certain.size != size;
+  }
+  if (tested && size != 0) size = lists.select(lists, id, to, size);
+  lists.begin[id] = lists.base + lists.size;
+  lists.length[id] = static_cast<std::uint32_t>(size);
+  lists.size += size;
+}
+
+void listRows(const FlatSearch& search, Hits& hits) {
+  for (std::size_t row = search.rowBegin; row < search.rowEnd; ++row) {
+    listRow(search, row);
+    hits.boxTests += columnsOf(search, row).size();
+  }
+}
+
 void searchFlat(const FlatSearch& search, Hits& hits) {
+  if (search.lists != nullptr) {
+    listRows(search, hits);
+    return;
+  }
   // Few boxes overlap a larger share of each other, unless their volume shrinks as their number grows.
   const bool dense = search.columns.size <= kDenseColumns;
   const std::size_t begin = search.rowBegin;

@@ -27,6 +27,9 @@ struct FlatSearch {
   std::size_t rowBegin = 0;
   std::size_t rowEnd = 0;
   Columns tested = Columns::All;
+
+  /// If set, the partners are listed here, row by row, and not as hits.
+  NeighborLists* lists = nullptr;
 };
 
 /// Every row of one tile against its columns of another, or of the same.
@@ -155,7 +158,7 @@ struct Kernels {
     return order == Order::Unordered ? flatUnordered : flatOrdered;
   }
 
-  /// Tests rows of a list against a range of columns each, without any hierarchy.
+  /// Tests rows of a list against a range of columns each, without any hierarchy; against all but their own only for lists.
   void (*searchFlat)(const FlatSearch& search, Hits& hits);
 
   /// The same for a few boxes.

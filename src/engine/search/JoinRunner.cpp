@@ -48,7 +48,7 @@ double JoinRunner::partnersPerBox(const Job& job) {
 void JoinRunner::run(const Job& job, Executor& executor) {
   const std::size_t threads = executor.concurrency();
   // Lists are made for all leaf blocks of a node at once.
-  const std::size_t unit = job.lists.empty() ? 1 : kFanOut;
+  const std::size_t unit = job.isFlat || job.lists.empty() ? 1 : kFanOut;
   const TaskCut cut = job.isFlat ? TaskCut::ofRows(job.units, job.flat.columns.size, threads)
                                  : TaskCut::ofLeaves((job.units + unit - 1) / unit, job.firstLarge / unit, threads);
   m_segments.resize(cut.tasks());
@@ -73,6 +73,7 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
     FlatSearch part = job.flat;
     part.rowBegin = begin;
     part.rowEnd = end;
+    part.lists = worker.lists;
     m_kernels->searchFlat(part, worker.sink.hits());
   } else {
     const bool withItself = job.first == job.second && worker.lists == nullptr;

@@ -29,7 +29,7 @@ class JoinRunner {
     std::size_t units = 0;
     std::size_t firstLarge = 0;  ///< Leaf blocks from here on hold boxes larger than most.
 
-    /// If set, by worker: where a join lists the partners of each box, instead of giving hits to the sink.
+    /// If set, by worker: where the partners of each box are listed, instead of giving hits to the sink.
     std::span<NeighborLists> lists = {};
 
     bool isFlat = false;  ///< Whether to run `flat` instead of a join.

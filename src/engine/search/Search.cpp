@@ -75,9 +75,11 @@ struct ListReceiver {
   }
 };
 
+/// Boxes of a sample: 276 pairs, of which a share of a tenth is told from one of a fifth.
+constexpr std::size_t kSample = 24;
+
 /// Estimates the share of all pairs that overlap from a sample.
 double shareOfOverlaps(const BoxReader& reader) {
-  constexpr std::size_t kSample = 24;  // 276 pairs: a share of a tenth is then told from one of a fifth.
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
   sampleBoxes(reader, kSample, [&](const LaneBox& box) { boxes[size++] = box; });
@@ -86,6 +88,24 @@ double shareOfOverlaps(const BoxReader& reader) {
     for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
   }
   return static_cast<double>(hits) / (0.5 * static_cast<double>(kSample * (kSample - 1)));
+}
+
+/// The same of the rows and columns of an exhaustive search, which may take no longer than some microseconds.
+double shareOfOverlaps(const FlatSearch& flat) {
+  constexpr std::size_t kFewer = kSample / 2;
+  if (flat.rows.size < kFewer || flat.columns.size < kFewer) return 0.0;
+  std::array<LaneBox, kFewer> rows;
+  std::array<LaneBox, kFewer> columns;
+  for (std::size_t i = 0; i < kFewer; ++i) {
+    rows[i] = flat.rows.get(sampleIndex(i, kFewer, flat.rows.size));
+    columns[i] = flat.columns.get(sampleIndex(i, kFewer, flat.columns.size));
+  }
+  std::size_t hits = 0;
+  // Of one set a row and the column of the same number are one box.
+  for (std::size_t i = 0; i < kFewer; ++i) {
+    for (std::size_t j = i + 1; j < kFewer; ++j) hits += touch(rows[i], columns[j]) ? 1U : 0U;
+  }
+  return static_cast<double>(hits) / static_cast<double>(kFewer * (kFewer - 1) / 2);
 }
 
 /// Reads all boxes of a set, in their order, as lanes; returns whether they are exactly the boxes.
@@ -316,19 +336,24 @@ bool Search::findInLists(const Sets& sets, Plan& plan) {
   return true;
 }
 
+bool Search::areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept) {
+  if (job.isFlat) return shareOfOverlaps(job.flat) > kMuchOrdered;
+  if (job.units == 0 || job.first->depth < 2 || job.units * kFanOut < rows / kMostRowsPerBox) return false;
+  const bool keepsAll = kept == Columns::All || kept == Columns::Others;
+  return m_runner.partnersPerBox(job) >= (keepsAll ? kDense : kDenseBothWays);
+}
+
 bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
-  if (plan.job.units == 0 || plan.job.first->depth < 2) return false;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   const bool bySecond = plan.order == Order::BySecond;
+  const std::size_t rows = (bySecond ? sets.second : sets.first).size();
   JoinRunner::Job job = plan.job;
-  if (bySecond && !sets.one) {
+  if (bySecond && !sets.one && !job.isFlat) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
-  const std::size_t rows = (bySecond ? sets.second : sets.first).size();
-  if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
-  const bool keepsAll = kept == Columns::All || kept == Columns::Others;
-  if (m_runner.partnersPerBox(job) < (keepsAll ? kDense : kDenseBothWays)) return false;
+  if (!areListsBetter(job, rows, kept)) return false;
+  job.flat.tested = kept;
   ListReceiver receiver{m_lists, plan.test, plan.sink, bySecond ? PairSide::RowSecond : PairSide::RowFirst};
   if (kept == Columns::Others) {
     receiver.side = PairSide::SmallerFirst;

@@ -131,6 +131,7 @@ class Search {
 
   /// Lists those partners of each box that are kept, in order, if that pays off; else does nothing and returns false.
   bool listPartners(const Sets& sets, Plan& plan, Columns kept);
+  [[nodiscard]] bool areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept);
 
   RowsPlace roomForRows(std::size_t rows, std::size_t indices);
   void writePairsAsRows(const Sets& sets, NeighborRows kind);

@@ -18,7 +18,7 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
   begin(sets, options);
   Plan plan{PairTest::of(sets, options), Order::ByFirst};
   makePlan(sets, options, plan);
-  if (plan.job.isFlat || !(listRows(sets, kind, plan) || bucketRows(sets, kind, plan))) {
+  if (!listRows(sets, kind, plan) && (plan.job.isFlat || !bucketRows(sets, kind, plan))) {
     run(plan, *m_executor);
     concatenate();
     if (!plan.job.isFlat) sortPairs(sets, plan.order);
