@@ -141,6 +141,7 @@ function keysOf(app, panels, timeline, theme) {
     l: () => press("show-links"),
     e: () => press("show-excluded"),
     r: () => press("show-region"),
+    s: () => press("section"),
     u: () => press("up-axis"),
     t: () => theme.toggle(),
     " ": () => timeline.toggle(),
@@ -175,6 +176,34 @@ export function setUpKeys(app, panels, timeline, theme) {
     event.preventDefault();
     keys[event.key]();
   });
+}
+
+/** The name of the model under the pointer, while that rests. */
+export function setUpHover(app) {
+  const { stage } = app;
+  const label = byId("hover");
+  const rest = 60; // milliseconds: of many triangles, looking takes some
+  const gap = 14; // pixels from the pointer
+  let timer;
+  const hide = () => {
+    clearTimeout(timer);
+    label.hidden = true;
+  };
+  const show = (event) => {
+    const model = stage.modelAt(event.clientX, event.clientY, () => true, !app.show.shapes);
+    if (model < 0) return;
+    label.textContent = app.scene.nameOf(model);
+    label.hidden = false;
+    const area = stage.canvas.getBoundingClientRect();
+    const left = Math.min(event.clientX - area.left + gap, area.width - label.offsetWidth);
+    const top = Math.min(event.clientY - area.top + gap, area.height - label.offsetHeight);
+    label.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, top)}px)`;
+  };
+  stage.canvas.addEventListener("pointermove", (event) => {
+    hide();
+    if (event.buttons === 0 && event.pointerType !== "touch") timer = setTimeout(() => show(event), rest);
+  });
+  for (const name of ["pointerdown", "pointerleave", "wheel"]) stage.canvas.addEventListener(name, hide, { passive: true });
 }
 
 const clickReach = 4; // pixels that a click may move before it is a drag

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
+import { Address } from "./address.js";
 import { App } from "./app.js";
-import { openTab, setUpKeys, setUpPointer, setUpTabs, setUpToolbar, Theme, upOf } from "./controls.js";
+import { openTab, setUpHover, setUpKeys, setUpPointer, setUpTabs, setUpToolbar, Theme, upOf } from "./controls.js";
 import { readScene } from "./data.js";
 import { Details } from "./details.js";
 import { byId } from "./dom.js";
+import { wholeOf } from "./extent.js";
 import { ModelPanel, PairPanel } from "./lists.js";
+import { Margin } from "./margin.js";
 import { Stage } from "./stage.js";
+import { Section } from "./section.js";
 import { showSummary } from "./summary.js";
 import { Timeline } from "./timeline.js";
 
@@ -34,6 +38,8 @@ function showPicture(app, theme) {
     stage.lookAt(stage.whole);
     app.attach(stage);
     setUpPointer(app);
+    setUpHover(app);
+    new Section(stage);
     stage.addEventListener("drawn", () => note("ready"), { once: true });
     stage.addEventListener("complete", () => note("complete"), { once: true });
   } else {
@@ -59,7 +65,10 @@ function start() {
   setUpTabs();
   setUpToolbar(app, theme);
   setUpKeys(app, panels, timeline, theme);
+  const whole = wholeOf(scene);
+  new Margin(app, Math.hypot(...[0, 1, 2].map((k) => whole[k + 3] - whole[k])));
   if (app.table.size === 0) openTab("models");
+  new Address(app);
   requestAnimationFrame(() => setTimeout(() => {
     note("loaded");
     showPicture(app, theme);

@@ -34,21 +34,24 @@ function meet(origin, direction, a, b, c) {
   return distance > 0 ? distance : Infinity;
 }
 
-function meetShape(mesh, model, origin, direction) {
+function meetShape(mesh, model, { origin, direction, cut }) {
+  const isCut = (t) => dot(cut, origin) + t * dot(cut, direction) > cut[3];
   const at = (i) => mesh.vertices.subarray(3 * i, 3 * i + 3);
   const begin = model === 0 ? 0 : mesh.triangleEnds[model - 1];
   let nearest = Infinity;
   for (let i = begin; i < mesh.triangleEnds[model]; i += 3) {
     const corners = [at(mesh.triangles[i]), at(mesh.triangles[i + 1]), at(mesh.triangles[i + 2])];
-    nearest = Math.min(nearest, meet(origin, direction, ...corners));
+    const distance = meet(origin, direction, ...corners);
+    if (distance < nearest && !isCut(distance)) nearest = distance;
   }
   return nearest;
 }
 
 const hasShape = (mesh, model) => mesh.triangleEnds.length > 0 && mesh.triangleEnds[model] > (model === 0 ? 0 : mesh.triangleEnds[model - 1]);
 
-/** The model that a ray meets first, or -1. A model with triangles is met only there, unless `onlyBoxes`. */
-export function pick({ origin, direction, drawn, count, mesh, isShown, onlyBoxes }) {
+/** The model that a ray meets first, or -1. A model with triangles is met only there, and where it is not cut away, unless
+ * `onlyBoxes`. */
+export function pick({ origin, direction, drawn, count, mesh, isShown, onlyBoxes, cut }) {
   const inverse = direction.map((x) => 1 / (x === 0 ? 1e-30 : x));
   let best = -1;
   let nearest = Infinity;
@@ -56,7 +59,7 @@ export function pick({ origin, direction, drawn, count, mesh, isShown, onlyBoxes
     if (drawn[6 * i] > drawn[6 * i + 3] || !isShown(i)) continue;
     const entry = slab(origin, inverse, drawn, i);
     if (entry === null || entry >= nearest) continue;
-    const distance = !onlyBoxes && hasShape(mesh, i) ? meetShape(mesh, i, origin, direction) : entry;
+    const distance = !onlyBoxes && hasShape(mesh, i) ? meetShape(mesh, i, { origin, direction, cut }) : entry;
     if (distance < nearest) [nearest, best] = [distance, i];
   }
   return best;

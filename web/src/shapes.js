@@ -9,6 +9,7 @@ in float model;
 uniform bool calm;     // each model has a colour of its own, since what clashes is shown by where
 uniform float neutral; // how much of grey is in the colour of a shape, so that boxes stand out
 out vec3 where;
+out vec3 place;
 flat out vec3 colour;
 ${styleLookup}
 vec3 calmColour(float model) {
@@ -21,6 +22,7 @@ void main() {
   if (calm && style.r < 5u) colour = calmColour(model);
   vec4 p = modelViewMatrix * vec4(position, 1.0);
   where = p.xyz;
+  place = position;
   gl_PointSize = 3.0;
   gl_Position = isSkipped(style) ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * p;
 }`;
@@ -28,10 +30,13 @@ void main() {
 const fragmentShader = `
 uniform float opacity;
 uniform bool lit;
+uniform vec4 cut; // what lies beyond this plane is not drawn
 in vec3 where;
+in vec3 place;
 flat in vec3 colour;
 out vec4 result;
 void main() {
+  if (dot(place, cut.xyz) > cut.w) discard;
   float light = 1.0;
   if (lit) {
     vec3 normal = normalize(cross(dFdx(where), dFdy(where)));

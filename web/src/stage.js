@@ -3,7 +3,7 @@
 
 import {
   Box3, Box3Helper, BoxGeometry, BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+  MeshBasicMaterial, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, Vector4, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { BoxCloud } from "./boxes.js";
@@ -35,7 +35,7 @@ export class Stage extends EventTarget {
     this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1, scene.models <= tooManyModels);
     this.styles = new ModelStyles(scene.models);
     const palette = Array.from({ length: 11 }, () => new Color());
-    this.shared = { styles: { value: this.styles.texture }, palette: { value: palette }, calm: { value: scene.exact !== null } };
+    this.shared = { styles: { value: this.styles.texture }, palette: { value: palette }, calm: { value: scene.exact !== null }, cut: { value: new Vector4(0, 0, 0, 1) } };
     this.whole = wholeOf(scene);
     this.build();
     this.setUp(this.data.up);
@@ -84,6 +84,12 @@ export class Stage extends EventTarget {
     this.contacts.paint(tones[tone.overlap], background);
     paint(this.chosen[0], tone.first);
     paint(this.chosen[1], tone.second);
+    this.invalidate();
+  }
+
+  /** Draws no shape beyond a plane, given by its normal and how far along that it is. */
+  setCut(plane) {
+    this.shared.cut.value.fromArray(plane);
     this.invalidate();
   }
 
@@ -231,7 +237,7 @@ export class Stage extends EventTarget {
     this.camera.updateMatrixWorld();
     caster.setFromCamera(place, this.camera);
     const ray = { origin: caster.ray.origin.toArray(), direction: caster.ray.direction.toArray() };
-    return pick({ ...ray, drawn: this.drawn, count: this.data.models, mesh: this.data.mesh, isShown, onlyBoxes });
+    return pick({ ...ray, drawn: this.drawn, count: this.data.models, mesh: this.data.mesh, isShown, onlyBoxes, cut: this.shared.cut.value.toArray() });
   }
 
   resize() {

@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { Firefox, hasFirefox } from "./firefox.mjs";
-import { allpairs, clothFrames, detect, folder, pages, root } from "./program.mjs";
+import { allpairs, clothFrames, detect, folder, pages, root, write } from "./program.mjs";
 
 const skip = hasFirefox ? false : "Firefox or Xvfb is missing (scripts/packages.txt, group browser)";
 let browser;
@@ -44,6 +44,21 @@ test("Firefox shows the numbers of detect, draws, and obeys keys", { skip }, asy
   await browser.until("document.querySelectorAll('#pairs-list [aria-selected=true]').length === 1");
   assert.equal(await text("#details .link.first"), result.models[result.pairs[0][0]].name);
   await picture("firefox-pair");
+  assert.match(await browser.run("return location.hash"), /^#pair=/);
+});
+
+test("Firefox finds the pairs of another margin, and those of an address", { skip }, async () => {
+  const boxes = write("firefox.csv", "a,0,0,0,1,1,1\nb,1.5,0,0,2,1,1\nc,3,0,0,4,1,1\n");
+  await view("firefox-margin", boxes);
+  assert.equal(await count("#fact-pairs"), 0);
+  for (const margin of [0.5, 0.75, 1, 2]) {
+    await browser.run(`const number = document.getElementById("margin-number"); number.value = ${margin}; number.dispatchEvent(new Event("change"))`);
+    assert.equal(await count("#fact-pairs"), detect(boxes, "--distance", String(margin)).pairs.length, `at ${margin}`);
+  }
+  await browser.run("location.hash = '#pair=c,a'");
+  await browser.until("document.querySelector('#details .link.first')?.textContent === 'c'");
+  await browser.run("location.hash = '#model=b'");
+  await browser.until("document.querySelector('#details .model-name')?.textContent === 'b'");
 });
 
 test("Firefox plays meshes that move, and shows names as text", { skip }, async () => {

@@ -107,6 +107,130 @@ test("pairs of the same two bodies are one row, with its pairs inside", async ()
   await page.close();
 });
 
+/** All pairs of the page's list, as sets of two names; it holds the rows in sight only, so it is scrolled through. */
+async function allPairs(page) {
+  const pairs = new Set();
+  const count = Number((await page.textContent("#pairs-status")).split(" ")[0].replaceAll(",", "").replace("none", "0"));
+  for (let index = 0; index < count; index += 5) {
+    await page.$eval("#pairs-list", (list, part) => (list.scrollTop = part * list.scrollHeight), index / count);
+    for (const edge of [index, Math.min(index + 4, count - 1)]) await page.waitForSelector(`#pairs-list .row[data-index="${edge}"]`, { state: "attached" });
+    for (const row of await rowsOf(page, "pairs-list")) pairs.add([row[0], row[1] ?? row[0]].sort().join(" | "));
+  }
+  return pairs;
+}
+
+test("the margin slider finds the pairs of detect --distance", async () => {
+  const grid = Array.from({ length: 27 }, (_, i) => [i % 3, Math.floor(i / 3) % 3, Math.floor(i / 9)].map((k) => 1.1 * k)); // gaps of 0.1, more or less
+  const boxes = write("grid.npy", npy([27, 6], grid.flatMap((p) => [...p, ...p.map((x) => x + 1)])));
+  const scene = write("bodies.scn", `<Node name="root"><CollisionPipeline/><MinProximityIntersection alarmDistance="0.25"/>
+<Node name="A"><MechanicalObject position="0 0 0 1 0 0"/><SphereCollisionModel name="s" radius="0.5"/><PointCollisionModel name="p"/></Node>
+<Node name="B"><MechanicalObject position="2.5 0 0"/><SphereCollisionModel name="s" radius="0.5" group="1"/></Node>
+<Node name="C"><MechanicalObject position="4 0 0"/><SphereCollisionModel name="s" radius="0.5" group="1" contactDistance="0.25"/></Node></Node>`);
+  for (const [name, input] of [["grid", boxes], ["margins", scene]]) {
+    const page = await view(name, [input]);
+    page.setDefaultTimeout(30_000);
+    await page.click("#tab-pairs"); // without a pair, models are shown first
+    const before = await number(page, "#fact-pairs");
+    let different = 0;
+    for (const distance of [0, 0.1, 0.10000000000000009, 0.5, 1.2, 3, 0.25]) {
+      await page.fill("#margin-number", String(distance));
+      await page.press("#margin-number", "Enter");
+      const result = detect(input, "--distance", String(distance));
+      assert.equal(await number(page, "#fact-pairs"), result.pairs.length, `${name} at ${distance}`);
+      await page.$eval("#pairs-chips", (chips) => chips.querySelectorAll(".excluded[aria-pressed=true]").forEach((chip) => chip.click()));
+      const expected = new Set(result.pairs.map(([a, b]) => [result.models[a].name, result.models[b].name].sort().join(" | ")));
+      assert.deepEqual(await allPairs(page), expected, `${name} at ${distance}`);
+      different += result.pairs.length !== before;
+    }
+    assert.ok(different > 2, "the margin matters");
+    await page.$eval("#margin-slider", (slider) => {
+      slider.value = 700;
+      slider.dispatchEvent(new Event("input"));
+    });
+    const chosen = await settled(page, () => page.inputValue("#margin-number"), (value) => Number(value) > 0.3);
+    assert.equal(await number(page, "#fact-pairs"), detect(input, "--distance", chosen).pairs.length);
+    await screenshot(page, `margin-${name}`);
+    await page.click("#margin-reset");
+    assert.equal(await number(page, "#fact-pairs"), before);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});
+
+test("the address has what is chosen, and chooses it", async () => {
+  const input = write("address.csv", "a b,0,0,0,2,2,2\nc,1,1,1,3,3,3\nc,1,1,1,3,3,2\n\"d,&\",0,0,0,2,2,1\n");
+  const page = await view("address", [input]);
+  const file = page.url().split("#")[0];
+  const hash = () => page.evaluate(() => location.hash);
+  assert.equal(await hash(), "");
+  await page.keyboard.press("j");
+  const first = await hash();
+  assert.match(first, /^#pair=[^,]+,[^,]+$/);
+  const names = await texts(page, "#details .link");
+  for (const [address, expected] of [[first, names], ["#pair=d%2C%26,a%20b", ["d,&", "a b"]], ["#pair=@2,@1", ["c", "c"]]]) {
+    await page.goto("about:blank");
+    await page.goto(file + address);
+    await page.waitForFunction(() => document.documentElement.dataset.ready);
+    assert.deepEqual(await texts(page, "#details .link"), expected, address);
+    assert.equal(await hash(), address);
+  }
+  await page.evaluate(() => (location.hash = "#model=a%20b"));
+  await page.waitForFunction(() => document.querySelector("#details .model-name")?.textContent === "a b");
+  for (const nothing of ["#pair=x,y", "#pair=c,c", "#model=%E0%A4%A", "#else", "#pair=@9,@1", "#frame=7"]) {
+    await page.evaluate((text) => (location.hash = text), nothing);
+    await page.waitForTimeout(50);
+    assert.equal(await page.textContent("#details .model-name"), "a b", nothing);
+  }
+  await page.keyboard.press("Escape");
+  assert.equal(await hash(), "");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("the name of the model under the pointer is shown while that rests", async () => {
+  const input = write("hover.csv", "only one <b>,0,0,0,2,2,2\n");
+  const page = await view("hover", [input]);
+  const area = await page.locator("#canvas").boundingBox();
+  await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
+  await page.waitForFunction(() => document.getElementById("hover").textContent === "only one <b>" && !document.getElementById("hover").hidden);
+  await screenshot(page, "hover");
+  await page.mouse.move(area.x + 3, area.y + 3);
+  await page.waitForFunction(() => document.getElementById("hover").hidden);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("a section shows what is within a closed part, and what is cut away is not chosen", async () => {
+  const cuboid = (name, [a, b, c], [d, e, f]) => `o ${name}\n${[c, f].flatMap((z) => [b, e].flatMap((y) => [a, d].map((x) => `v ${x} ${y} ${z}`))).join("\n")}
+f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n`;
+  const input = write("nested.obj", cuboid("shell", [0, 0, 0], [4, 4, 4]) + cuboid("core", [1, 1, 1], [3, 3, 3]));
+  const page = await view("section", [input], { exact: true });
+  const area = await page.locator("#canvas").boundingBox();
+  const nameAt = async () => {
+    await page.mouse.click(area.x + area.width / 2, area.y + area.height / 2);
+    return page.textContent("#details .model-name");
+  };
+  assert.equal(await nameAt(), "shell");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("s");
+  await page.selectOption("#section-axis", "2");
+  await page.$eval("#section-slider", (slider) => {
+    slider.value = 500;
+    slider.dispatchEvent(new Event("input"));
+  });
+  assert.equal(await page.textContent("#section-place"), "z ≤ 2");
+  assert.equal(await nameAt(), "core", "seen from above, where the shell is cut away");
+  await page.keyboard.press("Escape");
+  await settled(page, () => page.isHidden("#details"));
+  await screenshot(page, "section");
+  await page.click("#section-flip");
+  assert.equal(await page.textContent("#section-place"), "z ≥ 2");
+  await page.keyboard.press("s");
+  assert.equal(await nameAt(), "shell");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("keys choose, leave, switch and explain", async () => {
   const page = await view("keys", [demo], { colorScheme: "dark" });
   assert.equal(await page.getAttribute("html", "data-theme"), "dark");

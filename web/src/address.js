@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What is chosen, in the address: #pair=first,second or #model=name, and of a sequence &frame=3. Names are as in the lists; one
+// that several models have, or that begins with @, is @ and the model's number.
+
+export class Address {
+  constructor(app) {
+    this.app = app;
+    const { scene } = app;
+    this.models = new Map(); // by name; -1: several
+    for (let i = 0; i < scene.models; ++i) this.models.set(scene.nameOf(i), this.models.has(scene.nameOf(i)) ? -1 : i);
+    this.follow();
+    app.addEventListener("choice", () => this.write());
+    window.addEventListener("hashchange", () => this.follow());
+  }
+
+  keyOf(model) {
+    const name = this.app.scene.nameOf(model);
+    return encodeURIComponent(this.models.get(name) === -1 || name.startsWith("@") ? `@${model}` : name);
+  }
+
+  /** The model that a key names, or -1. */
+  modelOf(key) {
+    try {
+      const name = decodeURIComponent(key);
+      const number = /^@(\d+)$/.exec(name);
+      if (number) return Number(number[1]) < this.app.scene.models ? Number(number[1]) : -1;
+      return this.models.get(name) ?? -1;
+    } catch {
+      return -1; // no text that was encoded
+    }
+  }
+
+  text() {
+    const { app } = this;
+    const parts = [];
+    if (app.scene.frames.length > 1 && app.index > 0) parts.push(`frame=${app.index}`);
+    if (app.chosenPair) parts.push(`pair=${app.chosenPair.map((model) => this.keyOf(model)).join(",")}`);
+    else if (app.models.length === 1) parts.push(`model=${this.keyOf(app.models[0])}`);
+    return parts.join("&");
+  }
+
+  write() {
+    const text = this.text();
+    if (this.isFollowing || text === location.hash.slice(1)) return;
+    try {
+      history.replaceState(null, "", text ? `#${text}` : location.pathname + location.search);
+    } catch {
+      // browsers allow only so many a minute
+    }
+  }
+
+  /** Chooses what the address says; one that says nothing of this page is left alone. */
+  follow() {
+    const parts = new Map(location.hash.slice(1).split("&").map((part) => [part.split("=")[0], part.slice(part.indexOf("=") + 1)]));
+    const frame = Number(parts.get("frame"));
+    const keys = parts.has("pair") ? parts.get("pair").split(",") : parts.has("model") ? [parts.get("model")] : [];
+    const models = keys.map((key) => this.modelOf(key));
+    this.isFollowing = true;
+    if (parts.has("frame") && Number.isInteger(frame) && this.app.scene.frames[frame] && frame !== this.app.index) this.app.setFrame(frame);
+    if (models.length > 0 && models.length <= 2 && !models.includes(-1)) this.app.choose(models);
+    this.isFollowing = false;
+  }
+}
