@@ -105,7 +105,7 @@ double shareOfOverlaps(const FlatSearch& flat) {
   for (std::size_t i = 0; i < kFewer; ++i) {
     for (std::size_t j = i + 1; j < kFewer; ++j) hits += touch(rows[i], columns[j]) ? 1U : 0U;
   }
-  return static_cast<double>(hits) / static_cast<double>(kFewer * (kFewer - 1) / 2);
+  return static_cast<double>(hits) / (0.5 * static_cast<double>(kFewer * (kFewer - 1)));
 }
 
 /// Reads all boxes of a set, in their order, as lanes; returns whether they are exactly the boxes.
