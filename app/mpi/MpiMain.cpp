@@ -64,17 +64,16 @@ class Join {
     allpairs::mpi::DistributedOptions options;
     if (!m_settings.distance.empty()) options.distance = allpairs::app::parseDistance(m_settings.distance);
     if (threads != 1) options.executor = &executor;
+    std::optional<allpairs::app::PairFile> output;  // before all else: a place that cannot be written is an error now
+    if (!m_settings.count) output.emplace(MPI_COMM_WORLD, m_settings.output);
     std::optional<allpairs::app::BoxShare> share;
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] { share.emplace(m_paths, m_rank, m_ranks); });
     allpairs::mpi::DistributedOverlaps search(MPI_COMM_WORLD, options);
     const auto boxes = [&share] { return share->view(); };
-    std::uint64_t pairs = 0;
-    if (m_settings.count) {
-      pairs = search.count(boxes);
-    } else {
-      pairs = allpairs::app::writePairs(MPI_COMM_WORLD, m_settings.output, search.find(boxes), share->allBoxes());
-    }
-    if (m_rank == 0) say(pairs, share->allBoxes());
+    const std::uint64_t pairs = output ? output->write(search.find(boxes), share->allBoxes()) : search.count(boxes);
+    allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
+      if (m_rank == 0) say(pairs, share->allBoxes());
+    });
   }
 
  private:
@@ -91,6 +90,7 @@ class Join {
                counted(static_cast<std::uint64_t>(m_ranks), "rank"));
     if (!m_settings.output.empty()) fmt::print(" -> {}", allpairs::app::printable(m_settings.output));
     fmt::print("\n");
+    if (std::fflush(stdout) != 0) throw allpairs::FileError("standard output", "cannot be written");
   }
 
   const Settings& m_settings;

@@ -8,6 +8,7 @@ python3-mpi4py), and a build of this package for the same MPI.
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from typing import Any, Optional, TypeVar
 
@@ -34,6 +35,16 @@ _Made = TypeVar("_Made")
 _FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto"}
 
 
+def _portable(problem: Optional[Exception]) -> Optional[Exception]:
+    """An exception that arrives at other ranks as it left; of one that would not, its text."""
+    try:
+        if type(pickle.loads(pickle.dumps(problem))) is type(problem):
+            return problem
+    except Exception:
+        pass
+    return Error(f"{type(problem).__name__}: {problem}")
+
+
 def _on_all_ranks(comm: MPI.Comm, make: Callable[[], _Made]) -> _Made:
     """Makes something on each rank, and raises on all ranks what one raises."""
     problem: Optional[Exception] = None
@@ -42,9 +53,11 @@ def _on_all_ranks(comm: MPI.Comm, make: Callable[[], _Made]) -> _Made:
         made = make()
     except Exception as raised:
         problem = raised
-    problems: list[Optional[Exception]] = comm.allgather(problem)
+    problems: list[Optional[Exception]] = comm.allgather(_portable(problem))
     for rank, found in enumerate(problems):
         if found is not None and comm.size > 1:
+            if rank == comm.rank and problem is not None and not isinstance(problem, Error):
+                raise problem
             if isinstance(found, Error):
                 found.args = (f"rank {rank}: {found}",) + found.args[1:]
             raise found

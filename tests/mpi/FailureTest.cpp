@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "MpiCase.h"
@@ -82,6 +83,29 @@ TEST(DistributedFailure, OptionsThatMakeNoSense) {
   mpi::DistributedOptions second;
   second.second.groups = groups;
   EXPECT_THROW((void)MpiSearch(second).find({boxes}), InvalidArgument);
+}
+
+TEST(DistributedFailure, RanksThatDoNotAgree) {
+  if (rankCount() == 1) return;
+  const auto begins = evenly(someBoxes().size());
+  const auto here = hereOf(someBoxes(), begins);
+  EXPECT_THROW((void)MpiSearch({.distance = 0.1 * rankHere()}).find({here}), InvalidArgument);
+  EXPECT_THROW((void)MpiSearch({.maxPairs = 1000U + static_cast<unsigned>(rankHere())}).find({here}), InvalidArgument);
+  MpiSearch search;
+  if (rankHere() == 0) {
+    EXPECT_THROW((void)search.find({here}), InvalidArgument);
+  } else {
+    EXPECT_THROW((void)search.count({here, here}), InvalidArgument);
+  }
+  EXPECT_EQ(search.find({here}), pairsHere(oracle(someBoxes()), begins));
+}
+
+TEST(DistributedFailure, NoRanks) {
+  EXPECT_THROW(mpi::DistributedOverlaps(MPI_COMM_NULL), InvalidArgument);
+  EXPECT_THROW(mpi::onAllRanks(MPI_COMM_NULL, [] {}), InvalidArgument);
+  mpi::DistributedOverlaps search(MPI_COMM_WORLD);
+  const mpi::DistributedOverlaps taken = std::move(search);
+  EXPECT_THROW((void)search.count(someBoxes()), InvalidArgument);  // NOLINT(bugprone-use-after-move): what is tested
 }
 
 TEST(DistributedFailure, MorePairsThanAllowed) {

@@ -60,6 +60,20 @@ except allpairs.LimitExceeded as problem:
 else:
     raise AssertionError("nothing was raised")
 same(allpairs.mpi.overlaps(comm, boxes[mine]), allpairs.overlaps(boxes))
+
+
+class Unpicklable:
+    def __array__(self, *_):
+        raise RuntimeError("not an array", lambda: None)
+
+
+try:
+    allpairs.mpi.overlaps(comm, boxes[mine] if rank else Unpicklable())
+except (RuntimeError, allpairs.Error) as problem:
+    assert "not an array" in str(problem)
+    assert isinstance(problem, RuntimeError) == (rank == 0)
+else:
+    raise AssertionError("nothing was raised")
 if rank == 0:
     print("all of it")
 sys.exit(0)

@@ -139,10 +139,13 @@ def test_what_is_wrong_ends_all_ranks_with_one_line(tmp_path, ranks):
     assert said.endswith("bad.npy: box 299 has a NaN")
     assert "absent.npy" in complaint(tmp_path / "absent.npy", "--count", status=3)
     nowhere = tmp_path / "nowhere" / "pairs.npy"
-    assert "nowhere/pairs.npy: cannot be opened" in complaint(tmp_path / "good.npy", "-o", nowhere, status=3)
+    assert "nowhere/pairs.npy: cannot be created" in complaint(tmp_path / "good.npy", "-o", nowhere, status=3)
     assert "takes -o FILE" in complaint(tmp_path / "good.npy", status=2)
     assert "--distance" in complaint(tmp_path / "good.npy", "--count", "--distance", "far", status=2)
     assert out.read_text() == "of before"
+    (tmp_path / "folder.npy").mkdir()
+    assert "folder.npy: is a folder" in complaint(tmp_path / "good.npy", "-o", tmp_path / "folder.npy", status=3)
+    (tmp_path / "folder.npy").rmdir()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.npy", "good.npy", "pairs.npy"]
 
 
@@ -157,3 +160,26 @@ def test_a_full_disk_is_an_error_and_what_was_there_stays(tmp_path):
     assert "pairs.npy: cannot be written" in done.stderr
     assert (tmp_path / "pairs.npy").read_text() == "of before"
     assert len(list(tmp_path.iterdir())) == 2
+
+
+@needs_mpi
+def test_any_name_of_a_file_and_a_link(tmp_path):
+    np.save(tmp_path / "boxes.npy", boxes_of("uniform")[:500])
+    run(PROGRAM, "detect", tmp_path / "boxes.npy", "-o", tmp_path / "detect.npy")
+    deep = tmp_path / ("d" * 200) / ("e" * 200)
+    deep.mkdir(parents=True)
+    long = deep / ("f" * 240 + ".npy")
+    long.write_text("longer than what takes its place " * 1000)
+    (tmp_path / "link.npy").symlink_to(long)
+    mpirun(2, "join", tmp_path / "boxes.npy", "-o", tmp_path / "link.npy")
+    assert (tmp_path / "link.npy").is_symlink()
+    assert digest(long) == digest(tmp_path / "detect.npy")
+    assert [path.name for path in deep.iterdir()] == [long.name]
+
+
+@needs_mpi
+def test_a_count_that_cannot_be_said_is_an_error(tmp_path):
+    np.save(tmp_path / "boxes.npy", boxes_of("uniform")[:500])
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([MPI_PROGRAM, "join", tmp_path / "boxes.npy", "--count"], stdout=full, timeout=100)
+    assert done.returncode == 3

@@ -7,6 +7,7 @@
 #include "DistributedSearch.h"
 #include "Ranks.h"
 #include "Tuning.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::mpi {
 
@@ -21,22 +22,28 @@ struct DistributedOverlaps::State {
   [[nodiscard]] DistributedSearch search() const { return {ranks, options, tuning}; }
 };
 
+DistributedOverlaps::State& DistributedOverlaps::state() {
+  if (!m_state) throw InvalidArgument("a DistributedOverlaps that has been moved from");
+  requireUsable();
+  return *m_state;
+}
+
 DistributedOverlaps::DistributedOverlaps(MPI_Comm communicator, DistributedOptions options)
     : m_state(std::make_unique<State>(communicator, std::move(options))) {}
 DistributedOverlaps::~DistributedOverlaps() = default;
 DistributedOverlaps::DistributedOverlaps(DistributedOverlaps&&) noexcept = default;
 DistributedOverlaps& DistributedOverlaps::operator=(DistributedOverlaps&&) noexcept = default;
 
-std::vector<IdPair> DistributedOverlaps::find(const LocalBoxes& boxes) { return m_state->search().find({&boxes, 1}); }
+std::vector<IdPair> DistributedOverlaps::find(const LocalBoxes& boxes) { return state().search().find({&boxes, 1}); }
 
 std::vector<IdPair> DistributedOverlaps::find(const LocalBoxes& first, const LocalBoxes& second) {
-  return m_state->search().find(std::array{first, second});
+  return state().search().find(std::array{first, second});
 }
 
-std::uint64_t DistributedOverlaps::count(const LocalBoxes& boxes) { return m_state->search().count({&boxes, 1}); }
+std::uint64_t DistributedOverlaps::count(const LocalBoxes& boxes) { return state().search().count({&boxes, 1}); }
 
 std::uint64_t DistributedOverlaps::count(const LocalBoxes& first, const LocalBoxes& second) {
-  return m_state->search().count(std::array{first, second});
+  return state().search().count(std::array{first, second});
 }
 
 }  // namespace allpairs::mpi

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -48,6 +49,7 @@ void DistributedSearch::search(std::span<const LocalBoxes> given) {
     checkSets();
     m_outgoing.resize(static_cast<std::size_t>(m_ranks.size()));
   });
+  checkAgreement();
   measureSets();
   if (m_ranks.size() == 1) {
     searchHere();
@@ -89,6 +91,24 @@ void DistributedSearch::checkSets() const {
   OverlapOptions options = optionsFor({}, {});
   options.executor = nullptr;
   (void)countOverlaps(none, none, options);  // refuses a distance or region that makes no sense
+}
+
+/// Ranks that search for different things would wait for each other, or give pairs that no search has.
+void DistributedSearch::checkAgreement() const {
+  const auto bitsOf = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  std::uint64_t digest = 14695981039346656037U;  // FNV-1a, a word at a time
+  const auto add = [&digest](std::uint64_t word) { digest = (digest ^ word) * 1099511628211U; };
+  add(m_sets.size());
+  add(m_isCount ? 1 : 0);
+  add(bitsOf(m_options.distance));
+  add(m_options.maxPairs);
+  add(m_options.region ? 1 : 0);
+  const Box region = m_options.region.value_or(Box{});
+  for (const double bound : region.min) add(bitsOf(bound));
+  for (const double bound : region.max) add(bitsOf(bound));
+  const std::vector<std::uint64_t> digests = m_ranks.gather(digest);
+  const bool isSame = std::all_of(digests.begin(), digests.end(), [&](auto other) { return other == digests.front(); });
+  if (!isSame) throw InvalidArgument("the ranks do not make the same search: its kind, or its settings, differ");
 }
 
 /// Numbers the boxes, and finds what those of all ranks have in common.

@@ -33,6 +33,7 @@ class DistributedSearch {
   void takeSets(std::span<const LocalBoxes> given);
   void checkSets() const;
   void checkStop() const;
+  void checkAgreement() const;
   void measureSets();
   void searchHere();
   void searchCells(const Distribution& distribution, std::size_t round);

@@ -75,6 +75,15 @@ void throwFirst(MPI_Comm communicator, int size, const std::exception_ptr& faile
   raise(failure, first);
 }
 
+/// MPI itself would end the program.
+void requireRanks(MPI_Comm communicator) {
+  requireUsable();
+  if (communicator == MPI_COMM_NULL) throw InvalidArgument("the communicator is MPI_COMM_NULL");
+  int isBetweenGroups = 0;
+  check(MPI_Comm_test_inter(communicator, &isBetweenGroups));
+  if (isBetweenGroups != 0) throw InvalidArgument("the communicator is one between two groups");
+}
+
 void agree(MPI_Comm communicator, int size, FunctionRef<void()> work) {
   std::exception_ptr failed;
   try {
@@ -95,16 +104,23 @@ void check(int code) {
   throw MpiError("MPI: " + std::string(text.data(), static_cast<std::size_t>(length)));
 }
 
+void requireUsable() {
+  int isInitialized = 0;
+  int isFinalized = 0;
+  MPI_Initialized(&isInitialized);
+  MPI_Finalized(&isFinalized);
+  if (isInitialized == 0 || isFinalized != 0) throw InvalidArgument("MPI is not initialized, or is finalized");
+}
+
 void onAllRanks(MPI_Comm communicator, FunctionRef<void()> work) {
+  requireRanks(communicator);
   int size = 0;
   check(MPI_Comm_size(communicator, &size));
   agree(communicator, size, work);
 }
 
 Ranks::Ranks(MPI_Comm communicator, std::size_t pieceWords) : m_pieceWords(pieceWords) {
-  int isInitialized = 0;
-  MPI_Initialized(&isInitialized);
-  if (isInitialized == 0) throw InvalidArgument("MPI is not initialized");
+  requireRanks(communicator);
   check(MPI_Comm_dup(communicator, &m_communicator));
   check(MPI_Comm_set_errhandler(m_communicator, MPI_ERRORS_RETURN));
   check(MPI_Comm_rank(m_communicator, &m_rank));

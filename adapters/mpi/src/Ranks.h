@@ -12,6 +12,9 @@
 
 namespace allpairs::mpi {
 
+/// Throws InvalidArgument where MPI is not initialized, or no more.
+void requireUsable();
+
 /// Throws MpiError for a code of MPI that is none of success.
 void check(int code);
 
