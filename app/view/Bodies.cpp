@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "view/Bodies.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace allpairs::app {
 namespace {
@@ -19,58 +21,89 @@ OwnerPaths ownerPaths(const scene::Scene& scene) {
   return paths;
 }
 
-/// A file by its name, or where another one has it too by its path.
-std::string fileName(const scene::Scene& scene, std::size_t model) {
-  const auto& file = scene.files[scene.sources[model].file];
-  if (file.empty()) return scene.models[model]->getName();
-  const bool isOneOfSeveral = std::any_of(scene.files.begin(), scene.files.end(), [&file](const auto& other) {
-    return other.filename() == file.filename() && other != file;
-  });
-  return isOneOfSeveral ? file.string() : file.filename().string();
+/// Files by their names, or where several are called so by their paths.
+std::vector<std::string> fileNames(const scene::Scene& scene) {
+  std::map<std::string, std::set<std::string>> paths;
+  for (const auto& file : scene.files) paths[file.filename().string()].insert(file.string());
+  std::vector<std::string> names;
+  for (const auto& file : scene.files) {
+    const std::string name = file.filename().string();
+    names.push_back(paths[name].size() > 1 ? file.string() : name);
+  }
+  return names;
 }
 
-/// A body by the path of its node instead of that of one of its models, with what stands before: "arm.scn › /Arm".
-std::string nameOfSeveral(const scene::Scene& scene, std::size_t model, const OwnerPaths& paths) {
-  const std::string& name = scene.models[model]->getName();
-  const auto path = paths.find(scene.models[model]->getOwner());
-  const std::size_t place = name.rfind(scene.sources[model].name);
-  if (path == paths.end() || place == std::string::npos) return name;
-  return name.substr(0, place) + (path->second->empty() ? "/" : *path->second);
-}
+/// Puts bodies together of their models.
+class BodyMaker {
+ public:
+  BodyMaker(const scene::Scene& scene, Grouping grouping, const view::ViewScene& shown)
+      : m_scene(scene), m_isByFile(grouping == Grouping::File), m_shown(shown), m_paths(ownerPaths(scene)) {
+    if (m_isByFile) m_files = fileNames(scene);
+  }
+
+  void add(std::size_t model) {
+    const std::size_t file = m_scene.sources[model].file;
+    const std::pair key(file, m_isByFile ? nullptr : m_scene.models[model]->getOwner());
+    const auto [place, isNew] = m_numbers.emplace(key, static_cast<std::uint32_t>(m_all.size()));
+    if (isNew) m_all.push_back(first(model));
+    Body& body = m_all[place->second];
+    if (++body.size == 2 && !m_isByFile) describeSeveral(model, body);
+    m_bodies.push_back(place->second);
+  }
+
+  /// Gives the result to what is shown, unless each body is one model.
+  void giveTo(view::ViewScene& to) {
+    if (m_all.size() == m_bodies.size()) return;
+    std::map<std::string, std::size_t> counts;  // of identities, which must be told apart
+    for (Body& body : m_all) {
+      const std::size_t count = ++counts[body.identity];
+      to.bodyNames.push_back(std::move(body.name));
+      to.bodyIdentities.push_back(count == 1 ? body.identity : body.identity + '\n' + std::to_string(count));
+    }
+    to.bodies = std::move(m_bodies);
+  }
+
+ private:
+  struct Body {
+    std::string name;
+    std::string identity;
+    std::size_t size = 0;
+  };
+
+  [[nodiscard]] Body first(std::size_t model) const {
+    const std::size_t file = m_scene.sources[model].file;
+    if (!m_isByFile || m_files[file].empty()) return {m_scene.models[model]->getName(), m_shown.identities[model]};
+    return {m_files[file], m_scene.files[file].filename().string()};
+  }
+
+  /// By the path of its node instead of that of one of its models, with what stands before: "arm.scn › /Arm".
+  void describeSeveral(std::size_t model, Body& body) const {
+    const scene::ModelSource& source = m_scene.sources[model];
+    const auto path = m_paths.find(m_scene.models[model]->getOwner());
+    if (path == m_paths.end()) return;
+    if (source.id.empty()) body.identity = m_scene.files[source.file].filename().string() + '\n' + *path->second;
+    const std::string& name = m_scene.models[model]->getName();
+    const std::size_t place = name.rfind(source.name);
+    if (place != std::string::npos) body.name = name.substr(0, place) + (path->second->empty() ? "/" : *path->second);
+  }
+
+  const scene::Scene& m_scene;
+  bool m_isByFile;
+  const view::ViewScene& m_shown;
+  OwnerPaths m_paths;
+  std::vector<std::string> m_files;
+  std::map<std::pair<std::size_t, const void*>, std::uint32_t> m_numbers;
+  std::vector<Body> m_all;
+  std::vector<std::uint32_t> m_bodies;
+};
 
 }  // namespace
 
 void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to) {
   if (grouping == Grouping::None || from.sources.size() != from.models.size()) return;
-  const OwnerPaths paths = ownerPaths(from);
-  std::map<std::pair<std::size_t, const void*>, std::uint32_t> numbers;
-  std::vector<std::uint32_t> bodies;
-  std::vector<std::string> names;
-  std::vector<std::string> identities;
-  std::vector<std::size_t> sizes;
-  const auto identityOf = [&](std::size_t model, bool isOneOfSeveral) {
-    const std::string file = from.files[from.sources[model].file].filename().string();
-    if (grouping == Grouping::File) return file;
-    const auto path = paths.find(from.models[model]->getOwner());
-    return isOneOfSeveral && path != paths.end() ? file + '\n' + *path->second : to.identities[model];
-  };
-  for (std::size_t i = 0; i < from.models.size(); ++i) {
-    const bool isByFile = grouping == Grouping::File;
-    const std::pair key(from.sources[i].file, isByFile ? nullptr : from.models[i]->getOwner());
-    const auto [body, isNew] = numbers.emplace(key, static_cast<std::uint32_t>(names.size()));
-    if (isNew) {
-      names.push_back(isByFile ? fileName(from, i) : from.models[i]->getName());
-      sizes.push_back(0);
-      identities.emplace_back();
-    }
-    if (++sizes[body->second] == 2 && !isByFile) names[body->second] = nameOfSeveral(from, i, paths);
-    if (sizes[body->second] < 3) identities[body->second] = identityOf(i, sizes[body->second] > 1);
-    bodies.push_back(body->second);
-  }
-  if (names.size() == from.models.size()) return;
-  to.bodies = std::move(bodies);
-  to.bodyNames = std::move(names);
-  to.bodyIdentities = std::move(identities);
+  BodyMaker maker(from, grouping, to);
+  for (std::size_t i = 0; i < from.models.size(); ++i) maker.add(i);
+  maker.giveTo(to);
 }
 
 }  // namespace allpairs::app

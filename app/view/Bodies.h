@@ -15,8 +15,8 @@ enum class Grouping : std::uint8_t {
   None,  ///< Each pair is a row.
 };
 
-/// Gives a scene that is shown the bodies of the one that was read, and what these are called. Where each is one model, it gets
-/// none.
+/// Gives a scene that is shown, and whose models have their identities, the bodies of the one that was read, and what these are
+/// called. Where each is one model, it gets none.
 void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to);
 
 }  // namespace allpairs::app

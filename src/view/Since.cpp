@@ -13,7 +13,14 @@
 namespace allpairs::view {
 namespace {
 
-constexpr std::size_t kGuidLength = 36;
+/// Whether it has the form of a UUID: it becomes the name of a folder.
+bool isGuid(std::string_view text) {
+  constexpr std::string_view kForm = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  return std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), [&](char c, char form) {
+    return form == 'x' ? kDigits.find(c) != std::string_view::npos : c == form;
+  });
+}
 
 /// The fields of the next record, which is taken off the text (RFC 4180).
 std::vector<std::string> takeRecord(std::string_view& text) {
@@ -58,7 +65,7 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
   std::set<std::string> known;
   while (!text.empty()) {
     std::vector<std::string> fields = takeRecord(text);
-    if (fields.size() != head.size() || fields[guid].size() != kGuidLength)
+    if (fields.size() != head.size() || !isGuid(fields[guid]))
       throw Error("is no table of a report: a line has other columns");
     const bool isResolved = fields[0].empty();  // before that report already
     if (!isResolved && known.insert(fields[guid]).second)

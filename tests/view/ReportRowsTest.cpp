@@ -224,9 +224,28 @@ TEST(ReportSince, SaysWhatIsNoReport) {
   const std::string table = folder.write("other.csv", "a,b\n1,2\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", table}), 3,
                 "other.csv: is no table of a report");
+  const std::string hostile =
+      folder.write("hostile.csv", "number,first,second,guid\n1,a,b,../../../../../../../../../../../../\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", hostile}), 3, "a line has other columns");
   const std::string cut = folder.write("cut.csv", "number,first,second,guid\n1,a\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", cut}), 3, "a line has other columns");
   EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(ReportOfBodies, OfTheSameNameAreToldApart) {
+  const TempFolder folder;
+  const std::string body =
+      R"(<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/>
+<PointCollisionModel name="p"/></Node>)";
+  const std::string scene =
+      folder.write("same.scn", "<Node name=\"root\"><CollisionPipeline/>" + body + body + body + "</Node>");
+  expectSuccess(runProgram({"report", scene, "--boxes", "-o", folder.path() / "out"}));
+  EXPECT_EQ(filesOf(folder.path() / "out/clashes.bcf").size(), 3 * 3 + 1U) << "three rows, each with its GUID";
+  for (const char* name : {"left/wheel.obj", "right/wheel.obj"})
+    folder.write(name, "o wheel\n" + kTriangle + "o rim\n" + kTriangle);
+  expectSuccess(runProgram({"report", folder.path() / "left/wheel.obj", folder.path() / "right/wheel.obj", "--boxes",
+                            "--group", "file", "-o", folder.path() / "files"}));
+  EXPECT_EQ(filesOf(folder.path() / "files/clashes.bcf").size(), 3 * 3 + 1U);
 }
 
 TEST(ReportOfBodies, MayBeOfFiles) {
