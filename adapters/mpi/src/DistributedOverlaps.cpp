@@ -2,7 +2,6 @@
 #include "allpairs/mpi/DistributedOverlaps.h"
 
 #include <array>
-#include <utility>
 
 #include "DistributedSearch.h"
 #include "Ranks.h"
@@ -16,8 +15,8 @@ struct DistributedOverlaps::State {
   Ranks ranks;
   DistributedOptions options;
 
-  State(MPI_Comm communicator, DistributedOptions given)
-      : ranks(communicator, tuning.pieceWords), options(std::move(given)) {}
+  State(MPI_Comm communicator, const DistributedOptions& given)
+      : ranks(communicator, tuning.pieceWords), options(given) {}
 
   [[nodiscard]] DistributedSearch search() const { return {ranks, options, tuning}; }
 };
@@ -28,8 +27,8 @@ DistributedOverlaps::State& DistributedOverlaps::state() {
   return *m_state;
 }
 
-DistributedOverlaps::DistributedOverlaps(MPI_Comm communicator, DistributedOptions options)
-    : m_state(std::make_unique<State>(communicator, std::move(options))) {}
+DistributedOverlaps::DistributedOverlaps(MPI_Comm communicator, const DistributedOptions& options)
+    : m_state(std::make_unique<State>(communicator, options)) {}
 DistributedOverlaps::~DistributedOverlaps() = default;
 DistributedOverlaps::DistributedOverlaps(DistributedOverlaps&&) noexcept = default;
 DistributedOverlaps& DistributedOverlaps::operator=(DistributedOverlaps&&) noexcept = default;

@@ -92,7 +92,7 @@ class DistributedOverlaps {
   ///
   /// Bad input: no communicator, one between two groups, or MPI before it is initialized or after it is finalized, throws
   ///            InvalidArgument.
-  explicit DistributedOverlaps(MPI_Comm communicator, DistributedOptions options = {});
+  explicit DistributedOverlaps(MPI_Comm communicator, const DistributedOptions& options = {});
   ~DistributedOverlaps();
   DistributedOverlaps(DistributedOverlaps&&) noexcept;
   DistributedOverlaps& operator=(DistributedOverlaps&&) noexcept;
