@@ -78,7 +78,9 @@ scene::BoxArray readBoxArrays(const InputSettings& settings, const scene::ReadOp
 
 scene::Scene readScenes(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
   scene::Scene scene = scene::readInput(paths.front(), options);
-  for (std::size_t i = 1; i < paths.size(); ++i) scene::append(scene, scene::readInput(paths[i], options));
+  std::vector<scene::Scene> others;
+  for (std::size_t i = 1; i < paths.size(); ++i) others.push_back(scene::readInput(paths[i], options));
+  scene::append(scene, std::move(others));
   return scene;
 }
 

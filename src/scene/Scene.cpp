@@ -55,6 +55,24 @@ SceneSearch searchOfAll(const Scene& scene) {
   return search;
 }
 
+void requireOneSearch(const Scene& scene) {
+  if (!scene.pipelines.empty())
+    throw InvalidArgument("a scene with several collision pipelines cannot be taken together with other inputs");
+}
+
+/// Leaves the models' names as they are.
+void moveAll(Scene& scene, Scene& more) {
+  moveSources(scene, more);
+  moveBehind(scene.remarks, more.remarks);
+  moveBehind(scene.warnings, more.warnings);
+  chooseMethod(scene, more);
+  chooseRegion(scene, more);
+  if (scene.up == 0) scene.up = more.up;
+  if (!scene.metresPerUnit) scene.metresPerUnit = more.metresPerUnit;
+  moveBehind(scene.models, more.models);
+  moveBehind(scene.owners, more.owners);
+}
+
 }  // namespace
 
 Scene emptyScene() {
@@ -75,17 +93,16 @@ std::vector<SceneSearch> searchesOf(const Scene& scene) {
 }
 
 void append(Scene& scene, Scene more) {
-  if (!scene.pipelines.empty() || !more.pipelines.empty())
-    throw InvalidArgument("a scene with several collision pipelines cannot be taken together with other inputs");
-  moveSources(scene, more);
-  moveBehind(scene.remarks, more.remarks);
-  moveBehind(scene.warnings, more.warnings);
-  chooseMethod(scene, more);
-  chooseRegion(scene, more);
-  if (scene.up == 0) scene.up = more.up;
-  if (!scene.metresPerUnit) scene.metresPerUnit = more.metresPerUnit;
-  moveBehind(scene.models, more.models);
-  moveBehind(scene.owners, more.owners);
+  std::vector<Scene> one;
+  one.push_back(std::move(more));
+  append(scene, std::move(one));
+}
+
+void append(Scene& scene, std::vector<Scene> more) {
+  if (more.empty()) return;
+  requireOneSearch(scene);
+  for (const Scene& one : more) requireOneSearch(one);
+  for (Scene& one : more) moveAll(scene, one);
   nameModels(scene);
 }
 

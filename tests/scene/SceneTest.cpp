@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "SceneText.h"
+#include "allpairs/Error.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/MinProximityIntersection.h"
 #include "allpairs/scene/FileError.h"
@@ -54,6 +58,31 @@ TEST(Scene, AppendingKeepsTheOrderAndTellsNamesApart) {
   scene::append(scene, sceneOf("wheel", 1));
   EXPECT_EQ(namesOf(scene), "wheel BoxModel 1\nwheel#2 BoxModel 1\naxle BoxModel 1\nwheel#3 BoxModel 1\n");
   EXPECT_TRUE(scene.remarks.empty());
+}
+
+TEST(Scene, SeveralAppendedTogetherAreAsOneAfterTheOther) {
+  const std::vector<std::string> names{"wheel", "axle", "wheel", "bolt", "wheel", "axle"};
+  scene::Scene expected = sceneOf("axle", 1);
+  scene::Scene scene = sceneOf("axle", 1);
+  std::vector<scene::Scene> more;
+  for (const std::string& name : names) {
+    scene::append(expected, sceneOf(name, 2));
+    more.push_back(sceneOf(name, 2));
+  }
+  scene::append(scene, std::move(more));
+  EXPECT_EQ(namesOf(scene), namesOf(expected));
+  EXPECT_EQ(scene.remarks.size(), names.size());
+  EXPECT_EQ(scene.files.size(), expected.files.size());
+}
+
+TEST(Scene, OfSeveralWithOneThatCannotBeAppendedNoneIs) {
+  scene::Scene scene = sceneOf("axle", 1);
+  std::vector<scene::Scene> more;
+  more.push_back(sceneOf("wheel", 1));
+  more.push_back(sceneOf("bolt", 1));
+  more.back().pipelines.emplace_back();
+  EXPECT_THROW(scene::append(scene, std::move(more)), InvalidArgument);
+  EXPECT_EQ(namesOf(scene), "axle BoxModel 1\n");
 }
 
 std::string triangle(const std::string& name) { return "o " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"; }

@@ -90,6 +90,13 @@ struct SceneSearch {
 ///
 /// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method, and
 ///            nothing says which of them would take the others.
+/// Cost:      linear in the models of both, since any of them may get another name. Append many scenes together.
 void append(Scene& scene, Scene more);
+
+/// Appends the models of several scenes, in order, as appending one after the other does, but names all models once.
+///
+/// Bad input: as of append() of one; nothing is appended then.
+/// Cost:      linear in the models of all.
+void append(Scene& scene, std::vector<Scene> more);
 
 }  // namespace allpairs::scene
