@@ -124,6 +124,28 @@ TEST(SceneNames, OfFilesThatAreCalledAlikeHaveTheirFolders) {
   EXPECT_EQ(scene.models.back()->getName(), "right/wheel.obj › wheel#2") << "the same file again";
 }
 
+TEST(SceneNames, OfACallerStay) {
+  const TempFolder folder;
+  const auto a = folder.write("a.obj", triangle("wheel") + triangle("axle") + triangle("bolt"));
+  const auto b = folder.write("b.obj", triangle("wheel") + triangle("axle") + triangle("mine"));
+  scene::Scene scene = scene::readInput(a);
+  scene.models[0]->setName("mine");
+  scene::Scene more = scene::readInput(b);
+  more.models[0]->setName("yours");
+  scene::append(scene, std::move(more));
+  EXPECT_EQ(namesOf(scene),
+            "mine TTriangleModel 1\na.obj › axle TTriangleModel 1\nbolt TTriangleModel 1\n"
+            "yours TTriangleModel 1\nb.obj › axle TTriangleModel 1\nmine#2 TTriangleModel 1\n")
+      << "and no other model takes one";
+  scene.models[1]->setName("axle");
+  scene::append(scene, scene::readInput(folder.write("c.obj", triangle("bolt"))));
+  EXPECT_EQ(namesOf(scene),
+            "mine TTriangleModel 1\naxle TTriangleModel 1\na.obj › bolt TTriangleModel 1\n"
+            "yours TTriangleModel 1\nb.obj › axle TTriangleModel 1\nmine#2 TTriangleModel 1\n"
+            "c.obj › bolt TTriangleModel 1\n")
+      << "the file's own name too, where the model had another";
+}
+
 TEST(SceneNames, OfScenesThatHaveTheSameNodesAreByScene) {
   const TempFolder folder;
   const std::string text =

@@ -34,6 +34,7 @@ struct ModelSource {
   std::string name{};    ///< As the file has it; a file's name where it has none.
   std::string kind{};    ///< What it is in the format's own words: "IfcColumn"; else empty.
   std::string id{};      ///< What identifies it for good, an IFC's GlobalId; else empty.
+  std::string given{};  ///< What append() or a reader of several files named the model last; empty: as the file has it.
 };
 
 /// One of several collision pipelines of a scene: it tests its own models against one another, in its own way.
@@ -84,7 +85,8 @@ struct SceneSearch {
 ///
 /// Where files have objects of the same name, or of one that says nothing, such as "default" or "Cylinder.002", their models are
 /// named by file and object: "left.obj › wheel"; where the object's name says nothing and it is alone in its file, by the file
-/// alone: "left.obj". Models of the same name that this does not tell apart get a number: "wheel#2". The first method and the
+/// alone: "left.obj". Models of the same name that this does not tell apart get a number: "wheel#2". Names that setName() has
+/// given since stay. The first method and the
 /// first region that a file names apply to all; others give a remark. The first input that says which axis is up, and how long
 /// a unit is, says it for all.
 ///

@@ -87,12 +87,15 @@ class Naming {
   bool m_hasSeveralFiles = false;
 };
 
-std::vector<std::string> namesBySource(const Scene& scene) {
-  const Naming naming(scene);
-  std::vector<std::string> names;
-  names.reserve(scene.models.size());
-  for (std::size_t i = 0; i < scene.models.size(); ++i) names.push_back(naming.nameOf(i));
-  return names;
+bool isNamedByCaller(const Scene& scene, std::size_t model) {
+  const ModelSource& source = scene.sources[model];
+  return scene.models[model]->getName() != (source.given.empty() ? source.name : source.given);
+}
+
+void giveName(Scene& scene, std::size_t model, std::string name) {
+  ModelSource& source = scene.sources[model];
+  source.given = name == source.name ? std::string() : name;
+  scene.models[model]->setName(std::move(name));
 }
 
 /// Gives numbers to the names in a range that are taken outside of it, and takes all of them.
@@ -154,13 +157,23 @@ bool isGenericName(std::string_view name) {
 
 void nameModels(Scene& scene) {
   noteSources(scene, {});
-  std::vector<std::string> names = namesBySource(scene);
+  const Naming naming(scene);
   UniqueNames taken;
+  std::vector<std::size_t> models;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.models.size(); ++i) {
+    if (isNamedByCaller(scene, i)) {
+      taken.add(scene.models[i]->getName());
+    } else {
+      models.push_back(i);
+      names.push_back(naming.nameOf(i));
+    }
+  }
   for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end) {
-    while (end < names.size() && scene.sources[end].file == scene.sources[begin].file) ++end;
+    while (end < names.size() && scene.sources[models[end]].file == scene.sources[models[begin]].file) ++end;
     tellApart(std::span(names).subspan(begin, end - begin), taken);
   }
-  for (std::size_t i = 0; i < names.size(); ++i) scene.models[i]->setName(std::move(names[i]));
+  for (std::size_t i = 0; i < names.size(); ++i) giveName(scene, models[i], std::move(names[i]));
 }
 
 }  // namespace allpairs::scene
