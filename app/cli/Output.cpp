@@ -135,7 +135,7 @@ Output::~Output() {
   if (m_descriptor >= 0 && m_descriptor != STDOUT_FILENO) ::close(m_descriptor);
   if (m_temporary.empty()) return;
   ::unlink(m_temporary.c_str());
-  removeOnSignal({});
+  keepOnSignal(m_temporary);
 }
 
 bool Output::isTerminal() const { return ::isatty(m_descriptor) == 1; }
@@ -155,8 +155,8 @@ void Output::commit() {
   if (::close(std::exchange(m_descriptor, -1)) != 0) fail("written");
   if (m_temporary.empty()) return;
   if (::rename(m_temporary.c_str(), resolved(m_target).c_str()) != 0) fail("put in its place");
+  keepOnSignal(m_temporary);
   m_temporary.clear();
-  removeOnSignal({});
 }
 
 void Output::fail(const char* action) const {

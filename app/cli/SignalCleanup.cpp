@@ -3,27 +3,29 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <climits>
+#include <atomic>
 #include <csignal>
-#include <cstddef>
+#include <memory>
+#include <utility>
 
 namespace allpairs::app {
 namespace {
 
-// A signal handler sees nothing but what is global.
+/// Never freed: a signal may come at any time, on any thread.
 struct Removed {
-  std::array<char, PATH_MAX> path{};
-  volatile std::sig_atomic_t isSet = 0;
+  std::string path;
+  const Removed* older = nullptr;
+  mutable std::atomic<bool> isSet = true;
 };
-constexpr std::size_t kSlots = 3;
-std::array<Removed, kSlots> removed{};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+// A signal handler sees nothing but what is global.
+std::atomic<const Removed*> newest = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+static_assert(std::atomic<const Removed*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 /// Calls only what is safe in a handler.
 extern "C" void removeAndEnd(int signal) {
-  for (const Removed& one : removed) {
-    if (one.isSet != 0 && ::unlink(one.path.data()) != 0) ::rmdir(one.path.data());
+  for (const Removed* one = newest; one != nullptr; one = one->older) {
+    if (one->isSet && ::unlink(one->path.c_str()) != 0) ::rmdir(one->path.c_str());
   }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
@@ -31,12 +33,17 @@ extern "C" void removeAndEnd(int signal) {
 
 }  // namespace
 
-void removeOnSignal(const std::string& path, SignalSlot slot) {
-  Removed& one = removed[static_cast<std::size_t>(slot)];
-  one.isSet = 0;
-  if (path.empty() || path.size() >= one.path.size()) return;
-  *std::copy(path.begin(), path.end(), one.path.begin()) = '\0';
-  one.isSet = 1;
+void removeOnSignal(std::string path) {
+  auto removed = std::make_unique<Removed>();
+  removed->path = std::move(path);
+  removed->older = newest;
+  newest = removed.release();
+}
+
+void keepOnSignal(std::string_view path) noexcept {
+  for (const Removed* one = newest; one != nullptr; one = one->older) {
+    if (one->path == path) one->isSet = false;
+  }
 }
 
 void installSignalCleanup() {

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace allpairs::app {
 
-/// What is taken away when a signal ends the program: one of each.
-enum class SignalSlot : std::uint8_t { Output, Spool, SpoolFolder };
+/// Takes a file, or a folder that is empty by then, away when a signal ends the program: what was named last goes first.
+///
+/// Threads: one at a time calls this and the next.
+void removeOnSignal(std::string path);
 
-/// Says which file, or folder that is empty by then, to take away; an empty path: none.
-void removeOnSignal(const std::string& path, SignalSlot slot = SignalSlot::Output);
+/// Undoes it, as for a file that is complete, or gone.
+void keepOnSignal(std::string_view path) noexcept;
 
 /// Takes these away on SIGINT, SIGTERM and SIGHUP, unless they are ignored, and ends as these signals do.
 void installSignalCleanup();

@@ -107,7 +107,7 @@ void SpooledInputs::spool(std::string& path, const std::string& format) {
   fs::path file = m_folder / (stem + extension);
   if (fs::exists(file)) file = m_folder / fmt::format("{}-{}{}", stem, m_files.size(), extension);
   m_files.push_back({file, shown});
-  removeOnSignal(file, SignalSlot::Spool);
+  removeOnSignal(file);
   const Descriptor source(isStandard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (source.number() < 0) throw FileError(path, "cannot be opened: " + lastProblem());
   const Descriptor target(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
@@ -120,15 +120,15 @@ void SpooledInputs::makeFolder() {
   std::string name = fs::temp_directory_path() / "allpairs-XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) throw FileError(name, "cannot be created: " + lastProblem());
   m_folder = name;
-  removeOnSignal(m_folder, SignalSlot::SpoolFolder);
+  removeOnSignal(m_folder);
 }
 
 void SpooledInputs::removeAll() noexcept {
   std::error_code ignored;
   if (m_folder.empty()) return;
   fs::remove_all(m_folder, ignored);
-  removeOnSignal({}, SignalSlot::Spool);
-  removeOnSignal({}, SignalSlot::SpoolFolder);
+  for (const Spooled& one : m_files) keepOnSignal(one.file.native());
+  keepOnSignal(m_folder.native());
 }
 
 void withSpooledInputs(std::vector<std::string>& paths, const std::string& format,

@@ -78,6 +78,14 @@ TEST_F(StandardInput, IsAskedForOnceAndWithItsFormat) {
   expectFailure(run("\"$0\" detect - --input-format ../x < boxes.npy"), kWrongUsage, "is no extension of a file");
 }
 
+TEST_F(StandardInput, OfSeveralPipesIsTakenAwayWhenASignalEndsTheProgram) {
+  const ProgramRun result =
+      run("mkfifo a.csv b.csv && { cat boxes.csv > a.csv & \"$0\" detect a.csv b.csv & child=$!; exec 3>b.csv; "
+          "echo 0,0,0,1,1,1 >&3; i=0; until [ -n \"$(find tmp -name b.csv -size +0)\" ] || [ $i = 600 ]; "
+          "do sleep 0.05; i=$((i + 1)); done; [ $i = 600 ] || kill -TERM $child; exec 3>&-; wait $child; }");
+  EXPECT_GT(result.status, 128) << "a shell's word for a signal";
+}
+
 TEST_F(StandardInput, IsTakenAwayWhenASignalEndsTheProgram) {
   const ProgramRun result =
       run("mkfifo pipe.npy && { \"$0\" detect pipe.npy & child=$!; exec 3>pipe.npy; i=0; "
