@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -169,6 +172,16 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
   }
 }
 
+/// Opens what the program was started without, so that no file gets its number. To read the standard input or to write the
+/// standard output is an error then; complaints go nowhere.
+void openMissingStandardFiles() {
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(standard, F_GETFD) >= 0) continue;
+    const int opened = ::open("/dev/null", standard == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
+    if (opened != standard) return;  // the lowest number that is free would be it
+  }
+}
+
 /// Making the options allocates, too.
 int runProgram(int count, char** arguments) {
   CLI::App program("Finds every pair of objects whose bounding boxes touch: exactly, and fast.", "allpairs");
@@ -195,6 +208,7 @@ int runProgram(int count, char** arguments) {
 namespace allpairs::app {
 
 int runCommandLine(int count, char** arguments) {
+  openMissingStandardFiles();
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), so that temporaries are taken away
   std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not grow
   installSignalCleanup();

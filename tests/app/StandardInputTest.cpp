@@ -78,6 +78,13 @@ TEST_F(StandardInput, IsAskedForOnceAndWithItsFormat) {
   expectFailure(run("\"$0\" detect - --input-format ../x < boxes.npy"), kWrongUsage, "is no extension of a file");
 }
 
+TEST_F(StandardInput, AndOutputThatAreClosedAreErrors) {
+  expectFailure(run("\"$0\" detect - --input-format npy < boxes.npy >&-"), kBadInput,
+                "standard output: cannot be written");
+  expectFailure(run("\"$0\" detect - --input-format npy <&-"), kBadInput, "standard input: cannot be read");
+  expectFailure(run("\"$0\" detect - --input-format npy <&- >&-"), kBadInput, "standard input: cannot be read");
+}
+
 TEST_F(StandardInput, OfSeveralPipesIsTakenAwayWhenASignalEndsTheProgram) {
   const ProgramRun result =
       run("mkfifo a.csv b.csv && { cat boxes.csv > a.csv & \"$0\" detect a.csv b.csv & child=$!; exec 3>b.csv; "
@@ -92,6 +99,13 @@ TEST_F(StandardInput, IsTakenAwayWhenASignalEndsTheProgram) {
           "until [ -n \"$(ls tmp)\" ] || [ $i = 600 ]; do sleep 0.05; i=$((i + 1)); done; kill -TERM $child; wait "
           "$child; }");
   EXPECT_GT(result.status, 128) << "a shell's word for a signal";
+}
+
+TEST(BoxWithMinAboveMax, IsNamedInNoResultWhereStandardErrorIsClosed) {
+  const TempFolder folder;
+  folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,3,3,3,4,2,4\nc,0,0,0,1,1,1\n");
+  expectSuccess(runScript("cd '" + folder.path().string() + "' && \"$0\" detect boxes.csv -o pairs.csv 2>&-"));
+  EXPECT_EQ(readBytes(folder.path() / "pairs.csv"), "first,second\nc,a\n");
 }
 
 TEST(BoxWithMinAboveMax, IsNamedInAWarning) {
