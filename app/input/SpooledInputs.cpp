@@ -2,7 +2,7 @@
 #include "input/SpooledInputs.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
+#include <string>
 #include <system_error>
 
 #include "allpairs/scene/FileError.h"
@@ -104,10 +105,12 @@ void SpooledInputs::spool(std::string& path, const std::string& format) {
   if (extension.empty()) throw UsageError(shown + ": --input-format must say what it is: npy, csv, obj, stl, scn, ...");
   if (m_folder.empty()) makeFolder();
   const std::string stem = isStandard ? "stdin" : fs::path(path).stem().string();
-  fs::path file = m_folder / (stem + extension);
-  if (fs::exists(file)) file = m_folder / fmt::format("{}-{}{}", stem, m_files.size(), extension);
-  m_files.push_back({file, shown});
+  const fs::path folder = m_folder / std::to_string(m_files.size());  // so that pipes of any names have their own
+  const fs::path file = folder / (stem + extension);
+  m_files.push_back({folder, file, shown});
+  removeOnSignal(folder);
   removeOnSignal(file);
+  if (::mkdir(folder.c_str(), 0700) != 0) throw FileError(folder, "cannot be created: " + lastProblem());
   const Descriptor source(isStandard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (source.number() < 0) throw FileError(path, "cannot be opened: " + lastProblem());
   const Descriptor target(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
@@ -127,7 +130,10 @@ void SpooledInputs::removeAll() noexcept {
   std::error_code ignored;
   if (m_folder.empty()) return;
   fs::remove_all(m_folder, ignored);
-  for (const Spooled& one : m_files) keepOnSignal(one.file.native());
+  for (const Spooled& one : m_files) {
+    keepOnSignal(one.folder.native());
+    keepOnSignal(one.file.native());
+  }
   keepOnSignal(m_folder.native());
 }
 

@@ -27,6 +27,7 @@ class SpooledInputs {
 
  private:
   struct Spooled {
+    std::filesystem::path folder;  ///< Its own.
     std::filesystem::path file;
     std::filesystem::path shown;
   };

@@ -62,6 +62,13 @@ TEST_F(StandardInput, MayBeAPipeWithAName) {
              "rm pipe.npy; cp boxes.npy pipe.npy; \"$0\" detect pipe.npy boxes.csv --format csv");
 }
 
+TEST_F(StandardInput, MayBePipesOfAnyNames) {
+  const std::string files = " one/a-2.csv one/a.csv two/a.csv ";
+  expectSame("mkdir one two && mkfifo" + files + "&& { for f in" + files +
+                 "; do cat boxes.csv > $f & done; \"$0\" detect" + files + "--format csv; }",
+             "\"$0\" detect boxes.csv boxes.csv boxes.csv --format csv");
+}
+
 TEST_F(StandardInput, IsNamedInResultsAndErrors) {
   const ProgramRun result = run("\"$0\" detect - --input-format obj --format json < part.obj");
   expectSuccess(result);
