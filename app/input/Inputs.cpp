@@ -76,19 +76,26 @@ scene::BoxArray readBoxArrays(const InputSettings& settings, const scene::ReadOp
   return scene::BoxArray::concatenate(std::move(arrays));
 }
 
-scene::Scene readScenes(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
-  scene::Scene scene = scene::readInput(paths.front(), options);
-  std::vector<scene::Scene> others;
-  for (std::size_t i = 1; i < paths.size(); ++i) others.push_back(scene::readInput(paths[i], options));
-  scene::append(scene, std::move(others));
-  return scene;
-}
-
 /// Files by the names that the user gave them.
 void nameAsGiven(const SpooledInputs& spooled, scene::Scene& scene) {
   for (auto& file : scene.files) file = spooled.shown(file);
   for (scene::Remark& remark : scene.remarks) remark.file = spooled.shown(remark.file);
   for (scene::Remark& warning : scene.warnings) warning.file = spooled.shown(warning.file);
+}
+
+scene::Scene readScene(const InputSettings& settings, std::size_t input, const scene::ReadOptions& options) {
+  scene::Scene scene = scene::readInput(settings.paths[input], options);
+  if (settings.spooled != nullptr)
+    nameAsGiven(*settings.spooled, scene);  // models are named by it when others are there
+  return scene;
+}
+
+scene::Scene readScenes(const InputSettings& settings, const scene::ReadOptions& options) {
+  scene::Scene scene = readScene(settings, 0, options);
+  std::vector<scene::Scene> others;
+  for (std::size_t i = 1; i < settings.paths.size(); ++i) others.push_back(readScene(settings, i, options));
+  scene::append(scene, std::move(others));
+  return scene;
 }
 
 std::string pipelineText(const scene::ScenePipeline& pipeline) {
@@ -132,8 +139,7 @@ Inputs readInputs(const InputSettings& settings) {
   const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
                                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
   if (areBoxes) return readBoxArrays(settings, options, line);
-  scene::Scene scene = readScenes(settings.paths, options);
-  if (settings.spooled != nullptr) nameAsGiven(*settings.spooled, scene);
+  scene::Scene scene = readScenes(settings, options);
   warn(scene, line);
   return scene;
 }

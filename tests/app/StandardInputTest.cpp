@@ -69,6 +69,19 @@ TEST_F(StandardInput, MayBePipesOfAnyNames) {
              "\"$0\" detect boxes.csv boxes.csv boxes.csv --format csv");
 }
 
+TEST_F(StandardInput, IsWhatModelsAreNamedBy) {
+  const std::string info = "\"$0\" info left/a.obj right/a.obj";
+  expectSame(
+      "mkdir left right && mkfifo left/a.obj right/a.obj && { cat part.obj > left/a.obj & "
+      "cat part.obj > right/a.obj & " +
+          info + "; }",
+      "rm left/a.obj right/a.obj; cp part.obj left/a.obj; cp part.obj right/a.obj; " + info);
+  const ProgramRun result = run(info + " - --input-format obj < part.obj");
+  expectSuccess(result);
+  for (const char* name : {"left/a.obj › other", "right/a.obj › other", "standard input › other"})
+    EXPECT_NE(result.out.find(name), std::string::npos) << result.out;
+}
+
 TEST_F(StandardInput, IsNamedInResultsAndErrors) {
   const ProgramRun result = run("\"$0\" detect - --input-format obj --format json < part.obj");
   expectSuccess(result);
