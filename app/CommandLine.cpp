@@ -65,6 +65,13 @@ std::string countProblem(const CLI::ArgumentMismatch& problem) {
   return option + ": " + text.substr(begin + kBefore.size(), end - begin - kBefore.size()) + " is missing";
 }
 
+/// What CLI11 says of an argument that is missing: "no INPUT given" for "INPUT is required".
+std::string missingProblem(const CLI::RequiredError& problem) {
+  const std::string text = problem.what();
+  const std::size_t end = text.rfind(" is required");
+  return end == std::string::npos ? text : "no " + text.substr(0, end) + " given";
+}
+
 ExitStatus fail(ExitStatus status, const std::string& message) {
   complain(message);
   return status;
@@ -138,8 +145,8 @@ void parse(CLI::App& program, const std::vector<std::string>& given) {
     print(chosen.empty() ? program.help() : chosen.front()->help());
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + '\n');
-  } catch (const CLI::RequiredError&) {
-    if (!program.get_subcommands().empty()) throw allpairs::app::UsageError("no INPUT given");
+  } catch (const CLI::RequiredError& problem) {
+    if (!program.get_subcommands().empty()) throw allpairs::app::UsageError(missingProblem(problem));
     if (arguments.empty()) {
       print(program.help());
       throw allpairs::app::UsageError("no command given");

@@ -27,6 +27,7 @@
 #include "detect/Exact.h"
 #include "detect/SearchArguments.h"
 #include "input/Inputs.h"
+#include "input/SpooledInputs.h"
 
 namespace allpairs::app {
 namespace {
@@ -151,7 +152,8 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
                     "no model of it can be placed or read, and nothing is left: 'allpairs info "
                     "--partial' lists why");
   }
-  const std::string inputs = printable(fmt::format("{}", fmt::join(input.paths, " ")));
+  const std::string paths = fmt::format("{}", fmt::join(input.paths, " "));
+  const std::string inputs = printable(input.spooled == nullptr ? paths : input.spooled->shownIn(paths));
   fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
              counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");
 }

@@ -16,6 +16,7 @@
 #include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
 #include "cli/SignalCleanup.h"
+#include "cli/TemporaryFolder.h"
 
 namespace allpairs::app {
 namespace {
@@ -98,6 +99,16 @@ fs::path SpooledInputs::shown(const fs::path& file) const {
   return known == m_files.end() ? file : known->shown;
 }
 
+std::string SpooledInputs::shownIn(std::string text) const {
+  for (const Spooled& one : m_files) {
+    const std::string file = one.file.string();
+    const std::string shown = one.shown.string();
+    for (std::size_t at = text.find(file); at != std::string::npos; at = text.find(file, at + shown.size()))
+      text.replace(at, file.size(), shown);
+  }
+  return text;
+}
+
 void SpooledInputs::spool(std::string& path, const std::string& format) {
   const bool isStandard = isStandardInput(path);
   const std::string extension = format.empty() ? fs::path(path).extension().string() : '.' + format;
@@ -120,7 +131,7 @@ void SpooledInputs::spool(std::string& path, const std::string& format) {
 }
 
 void SpooledInputs::makeFolder() {
-  std::string name = fs::temp_directory_path() / "allpairs-XXXXXX";
+  std::string name = temporaryFolder() / "allpairs-XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) throw FileError(name, "cannot be created: " + lastProblem());
   m_folder = name;
   removeOnSignal(m_folder);
@@ -144,8 +155,11 @@ void withSpooledInputs(std::vector<std::string>& paths, const std::string& forma
     work(spooled);
   } catch (const FileError& problem) {
     const fs::path shown = spooled.shown(problem.path());
-    if (shown == problem.path()) throw;
-    throw FileError(shown, problem.problem(), problem.line(), problem.column());
+    const std::string text = spooled.shownIn(problem.problem());
+    if (shown == problem.path() && text == problem.problem()) throw;
+    throw FileError(shown, text, problem.line(), problem.column());
+  } catch (const UsageError& problem) {
+    throw UsageError(spooled.shownIn(problem.what()));
   }
 }
 

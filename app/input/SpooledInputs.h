@@ -24,6 +24,8 @@ class SpooledInputs {
 
   /// What the user calls a file: "standard input", the pipe, or the file itself.
   [[nodiscard]] std::filesystem::path shown(const std::filesystem::path& file) const;
+  /// A text with what the user calls the files in it.
+  [[nodiscard]] std::string shownIn(std::string text) const;
 
  private:
   struct Spooled {
@@ -40,7 +42,7 @@ class SpooledInputs {
   std::vector<Spooled> m_files;
 };
 
-/// Does work that reads inputs with those that can be read only once spooled. Its FileErrors name what the user named.
+/// Does work that reads inputs with those that can be read only once spooled. Its FileErrors and UsageErrors name what the user named.
 void withSpooledInputs(std::vector<std::string>& paths, const std::string& format,
                        const std::function<void(const SpooledInputs&)>& work);
 

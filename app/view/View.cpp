@@ -21,6 +21,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
+#include "cli/TemporaryFolder.h"
 #include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "input/Inputs.h"
@@ -62,7 +63,7 @@ void writeFile(const view::ViewScene& scene, const std::optional<std::filesystem
 
 /// A new file in the folder for temporary files, which only the user may read.
 std::string temporaryFile() {
-  std::string name = std::filesystem::temp_directory_path() / "allpairs-XXXXXX.html";
+  std::string name = temporaryFolder() / "allpairs-XXXXXX.html";
   const int descriptor = ::mkstemps(name.data(), 5);
   if (descriptor < 0) throw FileError(name, "cannot create a temporary file");
   ::close(descriptor);

@@ -43,6 +43,7 @@ TEST(WrongUsage, IsOneLineAndStatusTwo) {
   expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,0,1"}), kWrongUsage, "is not in y");
   expectFailure(runProgram({"detect", path, "--box", "0,0,nan,1,0,1"}), kWrongUsage, "'nan'");
   expectFailure(runProgram({"info"}), kWrongUsage, "no INPUT given");
+  expectFailure(runProgram({"completion"}), kWrongUsage, "no SHELL given");
 }
 
 TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {

@@ -91,6 +91,19 @@ TEST_F(StandardInput, IsNamedInResultsAndErrors) {
   expectFailure(run("printf '' | \"$0\" detect - --input-format npy"), kBadInput, "allpairs: standard input: ");
 }
 
+TEST_F(StandardInput, IsNamedInErrorsOfTwoFiles) {
+  expectFailure(run("\"$0\" elements - --input-format obj < part.obj"), kWrongUsage, "'standard input' has no END");
+  expectFailure(run("grep -v other part.obj | \"$0\" elements - part.obj --input-format obj"), kBadInput,
+                "allpairs: part.obj: holds 2 meshes where 'standard input' holds 1");
+}
+
+TEST_F(StandardInput, NeedsAFolderForTemporaryFiles) {
+  expectFailure(run("TMPDIR=\"$PWD/nowhere\" \"$0\" detect - --input-format npy < boxes.npy"), kBadInput,
+                "/nowhere: no folder for temporary files: ");
+  expectFailure(run("TMPDIR=boxes.npy \"$0\" detect - --input-format npy < boxes.npy"), kBadInput,
+                "allpairs: TMPDIR=boxes.npy: no folder for temporary files: ");
+}
+
 TEST_F(StandardInput, IsAskedForOnceAndWithItsFormat) {
   expectFailure(run("\"$0\" detect - < boxes.npy"), kWrongUsage, "standard input: --input-format must say what it is");
   expectFailure(run("\"$0\" detect - - --input-format npy < boxes.npy"), kWrongUsage, "can be read only once");
