@@ -200,7 +200,7 @@ std::string headlineOf(const ViewScene& scene) {
   const std::size_t count = scene.frames.front().pairs.size();
   std::set<BodyPair> rows;
   for (const auto& [first, second] : scene.frames.front().pairs) rows.insert(bodiesOf(scene, first, second));
-  const std::string boxes = fmt::format("{} {} of boxes", count, count == 1 ? "pair" : "pairs");
+  std::string boxes = fmt::format("{} {} of boxes", count, count == 1 ? "pair" : "pairs");
   if (rows.size() == count) return boxes;
   return fmt::format("{} {} of bodies, {}", rows.size(), rows.size() == 1 ? "pair" : "pairs", boxes);
 }
