@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -15,34 +14,12 @@
 #include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
 #include "cli/SignalCleanup.h"
+#include "cli/TargetFile.h"
 
 namespace allpairs::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr mode_t kNewFileMode = 0666;  // as any program creates files; the umask takes away what it must
-
-/// The file that a path means in the end, there or not, so that a link stays a link and its target is replaced.
-fs::path resolved(const fs::path& path) {
-  constexpr int kMostLinks = 40;  // as many as the system follows
-  std::error_code problem;
-  fs::path target = path;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(target, problem)); ++i) {
-    target = target.parent_path() / fs::read_symlink(target);
-  }
-  target = fs::weakly_canonical(target, problem);
-  if (problem == std::errc::not_enough_memory) throw std::bad_alloc();  // it may be a link all the same
-  return target.empty() ? path : target;
-}
-
-mode_t modeFor(const fs::path& target) {
-  struct stat existing {};
-  if (::stat(target.c_str(), &existing) == 0) return existing.st_mode & 07777;
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return kNewFileMode & ~mask;
-}
 
 std::string descriptorPath(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
@@ -99,12 +76,12 @@ void Output::openTarget() {
 }
 
 void Output::openBeside() {
-  const fs::path place = resolved(m_target);
+  const fs::path place = resolvedTarget(m_target);
   if (::access(place.c_str(), F_OK) == 0 && ::access(place.c_str(), W_OK) != 0) fail("replaced");
   m_descriptor = openNameless(place);
   m_isNameless = m_descriptor >= 0;
   if (!m_isNameless) openNamed(place);
-  if (::fchmod(m_descriptor, modeFor(place)) != 0) fail("given its permissions");
+  if (::fchmod(m_descriptor, modeOfTarget(place)) != 0) fail("given its permissions");
 }
 
 void Output::openNamed(const fs::path& place) {
@@ -118,7 +95,7 @@ void Output::openNamed(const fs::path& place) {
 /// A link cannot replace a file, and a rename can: the complete file gets a name beside its place first.
 void Output::giveName() {
   const std::string source = descriptorPath(m_descriptor);
-  const std::string base = resolved(m_target).string() + '.' + std::to_string(::getpid());
+  const std::string base = resolvedTarget(m_target).string() + '.' + std::to_string(::getpid());
   for (int attempt = 0; m_temporary.empty(); ++attempt) {
     std::string name = base + '-' + std::to_string(attempt);
     if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
@@ -154,7 +131,7 @@ void Output::commit() {
   if (m_isNameless) giveName();
   if (::close(std::exchange(m_descriptor, -1)) != 0) fail("written");
   if (m_temporary.empty()) return;
-  if (::rename(m_temporary.c_str(), resolved(m_target).c_str()) != 0) fail("put in its place");
+  if (::rename(m_temporary.c_str(), resolvedTarget(m_target).c_str()) != 0) fail("put in its place");
   keepOnSignal(m_temporary);
   m_temporary.clear();
 }

@@ -16,6 +16,7 @@
 #include "allpairs/mpi/OnAllRanks.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/WriteResult.h"
+#include "cli/TargetFile.h"
 
 namespace allpairs::app {
 namespace {
@@ -26,22 +27,14 @@ constexpr std::uint64_t kShortIds = std::uint64_t{1} << 32;
 constexpr std::size_t kBlock = std::size_t{1} << 20;  // pairs that are written at once
 
 /// The file to replace: what a link leads to.
-fs::path resolved(const fs::path& target) {
+fs::path checkedTarget(const fs::path& target) {
   std::error_code problem;
   const fs::file_status status = fs::status(target, problem);
   if (fs::is_directory(status)) throw FileError(target, "is a folder; -o takes a file");
   if (fs::exists(status) && !fs::is_regular_file(status)) throw FileError(target, "is no file that can be replaced");
-  if (fs::exists(status)) return fs::canonical(target);
+  if (fs::exists(status)) return resolvedTarget(target);
   if (fs::is_symlink(fs::symlink_status(target, problem))) throw FileError(target, "is a link to nothing");
   return target;
-}
-
-mode_t modeFor(const fs::path& target) {
-  struct stat existing {};
-  if (::stat(target.c_str(), &existing) == 0) return existing.st_mode & 07777;
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;  // as any program creates files
 }
 
 }  // namespace
@@ -70,7 +63,7 @@ void PairFile::close() {
 
 /// A new file of a name that nobody has, short whatever the target's is.
 void PairFile::create() {
-  m_target = resolved(m_target);
+  m_target = checkedTarget(m_target);
   m_part = (m_target.parent_path() / ".allpairs-mpi-XXXXXX").string();
   m_descriptor = ::mkostemp(m_part.data(), O_CLOEXEC);
   if (m_descriptor < 0) {
@@ -78,7 +71,7 @@ void PairFile::create() {
     m_part.clear();
     fail("created", problem);
   }
-  if (::fchmod(m_descriptor, modeFor(m_target)) != 0) fail("created", errno);
+  if (::fchmod(m_descriptor, modeOfTarget(m_target)) != 0) fail("created", errno);
 }
 
 /// The other ranks open what rank 0 has made.

@@ -54,11 +54,10 @@ class BodyMaker {
   /// Gives the result to what is shown, unless each body is one model.
   void giveTo(view::ViewScene& to) {
     if (m_all.size() == m_bodies.size()) return;
-    std::map<std::string, std::size_t> counts;  // of identities, which must be told apart
+    Identities identities;
     for (Body& body : m_all) {
-      const std::size_t count = ++counts[body.identity];
       to.bodyNames.push_back(std::move(body.name));
-      to.bodyIdentities.push_back(count == 1 ? body.identity : body.identity + '\n' + std::to_string(count));
+      to.bodyIdentities.push_back(identities.unique(std::move(body.identity)));
     }
     to.bodies = std::move(m_bodies);
   }
@@ -98,6 +97,11 @@ class BodyMaker {
 };
 
 }  // namespace
+
+std::string Identities::unique(std::string identity) {
+  const std::size_t count = ++m_counts[identity];
+  return count == 1 ? identity : identity + '\n' + std::to_string(count);
+}
 
 void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to) {
   if (grouping == Grouping::None || from.sources.size() != from.models.size()) return;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 
 #include "ViewScene.h"
 #include "allpairs/scene/Scene.h"
@@ -13,6 +16,15 @@ enum class Grouping : std::uint8_t {
   Body,  ///< Those of the same two bodies: the triangles, lines and points of a SOFA node, or of an object of a mesh file.
   File,  ///< Those of the same two files.
   None,  ///< Each pair is a row.
+};
+
+/// What models or bodies are known by, told apart: one that has been given before gets a number.
+class Identities {
+ public:
+  [[nodiscard]] std::string unique(std::string identity);
+
+ private:
+  std::map<std::string, std::size_t> m_counts;
 };
 
 /// Gives a scene that is shown, and whose models have their identities, the bodies of the one that was read, and what these are

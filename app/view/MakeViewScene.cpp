@@ -66,13 +66,11 @@ class ModelProbe : public collision::BruteForceBroadPhase {
 /// By what models are known later, and what their format says that they are.
 void addSources(const scene::Scene& from, view::ViewScene& to) {
   if (from.sources.size() != from.models.size()) return;
-  std::map<std::string, std::size_t> counts;
+  Identities identities;
   bool hasKinds = false;
   for (const scene::ModelSource& source : from.sources) {
-    std::string identity =
-        source.id.empty() ? from.files[source.file].filename().string() + '\n' + source.name : source.id;
-    const std::size_t count = ++counts[identity];
-    to.identities.push_back(count == 1 ? std::move(identity) : identity + '\n' + std::to_string(count));
+    to.identities.push_back(identities.unique(
+        source.id.empty() ? from.files[source.file].filename().string() + '\n' + source.name : source.id));
     to.kinds.push_back(source.kind);
     to.ids.push_back(source.id);
     hasKinds = hasKinds || !source.kind.empty();

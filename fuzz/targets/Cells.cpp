@@ -56,12 +56,6 @@ Part partOf(const Side& side, const Partition& cells, std::size_t cell, double d
   return part;
 }
 
-double greatestMargin(const Side& side) {
-  double greatest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < side.boxes.size(); ++i) greatest = std::max(greatest, side.marginOf(i));
-  return greatest;
-}
-
 void runCells(Bytes bytes) {
   Choices choices(bytes);
   Side first, second;
@@ -75,8 +69,8 @@ void runCells(Bytes bytes) {
       choices.flag() ? cutAnywhere(choices) : Partition(first.set, 1 + choices.below(20), options.distance);
   std::vector<IdPair> found;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    const Part a = partOf(first, cells, cell, options.distance, greatestMargin(other));
-    const Part b = isOne ? Part() : partOf(second, cells, cell, options.distance, greatestMargin(first));
+    const Part a = partOf(first, cells, cell, options.distance, partition::greatestMargin(other.set));
+    const Part b = isOne ? Part() : partOf(second, cells, cell, options.distance, partition::greatestMargin(first.set));
     const std::vector<IdPair> pairs =
         isOne ? overlapsInCell(a.side.set, a.ids, cells.cell(cell), options)
               : overlapsInCell(a.side.set, a.ids, b.side.set, b.ids, cells.cell(cell), options);

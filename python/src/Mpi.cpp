@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "Bindings.h"
 #include "Boxes.h"
-#include "NumberArray.h"
+#include "IdPairArray.h"
 #include "Options.h"
 #include "allpairs/mpi/DistributedOverlaps.h"
 #include "allpairs/parallel/TbbExecutor.h"
@@ -35,16 +33,9 @@ class DistributedSearch {
     m_search = std::make_unique<mpi::DistributedOverlaps>(MPI_Comm_f2c(handle), settings);
   }
 
-  [[nodiscard]] std::unique_ptr<NumberArray<std::uint64_t>> find(const Boxes& first, const Boxes* second) {
-    std::vector<std::uint64_t> numbers;
-    {
-      const py::gil_scoped_release release;
-      const std::vector<mpi::IdPair> pairs =
-          second != nullptr ? m_search->find(first.set(), second->set()) : m_search->find(first.set());
-      numbers.reserve(2 * pairs.size());
-      for (const mpi::IdPair& pair : pairs) numbers.insert(numbers.end(), {pair.first, pair.second});
-    }
-    return std::make_unique<NumberArray<std::uint64_t>>(std::move(numbers), 2);
+  [[nodiscard]] std::unique_ptr<OffsetArray> find(const Boxes& first, const Boxes* second) {
+    const py::gil_scoped_release release;
+    return arrayOf(second != nullptr ? m_search->find(first.set(), second->set()) : m_search->find(first.set()));
   }
 
   [[nodiscard]] std::uint64_t count(const Boxes& first, const Boxes* second) {

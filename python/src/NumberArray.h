@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -28,5 +29,7 @@ class NumberArray {
   std::vector<T> m_values;
   Table m_table;
 };
+
+using OffsetArray = NumberArray<std::uint64_t>;
 
 }  // namespace allpairs::python

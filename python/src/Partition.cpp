@@ -19,6 +19,7 @@
 #include "Bindings.h"
 #include "Boxes.h"
 #include "BufferProtocol.h"
+#include "IdPairArray.h"
 #include "Interrupts.h"
 #include "NumberArray.h"
 #include "Options.h"
@@ -36,7 +37,6 @@ using partition::Cut;
 using partition::IdPair;
 using partition::Partition;
 using Bounds = std::array<double, 6>;
-using OffsetArray = NumberArray<std::uint64_t>;
 using RealArray = NumberArray<double>;
 
 Cell cellOf(const Bounds& bounds) { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
@@ -48,10 +48,7 @@ std::unique_ptr<OffsetArray> overlapsInCell(const Boxes& boxes, const py::buffer
   const std::vector<IdPair> pairs = options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
     return partition::overlapsInCell(boxes.set(), valuesOf<std::uint64_t>(held), cellOf(cell), settings);
   });
-  std::vector<std::uint64_t> numbers;
-  numbers.reserve(2 * pairs.size());
-  for (const IdPair& pair : pairs) numbers.insert(numbers.end(), {pair.first, pair.second});
-  return std::make_unique<OffsetArray>(std::move(numbers), 2);
+  return arrayOf(pairs);
 }
 
 std::unique_ptr<RealArray> cellsOf(const Partition& partition) {
@@ -94,8 +91,7 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
   {
     const py::gil_scoped_release release;
     const BoxView& set = boxes.set();
-    double greatest = maxMargin;
-    for (std::size_t i = 0; i < set.size(); ++i) greatest = std::max(greatest, set.margin(i));
+    const double greatest = std::max(maxMargin, partition::greatestMargin(set));
     std::vector<std::uint32_t> cells;
     for (std::size_t i = 0; i < set.size(); ++i) {
       partition.cellsOf(partition::reachOf(set[i], set.margin(i), distance, greatest), cells);

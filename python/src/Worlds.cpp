@@ -19,8 +19,6 @@ namespace allpairs::python {
 namespace py = pybind11;
 namespace {
 
-using OffsetArray = NumberArray<std::uint64_t>;
-
 /// How boxes are divided, with the arrays that say so kept alive.
 class Division {
  public:

@@ -15,8 +15,6 @@ constexpr std::size_t kCutSample = std::size_t{1} << 16;  // boxes that decide w
 constexpr std::size_t kSamplePerCell = 256;               // of these, where there are many cells
 constexpr double kLoad = 0.7;                             // of what fits: samples err
 constexpr int kRounds = 3;                                // of cutting cells again, each of which reads the input
-constexpr std::size_t kFewCells = 16;                     // a box in no more than these is never wide
-constexpr std::size_t kWideShare = 4;                     // one in more than a fourth of more cells is
 constexpr std::size_t kCellsPerWorker = 4;
 constexpr std::uint64_t kWorthCutting = 100'000;  // boxes; fewer are searched sooner than cut
 
@@ -40,12 +38,11 @@ std::uint64_t Division::copies(std::uint64_t boxes) const {
   return records() > boxes ? records() - boxes : 0;  // empty boxes go nowhere
 }
 
-CellFinder::CellFinder(const partition::Partition& cells, double distance)
-    : m_cells(cells), m_distance(distance), m_most(std::max(kFewCells, cells.size() / kWideShare)) {}
+CellFinder::CellFinder(const partition::Partition& cells, double distance) : m_cells(cells), m_distance(distance) {}
 
 std::span<const std::uint32_t> CellFinder::cellsOf(const Box& box) {
   m_cells.cellsOf(partition::reachOf(box, 0.0, m_distance), m_found);
-  if (m_found.size() > m_most) m_found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
+  if (m_cells.isWide(m_found.size())) m_found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
   return m_found;
 }
 

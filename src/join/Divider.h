@@ -56,7 +56,6 @@ class CellFinder {
  private:
   const partition::Partition& m_cells;
   double m_distance;
-  std::size_t m_most;
   std::vector<std::uint32_t> m_found;
 };
 

@@ -117,13 +117,13 @@ JoinSummary planFiles(std::span<const fs::path> inputs, const JoinOptions& optio
 }
 
 RanksPlan planRanks(std::span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
-  constexpr std::size_t kCellsPerRank = 8;
-  constexpr std::uint64_t kBoxesPerCell = std::uint64_t{1} << 22;
   checkOptions(inputs, options);
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
   BoxInput input(inputs);
   Budget budget = budgetOf(options, input);
-  const std::uint64_t cells = ranks == 1 ? 1 : std::max(kCellsPerRank * ranks, input.size() / kBoxesPerCell);
+  const std::uint64_t cells =
+      ranks == 1 ? 1
+                 : std::max<std::uint64_t>(partition::kCellsPerRank * ranks, input.size() / partition::kBoxesPerCell);
   budget.workers = 1;
   budget.cellBoxes =
       static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);  // Divider fills cells to seven tenths

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,14 +15,8 @@ namespace {
 
 constexpr double kGreatestShare = 0.9;  // of the boxes on one side: a cut that divides less only makes copies
 
-double greatestMargin(const BoxView& boxes) {
-  double greatest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < boxes.size(); ++i) greatest = std::max(greatest, boxes.margin(i));
-  return boxes.empty() ? 0.0 : greatest;
-}
-
 std::vector<Box> reachesOf(const BoxView& boxes, double distance) {
-  const double maxMargin = greatestMargin(boxes);
+  const double maxMargin = greatestMargin(boxes);  // of no box it is not asked for
   std::vector<Box> reaches;
   reaches.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -215,6 +210,12 @@ bool Partition::cutAgain(std::size_t number, const BoxView& sample, std::size_t 
     if (m_cuts[i].high == sideOfCell(number)) m_cuts[i].high = side;
   }
   return true;
+}
+
+double greatestMargin(const BoxView& boxes) noexcept {
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < boxes.size(); ++i) greatest = std::max(greatest, boxes.margin(i));
+  return greatest;
 }
 
 std::vector<std::uint64_t> boxesPerCell(const Partition& partition, const BoxView& boxes, double distance,

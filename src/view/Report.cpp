@@ -127,11 +127,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// A name as a cell that no spreadsheet takes for a formula: an apostrophe before it says that it is text.
-std::string cellOf(const std::string& name) {
-  constexpr std::string_view kFormulaBegins = "=+-@\t\r";
-  const bool isLikeFormula = !name.empty() && kFormulaBegins.find(name.front()) != std::string_view::npos;
-  return quoted(isLikeFormula ? "'" + name : name);
-}
+std::string cellOf(const std::string& name) { return quoted(looksLikeFormula(name) ? "'" + name : name); }
 
 std::string csvMeasuresOf(const Clash& clash) {
   if (clash.exact == nullptr)

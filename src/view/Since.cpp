@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "Text.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::view {
@@ -47,8 +48,7 @@ std::vector<std::string> takeRecord(std::string_view& text) {
 
 /// Without the apostrophe that keeps a spreadsheet from taking a name for a formula.
 std::string nameOf(std::string cell) {
-  constexpr std::string_view kFormulaBegins = "=+-@\t\r";
-  const bool isMarked = cell.size() > 1 && cell[0] == '\'' && kFormulaBegins.find(cell[1]) != std::string_view::npos;
+  const bool isMarked = cell.starts_with('\'') && looksLikeFormula(std::string_view(cell).substr(1));
   return isMarked ? cell.substr(1) : cell;
 }
 

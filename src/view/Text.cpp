@@ -54,4 +54,9 @@ std::string escapeHtml(std::string_view text) {
   return result;
 }
 
+bool looksLikeFormula(std::string_view text) {
+  constexpr std::string_view kFormulaBegins = "=+-@\t\r";
+  return !text.empty() && kFormulaBegins.find(text.front()) != std::string_view::npos;
+}
+
 }  // namespace allpairs::view

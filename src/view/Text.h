@@ -13,4 +13,7 @@ namespace allpairs::view {
 /// The printable text, escaped for HTML: between tags and in quoted attributes.
 [[nodiscard]] std::string escapeHtml(std::string_view text);
 
+/// Whether a spreadsheet may take a cell with this text for a formula.
+[[nodiscard]] bool looksLikeFormula(std::string_view text);
+
 }  // namespace allpairs::view

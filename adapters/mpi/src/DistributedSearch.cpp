@@ -4,32 +4,23 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/partition/Partition.h"
 
 namespace allpairs::mpi {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr unsigned kGroupBits = 12;  // of first boxes whose pairs are put in order together: they stay in the cache
 constexpr std::uint64_t kShortIds = std::uint64_t{1} << 32;
-
-double greatestMargin(const BoxView& boxes) {
-  double greatest = -kInfinity;
-  for (std::size_t i = 0; i < boxes.size(); ++i) greatest = std::max(greatest, boxes.margin(i));
-  return greatest;
-}
 
 }  // namespace
 
 std::vector<IdPair> DistributedSearch::find(std::span<const LocalBoxes> given) {
-  m_isCount = false;
   search(given);
   std::vector<IdPair> pairs;
   m_ranks.onAll([&] { pairs = inOrder(); });
@@ -113,13 +104,12 @@ void DistributedSearch::checkAgreement() const {
 
 /// Numbers the boxes, and finds what those of all ranks have in common.
 void DistributedSearch::measureSets() {
-  m_areIdsShort = true;
   std::uint64_t flags = 0;
   std::vector<double> margins;
   m_ranks.onAll([&] {
     for (const LocalSet& set : m_sets) {
       flags |= RecordLayout::of(set).flags;
-      margins.push_back(greatestMargin(set.boxes));
+      margins.push_back(partition::greatestMargin(set.boxes));
     }
   });
   m_ranks.bits({&flags, 1});

@@ -19,12 +19,21 @@ namespace {
 constexpr std::uint32_t kLast = std::uint32_t{1} << 31;  // marks the last cell of a box
 constexpr std::uint32_t kNoCell = kLast - 1;             // of an empty box
 constexpr int kRounds = 3;                               // of cutting cells again
-constexpr std::size_t kFewCells = 16;                    // a box in no more than these is never wide
-constexpr std::size_t kWideShare = 4;                    // one in more than a fourth of more cells is
+constexpr std::size_t kEnoughPairs = 16;                 // of a sample, for each cell
 constexpr double kPairWork = 0.1;                        // of a pair, where that of a box is 1
 
 std::uint64_t wordOf(double value) { return std::bit_cast<std::uint64_t>(value); }
-double numberOf(std::uint64_t word) { return std::bit_cast<double>(word); }
+double valueOf(std::uint64_t word) { return std::bit_cast<double>(word); }
+
+/// The cell of an entry, or kNoCell.
+std::uint32_t numberOf(std::uint32_t entry) { return entry & ~kLast; }
+
+template <class Use>
+void forEachCell(std::span<const std::uint32_t> entries, const Use& use) {
+  for (const std::uint32_t entry : entries) {
+    if (numberOf(entry) != kNoCell) use(numberOf(entry));
+  }
+}
 
 std::vector<std::uint64_t> wordsOf(std::span<const partition::Cut> cuts) {
   std::vector<std::uint64_t> words;
@@ -38,7 +47,7 @@ std::vector<std::uint64_t> wordsOf(std::span<const partition::Cut> cuts) {
 std::vector<partition::Cut> cutsOf(std::span<const std::uint64_t> words) {
   std::vector<partition::Cut> cuts;
   for (std::size_t i = 0; i < words.size(); i += 3) {
-    cuts.push_back({numberOf(words[i]), static_cast<std::uint32_t>(words[i + 1]),
+    cuts.push_back({valueOf(words[i]), static_cast<std::uint32_t>(words[i + 1]),
                     static_cast<std::int32_t>(words[i + 2] >> 32), static_cast<std::int32_t>(words[i + 2])});
   }
   return cuts;
@@ -63,7 +72,7 @@ Distribution::Distribution(const Ranks& ranks, std::span<const LocalSet> sets, d
   });
   shareCells();
   countBoxes();
-  for (int round = 0; round < kRounds; ++round) cutAgain();
+  for (int round = 0; round < kRounds && cutAgain(); ++round) countBoxes();
   spreadCrowded();
   for (std::size_t set = 0; set < sets.size(); ++set) fillRows(set);
   deal();
@@ -98,8 +107,8 @@ void Distribution::takeSample(std::size_t set) {
   const std::vector<std::uint64_t> words = m_ranks.exchange(outgoing);
   m_ranks.onAll([&] {
     for (std::size_t i = 0; i < words.size(); i += 6) {
-      m_sample.push_back({{numberOf(words[i]), numberOf(words[i + 1]), numberOf(words[i + 2])},
-                          {numberOf(words[i + 3]), numberOf(words[i + 4]), numberOf(words[i + 5])}});
+      m_sample.push_back({{valueOf(words[i]), valueOf(words[i + 1]), valueOf(words[i + 2])},
+                          {valueOf(words[i + 3]), valueOf(words[i + 4]), valueOf(words[i + 5])}});
     }
   });
   if (set == 0) m_firstSample = m_sample.size();
@@ -121,13 +130,12 @@ void Distribution::shareCells() {
 void Distribution::findCells(std::size_t set) {
   const LocalSet& local = m_sets[set];
   std::vector<std::uint32_t>& cells = m_rows[set].cells;
-  const std::size_t most = std::max(kFewCells, m_cells.size() / kWideShare);
   cells.clear();
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < local.boxes.size(); ++i) {
     m_cells.cellsOf(partition::reachOf(local.boxes[i], local.boxes.margin(i), m_distance, local.maxMargin), found);
     if (found.empty()) found.assign(1, kNoCell);
-    if (found.size() > most) found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
+    if (m_cells.isWide(found.size())) found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
     found.back() |= kLast;
     cells.insert(cells.end(), found.begin(), found.end());
   }
@@ -138,16 +146,14 @@ void Distribution::countBoxes() {
     m_counts.assign(m_cells.size() + 1, 0);
     for (std::size_t set = 0; set < m_sets.size(); ++set) {
       findCells(set);
-      for (const std::uint32_t cell : m_rows[set].cells) {
-        if ((cell & ~kLast) != kNoCell) ++m_counts[cell & ~kLast];
-      }
+      forEachCell(m_rows[set].cells, [this](std::uint32_t cell) { ++m_counts[cell]; });
     }
   });
   m_ranks.sum(m_counts);
 }
 
-/// Cuts each cell that has more than twice what it should.
-void Distribution::cutAgain() {
+/// Cuts each cell that has more than twice what it should; returns whether any was cut.
+bool Distribution::cutAgain() {
   const std::uint64_t fair = std::max<std::uint64_t>(m_allBoxes / m_wanted, 1);
   std::uint64_t isCut = 0;
   m_ranks.onAll([&] {
@@ -160,9 +166,8 @@ void Distribution::cutAgain() {
     }
   });
   m_ranks.broadcast({&isCut, 1}, 0);
-  if (isCut == 0) return;
-  shareCells();
-  countBoxes();
+  if (isCut != 0) shareCells();
+  return isCut != 0;
 }
 
 void Distribution::spreadCrowded() {
@@ -172,7 +177,7 @@ void Distribution::spreadCrowded() {
   if (std::none_of(m_counts.begin(), m_counts.end() - 1, isTooMany)) return;  // on all ranks alike
   m_ranks.onAll([&] {
     const auto isCrowded = [&](std::uint32_t entry) {
-      const std::uint32_t cell = entry & ~kLast;
+      const std::uint32_t cell = numberOf(entry);
       return cell < wide && isTooMany(m_counts[cell]);
     };
     std::vector<std::uint64_t> counts(m_counts.size());
@@ -189,9 +194,7 @@ void Distribution::spreadCrowded() {
         begin = end;
       }
       cells.erase(kept, cells.end());
-      for (const std::uint32_t cell : cells) {
-        if ((cell & ~kLast) != kNoCell) ++counts[cell & ~kLast];
-      }
+      forEachCell(cells, [&counts](std::uint32_t cell) { ++counts[cell]; });
     }
     m_counts = std::move(counts);
   });
@@ -202,16 +205,13 @@ void Distribution::fillRows(std::size_t set) {
   m_ranks.onAll([&] {
     Rows& rows = m_rows[set];
     rows.begins.assign(m_cells.size() + 2, 0);
-    const auto cellOf = [](std::uint32_t entry) { return entry & ~kLast; };
-    for (const std::uint32_t entry : rows.cells) {
-      if (cellOf(entry) != kNoCell) ++rows.begins[cellOf(entry) + 1];
-    }
+    forEachCell(rows.cells, [&rows](std::uint32_t cell) { ++rows.begins[cell + 1]; });
     std::partial_sum(rows.begins.begin(), rows.begins.end(), rows.begins.begin());
     rows.boxes.resize(rows.begins.back());
     std::vector<std::uint64_t> next = rows.begins;
     std::uint32_t box = 0;
     for (const std::uint32_t entry : rows.cells) {
-      if (cellOf(entry) != kNoCell) rows.boxes[next[cellOf(entry)]++] = box;
+      if (numberOf(entry) != kNoCell) rows.boxes[next[numberOf(entry)]++] = box;
       if ((entry & kLast) != 0) ++box;
     }
     rows.cells = {};
@@ -295,7 +295,7 @@ std::vector<double> Distribution::estimatePairs() const {
     } else {
       streamOverlaps(first, second, count);
     }
-    if (found >= kFewCells * m_cells.size()) break;
+    if (found >= kEnoughPairs * m_cells.size()) break;
   }
   return pairs;
 }

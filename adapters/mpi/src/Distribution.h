@@ -53,7 +53,7 @@ class Distribution {
   void shareCells();
   void findCells(std::size_t set);
   void countBoxes();
-  void cutAgain();
+  bool cutAgain();
   void spreadCrowded();
   void fillRows(std::size_t set);
   void deal();

@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "allpairs/partition/Partition.h"
+
 namespace allpairs::mpi {
 
 /// How a search is cut into parts. Tests set less, so that everything is cut.
 struct Tuning {
-  std::size_t cellsPerRank = 8;                     ///< More than one, so that work can be dealt out evenly.
-  std::size_t boxesPerCell = std::size_t{1} << 22;  ///< At most, about: a rank holds one cell at a time.
-  std::size_t samplePerCell = 256;                  ///< Boxes that say where to cut.
+  std::size_t cellsPerRank = partition::kCellsPerRank;
+  std::size_t boxesPerCell = partition::kBoxesPerCell;
+  std::size_t samplePerCell = 256;  ///< Boxes that say where to cut.
   std::size_t leastSample = std::size_t{1} << 16;
   std::uint64_t leastCrowded = std::uint64_t{1}
                                << 16;             ///< A cell of fewer boxes is no burden, though nothing divides it.

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <functional>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -58,6 +59,19 @@ struct Call {
     return ms[ms.size() / 2];
   }
 };
+
+/// Those of the unordered calls, and of each of the others what it takes beside the unordered one before it.
+void printTimes(std::span<Call> calls) {
+  double base = 0.0;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const double ms = calls[i].median();
+    const bool isUnordered = i == 0 || i == 4;
+    if (isUnordered) base = ms;
+    isUnordered ? std::printf(" %.2f |", ms) : std::printf(" %.2f (%.2f) |", ms, ms / base);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
 
 void compare(std::size_t boxes, double pairs, bool one, const std::string& instructionSet) {
   constexpr std::uint64_t kRepetitions = 7;
@@ -110,15 +124,7 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
   }
   std::printf("| %s | %zu | %.1f |", one ? "one" : "two", boxes,
               static_cast<double>(found) / static_cast<double>(boxes));
-  double base = 0.0;
-  for (std::size_t i = 0; i < calls.size(); ++i) {
-    const double ms = calls[i].median();
-    const bool isUnordered = i == 0 || i == 4;
-    if (isUnordered) base = ms;
-    isUnordered ? std::printf(" %.2f |", ms) : std::printf(" %.2f (%.2f) |", ms, ms / base);
-  }
-  std::printf("\n");
-  std::fflush(stdout);
+  printTimes(calls);
 }
 
 }  // namespace

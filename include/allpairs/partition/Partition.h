@@ -53,6 +53,10 @@ class Partition {
   /// Bad input: a number that no cell has throws InvalidArgument.
   [[nodiscard]] Cell cell(std::size_t number) const;
 
+  /// Whether a box that goes to so many cells is better kept apart than copied to each: more than 16, and more than a fourth of
+  /// all.
+  [[nodiscard]] bool isWide(std::size_t reached) const noexcept { return reached > 16 && reached > size() / 4; }
+
   /// The cell that holds a point.
   [[nodiscard]] std::uint32_t cellOf(const Point& point) const noexcept;
 
@@ -70,6 +74,14 @@ class Partition {
 
   std::vector<Cut> m_cuts;
 };
+
+/// What a search on several ranks cuts space into: so many cells for each rank, so that work can be dealt out evenly, and as many
+/// as it takes for none to have many more boxes than these, since a rank holds one cell at a time.
+inline constexpr std::size_t kCellsPerRank = 8;
+inline constexpr std::size_t kBoxesPerCell = std::size_t{1} << 22;
+
+/// The greatest margin of a box; -infinity if there is none.
+[[nodiscard]] double greatestMargin(const BoxView& boxes) noexcept;
 
 /// How many of the boxes go to each cell: the copies that a partition makes are the sum less their number.
 ///

@@ -123,7 +123,8 @@ void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint
 
 std::size_t scratchToList(const Bucket& bucket) noexcept { return scratchFor(bucket, bucket.size()); }
 
-void listBucket(const Bucket& bucket, const RowsPlace& place, std::uint64_t before, const ListTools& tools) noexcept {
+void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_t before,
+                const ListTools& tools) noexcept {
   const unsigned otherBits = bucket.rule.otherBits;
   const std::size_t size = place.indices.size();
   const RowMemory memory(bucket, tools.scratch);

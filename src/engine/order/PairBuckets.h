@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <span>
 
+#include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
-#include "order/RowsPlace.h"
 
 namespace allpairs::engine {
 
@@ -117,7 +117,8 @@ struct ListTools {
 /// Puts the other index of each pair of a bucket into its place in order, in the same ways, and the beginning of each key's row.
 ///
 /// `place` has the offsets of the keys, without the one after the last, and the indices of the bucket, which `before` others precede.
-void listBucket(const Bucket& bucket, const RowsPlace& place, std::uint64_t before, const ListTools& tools) noexcept;
+void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_t before,
+                const ListTools& tools) noexcept;
 [[nodiscard]] std::size_t scratchToList(const Bucket& bucket) noexcept;
 
 }  // namespace allpairs::engine

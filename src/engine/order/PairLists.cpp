@@ -91,7 +91,7 @@ void PairLists::expand(std::span<Pair> to, bool bySecond, Executor& executor) {
   });
 }
 
-void PairLists::gather(const RowsPlace& to, Executor& executor) {
+void PairLists::gather(const NeighborsMemory& to, Executor& executor) {
   forEachList(executor, [&](std::size_t row, std::span<const std::uint32_t> list, std::size_t before) {
     to.offsets[row] = before;
     std::copy(list.begin(), list.end(), to.indices.data() + before);

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
+#include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "kernels/Hits.h"
 #include "memory/Memory.h"
-#include "order/RowsPlace.h"
 
 namespace allpairs::engine {
 
@@ -38,7 +38,7 @@ class PairLists {
   void expand(std::span<Pair> to, bool bySecond, Executor& executor);
 
   /// Copies all lists, in the order of the rows.
-  void gather(const RowsPlace& to, Executor& executor);
+  void gather(const NeighborsMemory& to, Executor& executor);
 
  private:
   template <class Use>

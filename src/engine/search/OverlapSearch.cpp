@@ -83,15 +83,14 @@ std::span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& sec
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  return state.search.findNeighborsInto({boxes, boxes, true}, state.options, rows, {memory.offsets, memory.indices});
+  return state.search.findNeighborsInto({boxes, boxes, true}, state.options, rows, memory);
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& first, const BoxView& second,
                                                const NeighborsMemory& memory) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
-  return state.search.findNeighborsInto({first, second, false}, state.options, NeighborRows::Half,
-                                        {memory.offsets, memory.indices});
+  return state.search.findNeighborsInto({first, second, false}, state.options, NeighborRows::Half, memory);
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "input/Options.h"
@@ -78,34 +79,35 @@ struct ListReceiver {
 /// Boxes of a sample: 276 pairs, of which a share of a tenth is told from one of a fifth.
 constexpr std::size_t kSample = 24;
 
+/// The share of the pairs of so many boxes that overlap: of one set a row and the column of the same number are one box, of
+/// which there may be fewer.
+double shareOfOverlaps(std::span<const LaneBox> rows, std::span<const LaneBox> columns, std::size_t boxes) {
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = i + 1; j < columns.size(); ++j) hits += touch(rows[i], columns[j]) ? 1U : 0U;
+  }
+  return static_cast<double>(hits) / (0.5 * static_cast<double>(boxes * (boxes - 1)));
+}
+
 /// Estimates the share of all pairs that overlap from a sample.
 double shareOfOverlaps(const BoxReader& reader) {
   std::array<LaneBox, kSample> boxes;
   std::size_t size = 0;
   sampleBoxes(reader, kSample, [&](const LaneBox& box) { boxes[size++] = box; });
-  std::size_t hits = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = i + 1; j < size; ++j) hits += touch(boxes[i], boxes[j]) ? 1U : 0U;
-  }
-  return static_cast<double>(hits) / (0.5 * static_cast<double>(kSample * (kSample - 1)));
+  const std::span<const LaneBox> sample = std::span(boxes).first(size);
+  return shareOfOverlaps(sample, sample, kSample);
 }
 
 /// The same of the rows and columns of an exhaustive search, which may take no longer than some microseconds.
 double shareOfOverlaps(const FlatSearch& flat) {
-  constexpr std::size_t kFewer = kSample / 2;
-  if (flat.rows.size < kFewer || flat.columns.size < kFewer) return 0.0;
-  std::array<LaneBox, kFewer> rows;
-  std::array<LaneBox, kFewer> columns;
-  for (std::size_t i = 0; i < kFewer; ++i) {
-    rows[i] = flat.rows.get(sampleIndex(i, kFewer, flat.rows.size));
-    columns[i] = flat.columns.get(sampleIndex(i, kFewer, flat.columns.size));
+  std::array<LaneBox, kSample / 2> rows;
+  std::array<LaneBox, kSample / 2> columns;
+  if (flat.rows.size < rows.size() || flat.columns.size < columns.size()) return 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = flat.rows.get(sampleIndex(i, rows.size(), flat.rows.size));
+    columns[i] = flat.columns.get(sampleIndex(i, columns.size(), flat.columns.size));
   }
-  std::size_t hits = 0;
-  // Of one set a row and the column of the same number are one box.
-  for (std::size_t i = 0; i < kFewer; ++i) {
-    for (std::size_t j = i + 1; j < kFewer; ++j) hits += touch(rows[i], columns[j]) ? 1U : 0U;
-  }
-  return static_cast<double>(hits) / (0.5 * static_cast<double>(kFewer * (kFewer - 1)));
+  return shareOfOverlaps(rows, columns, rows.size());
 }
 
 /// Reads all boxes of a set, in their order, as lanes; returns whether they are exactly the boxes.

@@ -19,7 +19,6 @@
 #include "order/PairBuckets.h"
 #include "order/PairLists.h"
 #include "order/PairSort.h"
-#include "order/RowsPlace.h"
 #include "search/JoinRunner.h"
 #include "search/StoppableExecutor.h"
 
@@ -47,7 +46,7 @@ class Batches {
 
 /// Where a result is put, asked for once its size is known: a vector, or memory of the caller, which may be too small and throw.
 using PairRoom = FunctionRef<std::span<Pair>(std::uint64_t pairs)>;
-using RowRoom = FunctionRef<RowsPlace(std::size_t rows, std::uint64_t indices)>;
+using RowRoom = FunctionRef<NeighborsMemory(std::size_t rows, std::uint64_t indices)>;
 
 /// The state of a search, and the memory that it keeps for the next one.
 class Search {
@@ -82,7 +81,7 @@ class Search {
                               const RowRoom* room = nullptr);
   [[nodiscard]] Neighbors takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind);
   NeighborsView findNeighborsInto(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
-                                  const RowsPlace& memory);
+                                  const NeighborsMemory& memory);
 
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
   void stream(const Sets& sets, const OverlapOptions& options, Batches to);
@@ -133,7 +132,7 @@ class Search {
   bool listPartners(const Sets& sets, Plan& plan, Columns kept);
   [[nodiscard]] bool areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept);
 
-  RowsPlace roomForRows(std::size_t rows, std::size_t indices);
+  NeighborsMemory roomForRows(std::size_t rows, std::size_t indices);
   void writePairsAsRows(const Sets& sets, NeighborRows kind);
 
   /// The two ways to find rows without pairs; where one does not pay off, it does nothing and returns false.
@@ -165,8 +164,8 @@ class Search {
   Buffer<std::uint32_t> m_indices;
   const RowRoom* m_rowRoom = nullptr;  ///< Where given, what is used instead of these two.
   std::pmr::vector<std::size_t> m_places;
-  std::span<Pair> m_pairs;  ///< The result: concatenated from several tasks, or in the memory of a single one.
-  RowsPlace m_rowsFound;    ///< The result, where it is rows.
+  std::span<Pair> m_pairs;      ///< The result: concatenated from several tasks, or in the memory of a single one.
+  NeighborsMemory m_rowsFound;  ///< The result, where it is rows.
   PairSort m_sort;
 };
 

@@ -60,12 +60,12 @@ std::span<Pair> Search::copyInto(Plan& plan, std::span<Pair> memory) {
 }
 
 NeighborsView Search::findNeighborsInto(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
-                                        const RowsPlace& memory) {
+                                        const NeighborsMemory& memory) {
   if (memory.offsets.size() <= sets.first.size()) {
     throw InvalidArgument("memory for " + std::to_string(memory.offsets.size()) +
                           " offsets: there is one more than the " + std::to_string(sets.first.size()) + " boxes");
   }
-  const auto checked = [&](std::size_t rows, std::uint64_t indices) -> RowsPlace {
+  const auto checked = [&](std::size_t rows, std::uint64_t indices) -> NeighborsMemory {
     checkRoom(indices, memory.indices.size(), "indices");
     return {memory.offsets.first(rows + 1), memory.indices.first(indices)};
   };

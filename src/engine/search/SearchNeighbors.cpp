@@ -2,6 +2,7 @@
 // Searches whose result is the partners of each box, in rows.
 #include <algorithm>
 
+#include "order/PairRows.h"
 #include "search/FewBoxes.h"
 #include "search/Search.h"
 
@@ -29,7 +30,7 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
 
 Neighbors Search::takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind) {
   Neighbors taken;
-  const auto resized = [&](std::size_t rows, std::uint64_t indices) -> RowsPlace {
+  const auto resized = [&](std::size_t rows, std::uint64_t indices) -> NeighborsMemory {
     taken.offsets.resize(rows + 1);
     taken.indices.resize(indices);
     return {taken.offsets, taken.indices};
@@ -39,7 +40,7 @@ Neighbors Search::takeNeighbors(const Sets& sets, const OverlapOptions& options,
   return taken;
 }
 
-RowsPlace Search::roomForRows(std::size_t rows, std::size_t indices) {
+NeighborsMemory Search::roomForRows(std::size_t rows, std::size_t indices) {
   if (m_rowRoom != nullptr) return (*m_rowRoom)(rows, indices);
   m_offsets.require(rows + 1);
   m_indices.require(indices);
@@ -71,8 +72,8 @@ bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const Bucket bucket{rule, b, m_buckets};
     const std::size_t firstRow = bucket.firstKey();
-    const RowsPlace place{m_rowsFound.offsets.subspan(firstRow, std::min(bucket.keys(), rows - firstRow)),
-                          m_rowsFound.indices.subspan(m_places[b], m_places[b + 1] - m_places[b])};
+    const NeighborsMemory place{m_rowsFound.offsets.subspan(firstRow, std::min(bucket.keys(), rows - firstRow)),
+                                m_rowsFound.indices.subspan(m_places[b], m_places[b + 1] - m_places[b])};
     m_runner.withScratch(scratchToList(bucket), [&](std::span<std::uint32_t> scratch) {
       listBucket(bucket, place, m_places[b], {*m_kernels, scratch});
     });

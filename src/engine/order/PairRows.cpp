@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "order/RowsPlace.h"
+#include "order/PairRows.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace allpairs::engine {
 namespace {
 
-void writeHalfRows(std::span<const Pair> pairs, const RowsPlace& place) noexcept {
+void writeHalfRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
   std::size_t row = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (; row <= pairs[i].first; ++row) place.offsets[row] = i;
@@ -19,7 +19,7 @@ void writeHalfRows(std::span<const Pair> pairs, const RowsPlace& place) noexcept
 
 /// In the order of the pairs a box comes second to all that are less before it comes first to those that are greater: what is
 /// appended to its row ascends.
-void writeFullRows(std::span<const Pair> pairs, const RowsPlace& place) noexcept {
+void writeFullRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
   const std::span<std::uint64_t> offsets = place.offsets;
   std::fill(offsets.begin(), offsets.end(), 0);
   // Only sums of what stands before stay between a row's offset and the next but one: the latter counts.
@@ -39,7 +39,7 @@ void writeFullRows(std::span<const Pair> pairs, const RowsPlace& place) noexcept
 
 }  // namespace
 
-void writeRows(std::span<const Pair> pairs, NeighborRows kind, const RowsPlace& place) noexcept {
+void writeRows(std::span<const Pair> pairs, NeighborRows kind, const NeighborsMemory& place) noexcept {
   kind == NeighborRows::Full ? writeFullRows(pairs, place) : writeHalfRows(pairs, place);
 }
 
