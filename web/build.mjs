@@ -6,6 +6,7 @@ import { build } from "esbuild";
 import { createHash } from "node:crypto";
 import { readFile, writeFile } from "node:fs/promises";
 import { sourcesHash } from "./sources.mjs";
+import { onlyWhatIsUsed } from "./three.mjs";
 
 const here = new URL(".", import.meta.url);
 const target = new URL("dist/viewer.html", here);
@@ -18,6 +19,7 @@ const common = {
   legalComments: "inline",
   target: ["chrome109", "firefox115", "safari16.4"],
   absWorkingDir: decodeURIComponent(here.pathname),
+  plugins: [onlyWhatIsUsed],
 };
 
 async function bundle(entry, format) {
@@ -25,10 +27,13 @@ async function bundle(entry, format) {
   return result.outputFiles[0].text.trim();
 }
 
+// The single modules of three.js do not carry the notice of its licence.
+const notice = "/*! three.js: Copyright 2010-2026 three.js authors, SPDX-License-Identifier: MIT */";
+
 const sha256 = (text) => createHash("sha256").update(text).digest("base64");
 
 async function page() {
-  const script = (await bundle("src/main.js", "iife")).replaceAll("</script", "<\\/script");
+  const script = `${notice}\n${await bundle("src/main.js", "iife")}`.replaceAll("</script", "<\\/script");
   const style = await bundle("src/style.css");
   const marks = { "SCRIPT-HASH": sha256(script), "STYLE-HASH": sha256(style), "SOURCES-HASH": await sourcesHash(here), STYLE: style, SCRIPT: script };
   const template = await readFile(new URL("index.html", here), "utf8");

@@ -25,6 +25,7 @@
 #include "Commands.h"
 #include "Png.h"
 #include "Since.h"
+#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
@@ -81,11 +82,20 @@ std::string dateText() {
 
 /// The pictures of the first clashes as PNG files, by number.
 std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<const view::Clash> clashes) {
+  constexpr std::size_t kTogether = 16;  // pictures; then the line shows how far it is
   ProgressLine line;
-  std::vector<std::string> pictures;
-  for (const view::Clash& clash : clashes) {
-    line.show(clash.number - 1, clashes.size(), fmt::format("drawing {} of {}", clash.number, clashes.size()));
-    pictures.push_back(view::encodePng(view::pictureOf(scene, clash, view::cameraOf(scene, clash))));
+  parallel::TbbExecutor executor;
+  std::vector<std::string> pictures(clashes.size());
+  if (clashes.empty()) return pictures;
+  const view::Overview overview(scene);
+  for (std::size_t begin = 0; begin < clashes.size(); begin += kTogether) {
+    line.show(begin, clashes.size(), fmt::format("drawing {} of {}", begin + 1, clashes.size()));
+    executor.run(std::min(kTogether, clashes.size() - begin), [&](std::size_t i) {
+      const view::Clash& clash = clashes[begin + i];
+      view::Raster picture = view::pictureOf(scene, clash, view::cameraOf(scene, clash));
+      overview.addTo(picture, view::placeOf(scene, clash));
+      pictures[begin + i] = view::encodePng(picture);
+    });
   }
   return pictures;
 }

@@ -75,7 +75,7 @@ void frame(const ViewScene& scene, const Clash& clash, ParallelCamera& camera) {
 class Sighting {
  public:
   Sighting(const ViewScene& scene, const ParallelCamera& camera)
-      : m_scene(scene), m_camera(camera), m_right(cross(camera.direction, camera.up)), m_raster(kWidth, kHeight, {}) {}
+      : m_scene(scene), m_raster(kWidth, kHeight, {}), m_projection(camera, m_raster) {}
 
   /// How good it is: the less visible of both counts, and the contact if nothing hides it.
   double rate(const Clash& clash) {
@@ -101,12 +101,7 @@ class Sighting {
   static constexpr Colour kFirst{1, 0, 0};
   static constexpr Colour kSecond{2, 0, 0};
 
-  [[nodiscard]] RasterPoint project(const Vec3& p) const {
-    const double scale = kHeight / m_camera.height;
-    const Vec3 from = minus(p, m_camera.centre);
-    return {kWidth / 2.0 + scale * dot(from, m_right), kHeight / 2.0 - scale * dot(from, m_camera.up),
-            dot(from, m_camera.direction) / m_camera.height};
-  }
+  [[nodiscard]] RasterPoint project(const Vec3& p) const { return m_projection(p); }
 
   void draw(std::uint32_t model, Colour colour) {
     const auto indices = partOf(m_scene.mesh.triangles, m_scene.mesh.triangleEnds, model);
@@ -130,12 +125,24 @@ class Sighting {
   }
 
   const ViewScene& m_scene;
-  const ParallelCamera& m_camera;
-  Vec3 m_right;
   Raster m_raster;
+  Projection m_projection;
 };
 
 }  // namespace
+
+ParallelCamera cameraOfAll(const ViewScene& scene) {
+  constexpr double kRoom = 1.05;
+  Box all = kEmptyBox;
+  for (const Box& box : scene.frames.front().boxes) {
+    if (std::isfinite(sizeOf(box)) && !isEmpty(box)) all = merge(all, box);
+  }
+  ParallelCamera camera = lookAlong(kDirections.front(), uprightOf(scene.up));
+  if (isEmpty(all)) return camera;
+  setCentre(camera, all);
+  if (const double size = kRoom * sizeOf(all); size > 0.0) camera.height = size;
+  return camera;
+}
 
 ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash) {
   const Upright upright = uprightOf(scene.up);

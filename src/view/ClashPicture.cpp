@@ -12,9 +12,18 @@
 namespace allpairs::view {
 namespace {
 
-constexpr std::size_t kWidth = 640;
-constexpr std::size_t kHeight = 480;
+/// In pixels; twice as many are drawn.
+struct Size {
+  std::size_t width;
+  std::size_t height;
+};
+
+constexpr Size kPicture{640, 480};
+constexpr Size kOverview{152, 114};
 constexpr Colour kBackground{246, 248, 250};
+constexpr Colour kPaper{255, 255, 255};
+constexpr Colour kGrey{176, 184, 192};
+constexpr Colour kFrame{120, 130, 140};
 constexpr Colour kFirst{0, 114, 178};  // colours that people with any colour vision tell apart
 constexpr Colour kSecond{230, 159, 0};
 constexpr Colour kShared{213, 50, 15};
@@ -43,11 +52,11 @@ Box finite(const Box& box, const ParallelCamera& camera) {
 
 class Drawing {
  public:
-  Drawing(const ViewScene& scene, const ParallelCamera& camera)
+  Drawing(const ViewScene& scene, const ParallelCamera& camera, Size size = kPicture, Colour background = kBackground)
       : m_scene(scene),
         m_camera(camera),
-        m_right(cross(camera.direction, camera.up)),
-        m_raster(2 * kWidth, 2 * kHeight, kBackground) {}
+        m_raster(2 * size.width, 2 * size.height, background),
+        m_projection(camera, m_raster) {}
 
   /// A model by its shape alone, if it has one.
   void shape(std::uint32_t model, Colour colour) {
@@ -100,13 +109,7 @@ class Drawing {
   [[nodiscard]] Raster finish() const { return m_raster.halved(); }
 
  private:
-  [[nodiscard]] RasterPoint project(const Vec3& p) const {
-    const double scale = static_cast<double>(m_raster.height()) / m_camera.height;
-    const Vec3 from = minus(p, m_camera.centre);
-    return {static_cast<double>(m_raster.width()) / 2.0 + scale * dot(from, m_right),
-            static_cast<double>(m_raster.height()) / 2.0 - scale * dot(from, m_camera.up),
-            dot(from, m_camera.direction) / m_camera.height};
-  }
+  [[nodiscard]] RasterPoint project(const Vec3& p) const { return m_projection(p); }
 
   [[nodiscard]] Vec3 vertex(std::uint32_t i) const { return vertexOf(m_scene.mesh, i); }
 
@@ -140,7 +143,7 @@ class Drawing {
     const double length = std::sqrt(dot(normal, normal));
     Vec3 light{};
     for (std::size_t i = 0; i < 3; ++i)
-      light[i] = 0.30 * m_right[i] + 0.50 * m_camera.up[i] - 0.81 * m_camera.direction[i];
+      light[i] = 0.30 * m_projection.right()[i] + 0.50 * m_camera.up[i] - 0.81 * m_camera.direction[i];
     const double brightness = 0.45 + 0.55 * (length > 0.0 ? std::abs(dot(normal, light)) / length : 1.0);
     for (std::uint8_t& part : colour) part = static_cast<std::uint8_t>(std::lround(part * brightness));
     return colour;
@@ -182,9 +185,25 @@ class Drawing {
 
   const ViewScene& m_scene;
   const ParallelCamera& m_camera;
-  Vec3 m_right;
   Raster m_raster;
+  Projection m_projection;
 };
+
+/// All models in grey, small.
+Raster smallPictureOfAll(const ViewScene& scene, const ParallelCamera& camera) {
+  Drawing drawing(scene, camera, kOverview, kPaper);
+  for (std::uint32_t model = 0; model < scene.modelCount; ++model) drawing.shape(model, kGrey);
+  Raster result = drawing.finish();
+  const auto right = static_cast<double>(kOverview.width - 1);
+  const auto bottom = static_cast<double>(kOverview.height - 1);
+  const std::array<RasterPoint, 5> corners{{{0, 0, -kInFront},
+                                            {right, 0, -kInFront},
+                                            {right, bottom, -kInFront},
+                                            {0, bottom, -kInFront},
+                                            {0, 0, -kInFront}}};
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) result.line(corners[i], corners[i + 1], kFrame, 1.0);
+  return result;
+}
 
 bool isFirstSmaller(const ViewScene& scene, const Clash& clash) {
   const auto size = [&scene](std::uint32_t model) {
@@ -216,6 +235,39 @@ Raster pictureOfShapes(const ViewScene& scene, const Clash& clash, const Paralle
 }
 
 }  // namespace
+
+Projection::Projection(const ParallelCamera& camera, const Raster& raster)
+    : m_camera(camera),
+      m_right(cross(camera.direction, camera.up)),
+      m_middle{static_cast<double>(raster.width()) / 2.0, static_cast<double>(raster.height()) / 2.0},
+      m_scale(static_cast<double>(raster.height()) / camera.height) {}
+
+RasterPoint Projection::operator()(const Vec3& p) const {
+  const Vec3 from = minus(p, m_camera.centre);
+  return {m_middle[0] + m_scale * dot(from, m_right), m_middle[1] - m_scale * dot(from, m_camera.up),
+          dot(from, m_camera.direction) / m_camera.height};
+}
+
+Overview::Overview(const ViewScene& scene)
+    : m_modelCount(scene.modelCount), m_camera(cameraOfAll(scene)), m_raster(smallPictureOfAll(scene, m_camera)) {}
+
+void Overview::addTo(Raster& picture, const Box& place) const {
+  constexpr std::size_t kMargin = 8;  // pixels
+  if (m_modelCount <= 2 || picture.width() < m_raster.width() + kMargin ||
+      picture.height() < m_raster.height() + kMargin)
+    return;
+  Raster part = m_raster;
+  Vec3 middle = m_camera.centre;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double here = place.min[axis] / 2.0 + place.max[axis] / 2.0;
+    if (std::isfinite(here)) middle[axis] = here;
+  }
+  RasterPoint mark = Projection(m_camera, part)(middle);
+  mark.depth = -kInFront;
+  for (const auto& [width, colour] : {std::pair{10.0, kPaper}, std::pair{7.0, kShared}})
+    part.line(mark, mark, colour, width);
+  picture.paste(part, picture.width() - part.width() - kMargin, picture.height() - part.height() - kMargin);
+}
 
 Raster pictureOf(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera) {
   if (clash.exact != nullptr && clash.exact->state != ExactState::NotExamined)

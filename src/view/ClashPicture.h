@@ -16,8 +16,43 @@ struct ParallelCamera {
   double height = 1.0;                ///< How much of the world the picture's height shows.
 };
 
+/// Where points are in a picture of some pixels.
+class Projection {
+ public:
+  Projection(const ParallelCamera& camera, const Raster& raster);
+
+  [[nodiscard]] RasterPoint operator()(const std::array<double, 3>& p) const;
+
+  /// What lies to the right in the picture.
+  [[nodiscard]] const std::array<double, 3>& right() const { return m_right; }
+
+ private:
+  ParallelCamera m_camera;
+  std::array<double, 3> m_right;
+  std::array<double, 2> m_middle;
+  double m_scale;
+};
+
 /// A camera that shows both boxes of a clash, or, where one is much larger, the smaller one and what is around it.
 [[nodiscard]] ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash);
+
+/// A camera that shows all models, from the side from which most clashes are seen.
+[[nodiscard]] ParallelCamera cameraOfAll(const ViewScene& scene);
+
+/// All models from afar, drawn once, to show in the pictures of clashes where in the whole they are.
+class Overview {
+ public:
+  explicit Overview(const ViewScene& scene);
+
+  /// Puts it small into a corner of a picture, with a mark at the middle of a place. Of a scene with no more than the two models of a clash,
+  /// and of a picture without room for it, nothing is added.
+  void addTo(Raster& picture, const Box& place) const;
+
+ private:
+  std::size_t m_modelCount;
+  ParallelCamera m_camera;
+  Raster m_raster;
+};
 
 /// The two models of a clash in two colours with their boxes, and in red what the boxes share.
 [[nodiscard]] Raster pictureOf(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera);

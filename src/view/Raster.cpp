@@ -8,6 +8,25 @@
 namespace allpairs::view {
 namespace {
 
+/// A coordinate that is linear along a row of pixels, and not negative in the part of it that a triangle covers.
+struct Slope {
+  explicit Slope(double change) : perPixel(change), inverse(change != 0.0 ? 1.0 / change : 0.0) {}
+
+  /// Keeps of a part of a row that in which the coordinate, given at x = 0, is not negative.
+  void keepWhereNotNegative(double atZero, double& low, double& high) const {
+    if (perPixel > 0.0) {
+      low = std::max(low, -atZero * inverse);
+    } else if (perPixel < 0.0) {
+      high = std::min(high, -atZero * inverse);
+    } else if (!(atZero >= 0.0)) {
+      high = -std::numeric_limits<double>::infinity();
+    }
+  }
+
+  double perPixel;
+  double inverse;
+};
+
 /// The whole numbers in [low, high] that are in [0, count): first and one past the last.
 std::array<std::size_t, 2> cut(double low, double high, std::size_t count) {
   const auto most = static_cast<double>(count);
@@ -33,16 +52,25 @@ void Raster::scan(const std::array<RasterPoint, 3>& corners, const Paint& paint)
   const auto& [a, b, c] = corners;
   const double area = crossAt(a, b, c.x, c.y);
   if (!(std::abs(area) > 1e-12)) return;
-  const auto [left, right] = cut(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), m_width);
+  const double left = std::min({a.x, b.x, c.x});
+  const double right = std::max({a.x, b.x, c.x});
   const auto [top, bottom] = cut(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), m_height);
+  const Slope uSlope((b.y - c.y) / area);  // of the barycentric coordinates
+  const Slope vSlope((c.y - a.y) / area);
+  const Slope wSlope(-uSlope.perPixel - vSlope.perPixel);
   for (std::size_t y = top; y < bottom; ++y) {
-    for (std::size_t x = left; x < right; ++x) {
-      const auto px = static_cast<double>(x);
-      const auto py = static_cast<double>(y);
-      const double u = crossAt(b, c, px, py) / area;
-      const double v = crossAt(c, a, px, py) / area;
-      const double w = 1.0 - u - v;
-      if (u >= 0.0 && v >= 0.0 && w >= 0.0) paint(y * m_width + x, u * a.depth + v * b.depth + w * c.depth);
+    const double u0 = crossAt(b, c, 0.0, static_cast<double>(y)) / area;
+    const double v0 = crossAt(c, a, 0.0, static_cast<double>(y)) / area;
+    double low = left;
+    double high = right;
+    uSlope.keepWhereNotNegative(u0, low, high);
+    vSlope.keepWhereNotNegative(v0, low, high);
+    wSlope.keepWhereNotNegative(1.0 - u0 - v0, low, high);
+    const auto [begin, end] = cut(low, high, m_width);
+    for (std::size_t x = begin; x < end; ++x) {
+      const double u = u0 + uSlope.perPixel * static_cast<double>(x);
+      const double v = v0 + vSlope.perPixel * static_cast<double>(x);
+      paint(y * m_width + x, u * a.depth + v * b.depth + (1.0 - u - v) * c.depth);
     }
   }
 }
@@ -91,6 +119,13 @@ void Raster::line(const RasterPoint& begin, const RasterPoint& end, Colour colou
   }
 }
 
+void Raster::paste(const Raster& other, std::size_t left, std::size_t top) {
+  const std::size_t columns = std::min(other.m_width, m_width - std::min(left, m_width));
+  const std::size_t rows = std::min(other.m_height, m_height - std::min(top, m_height));
+  for (std::size_t y = 0; y < rows && columns > 0; ++y)
+    std::copy_n(&other.m_pixels[y * other.m_width], columns, &m_pixels[(top + y) * m_width + left]);
+}
+
 bool Raster::isSeen(const RasterPoint& point) const {
   const bool isIn = point.x >= 0.0 && point.y >= 0.0 && point.x < static_cast<double>(m_width) &&
                     point.y < static_cast<double>(m_height);
@@ -102,11 +137,13 @@ bool Raster::isSeen(const RasterPoint& point) const {
 Raster Raster::halved() const {
   Raster result(m_width / 2, m_height / 2, {});
   for (std::size_t y = 0; y < result.m_height; ++y) {
-    for (std::size_t x = 0; x < result.m_width; ++x) {
+    const Colour* above = &m_pixels[2 * y * m_width];
+    const Colour* below = above + m_width;
+    Colour* pixel = &result.m_pixels[y * result.m_width];
+    for (std::size_t x = 0; x < 2 * result.m_width; x += 2, ++pixel) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const int sum =
-            at(2 * x, 2 * y)[i] + at(2 * x + 1, 2 * y)[i] + at(2 * x, 2 * y + 1)[i] + at(2 * x + 1, 2 * y + 1)[i];
-        result.m_pixels[y * result.m_width + x][i] = static_cast<std::uint8_t>((sum + 2) / 4);
+        const int sum = above[x][i] + above[x + 1][i] + below[x][i] + below[x + 1][i];
+        (*pixel)[i] = static_cast<std::uint8_t>((sum + 2) / 4);
       }
     }
   }

@@ -37,6 +37,9 @@ class Raster {
   /// A line of a width in pixels. Where something else is in front of it, it is faint.
   void line(const RasterPoint& begin, const RasterPoint& end, Colour colour, double width);
 
+  /// Puts another picture over a part of this one, in front of everything; `left` and `top` are of its first pixel.
+  void paste(const Raster& other, std::size_t left, std::size_t top);
+
   /// Whether nothing that was drawn is in front of a point, which is in the picture.
   [[nodiscard]] bool isSeen(const RasterPoint& point) const;
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 
 #include "Clash.h"
 #include "ClashPicture.h"
@@ -89,6 +90,47 @@ TEST(Picture, ShowsBothModelsAndWhatTheyShare) {
   EXPECT_GT(reds, 100U);
   EXPECT_GT(blues, 100U);
   EXPECT_GT(oranges, 100U);
+}
+
+/// The mean place of what is red in the lower right corner of a picture, in pixels, or nothing.
+std::optional<std::array<double, 2>> markIn(const Raster& picture) {
+  std::array<double, 2> sum{};
+  double count = 0.0;
+  for (std::size_t y = picture.height() * 3 / 4; y < picture.height(); ++y) {
+    for (std::size_t x = picture.width() * 3 / 4; x < picture.width(); ++x) {
+      const auto [r, g, b] = picture.at(x, y);
+      if (r < 200 || g > 90 || b > 90) continue;
+      sum[0] += static_cast<double>(x);
+      sum[1] += static_cast<double>(y);
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) return std::nullopt;
+  return std::array{sum[0] / count, sum[1] / count};
+}
+
+TEST(Picture, ACornerShowsWhereInTheWholeAClashIs) {
+  view::ViewScene scene = twoBoxes({{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {3, 3, 3}});
+  Raster white(640, 480, kWhite);
+  view::Overview(scene).addTo(white, scene.frames[0].boxes[0]);
+  EXPECT_FALSE(markIn(white)) << "two models are in the picture itself";
+  scene.modelCount = 4;  // a row along x, which goes to the right in pictures, and something infinite
+  scene.frames[0].boxes.push_back({{20, 1, 1}, {22, 3, 3}});
+  scene.frames[0].boxes.push_back({{0, 0, 0}, {std::numeric_limits<double>::infinity(), 1, 1}});
+  const view::Overview overview(scene);
+  std::vector<std::array<double, 2>> marks;
+  for (const std::size_t at : {0U, 1U, 2U, 3U}) {
+    Raster picture(640, 480, kWhite);
+    overview.addTo(picture, scene.frames[0].boxes[at]);
+    const auto mark = markIn(picture);
+    ASSERT_TRUE(mark) << at;
+    marks.push_back(*mark);
+  }
+  EXPECT_LT(marks[0][0], marks[1][0]);
+  EXPECT_LT(marks[1][0] + 50.0, marks[2][0]);
+  Raster small(40, 30, kWhite);
+  overview.addTo(small, scene.frames[0].boxes[0]);
+  EXPECT_EQ(small.at(39, 29), kWhite) << "there is no room";
 }
 
 TEST(Clash, TheLargestOverlapComesFirstAndTheGuidIsTheSameEachTime) {

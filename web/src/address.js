@@ -49,15 +49,22 @@ export class Address {
     }
   }
 
+  /** Does something that the address does not say. */
+  without(act) {
+    this.isFollowing = true;
+    act();
+    this.isFollowing = false;
+  }
+
   /** Chooses what the address says; one that says nothing of this page is left alone. */
   follow() {
     const parts = new Map(location.hash.slice(1).split("&").map((part) => [part.split("=")[0], part.slice(part.indexOf("=") + 1)]));
     const frame = Number(parts.get("frame"));
     const keys = parts.has("pair") ? parts.get("pair").split(",") : parts.has("model") ? [parts.get("model")] : [];
     const models = keys.map((key) => this.modelOf(key));
-    this.isFollowing = true;
-    if (parts.has("frame") && Number.isInteger(frame) && this.app.scene.frames[frame] && frame !== this.app.index) this.app.setFrame(frame);
-    if (models.length > 0 && models.length <= 2 && !models.includes(-1)) this.app.choose(models);
-    this.isFollowing = false;
+    this.without(() => {
+      if (parts.has("frame") && Number.isInteger(frame) && this.app.scene.frames[frame] && frame !== this.app.index) this.app.setFrame(frame);
+      if (models.length > 0 && models.length <= 2 && !models.includes(-1)) this.app.choose(models);
+    });
   }
 }

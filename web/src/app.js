@@ -5,6 +5,7 @@ import { state } from "./exact.js";
 import { kind, modelKinds, PairTable, pairsWithout, partnerCounts } from "./pairs.js";
 import { look } from "./styles.js";
 import { tone } from "./palette.js";
+import { Visibility } from "./visibility.js";
 
 const flashMs = 700;
 const sizeOf = (box) => Math.hypot(...[0, 1, 2].map((k) => box[k + 3] - box[k]));
@@ -20,6 +21,7 @@ export class App extends EventTarget {
     this.show = { boxes: scene.sequence === null && scene.exact === null, shapes: true, links: false, excluded: true, region: scene.region !== null };
     this.boxMode = scene.models > 3000 ? "solid" : "outlines";
     this.models = []; // chosen: none, one, or the two of a pair
+    this.visibility = new Visibility(scene.models);
     this.setFrame(0);
   }
 
@@ -103,7 +105,7 @@ export class App extends EventTarget {
   lookAtChosen() {
     if (!this.stage || this.models.length === 0) return;
     const { finding } = this;
-    if (finding && finding.state !== state.notExamined) return this.stage.lookAtContact(finding, this.models, this.scene.exact.viewOf(this.entry));
+    if (finding && finding.state !== state.notExamined && !this.stage.isExploded) return this.stage.lookAtContact(finding, this.models, this.scene.exact.viewOf(this.entry));
     const corners = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
     for (const model of this.models) {
       const box = this.stage.boxOf(model);
@@ -116,7 +118,21 @@ export class App extends EventTarget {
   }
 
   lookAtAll() {
-    this.stage?.lookAt(this.stage.whole);
+    this.stage?.lookAt(this.stage.sight);
+  }
+
+  /** Hides models, shows all again, or takes the last of these back: a method of Visibility, and what it is to know. */
+  changeVisibility(how, ...more) {
+    this.visibility[how](...more);
+    if (this.models.every((model) => this.visibility.isShown(model))) this.restyle();
+    else this.choose([]); // what is hidden is no longer chosen, so that what was behind it is seen
+    this.emit("visibility");
+  }
+
+  /** Moves bodies apart, by a part of how far they are from the middle; 0 leaves them where they are. */
+  explode(factor) {
+    this.stage?.setExplosion(factor);
+    this.restyle();
   }
 
   toggle(what) {
@@ -150,7 +166,8 @@ export class App extends EventTarget {
       const chosen = this.models.length === 0 || chosenModels.has(i) || near?.has(i);
       const isAround = this.finding !== null && this.models[1 - this.innerOfChosen()] === i && isNested(this.finding);
       const faint = !chosen || isAround || (this.models.length === 0 && this.kinds[i] === kind.out);
-      stage.styles.set(i, this.toneOf(i), look.shown | (faint ? look.faint : near && !chosenModels.has(i) ? look.ghost : 0));
+      const shown = this.visibility.isShown(i) ? look.shown : 0;
+      stage.styles.set(i, this.toneOf(i), shown | (faint ? look.faint : near && !chosenModels.has(i) ? look.ghost : 0));
       anyFaint ||= faint;
     }
     stage.styles.update();
@@ -159,8 +176,8 @@ export class App extends EventTarget {
     for (const shape of stage.shapes) shape.visible = this.show.shapes;
     stage.region.visible = this.show.region && scene.region !== null;
     stage.setLines(stage.links, this.show.links ? this.foundPairs() : []);
-    stage.setChosen(this.models, this.show.boxes);
-    if (scene.exact !== null) stage.setContact(this.finding ? [this.entry] : this.contactsInSight(), this.finding !== null);
+    stage.setChosen(this.models.filter((model) => this.visibility.isShown(model)), this.show.boxes);
+    if (scene.exact !== null) stage.setContact(this.contactsInSight(), this.finding !== null);
   }
 
   /** Which of the two that are chosen is the smaller. */
@@ -169,14 +186,21 @@ export class App extends EventTarget {
     return first < second ? 0 : 1;
   }
 
-  /** The contacts to show while no pair is chosen: all, or those of a model. */
+  /** The contacts to show: that of the pair that is chosen, else those of a model or all; none of models that are hidden, and
+   * none while bodies are not where they touch. */
   contactsInSight() {
+    if (this.stage.isExploded) return [];
+    if (this.finding) return this.isInSight(this.entry) ? [this.entry] : [];
     const all = this.models.length === 1 ? this.table.entriesOf(this.models[0]) : Array.from({ length: this.table.found }, (_, e) => e);
-    return all.filter((e) => this.scene.exact.stateOf(e) <= state.clash);
+    return all.filter((e) => this.scene.exact.stateOf(e) <= state.clash && this.isInSight(e));
+  }
+
+  isInSight(entry) {
+    return this.visibility.isShown(this.table.first(entry)) && this.visibility.isShown(this.table.second(entry));
   }
 
   foundPairs() {
-    const entries = Array.from({ length: this.table.found }, (_, e) => e).filter((e) => !this.table.isApart(e));
+    const entries = Array.from({ length: this.table.found }, (_, e) => e).filter((e) => !this.table.isApart(e) && this.isInSight(e));
     return entries.map((e) => [this.table.first(e), this.table.second(e)]);
   }
 }

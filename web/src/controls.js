@@ -142,12 +142,18 @@ function keysOf(app, panels, timeline, theme) {
     e: () => press("show-excluded"),
     r: () => press("show-region"),
     s: () => press("section"),
+    x: () => press("explode"),
+    d: () => press("measure"),
+    h: () => app.changeVisibility("hide", app.models),
+    i: () => app.changeVisibility("isolate", app.models),
+    z: () => app.changeVisibility("undo"),
+    H: () => app.changeVisibility("showAll"),
     u: () => press("up-axis"),
     t: () => theme.toggle(),
     " ": () => timeline.toggle(),
     ",": () => timeline.step(-1),
     ".": () => timeline.step(1),
-    Escape: () => app.choose([]),
+    Escape: () => (byId("measure").getAttribute("aria-pressed") === "true" ? press("measure") : app.choose([])),
     "+": () => app.stage?.steer("approach", 1),
     "=": () => app.stage?.steer("approach", 1), // where + is with Shift
     "-": () => app.stage?.steer("approach", -1),
@@ -180,7 +186,7 @@ export function setUpKeys(app, panels, timeline, theme) {
 
 /** The name of the model under the pointer, while that rests. */
 export function setUpHover(app) {
-  const { stage } = app;
+  const { stage, visibility } = app;
   const label = byId("hover");
   const rest = 60; // milliseconds: of many triangles, looking takes some
   const gap = 14; // pixels from the pointer
@@ -190,7 +196,7 @@ export function setUpHover(app) {
     label.hidden = true;
   };
   const show = (event) => {
-    const model = stage.modelAt(event.clientX, event.clientY, () => true, !app.show.shapes);
+    const model = stage.modelAt(event.clientX, event.clientY, (i) => visibility.isShown(i), !app.show.shapes);
     if (model < 0) return;
     label.textContent = app.scene.nameOf(model);
     label.hidden = false;
@@ -208,8 +214,9 @@ export function setUpHover(app) {
 
 const clickReach = 4; // pixels that a click may move before it is a drag
 
-/** A click chooses the model under the pointer; with Shift, its box counts and not its shape. */
-export function setUpPointer(app) {
+/** A click chooses the model under the pointer, or while points are measured takes a point; with Shift, boxes count and not
+ * shapes. */
+export function setUpPointer(app, measure) {
   const { stage } = app;
   if (!stage) return;
   let down = null;
@@ -219,7 +226,9 @@ export function setUpPointer(app) {
     const moved = Math.hypot(event.clientX - down[0], event.clientY - down[1]);
     down = null;
     if (moved > clickReach) return;
-    const model = stage.modelAt(event.clientX, event.clientY, () => true, event.shiftKey || !app.show.shapes);
+    const onlyBoxes = event.shiftKey || !app.show.shapes;
+    if (measure.isOn) return measure.add(event.clientX, event.clientY, onlyBoxes);
+    const model = stage.modelAt(event.clientX, event.clientY, (i) => app.visibility.isShown(i), onlyBoxes);
     app.choose(model < 0 ? [] : [model], { look: false });
     if (model >= 0) openTab("models");
   });

@@ -31,9 +31,12 @@ export class Details {
   }
 
   head(...content) {
-    const close = button("×", () => this.app.choose([]), { title: "Choose nothing (Esc)", className: "close" });
+    const { app } = this;
+    const act = (text, how, title) => button(text, () => app.changeVisibility(how, app.models), { title, className: "act" });
+    const acts = make("span", "acts", act("hide", "hide", "Hide what is chosen (h)"), act("show only", "isolate", "Hide all else (i)"));
+    const close = button("×", () => app.choose([]), { title: "Choose nothing (Esc)", className: "close" });
     close.setAttribute("aria-label", "Choose nothing");
-    return make("header", "", make("h2", "", ...content), close);
+    return make("header", "", make("h2", "", ...content), acts, close);
   }
 
   modelButton(model, className) {

@@ -44,6 +44,33 @@ export function drawable(boxes, origin, whole) {
   return result;
 }
 
+/** Boxes whose bodies are moved away from the middle of the whole, by `factor` times how far from it their own middles are;
+ * `offsets` takes how far each model is moved. */
+export function spreadBoxes({ boxes, bodyOf, whole, factor, offsets }) {
+  const bodies = new Map();
+  for (let i = 0; 6 * i < boxes.length; ++i) {
+    if (boxes[6 * i] > boxes[6 * i + 3]) continue;
+    const body = bodies.get(bodyOf(i)) ?? nowhere();
+    for (let k = 0; k < 3; ++k) {
+      body[k] = Math.min(body[k], boxes[6 * i + k]);
+      body[k + 3] = Math.max(body[k + 3], boxes[6 * i + k + 3]);
+    }
+    bodies.set(bodyOf(i), body);
+  }
+  const result = boxes.slice();
+  for (let i = 0; 6 * i < boxes.length; ++i) {
+    if (boxes[6 * i] > boxes[6 * i + 3]) continue;
+    const body = bodies.get(bodyOf(i));
+    for (let k = 0; k < 3; ++k) {
+      const way = (factor * (body[k] + body[k + 3] - whole[k] - whole[k + 3])) / 2;
+      offsets.of(i)[k] = way;
+      result[6 * i + k] += way;
+      result[6 * i + k + 3] += way;
+    }
+  }
+  return result;
+}
+
 /** The whole, with what is finite of the region. */
 export function wideEnough(scene, whole) {
   return whole.map((value, k) => {

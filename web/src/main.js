@@ -5,9 +5,14 @@ import { openTab, setUpHover, setUpKeys, setUpPointer, setUpTabs, setUpToolbar, 
 import { readScene } from "./data.js";
 import { Details } from "./details.js";
 import { byId } from "./dom.js";
+import { clashCount } from "./exact.js";
+import { Explosion } from "./explode.js";
 import { wholeOf } from "./extent.js";
+import { setUpAxes } from "./ground.js";
+import { setUpHiding } from "./hiding.js";
 import { ModelPanel, PairPanel } from "./lists.js";
 import { Margin } from "./margin.js";
+import { Measure } from "./measure.js";
 import { Stage } from "./stage.js";
 import { Section } from "./section.js";
 import { showSummary } from "./summary.js";
@@ -37,9 +42,12 @@ function showPicture(app, theme) {
     stage.resize();
     stage.lookAt(stage.whole);
     app.attach(stage);
-    setUpPointer(app);
+    const measure = new Measure(app, stage);
+    setUpPointer(app, measure);
     setUpHover(app);
+    setUpAxes(stage);
     new Section(stage);
+    new Explosion(app);
     stage.addEventListener("drawn", () => note("ready"), { once: true });
     stage.addEventListener("complete", () => note("complete"), { once: true });
   } else {
@@ -68,7 +76,9 @@ function start() {
   const whole = wholeOf(scene);
   new Margin(app, Math.hypot(...[0, 1, 2].map((k) => whole[k + 3] - whole[k])));
   if (app.table.size === 0) openTab("models");
-  new Address(app);
+  setUpHiding(app);
+  const address = new Address(app);
+  if (app.models.length === 0 && scene.exact !== null && clashCount(app.table.stateCounts()) > 0) address.without(() => panels.pairs.step(1));
   requestAnimationFrame(() => setTimeout(() => {
     note("loaded");
     showPicture(app, theme);

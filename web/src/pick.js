@@ -38,29 +38,30 @@ function meetShape(mesh, model, { origin, direction, cut }) {
   const isCut = (t) => dot(cut, origin) + t * dot(cut, direction) > cut[3];
   const at = (i) => mesh.vertices.subarray(3 * i, 3 * i + 3);
   const begin = model === 0 ? 0 : mesh.triangleEnds[model - 1];
-  let nearest = Infinity;
+  let nearest = { distance: Infinity, corners: null };
   for (let i = begin; i < mesh.triangleEnds[model]; i += 3) {
     const corners = [at(mesh.triangles[i]), at(mesh.triangles[i + 1]), at(mesh.triangles[i + 2])];
     const distance = meet(origin, direction, ...corners);
-    if (distance < nearest && !isCut(distance)) nearest = distance;
+    if (distance < nearest.distance && !isCut(distance)) nearest = { distance, corners };
   }
   return nearest;
 }
 
 const hasShape = (mesh, model) => mesh.triangleEnds.length > 0 && mesh.triangleEnds[model] > (model === 0 ? 0 : mesh.triangleEnds[model - 1]);
 
-/** The model that a ray meets first, or -1. A model with triangles is met only there, and where it is not cut away, unless
- * `onlyBoxes`. */
-export function pick({ origin, direction, drawn, count, mesh, isShown, onlyBoxes, cut }) {
+/** The model that a ray meets first, how far along the ray, and the corners of the triangle that it meets there or null; null
+ * without one. A model with triangles is met only there, and where it is not cut away, unless `onlyBoxes`. Shapes are met where
+ * their model is moved to. */
+export function pick({ origin, direction, drawn, offsets, count, mesh, isShown, onlyBoxes, cut }) {
   const inverse = direction.map((x) => 1 / (x === 0 ? 1e-30 : x));
-  let best = -1;
+  let best = null;
   let nearest = Infinity;
   for (let i = 0; i < count; ++i) {
     if (drawn[6 * i] > drawn[6 * i + 3] || !isShown(i)) continue;
     const entry = slab(origin, inverse, drawn, i);
     if (entry === null || entry >= nearest) continue;
-    const distance = !onlyBoxes && hasShape(mesh, i) ? meetShape(mesh, i, { origin, direction, cut }) : entry;
-    if (distance < nearest) [nearest, best] = [distance, i];
+    const met = !onlyBoxes && hasShape(mesh, i) ? meetShape(mesh, i, { origin: sub(origin, offsets.of(i)), direction, cut }) : { distance: entry, corners: null };
+    if (met.distance < nearest) [nearest, best] = [met.distance, { model: i, ...met }];
   }
   return best;
 }

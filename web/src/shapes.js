@@ -6,6 +6,8 @@ import { look, styleLookup } from "./styles.js";
 
 const vertexShader = `
 in float model;
+uniform highp sampler2D offsets; // how far each model is moved to be apart from the others
+uniform bool exploded;
 uniform bool calm;     // each model has a colour of its own, since what clashes is shown by where
 uniform float neutral; // how much of grey is in the colour of a shape, so that boxes stand out
 out vec3 where;
@@ -20,7 +22,8 @@ void main() {
   uvec4 style = styleOf(model);
   colour = mix(colourOf(style, model), vec3(0.72), style.r < 5u ? neutral : 0.1);
   if (calm && style.r < 5u) colour = calmColour(model);
-  vec4 p = modelViewMatrix * vec4(position, 1.0);
+  vec3 moved = exploded ? position + texelFetch(offsets, texelOf(model), 0).xyz : position;
+  vec4 p = modelViewMatrix * vec4(moved, 1.0);
   where = p.xyz;
   place = position;
   gl_PointSize = 3.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fewer pixels, and fewer of many boxes, while the picture moves and drawing is slow, as without a graphics processor;
+// Fewer pixels, fewer of many boxes and no shade while the picture moves and drawing is slow, as without a graphics processor;
 // all of them when it rests.
 
 const slow = 70; // milliseconds from one frame of a movement to the next
@@ -14,6 +14,12 @@ export class Sharpness {
     this.cost = 0;
     this.isFinal = isWhole;
     this.isMoving = false; // while the pointer holds the picture, it does not rest
+    this.shadeIsSlow = false;
+  }
+
+  /** Whether the frame that next() was asked about has shade. */
+  get isShaded() {
+    return this.wasFinal || !this.shadeIsSlow;
   }
 
   /** How fine to draw the next frame, up to 1. */
@@ -27,7 +33,7 @@ export class Sharpness {
   }
 
   plan() {
-    if (this.scale < 1 && !this.isMoving) this.timer = setTimeout(() => this.finish(), Math.max(rest, 2 * this.cost));
+    if ((this.scale < 1 || this.shadeIsSlow) && !this.isMoving) this.timer = setTimeout(() => this.finish(), Math.max(rest, 2 * this.cost));
   }
 
   /** The pointer takes hold of the picture, or lets go. */
@@ -37,8 +43,9 @@ export class Sharpness {
     this.plan();
   }
 
-  /** How long the last frame took until the browser was ready for another. */
-  took(milliseconds) {
+  /** How long the last frame took until the browser was ready for another, and whether it had shade. */
+  took(milliseconds, hadShade) {
+    if (hadShade && milliseconds > slow / 2) this.shadeIsSlow = true;
     if (this.wasFinal) return; // that was the whole picture, and says little about a coarse one
     this.cost = milliseconds;
     const factor = milliseconds > slow ? Math.max(0.5, slow / milliseconds) : milliseconds < slow / 2 ? 1.15 : 1;

@@ -9,13 +9,15 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { BoxCloud } from "./boxes.js";
 import { Contacts } from "./contacts.js";
 import { contactCorners } from "./exact.js";
-import { drawable, wholeOf, wideEnough } from "./extent.js";
+import { drawable, spreadBoxes, wholeOf, wideEnough } from "./extent.js";
+import { Ground } from "./ground.js";
 import { paletteOf, tone } from "./palette.js";
 import { pick } from "./pick.js";
+import { Shade } from "./shade.js";
 import { Sharpness } from "./sharpness.js";
 import { makeShapes } from "./shapes.js";
 import { approach, move, turn } from "./steer.js";
-import { ModelStyles } from "./styles.js";
+import { ModelOffsets, ModelStyles } from "./styles.js";
 
 const sizeOf = (corners) => Math.hypot(...[0, 1, 2].map((k) => corners[k + 3] - corners[k]));
 
@@ -34,8 +36,11 @@ export class Stage extends EventTarget {
     this.camera = new PerspectiveCamera(40, 1, 0.1, 1000);
     this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1, scene.models <= tooManyModels);
     this.styles = new ModelStyles(scene.models);
+    this.offsets = new ModelOffsets(scene.models);
+    this.explosion = 0;
+    this.marks = []; // with their tones: what others add
     const palette = Array.from({ length: 11 }, () => new Color());
-    this.shared = { styles: { value: this.styles.texture }, palette: { value: palette }, calm: { value: scene.exact !== null }, cut: { value: new Vector4(0, 0, 0, 1) } };
+    this.shared = { styles: { value: this.styles.texture }, offsets: { value: this.offsets.texture }, exploded: { value: false }, palette: { value: palette }, calm: { value: scene.exact !== null }, cut: { value: new Vector4(0, 0, 0, 1) } };
     this.whole = wholeOf(scene);
     this.build();
     this.setUp(this.data.up);
@@ -59,8 +64,19 @@ export class Stage extends EventTarget {
       mark.frustumCulled = false;
       mark.renderOrder = 10 + i;
     });
-    this.scene.add(...this.boxes.objects, ...this.shapes, ...marks);
+    this.shade = new Shade(this.shapes.filter((shape) => !shape.material.transparent));
+    this.ground = new Ground();
+    this.scene.add(this.ground.object, ...this.boxes.objects, ...this.shapes, this.shade.object, ...marks);
     if (this.data.region) this.place(this.region, drawable(this.data.region, this.data.origin, wideEnough(this.data, this.whole)));
+  }
+
+  /** Draws an object in front of all else, in the colour of a tone. */
+  addMark(mark, is) {
+    mark.frustumCulled = false;
+    mark.renderOrder = 100;
+    this.scene.add(mark);
+    this.marks.push([mark, is]);
+    if (this.tones) mark.material.color.set(this.tones[is]);
   }
 
   place(helper, corners) {
@@ -74,7 +90,10 @@ export class Stage extends EventTarget {
     const { background, tones } = paletteOf(theme);
     this.scene.background = new Color(background);
     this.shared.palette.value.forEach((colour, i) => colour.setStyle(tones[i], "srgb-linear"));
+    this.tones = tones;
     const paint = (object, i) => object.material.color.set(tones[i]);
+    for (const [mark, is] of this.marks) paint(mark, is);
+    paint(this.ground.object, tone.region);
     paint(this.region, tone.region);
     paint(this.links, tone.overlap);
     paint(this.flashes[0], tone.began);
@@ -95,10 +114,43 @@ export class Stage extends EventTarget {
 
   /** Takes the boxes of a frame. */
   setFrame(frame) {
-    this.drawn = drawable(frame.boxes, this.data.origin, this.whole);
-    this.boxes.setBoxes(this.drawn);
+    this.inPlace = drawable(frame.boxes, this.data.origin, this.whole);
     if (this.data.sequence) this.moveShapes(frame.index);
+    this.spread();
+  }
+
+  /** Moves bodies away from the middle of the scene: by `factor` times how far from it they are. */
+  setExplosion(factor) {
+    this.explosion = factor;
+    this.spread();
+  }
+
+  get isExploded() {
+    return this.explosion > 0;
+  }
+
+  /** Puts boxes and shapes where they are drawn. */
+  spread() {
+    this.drawn = this.inPlace;
+    this.shared.exploded.value = this.isExploded;
+    if (this.isExploded) {
+      this.drawn = spreadBoxes({ boxes: this.inPlace, bodyOf: this.data.bodyOf, whole: this.whole, factor: this.explosion, offsets: this.offsets });
+      this.offsets.texture.needsUpdate = true;
+    } else {
+      this.offsets.texels.fill(0);
+    }
+    this.boxes.setBoxes(this.drawn);
+    this.dispatchEvent(new Event("spread"));
     this.invalidate();
+  }
+
+  /** What there is to see, as six numbers. */
+  get sight() {
+    const stretch = 1 + this.explosion;
+    return this.whole.map((value, k) => {
+      const middle = (this.whole[k % 3] + this.whole[(k % 3) + 3]) / 2;
+      return middle + stretch * (value - middle);
+    });
   }
 
   moveShapes(index) {
@@ -177,6 +229,7 @@ export class Stage extends EventTarget {
     const unit = (k, length) => new Vector3().setComponent(k, length);
     const [right, ahead] = { 1: [unit(1, sign), unit(2, 1)], 2: [unit(0, sign), unit(2, -1)], 3: [unit(0, sign), unit(1, 1)] }[Math.abs(axis)];
     this.camera.up.copy(unit(Math.abs(axis) - 1, sign));
+    this.ground.place(this.whole, this.data.origin, axis);
     this.controls?.dispose();
     this.controls = this.makeControls();
     const direction = right.multiplyScalar(0.75).sub(ahead).addScaledVector(this.camera.up, 0.65);
@@ -231,13 +284,26 @@ export class Stage extends EventTarget {
 
   /** The model at a place of the window, or -1. */
   modelAt(clientX, clientY, isShown, onlyBoxes) {
+    return this.hitAt(clientX, clientY, isShown, onlyBoxes)?.model ?? -1;
+  }
+
+  /** What a ray through a place of the window meets first, as pick() gives it, with the point; or null. */
+  hitAt(clientX, clientY, isShown, onlyBoxes) {
     const area = this.canvas.getBoundingClientRect();
     const place = new Vector2(((clientX - area.left) / area.width) * 2 - 1, 1 - ((clientY - area.top) / area.height) * 2);
     const caster = new Raycaster();
     this.camera.updateMatrixWorld();
     caster.setFromCamera(place, this.camera);
     const ray = { origin: caster.ray.origin.toArray(), direction: caster.ray.direction.toArray() };
-    return pick({ ...ray, drawn: this.drawn, count: this.data.models, mesh: this.data.mesh, isShown, onlyBoxes, cut: this.shared.cut.value.toArray() });
+    const hit = pick({ ...ray, drawn: this.drawn, offsets: this.offsets, count: this.data.models, mesh: this.data.mesh, isShown, onlyBoxes, cut: this.shared.cut.value.toArray() });
+    return hit && { ...hit, point: caster.ray.at(hit.distance, new Vector3()) };
+  }
+
+  /** Where a point of the scene is in the window: x and y in pixels. */
+  pixelOf(point) {
+    const area = this.canvas.getBoundingClientRect();
+    const place = point.clone().project(this.camera);
+    return [area.left + ((place.x + 1) / 2) * area.width, area.top + ((1 - place.y) / 2) * area.height];
   }
 
   resize() {
@@ -269,6 +335,8 @@ export class Stage extends EventTarget {
       this.drawnSize = this.size;
     }
     const begin = performance.now();
+    if (this.sharpness.isShaded) this.shade.prepare(this.renderer, this.scene, this.camera);
+    else this.shade.hide();
     this.renderer.render(this.scene, this.camera);
     this.awaitGraphics(begin);
   }
@@ -282,7 +350,7 @@ export class Stage extends EventTarget {
       if (this.fence && gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) return requestAnimationFrame(look);
       gl.deleteSync(this.fence);
       this.fence = null;
-      this.sharpness.took(performance.now() - begin);
+      this.sharpness.took(performance.now() - begin, this.shade.object.visible);
       this.dispatchEvent(new Event("drawn"));
       if (this.isWhole) this.dispatchEvent(new Event("complete"));
       if (this.isStale) this.invalidate();

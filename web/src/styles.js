@@ -2,11 +2,24 @@
 // How each model is drawn, in a texture with one texel a model: its tone, and whether it is shown or faint. Boxes and
 // meshes look it up by the model's index, so that a change costs one small upload however large the shapes are.
 
-import { DataTexture, NearestFilter, RGBAIntegerFormat, UnsignedByteType } from "three";
+import { DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, UnsignedByteType } from "three";
 
 const width = 1024;
 
 export const look = { shown: 1, faint: 2, ghost: 4 }; // a ghost's shape is faint, its box is not
+
+/** How far each model is moved to be apart from the others, in a texture with one texel a model. */
+export class ModelOffsets {
+  constructor(count) {
+    this.texels = new Float32Array(4 * width * Math.max(1, Math.ceil(count / width)));
+    this.texture = new DataTexture(this.texels, width, this.texels.length / 4 / width, RGBAFormat, FloatType);
+    this.texture.magFilter = this.texture.minFilter = NearestFilter;
+  }
+
+  of(model) {
+    return this.texels.subarray(4 * model, 4 * model + 3);
+  }
+}
 
 export class ModelStyles {
   constructor(count) {
@@ -34,10 +47,11 @@ uniform highp usampler2D styles;
 uniform vec3 palette[11];
 uniform int pass; // 0: what is solid, 1: what is faint
 uniform uint faintBits;
-uvec4 styleOf(float model) {
+ivec2 texelOf(float model) {
   int i = int(model + 0.5);
-  return texelFetch(styles, ivec2(i % ${width}, i / ${width}), 0);
+  return ivec2(i % ${width}, i / ${width});
 }
+uvec4 styleOf(float model) { return texelFetch(styles, texelOf(model), 0); }
 bool isSkipped(uvec4 style) {
   bool faint = (style.g & faintBits) != 0u;
   return (style.g & 1u) == 0u || faint != (pass == 1);

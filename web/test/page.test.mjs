@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { allpairs, clothFrames, dataFolder, detect, folder, npy, number, open, ownText, pages, root, screenshot, settled, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { allpairs, clothFrames, cuboid, dataFolder, detect, folder, hasExact, npy, number, open, ownText, pages, root, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -201,8 +201,6 @@ test("the name of the model under the pointer is shown while that rests", async 
 });
 
 test("a section shows what is within a closed part, and what is cut away is not chosen", async () => {
-  const cuboid = (name, [a, b, c], [d, e, f]) => `o ${name}\n${[c, f].flatMap((z) => [b, e].flatMap((y) => [a, d].map((x) => `v ${x} ${y} ${z}`))).join("\n")}
-f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n`;
   const input = write("nested.obj", cuboid("shell", [0, 0, 0], [4, 4, 4]) + cuboid("core", [1, 1, 1], [3, 3, 3]));
   const page = await view("section", [input], { exact: true });
   const area = await page.locator("#canvas").boundingBox();
@@ -210,6 +208,7 @@ f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 
     await page.mouse.click(area.x + area.width / 2, area.y + area.height / 2);
     return page.textContent("#details .model-name");
   };
+  for (const key of ["Escape", "u", "u", "u"]) await page.keyboard.press(key); // seen from above, as before the worst clash was chosen
   assert.equal(await nameAt(), "shell");
   await page.keyboard.press("Escape");
   await page.keyboard.press("s");
@@ -571,33 +570,7 @@ test("ten thousand models with fifty thousand pairs are all there", async () => 
   await page.close();
 });
 
-/** A cuboid as a closed mesh. */
-function cuboid(name, min, max) {
-  const lines = [`o ${name}`];
-  for (let i = 0; i < 8; ++i) lines.push(`v ${[0, 1, 2].map((k) => (i >> k & 1 ? max : min)[k]).join(" ")}`);
-  return `${lines.join("\n")}\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n`;
-}
-
-/** Two blocks that are the same, one in which a pin lies, a bar that clashes by 0.25, and a wedge that only shares a box. */
-function shapes() {
-  write("shapes/block.obj", cuboid("block", [0, 0, 0], [4, 4, 4]));
-  write("shapes/copy.obj", cuboid("copy", [10, 0, 0], [14, 4, 4]));
-  write("shapes/bar.obj", cuboid("bar", [3.75, 1, 1], [10.25, 2, 2]));
-  write("shapes/original.obj", cuboid("original", [10, 0, 0], [14, 4, 4]));
-  write("shapes/pin.obj", cuboid("pin", [1, 1, 1], [2, 2, 2]));
-  write("shapes/wedge.obj", "o wedge\nv 3.5 3.5 9\nv 3.5 9 3.5\nv 9 9 9\nv 3.5 9 9\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
-  return join(folder, "shapes");
-}
-
-const hasExact = (() => {
-  try {
-    return allpairs("detect", shapes(), "--exact").length > 0;
-  } catch {
-    return false;
-  }
-})();
-
-test("what really clashes comes first, what is apart is counted and hidden", { skip: hasExact ? false : "built without FCL" }, async () => {
+test("what really clashes comes first, what is apart is counted and hidden", { skip: hasExact() ? false : "built without FCL" }, async () => {
   const input = shapes();
   const result = detect(input, "--exact");
   const { exactStatistics: statistics } = result;
@@ -626,7 +599,7 @@ test("what really clashes comes first, what is apart is counted and hidden", { s
   await page.close();
 });
 
-test("where surfaces cross is drawn, and the block of what boxes share only on demand", { skip: hasExact ? false : "built without FCL" }, async () => {
+test("where surfaces cross is drawn, and the block of what boxes share only on demand", { skip: hasExact() ? false : "built without FCL" }, async () => {
   const page = await view("contact", [shapes()], { exact: true });
   const count = async () => page.evaluate(countRed, (await page.locator("#canvas").screenshot()).toString("base64"));
   await page.click('#pairs-list .row[data-index="2"]');

@@ -46,6 +46,33 @@ export function write(name, bytes) {
   return path;
 }
 
+/** A block as an object of an OBJ file. */
+export function cuboid(name, min, max) {
+  const lines = [`o ${name}`];
+  for (let i = 0; i < 8; ++i) lines.push(`v ${[0, 1, 2].map((k) => (i >> k & 1 ? max : min)[k]).join(" ")}`);
+  return `${lines.join("\n")}\nf -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n`;
+}
+
+/** Two blocks that are the same, one in which a pin lies, a bar that clashes by 0.25, and a wedge that only shares a box. */
+export function shapes() {
+  write("shapes/block.obj", cuboid("block", [0, 0, 0], [4, 4, 4]));
+  write("shapes/copy.obj", cuboid("copy", [10, 0, 0], [14, 4, 4]));
+  write("shapes/bar.obj", cuboid("bar", [3.75, 1, 1], [10.25, 2, 2]));
+  write("shapes/original.obj", cuboid("original", [10, 0, 0], [14, 4, 4]));
+  write("shapes/pin.obj", cuboid("pin", [1, 1, 1], [2, 2, 2]));
+  write("shapes/wedge.obj", "o wedge\nv 3.5 3.5 9\nv 3.5 9 3.5\nv 9 9 9\nv 3.5 9 9\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  return join(folder, "shapes");
+}
+
+/** Whether the program tests shapes. */
+export function hasExact() {
+  try {
+    return allpairs("detect", shapes(), "--exact").length > 0;
+  } catch {
+    return false;
+  }
+}
+
 const clothSide = 9;
 
 /** A cloth that falls on a tetrahedron whose name would be markup. */

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// What a reader does to see more: the page opens at the worst clash; models are hidden and shown again; bodies move apart;
+// points are measured.
+
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { cuboid, folder, hasExact, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+
+before(() => startBrowser());
+after(stopBrowser);
+
+const skip = hasExact() ? false : "built without FCL";
+const nested = () => write("nested.obj", cuboid("shell", [0, 0, 0], [4, 4, 4]) + cuboid("core", [1, 1, 1], [3, 3, 3]));
+const picture = async (page) => (await page.locator("#canvas").screenshot()).toString("base64");
+
+/** The name of the model in the middle of the picture, which is chosen by that. */
+async function nameInMiddle(page) {
+  const area = await page.locator("#canvas").boundingBox();
+  await page.mouse.click(area.x + area.width / 2, area.y + area.height / 2);
+  return page.textContent("#details .model-name");
+}
+
+test("a page opens at the worst clash, or at what its address says", { skip }, async () => {
+  const page = await view("worst", [shapes()], { exact: true });
+  assert.deepEqual((await texts(page, "#details .link.first, #details .link.second")).sort(), ["copy", "original"]);
+  assert.equal(await page.getAttribute("#pairs-list [aria-selected=true]", "data-index"), "0");
+  assert.equal(await page.evaluate(() => location.hash), "", "an address that nobody chose is not written");
+  await screenshot(page, "worst");
+  await page.close();
+  const other = await open(`${join(folder, "worst.html")}#model=pin`);
+  await other.waitForFunction(() => document.documentElement.dataset.ready);
+  assert.equal(await other.textContent("#details .model-name"), "pin");
+  await other.close();
+  const without = await view("no-clash", [write("alone.obj", cuboid("alone", [0, 0, 0], [1, 1, 1]))], { exact: true });
+  assert.equal(await without.isVisible("#details"), false);
+  assert.deepEqual([...page.problems, ...other.problems, ...without.problems], []);
+  await without.close();
+});
+
+test("models are hidden, shown alone, and shown again", { skip }, async () => {
+  const page = await view("hiding", [nested()], { exact: true });
+  for (const key of ["Escape", "u", "u", "u"]) await page.keyboard.press(key); // the middle of the whole is in the middle
+  assert.equal(await page.isVisible("#hidden-panel"), false);
+  assert.equal(await nameInMiddle(page), "shell");
+  await page.keyboard.press("h");
+  assert.equal(await page.textContent("#hidden-count"), "1 model hidden");
+  assert.equal(await page.isVisible("#details"), false, "what is hidden is not chosen any more");
+  assert.equal(await nameInMiddle(page), "core", "what is hidden is not chosen");
+  await screenshot(page, "hidden");
+  await page.keyboard.press("z");
+  assert.equal(await page.isVisible("#hidden-panel"), false);
+  assert.equal(await nameInMiddle(page), "shell");
+  await page.click("#details .act:nth-child(2)"); // only the shell
+  assert.equal(await page.textContent("#hidden-count"), "1 model hidden");
+  assert.equal(await nameInMiddle(page), "shell");
+  await page.keyboard.press("h");
+  assert.equal(await page.textContent("#hidden-count"), "2 models hidden");
+  const area = await page.locator("#canvas").boundingBox();
+  await page.mouse.click(area.x + area.width / 2, area.y + area.height / 2);
+  assert.equal(await page.isVisible("#details"), false, "nothing is left to choose");
+  await page.click("#hidden-undo");
+  assert.equal(await nameInMiddle(page), "shell");
+  await page.keyboard.press("H");
+  assert.equal(await page.isVisible("#hidden-panel"), false);
+  await page.keyboard.press("z");
+  assert.equal(await page.textContent("#hidden-count"), "1 model hidden", "showing all is taken back too");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("bodies move apart and come back", { skip }, async () => {
+  const parts = [[0, 0, 0], [1, 0, 0], [0, 1, 0]].map((low, i) => cuboid(`part ${i}`, low, low.map((x) => x + 1))).join("");
+  const page = await view("apart", [write("apart.obj", parts)], { exact: true });
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("a");
+  const together = await settled(page, () => picture(page));
+  await page.keyboard.press("x");
+  const apart = await settled(page, () => picture(page), (seen) => seen !== together);
+  assert.notEqual(apart, together);
+  await screenshot(page, "apart");
+  await page.$eval("#explode-slider", (slider) => {
+    slider.value = 150;
+    slider.dispatchEvent(new Event("input"));
+  });
+  assert.notEqual(await settled(page, () => picture(page), (seen) => seen !== apart), apart, "the slider says how far");
+  await page.keyboard.press("x");
+  assert.equal(await settled(page, () => picture(page), (seen) => seen === together), together);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+/** The highest and the lowest place in a picture that is not as its ground, a few pixels towards the middle, found by the page:
+ * two corners of a block. The borders of the picture, where the ring of what has the focus, axes and panels are, and lines as thin as the grid's do not count. */
+async function ends(png) {
+  const image = new Image();
+  image.src = `data:image/png;base64,${png}`;
+  await image.decode();
+  const { width, height } = image;
+  const canvas = new OffscreenCanvas(width, height).getContext("2d");
+  canvas.drawImage(image, 0, 0);
+  const { data } = canvas.getImageData(0, 0, width, height);
+  const isGround = (x, y) => [0, 1, 2].every((c) => Math.abs(data[4 * (width * y + x) + c] - data[4 * (width * (height >> 1) + 20) + c]) < 60);
+  const isIn = (x, y) => !isGround(x, y) && !isGround(x - 3, y) && !isGround(x + 3, y);
+  const found = [];
+  for (let y = 5; y < height - 5; ++y) for (let x = 290; x < width - 90; ++x) if (isIn(x, y)) found.push([x, y]);
+  return [found[0], found.at(-1)];
+}
+
+test("the distance of two corners is measured, also while bodies are apart", { skip }, async () => {
+  const page = await view("measure", [write("cube.obj", cuboid("cube", [0, 0, 0], [2, 2, 2]))], { exact: true });
+  const area = await page.locator("#canvas").boundingBox();
+  await settled(page, () => picture(page));
+  await page.keyboard.press("d");
+  assert.equal(await page.textContent("#measure-result"), "click the first point");
+  for (const isApart of [false, true]) {
+    if (isApart) await page.keyboard.press("x");
+    const corners = await page.evaluate(ends, await settled(page, () => picture(page)));
+    for (const [x, y] of corners) {
+      assert.match(await page.textContent("#measure-result"), /click/);
+      await page.mouse.click(area.x + x, area.y + y);
+    }
+    assert.equal(await page.textContent("#measure-result"), "3.4641 (x 2, y 2, z 2)"); // 2 √3, across the cube
+    await screenshot(page, `measure${isApart ? "-apart" : ""}`);
+  }
+  assert.equal(await page.isVisible("#details"), false, "while points are measured nothing is chosen");
+  await page.keyboard.press("Escape");
+  assert.equal(await page.isVisible("#measure-panel"), false);
+  assert.equal(await nameInMiddle(page), "cube");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
