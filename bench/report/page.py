@@ -107,7 +107,7 @@ LOOPS = ("native loop", "scalar loop")
 
 def best_peer(cell):
     """The fastest of the packaged peers."""
-    peers = [r for r in cell.values() if r.is_peer and r.name not in LOOPS and not r.external and not r.mistake]
+    peers = [r for r in cell.values() if r.is_peer and r.name not in LOOPS and not r.mistake]
     return min(peers, key=lambda r: r.cpu_ms, default=None)
 
 
@@ -118,12 +118,12 @@ def _ratio(record, ours):
 def _summary_row(scene, boxes, cell):
     ours = cell[OURS]
     peer = best_peer(cell)
-    ordered = cell.get("allpairs ordered")
+    call = cell.get("allpairs vector")
     return [
         f"{scene} {number_text(boxes)}",
         number_text(float(f"{ours.pairs:.3g}")),
         time_text(ours.cpu_ms),
-        time_text(ordered.cpu_ms) if ordered else "",
+        time_text(call.cpu_ms) if call else "",
         time_text(peer.cpu_ms) if peer else "",
         peer.name if peer else "",
         "**" + _ratio(peer, ours) + "**" if peer else "",
@@ -134,11 +134,11 @@ def _summary_row(scene, boxes, cell):
 def _summary(table):
     cells = [(scene, boxes, table.cell(scene, boxes)) for scene in table.scenes() for boxes in table.sizes(scene)]
     rows = [_summary_row(scene, boxes, cell) for scene, boxes, cell in cells if OURS in cell]
-    heading = ["scene", "pairs", "Allpairs", "ordered", "best peer", "which", "ratio", "native loop"]
+    heading = ["scene", "pairs", "unordered", "overlaps(boxes)", "best peer", "which", "ratio", "native loop"]
     return (
-        "## Summary\n\nOne thread, from boxes to pairs. *Allpairs* gives pairs in the order of discovery, "
-        "*ordered* by (first, second). The ratio is the best packaged peer's time divided by ours, both "
-        "unordered; the last column is the same ratio for two loops compiled for this processor.\n\n"
+        "## Summary\n\nOne thread, from boxes to pairs. *Unordered* gives pairs in the order of discovery, "
+        "`overlaps(boxes)` by (first, second), in a vector. The ratio is the best packaged peer's time divided by ours, "
+        "both unordered; the last column is the same ratio for two loops compiled for this processor.\n\n"
         + _grid(heading, rows)
     )
 
@@ -212,15 +212,14 @@ def _external(table):
         for r in (r for r in cell.values() if r.external):
             ours = cell.get(OURS)
             same = "" if not ours or not r.hash else ("yes" if r.hash == ours.hash else "**no**")
-            ours_ms = r.ours_ms or (ours.cpu_ms if ours else 0)
-            ratio = f"{r.cpu_ms / ours_ms:.1f}x" if ours_ms else ""
+            ratio = f"{r.cpu_ms / r.ours_ms:.1f}x" if r.ours_ms else ""
             rows.append([f"{scene} {number_text(boxes)}", r.name, r.setting, time_text(r.cpu_ms), r.pairs, same, ratio])
     if not rows:
         return ""
     text = (
         "## Programs that are not packaged\n\nMeasured by hand on boxes from `allpairs generate`, and recorded in "
-        "[benchmarks-external.csv](benchmarks-external.csv), which says how. The "
-        "ratio is to our time in the same run if that is recorded there.\n\n"
+        "[benchmarks-external.csv](benchmarks-external.csv), which says how and on which machine: another one than "
+        "above. The ratio is to our time in the same run, where that is recorded.\n\n"
     )
     return text + _grid(["boxes", "program", "setting", "time", "pairs", "same pairs", "ratio"], rows)
 
@@ -230,7 +229,7 @@ def _settings(table):
         [f"{scene} {number_text(boxes)}", r.name, r.setting]
         for (scene, boxes), cell in table.contests.items()
         for r in cell.values()
-        if r.is_peer and not r.external
+        if r.is_peer
     ]
     body = _grid(["boxes", "peer", "its best setting"], rows)
     summary = "<summary>Which setting of each peer was the fastest</summary>"

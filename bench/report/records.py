@@ -36,7 +36,8 @@ class Record:
 
     @property
     def is_peer(self):
-        return self.name not in OWN_VARIANTS
+        """Whether it is another program that was measured in the same run."""
+        return self.name not in OWN_VARIANTS and not self.external
 
 
 PROVENANCE = ("commit", "compiler", "build", "processor", "processors", "instruction_set", "date")
