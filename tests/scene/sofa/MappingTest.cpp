@@ -279,6 +279,55 @@ TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
               HasSubstr("two frames or more"));
 }
 
+/// Two bodies, the second on a joint at x = 1 of the first and at x = -1 of itself, and a point in the second one's middle.
+std::string articulated(const std::string& values, const std::string& axes, const std::string& center = "",
+                        const std::string& mapping = "", const std::string& second = "0 0 0 0 0 0 1") {
+  return "<MechanicalObject name='base' template='Rigid3' position='0 0 9 0 0 0 1  0 0 5 0 0 0 1'/>"
+         "<Node name='system'><MechanicalObject name='values' template='Vec1d' position='" +
+         values + "'/><Node><MechanicalObject name='bodies' template='Rigid3' position='0 0 0 0 0 0 1  " + second +
+         "'/><ArticulatedSystemMapping input1='@../values' output='@bodies' " + mapping +
+         "/><Node><MechanicalObject position='0 0 0'/><PointModel/><RigidMapping index='1'/></Node></Node>"
+         "<ArticulatedHierarchyContainer/><Node><Node><ArticulationCenter parentIndex='0' childIndex='1' "
+         "posOnParent='1 0 0' posOnChild='-1 0 0' " +
+         center + "/><Node>" + axes + "</Node></Node></Node></Node>";
+}
+
+constexpr auto kAboutZ = "<Articulation rotation='1' axis='0 0 2' articulationIndex='0'/>";
+constexpr auto kThenAboutX = "<Articulation rotation='1' rotationAxis='1 0 0' articulationIndex='1'/>";
+constexpr auto kThenAlongX = "<Articulation translation='1' axis='1 0 0' articulationIndex='1'/>";
+constexpr auto kRight = "1.5707963267948966 ";  // a right angle
+
+TEST_F(SofaMapping, ArticulatedBodiesHangOnEachOther) {
+  const std::string right = kRight;
+  const std::string both = std::string(kAboutZ) + kThenAboutX;
+  const auto at = [&](const std::string& scene) { return onlyBox(readIn(scene)); };
+  const auto is = [](double x, double y, double z) { return IsBox(Corners{x, y, z, x, y, z}); };
+  EXPECT_THAT(at(articulated("0", kAboutZ)), is(2, 0, 0));
+  EXPECT_THAT(at(articulated(right, kAboutZ)), is(1, 1, 0));
+  // The second axis is turned by the first, or is the parent's, or is that of the child as it was.
+  EXPECT_THAT(at(articulated(right + right, both)), is(1, 1, 0));
+  EXPECT_THAT(at(articulated(right + right, both, "articulationProcess='1'")), is(1, 0, 1));
+  EXPECT_THAT(at(articulated(right + right, both, "articulationProcess='2'")), is(1, 0, 1));
+  EXPECT_THAT(at(articulated(right + right, both, "articulationProcess='2'", "",
+                             "0 0 0  0 0 0.70710678118654752 0.70710678118654752")),
+              is(1, 1, 0));
+  EXPECT_THAT(at(articulated(right + "2", std::string(kAboutZ) + kThenAlongX)), is(1, 3, 0));
+  EXPECT_THAT(at(articulated(right + "2", std::string(kAboutZ) + kThenAlongX, "articulationProcess='1'")), is(3, 1, 0));
+  // The whole is where the last frame of another state is, or one that is named.
+  EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base'")), is(1, 1, 5));
+  EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base' indexInput2='0'")), is(1, 1, 9));
+}
+
+TEST_F(SofaMapping, ArticulatedBodiesThatCannotBePlacedAreAnError) {
+  EXPECT_THAT(complaintIn(articulated("0", kThenAboutX)), HasSubstr("a value that its input does not have"));
+  EXPECT_THAT(complaintIn(articulated("0 0", "<ArticulationCenter childIndex='2'/>")),
+              HasSubstr("a frame that its output"));
+  EXPECT_THAT(complaintIn(articulated("", kAboutZ)), HasSubstr("more articulations than values"));
+  EXPECT_THAT(complaintIn(articulated("0 2", kThenAlongX, "articulationProcess='2'")), HasSubstr("does not follow"));
+  EXPECT_THAT(complaintIn(articulated("0", kAboutZ, "", "input2='@nowhere'")), HasSubstr("nowhere to be found"));
+  EXPECT_THAT(complaintIn(articulated("0", kAboutZ, "", "container='@nowhere'")), HasSubstr("no Articulated"));
+}
+
 /// A cube of length 1 as a Wavefront file.
 constexpr auto kCubeObj =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\n"

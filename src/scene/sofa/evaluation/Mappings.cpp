@@ -176,6 +176,8 @@ State mapState(Evaluation& evaluation, const Component& mapping, State child) {
       return mapSomeOf(evaluation, mapping, std::move(child));
     case DeformableOnRigidFrameMapping:
       return mapOnFrame(evaluation, mapping, std::move(child));
+    case ArticulatedMapping:
+      return mapArticulated(evaluation, mapping, std::move(child));
     default:
       break;
   }

@@ -94,6 +94,10 @@ void addMappings(Table& table) {
   table["DeformableOnRigidFrameMapping"] = {DeformableOnRigidFrameMapping, "DeformableOnRigidFrameMapping"};
   for (const auto name : {"SkinningMapping", "LinearBlendSkinningMapping"})
     table[name] = {SkinningMapping, "SkinningMapping"};
+  table["ArticulatedSystemMapping"] = {ArticulatedMapping, {}};
+  table["ArticulatedHierarchyContainer"] = {ArticulatedHierarchy, {}};
+  table["ArticulationCenter"] = {ArticulationCenter, {}};
+  table["Articulation"] = {Articulation, {}};
 }
 
 void addSources(Table& table) {

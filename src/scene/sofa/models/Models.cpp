@@ -69,10 +69,10 @@ std::vector<double> padded(Evaluation& evaluation, const Component& model, std::
   return values;
 }
 
-/// A model of triangles from a Wavefront file without faces would be silently empty: most likely it is another file.
-void checkObj(const Evaluation& evaluation, const Component& model) {
+/// A model of triangles from a Wavefront file without faces is empty, as in SOFA; most likely another file was meant.
+void noteObjWithoutFaces(Evaluation& evaluation, const Component& model) {
   const auto file = evaluation.objFileOf(topologyComponentOf(model));
-  if (!file.empty()) throw Unplaceable(model, "it needs triangles, and '" + file + "' has no line of 'f' with a face");
+  if (!file.empty()) evaluation.warn(model, "it has no triangles: '" + file + "' has no line of 'f' with a face");
 }
 
 void describeTriangles(Evaluation& evaluation, const Component& component, ModelDescription& model) {
@@ -83,7 +83,7 @@ void describeTriangles(Evaluation& evaluation, const Component& component, Model
     model.triangles.push_back({q[1], q[2], q[0]});
     model.triangles.push_back({q[3], q[0], q[2]});
   }
-  if (model.triangles.empty()) checkObj(evaluation, component);
+  if (model.triangles.empty()) noteObjWithoutFaces(evaluation, component);
   checkCorners(component, model.triangles, model.positions.size());
 }
 
