@@ -24,8 +24,10 @@
 extern "C" {
 #endif
 
-#if defined(_WIN32)
-#define ALLPAIRS_C_API
+#if defined(ALLPAIRS_C_EXPORTS)
+#define ALLPAIRS_C_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define ALLPAIRS_C_API __declspec(dllimport)
 #else
 #define ALLPAIRS_C_API __attribute__((visibility("default")))
 #endif

@@ -14,6 +14,7 @@
 #include "allpairs/OverlapOptions.h"
 #include "kernels/Kernels.h"
 #include "kernels/Lanes.h"
+#include "memory/Platform.h"
 
 namespace allpairs::engine {
 
@@ -81,8 +82,8 @@ class BoxReader {
   void prefetch(std::size_t i) const noexcept {
     const auto row = static_cast<std::ptrdiff_t>(idOf(i));
     const auto ask = [&](const auto& corners) {
-      __builtin_prefetch(corners.min.data + row * corners.min.boxStride);
-      __builtin_prefetch(corners.max.data + row * corners.max.boxStride + 2);
+      prefetchLine(corners.min.data + row * corners.min.boxStride);
+      prefetchLine(corners.max.data + row * corners.max.boxStride + 2);
     };
     m_boxes->isFloat64() ? ask(m_boxes->float64()) : ask(m_boxes->float32());
   }

@@ -18,6 +18,7 @@
 
 #include "kernels/Kernels.h"
 #include "kernels/RowKernel-inl.h"
+#include "memory/Platform.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
@@ -103,7 +104,7 @@ HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<cons
 constexpr std::size_t kPrefetchDistance = 4;
 
 HWY_INLINE void prefetchBlock(const LaneBlock& block) {
-  for (const auto& row : block.bound) __builtin_prefetch(row.data());
+  for (const auto& row : block.bound) prefetchLine(row.data());
 }
 
 /// A tile that is being filled.

@@ -18,16 +18,7 @@
 #include <array>
 #include <iterator>
 
-#if HWY_ARCH_X86 && __has_include(<sys/platform/x86.h>)
-#define _Bool bool  // NOLINT(bugprone-reserved-identifier, readability-identifier-naming): the header is C.
-#include <sys/platform/x86.h>
-#undef _Bool
-#endif
-#ifdef CPU_FEATURE_ACTIVE
-#define ALLPAIRS_LIBC_KNOWS_PROCESSOR 1
-#else
-#define ALLPAIRS_LIBC_KNOWS_PROCESSOR 0
-#endif
+#include "memory/Platform.h"
 
 namespace allpairs::engine {
 namespace {
@@ -62,37 +53,21 @@ struct KernelList {
   }
 };
 
-#if ALLPAIRS_LIBC_KNOWS_PROCESSOR
-
-/// What Highway's targets need, as the C library found it at the start of the process. Highway would ask the processor
-/// again, which takes a virtual machine some 70 microseconds.
+/// The targets of Highway that run here. Highway would ask the processor again, which takes a virtual machine longer than
+/// most searches of few boxes.
 std::int64_t supportedTargets() {
+  const ProcessorLevel level = processorLevel();
+  if (level == ProcessorLevel::Unknown) return hwy::SupportedTargets();
   std::int64_t targets = 0;
-  const bool ssse3 = CPU_FEATURE_ACTIVE(SSE3) && CPU_FEATURE_ACTIVE(SSSE3);
-  const bool sse4 = ssse3 && CPU_FEATURE_ACTIVE(SSE4_1) && CPU_FEATURE_ACTIVE(SSE4_2) &&
-                    CPU_FEATURE_ACTIVE(PCLMULQDQ) && CPU_FEATURE_ACTIVE(AES);
-  const bool avx2 = sse4 && CPU_FEATURE_ACTIVE(AVX) && CPU_FEATURE_ACTIVE(AVX2) && CPU_FEATURE_ACTIVE(LZCNT) &&
-                    CPU_FEATURE_ACTIVE(BMI1) && CPU_FEATURE_ACTIVE(BMI2) && CPU_FEATURE_ACTIVE(FMA) &&
-                    CPU_FEATURE_ACTIVE(F16C);
-  const bool avx3 = avx2 && CPU_FEATURE_ACTIVE(AVX512F) && CPU_FEATURE_ACTIVE(AVX512VL) &&
-                    CPU_FEATURE_ACTIVE(AVX512DQ) && CPU_FEATURE_ACTIVE(AVX512BW) && CPU_FEATURE_ACTIVE(AVX512CD);
-  const bool avx3dl = avx3 && CPU_FEATURE_ACTIVE(AVX512_VNNI) && CPU_FEATURE_ACTIVE(VPCLMULQDQ) &&
-                      CPU_FEATURE_ACTIVE(AVX512_VBMI) && CPU_FEATURE_ACTIVE(AVX512_VBMI2) && CPU_FEATURE_ACTIVE(VAES) &&
-                      CPU_FEATURE_ACTIVE(AVX512_VPOPCNTDQ) && CPU_FEATURE_ACTIVE(AVX512_BITALG) &&
-                      CPU_FEATURE_ACTIVE(GFNI);
-  if (ssse3) targets |= HWY_SSSE3;
-  if (sse4) targets |= HWY_SSE4;
-  if (avx2) targets |= HWY_AVX2;
-  if (avx3) targets |= HWY_AVX3;
-  if (avx3dl) targets |= HWY_AVX3_DL;
+#if HWY_ARCH_X86
+  if (level >= ProcessorLevel::Ssse3) targets |= HWY_SSSE3;
+  if (level >= ProcessorLevel::Sse4) targets |= HWY_SSE4;
+  if (level >= ProcessorLevel::Avx2) targets |= HWY_AVX2;
+  if (level >= ProcessorLevel::Avx3) targets |= HWY_AVX3;
+  if (level >= ProcessorLevel::Avx3Dl) targets |= HWY_AVX3_DL;
+#endif
   return targets;
 }
-
-#else
-
-std::int64_t supportedTargets() { return hwy::SupportedTargets(); }
-
-#endif
 
 KernelList availableKernels() {
   KernelList result;

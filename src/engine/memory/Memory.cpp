@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "memory/Memory.h"
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
+#include "memory/Platform.h"
 
 namespace allpairs::engine {
 namespace {
-
-/// On x86 and on ARM with pages of 4 KiB.
-constexpr std::size_t kLargePage = std::size_t{2} << 20;
-
-/// Requests large pages for each aligned range within the block. If the system ignores the request, only first touches
-/// are slower. Aligning blocks to large pages costs more than it gains (docs/decisions/0015).
-void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
-#if defined(__linux__)
-  const auto address = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t begin = (address + kLargePage - 1) / kLargePage * kLargePage;
-  const std::uintptr_t end = (address + bytes) / kLargePage * kLargePage;
-  if (begin >= end) return;
-  static_cast<void>(madvise(static_cast<char*>(memory) + (begin - address), end - begin, MADV_HUGEPAGE));
-#endif
-}
 
 class LargePageMemory final : public std::pmr::memory_resource {
  private:

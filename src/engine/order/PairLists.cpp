@@ -7,6 +7,7 @@
 
 #include "bvh/RadixSort.h"
 #include "input/Parts.h"
+#include "memory/Platform.h"
 
 namespace allpairs::engine {
 namespace {
@@ -76,7 +77,7 @@ void PairLists::forEachList(Executor& executor, const Use& use) {
       return {partners + (first & ((std::uint64_t{1} << kPlaceBits) - 1)), m_length[row]};
     };
     for (std::size_t row = begin; row < end; ++row) {
-      if (row + kPrefetchDistance < end) __builtin_prefetch(listOf(row + kPrefetchDistance).data());
+      if (row + kPrefetchDistance < end) prefetchLine(listOf(row + kPrefetchDistance).data());
       const std::span<const std::uint32_t> list = listOf(row);
       use(row, list, before);
       before += list.size();

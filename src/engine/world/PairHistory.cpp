@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "memory/Platform.h"
+
 namespace allpairs::engine {
 namespace {
 
@@ -76,7 +78,7 @@ void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
   fresh.pairs.grow(fresh.size + found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
-    __builtin_prefetch(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
+    prefetchLine(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
     const std::size_t place = find(found[i]);
     if (place == m_result.pairs.size()) {
       fresh.pairs[fresh.size++] = found[i];
