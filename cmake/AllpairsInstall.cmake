@@ -7,17 +7,19 @@ get_property(allpairs_components GLOBAL PROPERTY ALLPAIRS_COMPONENTS)
 
 # Headers go with the library that implements them, so that a part that was not built has none.
 foreach(component IN LISTS allpairs_components)
+  allpairs_components_of(${component} library development)
   if(component STREQUAL "allpairs")
     file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/allpairs/*.h")
-    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs COMPONENT ${development})
   elseif(EXISTS "${PROJECT_SOURCE_DIR}/adapters/${component}/include")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/${component}/include/allpairs"
-            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${development})
   elseif(component STREQUAL "c")
-    install(FILES "${PROJECT_SOURCE_DIR}/include/allpairs.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(FILES "${PROJECT_SOURCE_DIR}/include/allpairs.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+            COMPONENT ${development})
   else()
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/allpairs/${component}"
-            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs)
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/allpairs COMPONENT ${development})
   endif()
 endforeach()
 
@@ -86,15 +88,18 @@ function(allpairs_install_pkg_config component needs packages)
   list(JOIN needs " " needs)
   list(JOIN packages " " packages)
   configure_file("${PROJECT_SOURCE_DIR}/cmake/allpairs.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
-  install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${folder}")
+  allpairs_components_of(${component} library development)
+  install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${folder}" COMPONENT ${development})
 endfunction()
 
 set(allpairs_links)
 foreach(component IN LISTS allpairs_components)
+  allpairs_components_of(${component} library development)
   install(
     EXPORT Allpairs_${component}
     NAMESPACE allpairs::
-    DESTINATION ${allpairs_package_dir})
+    DESTINATION ${allpairs_package_dir}
+    COMPONENT ${development})
   allpairs_read_links(${component})
   allpairs_install_pkg_config(${component} "${allpairs_needs}" "${allpairs_packages}")
 endforeach()

@@ -11,17 +11,50 @@ endif()
 # The installed tree can be moved: programs and libraries find ours beside them.
 file(RELATIVE_PATH allpairs_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_BUILD_RPATH_USE_ORIGIN ON) # in the build folder too, whose name would leave its length behind
-set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${allpairs_lib_from_bin}")
+set(allpairs_origin "$ORIGIN")
+if(APPLE)
+  set(allpairs_origin "@loader_path")
+endif()
+set(CMAKE_INSTALL_RPATH "${allpairs_origin};${allpairs_origin}/${allpairs_lib_from_bin}")
 
-# What is installed belongs to one of four: runtime (the command and shared libraries), dev (what else a program is built
-# with), python (the module), mpi (the program and the module for several machines, which are in no package). Where nothing is said it is dev.
+# The number behind .so, and that of Debian's packages of libraries: it goes up by one with a release that breaks programs
+# linked with the one before, whatever the number of the release. That of C, which breaks less, is counted for itself.
+set(ALLPAIRS_SOVERSION 0)
+set(ALLPAIRS_C_SOVERSION 0)
+
+# What is installed belongs to components, each of which is one package (AllpairsPackages.cmake): runtime (the command),
+# python (the module), and of each part its shared library, and what else a program is built with. Parts that need what
+# most users do without have components of their own. Those of mpi are in no package. Where nothing is said it is dev.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+
+# Sets the two variables to the components of a part: that of its shared library, and that of all else.
+function(allpairs_components_of part library_variable development_variable)
+  set(components lib dev)
+  if(part STREQUAL "c")
+    set(components c dev)
+  elseif(part STREQUAL "join")
+    set(components scene scene_dev)
+  elseif(part MATCHES "^(scene|fcl|bullet|mpi)$")
+    set(components ${part} ${part}_dev)
+  endif()
+  list(GET components 0 first)
+  list(GET components 1 second)
+  set(${library_variable} ${first} PARENT_SCOPE)
+  set(${development_variable} ${second} PARENT_SCOPE)
+endfunction()
 
 # Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend
 # on the instruction set; and without the path of the source tree in what is built.
 function(allpairs_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  if(MSVC)
+    # Visual C++ fuses no multiply-add unless /fp:contract or /fp:fast asks for it.
+    target_compile_options(${target} PRIVATE /W4 /permissive- /Zc:__cplusplus /utf-8 /fp:precise
+                           $<$<CXX_COMPILER_ID:Clang>:/clang:-ffp-contract=off> $<$<BOOL:${ALLPAIRS_WARNINGS_AS_ERRORS}>:/WX>)
+    target_compile_definitions(${target} PRIVATE NOMINMAX _CRT_SECURE_NO_WARNINGS)
+    return()
+  endif()
   target_compile_options(
     ${target}
     PRIVATE -ffp-contract=off
@@ -43,7 +76,7 @@ function(allpairs_configure target)
             # GCC 12 sees overlaps in plain std::string additions at -O3 (GCC bug 105651).
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
             # In a unity build GCC takes our sources for headers, whose types with members of unnamed namespaces it warns of.
-            $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
+            $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>)
   if(ALLPAIRS_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -55,16 +88,22 @@ function(allpairs_add_library target export_name)
   add_library(${target} ${ARGN})
   add_library(allpairs::${export_name} ALIAS ${target})
   allpairs_configure(${target})
-  set_target_properties(
-    ${target} PROPERTIES EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION}
-                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set(soversion ${ALLPAIRS_SOVERSION})
+  if(export_name STREQUAL "c")
+    set(soversion ${ALLPAIRS_C_SOVERSION})
+  endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION}
+                                             SOVERSION ${soversion})
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
                                               "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   if(ALLPAIRS_INSTALL)
+    allpairs_components_of(${export_name} library development)
     install(
       TARGETS ${target}
       EXPORT Allpairs_${export_name}
-      LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)
+      RUNTIME COMPONENT ${library}
+      LIBRARY COMPONENT ${library} NAMELINK_COMPONENT ${development}
+      ARCHIVE COMPONENT ${development})
     set_property(GLOBAL APPEND PROPERTY ALLPAIRS_COMPONENTS ${export_name})
   endif()
 endfunction()
