@@ -6,13 +6,16 @@ Why a backend of our own: those that run CMake (scikit-build-core, py-build-cmak
 suits, and would know nothing of CMake. What a wheel is made of is little: files, two texts about them, and a list.
 docs/decisions/0011-python-build.md has more.
 
-``--config-settings cmake.NAME=VALUE`` passes -DNAME=VALUE to CMake. ALLPAIRS_JOBS says how many jobs run at once.
+``--config-settings cmake.NAME=VALUE`` passes -DNAME=VALUE to CMake: cmake.ALLPAIRS_BUILD_SCENE=OFF builds the engine alone,
+which needs no reader of files. ALLPAIRS_JOBS says how many jobs run at once. repair_wheel.py, beside this file, makes a
+wheel self-contained.
 """
 
 from __future__ import annotations
 
 import base64
 import hashlib
+import importlib.util
 import io
 import os
 import pathlib
@@ -91,6 +94,7 @@ def stem():
 def cmake_arguments(build, prefix, config_settings):
     definitions = {
         "CMAKE_BUILD_TYPE": "Release",
+        "CMAKE_UNITY_BUILD": "ON",
         "BUILD_SHARED_LIBS": "OFF",
         "Python_EXECUTABLE": sys.executable,
         "ALLPAIRS_BUILD_PYTHON": "ON",
@@ -102,6 +106,8 @@ def cmake_arguments(build, prefix, config_settings):
         "CMAKE_INSTALL_PREFIX": str(prefix),
         "CMAKE_INSTALL_LIBDIR": "lib",
     }
+    if importlib.util.find_spec("pybind11"):  # of pip's; that of Debian's development package is where CMake looks
+        definitions["pybind11_DIR"] = importlib.import_module("pybind11").get_cmake_dir()
     for name, value in (config_settings or {}).items():
         if name.startswith("cmake."):
             definitions[name.removeprefix("cmake.")] = value
@@ -163,18 +169,23 @@ def information():
     }
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    name = f"{stem()}-{tag()}.whl"
+def write_wheel(path, package, information_files):
+    """A wheel of the files below the folder `package`, and of those of its .dist-info folder, by name."""
     folder = f"{stem()}.dist-info"
-    with tempfile.TemporaryDirectory(prefix="allpairs-") as temporary:
-        package = build_package(pathlib.Path(temporary), config_settings)
-        wheel = Wheel(pathlib.Path(wheel_directory) / name)
-        for file in sorted(path for path in package.rglob("*") if path.is_file()):
-            mode = 0o755 if file.suffix == ".so" else 0o644
-            wheel.add(file.relative_to(package).as_posix(), file.read_bytes(), mode)
-    for file, data in information().items():
+    wheel = Wheel(path)
+    for file in sorted(path for path in package.rglob("*") if path.is_file()):
+        mode = 0o755 if ".so" in file.suffixes else 0o644
+        wheel.add(file.relative_to(package).as_posix(), file.read_bytes(), mode)
+    for file, data in information_files.items():
         wheel.add(f"{folder}/{file}", data)
     wheel.close(f"{folder}/RECORD")
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    name = f"{stem()}-{tag()}.whl"
+    with tempfile.TemporaryDirectory(prefix="allpairs-") as temporary:
+        package = build_package(pathlib.Path(temporary), config_settings)
+        write_wheel(pathlib.Path(wheel_directory) / name, package, information())
     return name
 
 

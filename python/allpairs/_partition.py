@@ -71,6 +71,8 @@ def join(
     ------
     FileError
         If an input is none, or has a NaN, or a disk is full: with the file. It is a ValueError and an OSError.
+    ImportError
+        Of a build without readers of files.
 
     Examples
     --------
@@ -84,17 +86,19 @@ def join(
     >>> np.load(folder + "/pairs.npy")
     array([[0, 1]], dtype=uint32)
     """
+    from . import _reading
+
     paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     names = [os.fsdecode(path) for path in paths]
     if not names:
         raise InvalidArgument("inputs names no file")
     target = None if output is None else os.fsdecode(output)
-    options = _core.JoinOptions()
+    options = _reading.JoinOptions()
     options.distance = _arguments.number("distance", distance)
     options.memory = _arguments.whole("memory", memory)
     options.resume = bool(resume)
     options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
-    return JoinSummary(*_core.join_files(names, target, options, _arguments.threads_of(threads)))
+    return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
 
 def _cell_of(cell: npt.ArrayLike) -> list[float]:

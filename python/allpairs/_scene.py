@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import Literal, NamedTuple, Union
+from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _arguments, _core
+from . import _arguments
 from ._search import Pairs
+
+if TYPE_CHECKING:
+    from . import _files
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -62,7 +65,7 @@ class Scene:
         Where the result may not be what is expected, though no part was skipped: a scene without a collision pipeline.
     """
 
-    def __init__(self, core: _core.Scene) -> None:
+    def __init__(self, core: _files.Scene) -> None:
         self._core = core
         self.boxes: npt.NDArray[np.float32] | npt.NDArray[np.float64] = np.asarray(core)
         self.method = core.method()
@@ -117,7 +120,9 @@ class Scene:
         ndarray, shape (m, 2), uint32
             In the orientation and the order of the double loop: newer model first, (1, 0) (2, 0) (2, 1) (3, 0) ...
         """
-        options = _core.DetectionOptions()
+        from . import _reading
+
+        options = _reading.DetectionOptions()
         options.distance = None if distance is None else _arguments.number("distance", distance)
         options.strategy = _arguments.strategy_of(strategy)
         options.threads = _arguments.threads_of(threads)
@@ -170,11 +175,15 @@ def load(
     ------
     FileError
         With the file, line and column; it is a ValueError and an OSError.
+    ImportError
+        Of a build without readers of files.
     """
+    from . import _reading
+
     roots = [os.fsdecode(root) for root in search_roots]
     version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
     memory = _arguments.whole("max_memory", max_memory)
-    return Scene(_core.load(os.fsdecode(path), roots, bool(partial), version, bool(allow_outside), memory))
+    return Scene(_reading.load(os.fsdecode(path), roots, bool(partial), version, bool(allow_outside), memory))
 
 
 def detect(

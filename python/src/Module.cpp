@@ -8,7 +8,6 @@ PYBIND11_MODULE(_core, module) {
   allpairs::python::bindArguments(module);
   allpairs::python::bindSearch(module);
   allpairs::python::bindElements(module);
-  allpairs::python::bindScene(module);
   allpairs::python::bindWorld(module);
   allpairs::python::bindWorlds(module);
   allpairs::python::bindPartition(module);

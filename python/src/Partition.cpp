@@ -3,15 +3,12 @@
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,12 +17,9 @@
 #include "Boxes.h"
 #include "BufferProtocol.h"
 #include "IdPairArray.h"
-#include "Interrupts.h"
 #include "NumberArray.h"
 #include "Options.h"
 #include "allpairs/Error.h"
-#include "allpairs/join/Join.h"
-#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/partition/Cell.h"
 
 namespace allpairs::python {
@@ -102,24 +96,6 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
   return std::make_unique<OffsetArray>(std::move(rows), 2);
 }
 
-/// The fields of the package's JoinSummary, in its order.
-py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
-                    const std::optional<std::filesystem::path>& output, join::JoinOptions& options,
-                    std::size_t threads) {
-  constexpr std::size_t kLong = std::size_t{1} << 30;  // as many boxes: it may take long
-  StopFlag stop;
-  options.stop = &stop;
-  const join::JoinSummary summary = interruptibly(kLong, [&](Stopper& stopper) {
-    const Stopper::Hold hold(stopper, stop);
-    std::unique_ptr<Executor> executor;
-    if (threads != 1) executor = std::make_unique<parallel::TbbExecutor>(threads);
-    options.executor = executor.get();
-    return output ? join::joinFiles(inputs, *output, options) : join::countFiles(inputs, options);
-  });
-  return py::make_tuple(summary.pairs, summary.boxes, summary.cells, summary.copies, summary.wideBoxes,
-                        summary.boxBytes, summary.pairBytes, summary.resumedCells);
-}
-
 }  // namespace
 
 void bindPartition(py::module_& module) {
@@ -133,13 +109,6 @@ void bindPartition(py::module_& module) {
       .def("cells_of", &cellsOfBoxes)
       .def("__len__", &Partition::size);
   module.def("overlaps_in_cell", &overlapsInCell);
-  py::class_<join::JoinOptions>(module, "JoinOptions")
-      .def(py::init<>())
-      .def_readwrite("distance", &join::JoinOptions::distance)
-      .def_readwrite("memory", &join::JoinOptions::memory)
-      .def_readwrite("work", &join::JoinOptions::work)
-      .def_readwrite("resume", &join::JoinOptions::resume);
-  module.def("join_files", &joinFiles);
 }
 
 }  // namespace allpairs::python

@@ -15,7 +15,7 @@ import allpairs
 def of_modules():
     names = ["allpairs"] + [f"allpairs.{module.name}" for module in pkgutil.iter_modules(allpairs.__path__)]
     for name in names:
-        if name in ("allpairs._core", "allpairs._mpi"):
+        if name in ("allpairs._core", "allpairs._files", "allpairs._mpi"):
             continue
         needed = {"allpairs.dask": "dask", "allpairs.mpi": "mpi4py"}.get(name)
         if needed and importlib.util.find_spec(needed) is None:

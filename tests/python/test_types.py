@@ -9,7 +9,7 @@ import sys
 
 import allpairs
 import pytest
-from allpairs import _core
+from allpairs import _core, _files
 
 PACKAGE = pathlib.Path(allpairs.__file__).parent
 
@@ -74,14 +74,15 @@ def members(node):
     return public(fields | {part.name for part in node.body if isinstance(part, ast.FunctionDef)})
 
 
-def test_the_stub_of_the_extension_names_what_is_in_it_and_nothing_else():
-    stub = ast.parse((PACKAGE / "_core.pyi").read_text())
+@pytest.mark.parametrize("extension", [_core, _files])
+def test_the_stub_of_the_extension_names_what_is_in_it_and_nothing_else(extension):
+    stub = ast.parse((PACKAGE / f"{extension.__name__.rsplit('.')[-1]}.pyi").read_text())
     classes = {node.name: members(node) for node in stub.body if isinstance(node, ast.ClassDef)}
     functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
     values = {node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)}
-    assert public(vars(_core)) == set(classes) | functions | values
+    assert public(vars(extension)) == set(classes) | functions | values
     for name, stubbed in classes.items():
-        there = public(vars(getattr(_core, name)))
+        there = public(vars(getattr(extension, name)))
         enumeration = {"name", "value"} if "name" in there else set()  # pybind11's own
         constructor = {"__init__"} - stubbed  # of what is made by the extension only, or takes nothing
         assert there - enumeration - constructor == stubbed - ({"__init__"} - there), name

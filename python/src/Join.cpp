@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "allpairs/join/Join.h"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "Bindings.h"
+#include "Interrupts.h"
+#include "allpairs/parallel/TbbExecutor.h"
+
+namespace allpairs::python {
+namespace py = pybind11;
+namespace {
+
+/// The fields of the package's JoinSummary, in its order.
+py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
+                    const std::optional<std::filesystem::path>& output, join::JoinOptions& options,
+                    std::size_t threads) {
+  constexpr std::size_t kLong = std::size_t{1} << 30;  // as many boxes: it may take long
+  StopFlag stop;
+  options.stop = &stop;
+  const join::JoinSummary summary = interruptibly(kLong, [&](Stopper& stopper) {
+    const Stopper::Hold hold(stopper, stop);
+    std::unique_ptr<Executor> executor;
+    if (threads != 1) executor = std::make_unique<parallel::TbbExecutor>(threads);
+    options.executor = executor.get();
+    return output ? join::joinFiles(inputs, *output, options) : join::countFiles(inputs, options);
+  });
+  return py::make_tuple(summary.pairs, summary.boxes, summary.cells, summary.copies, summary.wideBoxes,
+                        summary.boxBytes, summary.pairBytes, summary.resumedCells);
+}
+
+}  // namespace
+
+void bindJoin(py::module_& module) {
+  py::class_<join::JoinOptions>(module, "JoinOptions")
+      .def(py::init<>())
+      .def_readwrite("distance", &join::JoinOptions::distance)
+      .def_readwrite("memory", &join::JoinOptions::memory)
+      .def_readwrite("work", &join::JoinOptions::work)
+      .def_readwrite("resume", &join::JoinOptions::resume);
+  module.def("join_files", &joinFiles);
+}
+
+}  // namespace allpairs::python
