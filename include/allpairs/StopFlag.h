@@ -19,7 +19,7 @@ class StopFlag {
   [[nodiscard]] bool isSet() const noexcept;
 
  private:
-  mutable bool m_isSet = false;  // not std::atomic, whose header is larger than all that a search needs besides
+  bool m_isSet = false;  // not std::atomic, whose header is larger than all that a search needs besides
 };
 
 }  // namespace allpairs

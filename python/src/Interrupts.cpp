@@ -30,6 +30,9 @@ class Running {
           m_isDone = true;
           m_changed.notify_all();
         }) {}
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running() { m_thread.join(); }
 
   /// Whether it is done, within the time between two looks.
   [[nodiscard]] bool isSoonDone() {
@@ -41,7 +44,7 @@ class Running {
   std::mutex m_mutex;
   std::condition_variable m_changed;
   bool m_isDone = false;
-  std::jthread m_thread;  // the last: it uses the others
+  std::thread m_thread;  // the last: it uses the others
 };
 
 /// Whether a signal handler raised an exception, which then is Python's current one, before the work was done.

@@ -3,8 +3,11 @@
 
 #include <cstddef>
 
-#if !defined(__GNUC__) && !defined(__clang__) && defined(_M_X64)
+#if !defined(__GNUC__) && !defined(__clang__)
+#include <atomic>
+#if defined(_M_X64)
 #include <xmmintrin.h>
+#endif
 #endif
 
 namespace allpairs::engine {
@@ -30,5 +33,22 @@ inline void prefetchLine([[maybe_unused]] const void* address) noexcept {
   _mm_prefetch(static_cast<const char*>(address), _MM_HINT_T0);
 #endif
 }
+
+// A flag that threads share, and signal handlers: std::atomic_ref, which LLVM's standard library has since its version 19.
+#if defined(__GNUC__) || defined(__clang__)
+static_assert(__atomic_always_lock_free(sizeof(bool), nullptr));
+
+inline void storeFlag(bool& flag, bool value) noexcept { __atomic_store_n(&flag, value, __ATOMIC_RELAXED); }
+[[nodiscard]] inline bool loadFlag(const bool& flag) noexcept { return __atomic_load_n(&flag, __ATOMIC_RELAXED); }
+#else
+static_assert(std::atomic_ref<bool>::is_always_lock_free);
+
+inline void storeFlag(bool& flag, bool value) noexcept {
+  std::atomic_ref(flag).store(value, std::memory_order_relaxed);
+}
+[[nodiscard]] inline bool loadFlag(const bool& flag) noexcept {
+  return std::atomic_ref(const_cast<bool&>(flag)).load(std::memory_order_relaxed);
+}
+#endif
 
 }  // namespace allpairs::engine

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/StopFlag.h"
 
-#include <atomic>
+#include "memory/Platform.h"
 
 namespace allpairs {
 
-static_assert(std::atomic_ref<bool>::is_always_lock_free);  // for signal handlers
-
-void StopFlag::set() noexcept { std::atomic_ref(m_isSet).store(true, std::memory_order_relaxed); }
-void StopFlag::clear() noexcept { std::atomic_ref(m_isSet).store(false, std::memory_order_relaxed); }
-bool StopFlag::isSet() const noexcept { return std::atomic_ref(m_isSet).load(std::memory_order_relaxed); }
+void StopFlag::set() noexcept { engine::storeFlag(m_isSet, true); }
+void StopFlag::clear() noexcept { engine::storeFlag(m_isSet, false); }
+bool StopFlag::isSet() const noexcept { return engine::loadFlag(m_isSet); }
 
 }  // namespace allpairs
