@@ -3,6 +3,7 @@
 #include "allpairs/World.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMostInWorld = 250;     // The double loop is quadratic.
 constexpr std::size_t kMostOperations = 120;  // Keeps an execution within milliseconds.
+constexpr std::array<std::uint32_t, 4> kWorlds{0, 1, kEveryWorld - 1, kEveryWorld};
 
 bool hasNanBound(const Box& box) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -122,6 +124,7 @@ class Life {
     if ((parts & 4U) != 0) p.category = 1U << m_choices.below(3);
     if ((parts & 8U) != 0) p.mask = m_choices.byte() % 8U;
     if ((parts & 16U) != 0) p.group = m_choices.byte() % 3U;
+    if ((parts & 32U) != 0) p.world = kWorlds[m_choices.below(kWorlds.size())];
     return p;
   }
 
@@ -238,7 +241,9 @@ class Life {
   }
 
   void unusual() {
-    switch (m_choices.below(4)) {
+    switch (m_choices.below(5)) {
+      case 3:
+        return m_world.shrink();
       case 0:
         m_world.clear();
         m_oracle.boxes.clear();
@@ -288,7 +293,25 @@ class Life {
     require(std::ranges::equal(result.began, m_oracle.began), "a step gives the pairs that began");
     require(std::ranges::equal(result.persisted, m_oracle.persisted), "a step gives the pairs that persisted");
     require(std::ranges::equal(result.ended, m_oracle.ended), "a step gives the pairs that ended");
+    if (!m_world.options().accept) compareEachWorld();
     compareBoxes();
+  }
+
+  void compareEachWorld() {
+    for (const std::uint32_t number : kWorlds) {
+      test::WorldOracle& oracle = m_each[number];
+      oracle.only = number;
+      oracle.distance = m_oracle.distance;
+      oracle.order = m_oracle.order;
+      oracle.boxes = m_oracle.boxes;
+      oracle.step();
+      const StepResult result = m_world.result(number);
+      require(std::ranges::equal(result.pairs, oracle.pairs), "a world's list has its pairs");
+      require(std::ranges::equal(result.began, oracle.began), "a world's list has the pairs that began in it");
+      require(std::ranges::equal(result.persisted, oracle.persisted),
+              "a world's list has the pairs that persisted in it");
+      require(std::ranges::equal(result.ended, oracle.ended), "a world's list has the pairs that ended in it");
+    }
   }
 
   void applyAccept() {
@@ -323,6 +346,7 @@ class Life {
     result.category = 1U << parts / 8 % 3;
     result.staticBoxes = (parts & 64U) != 0;
     result.dynamicBoxes = (parts & 32U) != 0;
+    result.world = kWorlds[m_choices.below(kWorlds.size())];
     return result;
   }
 
@@ -412,6 +436,7 @@ class Life {
   bool m_isBetween = false;
   World m_world;
   test::WorldOracle m_oracle;
+  std::map<std::uint32_t, test::WorldOracle> m_each;  ///< By world number.
   std::vector<Pair> m_lastPairs;
 };
 

@@ -21,6 +21,10 @@ namespace allpairs {
 /// changes since the previous step. The hierarchy of the boxes is kept between steps, so that a step costs what has
 /// changed: docs/decisions/0007 explains how, and when the hierarchy is rebuilt.
 ///
+/// A box may have the number of a world, one of many in the same object, such as the copies of a scene that robots learn
+/// in: boxes of different worlds are never pairs and are not tested against each other, wherever they are. Boxes of
+/// kEveryWorld, such as the ground, are in each. Without numbers all boxes are of world 0.
+///
 /// Geometry:  as in OverlapSearch: boxes are closed; empty boxes overlap nothing; infinite bounds are allowed. Bounds
 ///            given in float64 are exact. A margin is part of a pair's distance, and in queries enlarges the box
 ///            itself.
@@ -30,6 +34,9 @@ namespace allpairs {
 ///            the batch and whose message names the id; the batch then has no effect. Spans of different lengths, and a
 ///            BoxView with margins, throw InvalidArgument: here a margin is a property.
 /// Cost:      up to 200 bytes per box and 70 per pair. In a steady state, on the calling thread, nothing is allocated.
+///            With world numbers, a step searches the worlds in which a box has changed, each as a whole, and all of them
+///            if a box of every world has; when boxes were added, removed or given another world, it also passes over
+///            all boxes.
 /// Threads:   const members, queries included, may be called concurrently while no other member runs; all others one at
 ///            a time. Parallel inside if the options have an executor. Results never depend on threads or the
 ///            instruction set.
@@ -90,6 +97,8 @@ class World {
   void clear();
 
   /// Sets the properties of boxes: one per id, or one for all. Bad input: a margin that is NaN or -infinity.
+  ///
+  /// A box may also go to another world: its pairs end, and others begin.
   void setProperties(BoxId id, const BoxProperties& properties);
   void setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties);
 
@@ -120,6 +129,15 @@ class World {
   /// The result of the last step; empty before the first one.
   [[nodiscard]] StepResult result() const noexcept;
 
+  /// The lists of the last step for one world: the pairs of its boxes with each other and with those of every world, in
+  /// the same order. With kEveryWorld, the pairs of two boxes of every world. Empty for a number that no box has.
+  ///
+  /// A box that is given another world ends its pairs there and begins them here.
+  /// Cost:    O(log pairs), after a pass over all pairs in the first call after a step: cheap if ids ascend with the
+  ///          numbers of their worlds and boxes of every world were added last, else a sort with 24 bytes more per pair.
+  /// Threads: like a query.
+  [[nodiscard]] StepResult result(std::uint32_t world) const;
+
   [[nodiscard]] const WorldStatistics& statistics() const noexcept;
 
   /// All pairs of a box of this world and a box of `other` that overlap at the mean of the distances of the two worlds,
@@ -129,6 +147,9 @@ class World {
   [[nodiscard]] std::vector<Pair> findBetween(const World& other) const;
 
   /// The boxes that, enlarged by their own margins, overlap a box: by ascending id.
+  ///
+  /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds are
+  ///       searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;
   [[nodiscard]] ResultLists<BoxId> findOverlapping(const BoxView& boxes, const QueryFilter& filter = {}) const;
 

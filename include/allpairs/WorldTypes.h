@@ -25,16 +25,20 @@ using BoxId = std::uint32_t;
 /// An id that no box has.
 inline constexpr BoxId kNoBox = 0xFFFFFFFFU;
 
+/// The world number of a box that every world has, such as the ground; in a QueryFilter, of the boxes of all worlds.
+inline constexpr std::uint32_t kEveryWorld = 0xFFFFFFFFU;
+
 /// The properties of a box in a World, besides its bounds.
 ///
-/// Two boxes that overlap are a pair if each one's mask shares a bit with the other's category, they are not in the
-/// same non-zero group, and they are not both static.
+/// Two boxes that overlap are a pair if they are of the same world or one is of every world, each one's mask shares a bit
+/// with the other's category, they are not in the same non-zero group, and they are not both static.
 struct BoxProperties {
   std::uint32_t category = 0xFFFFFFFFU;  ///< The categories of the box, as bits.
   std::uint32_t mask = 0xFFFFFFFFU;      ///< The categories that it accepts as partners.
   std::uint32_t group = 0;               ///< Boxes of the same non-zero group are never paired.
   double margin = 0.0;                   ///< How far the box extends beyond its bounds; may be negative.
   bool isStatic = false;                 ///< Static boxes are never tested against each other. They may still be moved.
+  std::uint32_t world = 0;               ///< The number of the box's world, any number; or kEveryWorld.
 
   friend constexpr bool operator==(const BoxProperties&, const BoxProperties&) = default;
 };
@@ -86,7 +90,9 @@ struct WorldStatistics {
   std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double.
   std::uint64_t changed = 0;     ///< Boxes that were added, moved, removed or given other properties.
   bool joinedAll = false;        ///< Whether the step joined all boxes, instead of only the changed ones with all.
-  std::uint64_t rebuilds = 0;    ///< The number of full rebuilds of a hierarchy so far, by steps and queries.
+  /// The number of full rebuilds of a hierarchy so far, by steps and queries; with world numbers, of how often a world's
+  /// boxes were put in order.
+  std::uint64_t rebuilds = 0;
 };
 
 /// The points origin + t * direction with 0 <= t <= length.
@@ -124,12 +130,14 @@ struct Neighbor {
   friend constexpr bool operator==(const Neighbor&, const Neighbor&) = default;
 };
 
-/// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`.
+/// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`, of all
+/// worlds or of one.
 struct QueryFilter {
   std::uint32_t category = 0xFFFFFFFFU;
   std::uint32_t mask = 0xFFFFFFFFU;
-  bool staticBoxes = true;   ///< Whether it considers static boxes.
-  bool dynamicBoxes = true;  ///< Whether it considers the others.
+  bool staticBoxes = true;            ///< Whether it considers static boxes.
+  bool dynamicBoxes = true;           ///< Whether it considers the others.
+  std::uint32_t world = kEveryWorld;  ///< If not kEveryWorld: it considers the boxes of this world and of every world.
 };
 
 /// The results of many queries: those of query i are values[offsets[i]] to values[offsets[i + 1] - 1].

@@ -25,9 +25,14 @@ class Twins {
  public:
   explicit Twins(const WorldOptions& options = {}) : world(options) { oracle.distance = options.distance; }
 
+  /// Among the worlds, if there are several.
   void add(const std::vector<Box>& boxes, const BoxProperties& properties) {
-    const std::vector<BoxId> added = world.add(boxes, properties);
+    std::vector<BoxProperties> each(boxes.size(), properties);
+    for (std::size_t i = 0; i < boxes.size() && worlds > 1; ++i) each[i].world = static_cast<std::uint32_t>(i % worlds);
+    std::vector<BoxId> added(boxes.size());
+    world.add(boxes, each, added);
     noteAdded(added, boxes, properties);
+    for (std::size_t i = 0; i < added.size(); ++i) oracle.boxes[added[i]].properties = each[i];
   }
 
   void noteAdded(const std::vector<BoxId>& added, const std::vector<Box>& boxes, const BoxProperties& properties) {
@@ -67,6 +72,7 @@ class Twins {
   }
 
   World world;
+  std::size_t worlds = 1;
   test::WorldOracle oracle;
   std::vector<BoxId> ids;
 };
@@ -236,11 +242,12 @@ void changeForStep(Twins& twins, std::size_t moved) {
   for (std::size_t i = 0; i < moved; ++i) twins.oracle.boxes[some[i]].box = boxes[i];
 }
 
-void checkSteps(const WorldOptions& options) {
+void checkSteps(const WorldOptions& options, std::size_t worlds = 1) {
   for (const std::size_t moved : {0U, 30U, 250U}) {
     SCOPED_TRACE(std::to_string(moved) + " more boxes moved");
     test::failEachAllocation([&](test::Fault& fault) {
       Twins twins(options);
+      twins.worlds = worlds;
       prepare(twins);
       changeForStep(twins, moved);
       if (fault.during([&] { static_cast<void>(twins.world.step()); })) {
@@ -266,6 +273,43 @@ TEST(FailedWorldAllocation, OfAStepOnThreadsIsMadeUpForByTheNextStep) {
   options.executor = &threads;
   options.distance = 0.125;
   checkSteps(options);
+}
+
+/// Worlds small and large, the latter because there are more boxes of double.
+TEST(FailedWorldAllocation, OfAStepOfManyWorldsIsMadeUpForByTheNextStep) {
+  checkSteps({}, 10);
+  WorldOptions options;
+  options.distance = 0.125;
+  checkSteps(options, 2);
+}
+
+TEST(FailedWorldAllocation, OfTheFirstWorldNumberChangesNothing) {
+  BoxProperties properties;
+  properties.world = 3;
+  const auto some = [](Twins& twins) { return std::span<const BoxId>(twins.ids).subspan(5, 100); };
+  check(
+      [&](Twins& twins) {
+        twins.world.setProperties(some(twins), {&properties, 1});
+      },
+      [&](Twins& twins) {
+        for (const BoxId id : some(twins)) twins.oracle.boxes[id].properties = properties;
+      });
+}
+
+TEST(FailedWorldAllocation, OfTheListsOfAWorldChangesNone) {
+  test::failEachAllocation([](test::Fault& fault) {
+    Twins twins;
+    twins.worlds = 3;
+    prepare(twins);
+    twins.step();
+    static_cast<void>(fault.during([&] { static_cast<void>(twins.world.result(1)); }));
+    test::WorldOracle one = twins.oracle;
+    one.only = 1;
+    one.pairs.clear();
+    one.step();
+    ASSERT_EQ(test::toVector(twins.world.result(1).pairs), one.pairs);
+    twins.compareStep();
+  });
 }
 
 TEST(FailedWorldAllocation, OfTheFirstStepIsMadeUpForByTheNextStep) {
@@ -308,9 +352,11 @@ TEST(FailedWorldAllocation, OfQueriesChangesNoBoxAndNoPair) {
       [&](World& world) { static_cast<void>(world.findAll(std::span<const BoxSweep>(sweeps))); },
       [&](World& world) { static_cast<void>(world.findAll(std::span<const Ray>(rays))); },
       [&](World& world) { static_cast<void>(world.findNearest(points, 5)); }};
-  for (const auto& query : each) {
+  for (std::size_t k = 0; k < 2 * each.size(); ++k) {
+    const auto& query = each[k / 2];
     test::failEachAllocation([&](test::Fault& fault) {
       Twins twins;
+      twins.worlds = k % 2 == 0 ? 1 : 4;
       prepare(twins);
       static_cast<void>(fault.during([&] { query(twins.world); }));
       twins.compareBoxes();

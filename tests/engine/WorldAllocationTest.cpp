@@ -47,6 +47,29 @@ TEST_P(WorldAllocation, StepsInASteadyStateAllocateNothing) {
   }
 }
 
+TEST_P(WorldAllocation, StepsOfManyWorldsInASteadyStateAllocateNothing) {
+  for (const std::size_t worlds : {std::size_t{3}, std::size_t{100}}) {
+    const std::vector<BoxF> boxes = test::randomBoxes(5000, 43, 4.0F);
+    std::vector<BoxProperties> properties(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) properties[i].world = static_cast<std::uint32_t>(i % worlds);
+    World world;
+    std::vector<BoxId> ids(boxes.size());
+    world.add(boxes, properties, ids);
+    ids.resize(GetParam());
+    for (std::size_t frame = 0; frame < 200; ++frame) {
+      const std::vector<BoxF> now =
+          swung({boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(ids.size())}, frame);
+      const std::size_t before = test::allocationCount();
+      world.move(ids, now);
+      static_cast<void>(world.step());
+      static_cast<void>(world.result(1));
+      if (frame >= 100) {
+        ASSERT_EQ(test::allocationCount() - before, 0U) << "frame " << frame;
+      }
+    }
+  }
+}
+
 TEST(WorldAllocation, ComingAndGoingKeepsTheMemoryFlat) {
   const std::vector<BoxF> boxes = test::randomBoxes(2000, 42);
   World world;

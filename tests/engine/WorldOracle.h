@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct WorldOracle {
   std::vector<Pair> pairs, began, persisted, ended;
   double distance = 0.0;
   Order order = Order::ByFirst;
+  std::optional<std::uint32_t> only;  ///< If set, pairs of this world alone: those that a World lists for it.
 
   static bool empty(const Box& b) { return b.min[0] > b.max[0] || b.min[1] > b.max[1] || b.min[2] > b.max[2]; }
 
@@ -38,6 +40,7 @@ struct WorldOracle {
 
   static bool mayPair(const BoxProperties& a, const BoxProperties& b) {
     if (a.isStatic && b.isStatic) return false;
+    if (a.world != kEveryWorld && b.world != kEveryWorld && a.world != b.world) return false;
     if ((a.category & b.mask) == 0 || (b.category & a.mask) == 0) return false;
     return a.group == 0 || a.group != b.group;
   }
@@ -53,6 +56,8 @@ struct WorldOracle {
       for (auto b = std::next(a); b != boxes.end(); ++b) {
         const double d = distance + a->second.properties.margin + b->second.properties.margin;
         if (apart(a->second.box, b->second.box, d)) continue;
+        const std::uint32_t world = std::min(a->second.properties.world, b->second.properties.world);
+        if (only && *only != world) continue;
         if (mayPair(a->second.properties, b->second.properties)) now.push_back({a->first, b->first});
       }
     }
@@ -67,6 +72,7 @@ struct WorldOracle {
   }
 
   static bool looksAt(const BoxProperties& p, const QueryFilter& f) {
+    if (f.world != kEveryWorld && p.world != kEveryWorld && p.world != f.world) return false;
     return (p.category & f.mask) != 0 && (p.mask & f.category) != 0 && (p.isStatic ? f.staticBoxes : f.dynamicBoxes);
   }
 

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct Life {
   bool margins = false;
   bool filters = false;
   bool jumps = false;
+  std::size_t worlds = 0;  ///< World numbers; 0 if boxes are given none.
+  double sharedShare = 0.0;
+  bool resets = false;  ///< Whether only boxes of one world move in a step.
   double distance = 0.0;
   std::uint32_t seed = 0;
 };
@@ -33,8 +37,9 @@ struct Life {
 std::ostream& operator<<(std::ostream& out, const Life& life) {
   return out << life.boxes << " boxes, " << life.steps << " steps, moved " << life.movedShare << ", static "
              << life.staticShare << (life.float32 ? ", float32" : ", float64") << (life.margins ? ", margins" : "")
-             << (life.filters ? ", filters" : "") << (life.jumps ? ", jumps" : "") << ", distance " << life.distance
-             << ", seed " << life.seed;
+             << (life.filters ? ", filters" : "") << (life.jumps ? ", jumps" : "") << ", " << life.worlds
+             << " worlds, shared " << life.sharedShare << (life.resets ? ", resets" : "") << ", distance "
+             << life.distance << ", seed " << life.seed;
 }
 
 /// Leads the life with a world and the oracle side by side.
@@ -43,7 +48,11 @@ class Lives {
   Lives(const Life& life, const WorldOptions& options) : m_life(life), m_world(options), m_random(life.seed) {
     m_oracle.distance = life.distance;
     m_oracle.order = options.order;
-    while (m_side * m_side * m_side < static_cast<double>(life.boxes)) m_side += 0.25;
+    // Boxes of different worlds are in the same place.
+    const double boxes = static_cast<double>(life.boxes) / static_cast<double>(std::max<std::size_t>(1, life.worlds));
+    while (m_side * m_side * m_side < boxes) m_side += 0.25;
+    for (std::size_t i = 0; i < life.worlds; ++i) noteWorld(anyWorld(i));
+    if (life.worlds != 0) noteWorld(kEveryWorld);
   }
 
   void lead() {
@@ -81,6 +90,17 @@ class Lives {
     return box;
   }
 
+  /// Not one after the other, and some as large as can be.
+  static std::uint32_t anyWorld(std::size_t i) {
+    return i % 3 == 2 ? kEveryWorld - static_cast<std::uint32_t>(i) : static_cast<std::uint32_t>(7 * i % 64);
+  }
+
+  void noteWorld(std::uint32_t number) {
+    m_each[number].only = number;
+    m_each[number].distance = m_oracle.distance;
+    m_each[number].order = m_oracle.order;
+  }
+
   Box moved(Box box) {
     if (chance(m_life.jumps ? 0.2 : 0.01)) return anyBox();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -95,6 +115,7 @@ class Lives {
     BoxProperties p;
     p.isStatic = chance(m_life.staticShare);
     if (m_life.margins) p.margin = 0.1 * static_cast<double>(below(5)) - 0.1;
+    if (m_life.worlds != 0) p.world = chance(m_life.sharedShare) ? kEveryWorld : anyWorld(below(m_life.worlds));
     if (!m_life.filters) return p;
     p.category = 1U << below(3);
     p.mask = static_cast<std::uint32_t>(below(8));
@@ -132,7 +153,9 @@ class Lives {
   void moveSome() {
     std::vector<Box> boxes;
     std::vector<BoxId> ids;
-    for (const BoxId id : someIds(m_life.movedShare)) {
+    const std::uint32_t reset = m_life.worlds == 0 ? 0 : anyWorld(below(m_life.worlds));
+    for (const BoxId id : someIds(m_life.resets ? 1.0 : m_life.movedShare)) {
+      if (m_life.resets && m_oracle.boxes[id].properties.world != reset) continue;
       if (m_oracle.boxes[id].properties.isStatic && !chance(0.05)) continue;
       ids.push_back(id);
       boxes.push_back(moved(m_oracle.boxes[id].box));
@@ -161,9 +184,10 @@ class Lives {
   void change() {
     if (chance(0.1)) return;
     moveSome();
-    if (chance(0.5)) removeSome();
-    if (chance(0.3)) changeSome();
+    if (chance(m_life.resets ? 0.2 : 0.5)) removeSome();
+    if (chance(m_life.resets ? 0.1 : 0.3)) changeSome();
     if (chance(0.2)) moveSome();
+    if (chance(0.05)) m_world.shrink();
     ASSERT_EQ(m_world.size(), m_oracle.boxes.size());
   }
 
@@ -174,10 +198,26 @@ class Lives {
     ASSERT_EQ(test::toVector(result.began), m_oracle.began);
     ASSERT_EQ(test::toVector(result.persisted), m_oracle.persisted);
     ASSERT_EQ(test::toVector(result.ended), m_oracle.ended);
+    compareEachWorld();
+  }
+
+  void compareEachWorld() {
+    const bool looks = chance(0.5);  // Lists are grouped only for those who ask.
+    for (auto& [number, oracle] : m_each) {
+      oracle.boxes = m_oracle.boxes;
+      oracle.step();
+      if (!looks) continue;
+      const StepResult result = m_world.result(number);
+      ASSERT_EQ(test::toVector(result.pairs), oracle.pairs) << "world " << number;
+      ASSERT_EQ(test::toVector(result.began), oracle.began) << "world " << number;
+      ASSERT_EQ(test::toVector(result.persisted), oracle.persisted) << "world " << number;
+      ASSERT_EQ(test::toVector(result.ended), oracle.ended) << "world " << number;
+    }
   }
 
   QueryFilter anyFilter() {
     QueryFilter filter;
+    if (m_life.worlds != 0 && chance(0.7)) filter.world = anyWorld(below(m_life.worlds + 1));
     if (chance(0.5)) return filter;
     filter.mask = static_cast<std::uint32_t>(below(8));
     filter.category = static_cast<std::uint32_t>(1 + below(7));
@@ -260,6 +300,7 @@ class Lives {
   Life m_life;
   World m_world;
   test::WorldOracle m_oracle;
+  std::map<std::uint32_t, test::WorldOracle> m_each;  ///< By world number.
   std::mt19937 m_random;
   double m_side = 1.0;
 };
@@ -274,6 +315,9 @@ Life anyLife() {
   life.margins = *rc::gen::arbitrary<bool>();
   life.filters = *rc::gen::arbitrary<bool>();
   life.jumps = *rc::gen::arbitrary<bool>();
+  life.worlds = *rc::gen::element<std::size_t>(0, 0, 1, 2, 5, 40);
+  life.sharedShare = *rc::gen::element(0.0, 0.02, 0.2);
+  life.resets = life.worlds > 1 && *rc::gen::arbitrary<bool>();
   life.distance = *rc::gen::element(0.0, 0.0, 0.25, -0.25);
   life.seed = *rc::gen::arbitrary<std::uint32_t>();
   return life;
@@ -293,6 +337,24 @@ class WorldInstructionSet : public ::testing::TestWithParam<std::string_view> {}
 
 INSTANTIATE_TEST_SUITE_P(EachInstructionSet, WorldInstructionSet,
                          ::testing::ValuesIn(instructionSets().begin(), instructionSets().end()));
+
+TEST_P(WorldInstructionSet, GivesTheOraclesListsOfWorldsLargeAndSmall) {
+  Life life;
+  life.sharedShare = 0.02;
+  for (const bool float32 : {true, false}) {
+    for (const std::size_t worlds : {std::size_t{2}, std::size_t{30}}) {
+      life.float32 = float32;
+      life.worlds = worlds;
+      life.boxes = worlds == 2 ? 1200 : 600;
+      life.steps = 8;
+      life.staticShare = float32 ? 0.0 : 0.3;
+      life.seed = static_cast<std::uint32_t>(worlds);
+      WorldOptions options;
+      options.instructionSet = GetParam();
+      Lives(life, options).lead();
+    }
+  }
+}
 
 TEST_P(WorldInstructionSet, GivesTheOraclesListsAndQueries) {
   Life life;

@@ -4,6 +4,9 @@
 // for the worlds side by side in space, whose pairs are then divided. Worlds differ, since a processor learns the branches of
 // a scene that it sees again; each round has other worlds too.
 //
+// Then worlds whose boxes all move a little in every step, or of which one is reset: a World whose boxes have world numbers,
+// in turns with the one-shot search of the same boxes, and with a World without numbers that holds the worlds side by side.
+//
 //   worlds_benchmark [--rounds R] [--instruction-set NAME]
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,6 +22,7 @@
 
 #include "RunMain.h"
 #include "Stopwatch.h"
+#include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 #include "allpairs/generate/BoxScenes.h"
 
@@ -180,6 +184,78 @@ void compare(std::size_t worlds, std::size_t boxes, std::size_t rounds, const st
   std::printf(" %.0f | %.1f |\n", 1e6 * own / static_cast<double>(worlds), best / own);
 }
 
+/// Rows of which each box is moved along each axis, there and back, by up to a tenth of its side from step to step.
+std::vector<float> swung(std::vector<float> rows, std::size_t step) {
+  const std::vector<float> old = rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const float side = old[i / 6 * 6 + i % 3 + 3] - old[i / 6 * 6 + i % 3];
+    const auto phase = static_cast<float>(i / 6) + 2.0F * static_cast<float>(i % 3);
+    rows[i] += 0.14F * side * std::sin(0.7F * static_cast<float>(step) + phase);
+  }
+  return rows;
+}
+
+/// A World with the boxes of a scene.
+class MovingWorld {
+ public:
+  MovingWorld(const Scene& scene, std::span<const float> rows, bool isNumbered, const std::string& instructionSet)
+      : m_world(options(instructionSet)), m_ids(rows.size() / 6) {
+    std::vector<BoxProperties> properties(m_ids.size());
+    for (std::size_t i = 0; i < m_ids.size() && isNumbered; ++i) {
+      properties[i].world = static_cast<std::uint32_t>(i / scene.boxes);
+    }
+    m_world.add(BoxView::fromRows(rows), properties, m_ids);
+    static_cast<void>(m_world.step());
+  }
+
+  /// Moves as many boxes as there are rows, from one on, and makes a step; returns the number of pairs.
+  std::size_t step(std::span<const float> rows, std::size_t first = 0) {
+    m_world.move(std::span(m_ids).subspan(first, rows.size() / 6), BoxView::fromRows(rows));
+    return m_world.step().pairs.size();
+  }
+
+ private:
+  static WorldOptions options(const std::string& instructionSet) {
+    WorldOptions options;
+    options.instructionSet = instructionSet;
+    return options;
+  }
+
+  World m_world;
+  std::vector<BoxId> m_ids;
+};
+
+void compareMoving(std::size_t worlds, std::size_t boxes, std::size_t rounds, const std::string& instructionSet) {
+  const Scene scene(worlds, boxes, 7);
+  OverlapOptions options;
+  options.instructionSet = instructionSet;
+  WorldsSearch oneShot(options);
+  MovingWorld numbered(scene, scene.rows, true, instructionSet);
+  MovingWorld aside(scene, scene.apart, false, instructionSet);
+  std::array<std::vector<double>, 4> ms;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const std::vector<float> rows = swung(scene.rows, round);
+    const std::vector<float> apart = swung(scene.apart, round);
+    const auto time = [&](std::size_t i, const auto& work) {
+      const measure::Stopwatch watch;
+      const std::size_t pairs = work();
+      ms[i].push_back(watch.elapsed().cpuMs);
+      return pairs;
+    };
+    const std::size_t expected = time(
+        0, [&] { return oneShot.find(Worlds::ofEqualSize(BoxView::fromRows(std::span(rows)), worlds)).pairs.size(); });
+    const std::size_t found = time(1, [&] { return numbered.step(rows); });
+    if (found != expected) throw std::runtime_error("the World found another number of pairs");
+    time(2, [&] { return aside.step(apart); });
+    const std::size_t world = 7 * round % worlds;
+    const std::vector<float> reset = swung(scene.rows, round + 5);
+    time(3, [&] { return numbered.step(std::span(reset).subspan(6 * boxes * world, 6 * boxes), boxes * world); });
+  }
+  std::printf("| %zu of %zu |", worlds, boxes);
+  for (const std::vector<double>& values : ms) std::printf(" %.2f |", medianOf(values));
+  std::printf(" %.2f |\n", medianOf(ms[1]) / medianOf(ms[0]));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -198,6 +274,13 @@ int main(int argc, char** argv) {
     compare(4096, 64, rounds, instructionSet);
     compare(1024, 200, rounds, instructionSet);
     compare(256, 400, rounds, instructionSet);
+    std::printf(
+        "\nWorlds that move, the same measure.\n\n| worlds | one-shot, kept | World, all move | World side by side |"
+        " World, one reset | all move to one-shot |\n|---|---:|---:|---:|---:|---:|\n");
+    for (const auto& [worlds, boxes] :
+         {std::pair<std::size_t, std::size_t>{32768, 5}, {8192, 20}, {4096, 64}, {1024, 200}, {64, 4000}}) {
+      compareMoving(worlds, boxes, rounds, instructionSet);
+    }
     return 0;
   });
 }

@@ -8,7 +8,19 @@
 namespace allpairs::engine {
 namespace {
 
-std::size_t blockCountFor(std::size_t size) { return (size + kFanOut - 1) / kFanOut; }
+LaneBox boundsOf(const LaneBlock& block) noexcept {
+  LaneBox result = block.get(0);
+  for (std::size_t lane = 1; lane < kFanOut; ++lane) {
+    const LaneBox box = block.get(lane);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.bound[axis] = std::min(result.bound[axis], box.bound[axis]);
+      result.bound[axis + 3] = std::max(result.bound[axis + 3], box.bound[axis + 3]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
 
 void emptyBlock(LaneBlock& block) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -16,8 +28,6 @@ void emptyBlock(LaneBlock& block) {
     block.bound[axis + 3].fill(-kNever);
   }
 }
-
-}  // namespace
 
 void BvhLevels::reset(std::size_t capacity) {
   m_capacity = capacity;
@@ -92,18 +102,6 @@ void BvhLevels::boundSome(std::span<std::uint32_t> blocks, const Kernels& kernel
   }
 }
 
-LaneBox BvhLevels::boundsOf(const LaneBlock& block) const noexcept {
-  LaneBox result = block.get(0);
-  for (std::size_t lane = 1; lane < kFanOut; ++lane) {
-    const LaneBox box = block.get(lane);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      result.bound[axis] = std::min(result.bound[axis], box.bound[axis]);
-      result.bound[axis + 3] = std::max(result.bound[axis + 3], box.bound[axis + 3]);
-    }
-  }
-  return result;
-}
-
 BvhView BvhLevels::view() const {
   BvhView result;
   result.ids = m_ids.data();
@@ -113,8 +111,8 @@ BvhView BvhLevels::view() const {
   return result;
 }
 
-BvhView BvhLevels::view(std::size_t depth, Tops& tops) const {
-  BvhView result = view();
+BvhView deepened(const BvhView& view, std::size_t depth, BvhTops& tops) {
+  BvhView result = view;
   if (result.depth == 0) return result;
   for (; result.depth < depth; ++result.depth) {
     LaneBlock& top = tops[result.depth];

@@ -17,6 +17,12 @@ namespace allpairs::engine {
 /// How many boxes ahead of those that are gathered into blocks others are prefetched (allpairs bench).
 inline constexpr std::size_t kPrefetchBoxes = 32;
 
+/// The blocks that so many boxes, or blocks of the level below, fill.
+[[nodiscard]] inline std::size_t blockCountFor(std::size_t size) noexcept { return (size + kFanOut - 1) / kFanOut; }
+
+/// Has a block hold lanes that overlap nothing.
+void emptyBlock(LaneBlock& block);
+
 /// The memory of a hierarchy: blocks of boxes and, level by level, their bounds. Boxes may be added and changed in
 /// place.
 class BvhLevels {
@@ -53,18 +59,11 @@ class BvhLevels {
   /// Updates the bounds of some blocks, given by ascending number, and of their ancestors. Overwrites the list.
   void boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor);
 
-  /// The blocks of levels that are added on top of a hierarchy.
-  using Tops = std::array<LaneBlock, kMaxLevels>;
-
   /// The hierarchy; of depth 0 if it is empty.
   [[nodiscard]] BvhView view() const;
 
-  /// The same, with levels of one node added on top until there are `depth`, in memory of the caller.
-  [[nodiscard]] BvhView view(std::size_t depth, Tops& tops) const;
-
  private:
   [[nodiscard]] std::size_t sizeOf(std::size_t level) const noexcept;
-  [[nodiscard]] LaneBox boundsOf(const LaneBlock& block) const noexcept;
 
   std::array<Buffer<LaneBlock>, kMaxLevels> m_levels;
   std::array<std::size_t, kMaxLevels> m_clean{};  ///< By level: blocks from here on hold lanes that overlap nothing.
@@ -75,15 +74,23 @@ class BvhLevels {
   std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were last bounded.
 };
 
+/// The blocks of levels that are added on top of a hierarchy.
+using BvhTops = std::array<LaneBlock, kMaxLevels>;
+
+/// A hierarchy with levels of one node added on top until there are `depth`, in memory of the caller; one of depth 0 as it
+/// is.
+[[nodiscard]] BvhView deepened(const BvhView& view, std::size_t depth, BvhTops& tops);
+
 /// Two hierarchies of the same depth, as a join requires.
 struct BvhPair {
-  BvhPair(const BvhLevels& one, const BvhLevels& other)
-      : first(one.view(other.depth(), firstTops)), second(other.view(one.depth(), secondTops)) {}
+  BvhPair(const BvhView& one, const BvhView& other)
+      : first(deepened(one, other.depth, firstTops)), second(deepened(other, one.depth, secondTops)) {}
+  BvhPair(const BvhLevels& one, const BvhLevels& other) : BvhPair(one.view(), other.view()) {}
   BvhPair(const BvhPair&) = delete;
   BvhPair& operator=(const BvhPair&) = delete;
 
-  BvhLevels::Tops firstTops;
-  BvhLevels::Tops secondTops;
+  BvhTops firstTops;
+  BvhTops secondTops;
   BvhView first;
   BvhView second;
 };

@@ -65,6 +65,10 @@ void sortDenseCell(std::span<CurveKey> cell, CurveKey* spare, const BoxReader& r
 
 }  // namespace
 
+void sortAlongCurve(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader& reader) {
+  if (!boxes.empty()) sortDenseCell(boxes, spare, reader, 1);
+}
+
 unsigned KeyRun::usedBits() const noexcept {
   return std::max(kIndexBits, kIndexBits + static_cast<unsigned>(std::bit_width(allKeys)));
 }

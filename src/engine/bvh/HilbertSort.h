@@ -34,6 +34,10 @@ void writeKeys(const BoxReader& reader, const CurveGrid& grid, const BoxList& bo
 void sortDenseCells(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader& reader, Executor& executor,
                     std::pmr::vector<std::span<CurveKey>>& cells);
 
+/// Sorts boxes, given by their indices without keys, along the curve on a grid of their own. `spare` has room for as many
+/// boxes and is overwritten.
+void sortAlongCurve(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader& reader);
+
 /// Sorts boxes along a space-filling curve, by key and then by index, and the boxes of a dense cell again, so that
 /// boxes that are near each other and similar in size and shape become neighbours in the order.
 ///

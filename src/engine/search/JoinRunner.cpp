@@ -67,6 +67,13 @@ void JoinRunner::run(const Job& job, Executor& executor) {
   });
 }
 
+std::uint64_t JoinRunner::runWhole(const Job& job, Worker& worker) const {
+  const std::uint64_t before = worker.sink.hits().boxTests;
+  const auto part = m_stop == nullptr ? &JoinRunner::runPart : &JoinRunner::runInStretches;
+  (this->*part)(job, 0, job.units, worker);
+  return worker.sink.hits().boxTests - before;
+}
+
 void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
   if (begin == end) return;
   if (job.isFlat) {

@@ -54,6 +54,18 @@ class JoinRunner {
   /// Runs all tasks of a job. Sinks keep what they have.
   void run(const Job& job, Executor& executor);
 
+  /// Runs tasks of many small joins: use(task, join), where join(job) runs a job into the sink of the task's worker and
+  /// returns the number of box tests.
+  template <class Use>
+  void runTasks(std::size_t tasks, Executor& executor, const Use& use) {
+    executor.run(tasks, [&](std::size_t task) {
+      m_workers.withOne([&](std::size_t, Worker& worker) {
+        use(task, [&](const Job& job) { return runWhole(job, worker); });
+        worker.sink.finish();
+      });
+    });
+  }
+
   /// Calls use(scratch), between runs, with memory of a worker, for so many numbers at least, that no other task has meanwhile.
   template <class Use>
   void withScratch(std::size_t size, const Use& use) {
@@ -77,6 +89,7 @@ class JoinRunner {
     NeighborLists* lists = nullptr;  ///< Those of the running job.
   };
 
+  std::uint64_t runWhole(const Job& job, Worker& worker) const;
   void runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
   void runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const;
 

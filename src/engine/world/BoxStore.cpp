@@ -77,10 +77,6 @@ Box readBounds(const T* row) {
   return box;
 }
 
-bool anyMargin(std::span<const BoxProperties> properties) {
-  return std::any_of(properties.begin(), properties.end(), [](const BoxProperties& p) { return p.margin != 0.0; });
-}
-
 /// Reserves memory for that many values; at least doubles, so that adding boxes one by one is linear.
 template <class T>
 void makeRoom(std::pmr::vector<T>& values, std::size_t size) {
@@ -89,39 +85,50 @@ void makeRoom(std::pmr::vector<T>& values, std::size_t size) {
 
 }  // namespace
 
+BoxStore::Needs BoxStore::Needs::of(std::span<const BoxProperties> properties) noexcept {
+  Needs needs;
+  for (const BoxProperties& p : properties) {
+    needs.margins = needs.margins || p.margin != 0.0;
+    needs.worlds = needs.worlds || p.world != 0;
+  }
+  return needs;
+}
+
 void BoxStore::reserve(std::size_t boxes) {
   if (boxes > kNoBox) throw InvalidArgument(std::to_string(boxes) + " boxes; at most 4294967295 can be numbered");
   m_setIsCurrent = false;  // The rows may move.
-  reserveRoom(boxes, false, !m_margins.empty());
+  reserveRoom(boxes, {});
 }
 
 /// Allocates what boxes with ids below the bound need, and changes nothing else.
-void BoxStore::reserveRoom(std::size_t bound, bool float64, bool margins) {
+void BoxStore::reserveRoom(std::size_t bound, Needs needs) {
   makeRoom(m_flags, bound);
   makeRoom(m_filters, bound);
   makeRoom(m_touched, bound + 1);
   makeRoom(m_stale, bound + 1);
-  if (margins) makeRoom(m_margins, bound);
-  if (m_isFloat64 || float64) {
+  if (needs.margins || !m_margins.empty()) makeRoom(m_margins, bound);
+  if (needs.worlds || !m_worlds.empty()) makeRoom(m_worlds, bound);
+  if (m_isFloat64 || needs.float64) {
     makeRoom(m_rows64, 6 * bound);
   } else {
     makeRoom(m_rows32, 6 * bound);
   }
 }
 
-/// Creates ids below the bound, and float64 rows and margins if they are needed and missing. A change allocates
-/// everything before it changes anything: a batch is applied completely or not at all.
-void BoxStore::prepare(std::size_t bound, bool float64, bool margins) {
-  margins = margins || !m_margins.empty();
-  reserveRoom(bound, float64, margins);
+/// Creates ids below the bound, and float64 rows, margins and world numbers if they are needed and missing. A change
+/// allocates everything before it changes anything: a batch is applied completely or not at all.
+void BoxStore::prepare(std::size_t bound, Needs needs) {
+  reserveRoom(bound, needs);
   // Nothing below throws: memory is reserved.
-  if (float64 && !m_isFloat64) widenToDouble();
+  if (needs.float64 && !m_isFloat64) widenToDouble();
+  const bool margins = needs.margins || !m_margins.empty();
   m_setIsCurrent = m_setIsCurrent && bound == idBound() && m_margins.empty() == !margins;
   m_flags.resize(bound, 0);
   m_filters.resize(bound);
   m_touched.resize(bound + 1);
   m_stale.resize(bound + 1);
   if (margins) m_margins.resize(bound, 0.0);
+  if (needs.worlds || !m_worlds.empty()) m_worlds.resize(bound, 0);
   if (m_isFloat64) {
     m_rows64.resize(6 * bound, 0.0);
   } else {
@@ -136,12 +143,13 @@ void BoxStore::shrink() noexcept {
   m_rows32.resize(m_isFloat64 ? 0 : 6 * bound);
   m_rows64.resize(m_isFloat64 ? 6 * bound : 0);
   m_margins.resize(m_margins.empty() ? 0 : bound);
+  m_worlds.resize(m_worlds.empty() ? 0 : bound);
   m_filters.resize(bound);
   m_flags.resize(bound);
   m_touched.resize(bound + 1);
   m_stale.resize(bound + 1);
   const auto trim = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
-  trim(m_rows32, m_rows64, m_margins, m_filters, m_flags, m_free, m_removed, m_touched, m_stale, m_resettled);
+  trim(m_rows32, m_rows64, m_margins, m_worlds, m_filters, m_flags, m_free, m_removed, m_touched, m_stale, m_resettled);
   m_setIsCurrent = false;
 }
 
@@ -178,7 +186,9 @@ void BoxStore::add(const BoxView& boxes, std::span<const BoxProperties> properti
   const std::size_t bound = idBound() + fresh;
   reserveResettled(boxes.size(), bound);
   auto next = static_cast<BoxId>(idBound());
-  prepare(bound, needsFloat64(boxes), anyMargin(properties));
+  Needs needs = Needs::of(properties);
+  needs.float64 = needsFloat64(boxes);
+  prepare(bound, needs);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     ids[i] = m_free.empty() ? next++ : m_free.back();
     if (!m_free.empty()) m_free.pop_back();
@@ -209,14 +219,14 @@ void BoxStore::writeEmpty(BoxId id) { write(id, kEmptyBox); }
 void BoxStore::move(BoxId id, const Box& box) {
   if (!contains(id)) throwUnknown(0, id);
   if (hasNan(box)) throw InvalidBox(0, "the box with the id " + std::to_string(id) + " has a NaN");
-  if (!m_isFloat64 && !isFloat32(box)) prepare(idBound(), true, false);
+  if (!m_isFloat64 && !isFloat32(box)) prepare(idBound(), {.float64 = true});
   write(id, box);
 }
 
 void BoxStore::move(std::span<const BoxId> ids, const BoxView& boxes) {
   checkLength(boxes.size(), "boxes", ids.size());
   check(ids);
-  if (needsFloat64(boxes)) prepare(idBound(), true, false);
+  if (needsFloat64(boxes)) prepare(idBound(), {.float64 = true});
   if (!m_isFloat64 && !boxes.isFloat64() && boxes.float32().isPacked()) {
     copyRows(ids, boxes.float32().min.data, m_rows32.data());
   } else if (m_isFloat64 && boxes.isFloat64() && boxes.float64().isPacked()) {
@@ -267,7 +277,9 @@ void BoxStore::removeOne(BoxId id) {
   writeEmpty(id);
   const bool stepped = (m_flags[id] & Stepped) != 0;
   if (isStatic(id)) --m_staticCount;
-  assign(id, {});
+  BoxProperties none;
+  none.world = worldOf(id);
+  assign(id, none);
   m_flags[id] &= static_cast<std::uint8_t>(~(Live | Stepped));
   --m_size;
   (stepped ? m_removed : m_free).push_back(id);
@@ -284,13 +296,14 @@ void BoxStore::setProperties(std::span<const BoxId> ids, std::span<const BoxProp
   checkProperties(properties, ids.size(), false);
   check(ids);
   reserveResettled(ids.size(), idBound());
-  prepare(idBound(), false, anyMargin(properties));
+  prepare(idBound(), Needs::of(properties));
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const bool wasStatic = isStatic(ids[i]);
+    const std::uint32_t world = worldOf(ids[i]);
     if (wasStatic) --m_staticCount;
     assign(ids[i], at(properties, i));
     note(ids[i]);
-    if (isStatic(ids[i]) != wasStatic) noteResettled(ids[i]);
+    if (isStatic(ids[i]) != wasStatic || worldOf(ids[i]) != world) noteResettled(ids[i]);
   }
 }
 
@@ -306,6 +319,7 @@ void BoxStore::assign(BoxId id, const BoxProperties& properties) {
     m_margins[id] = properties.margin;
     m_setIsCurrent = false;
   }
+  if (!m_worlds.empty()) m_worlds[id] = properties.world;
   m_flags[id] &= static_cast<std::uint8_t>(~Static);
   if (properties.isStatic) {
     m_flags[id] |= Static;
@@ -320,7 +334,7 @@ Box BoxStore::box(BoxId id) const noexcept {
 
 BoxProperties BoxStore::properties(BoxId id) const noexcept {
   const FilterRow& row = m_filters[id];
-  return {row.category, row.mask, row.group, margin(id), isStatic(id)};
+  return {row.category, row.mask, row.group, margin(id), isStatic(id), worldOf(id)};
 }
 
 const BoxView& BoxStore::set() {
@@ -334,6 +348,7 @@ const BoxView& BoxStore::set() {
 
 void BoxStore::noteResettled(BoxId id) {
   note(id);
+  ++m_membership;
   if ((m_flags[id] & Resettled) == 0) m_resettled.push_back(id);
   m_flags[id] |= Resettled;
 }

@@ -44,6 +44,7 @@ class BoxStore {
       : m_rows32(memory),
         m_rows64(memory),
         m_margins(memory),
+        m_worlds(memory),
         m_filters(memory),
         m_flags(memory),
         m_free(memory),
@@ -75,6 +76,18 @@ class BoxStore {
   [[nodiscard]] bool isTouched(BoxId id) const noexcept { return (m_flags[id] & Touched) != 0; }
   [[nodiscard]] Box box(BoxId id) const noexcept;
   [[nodiscard]] double margin(BoxId id) const noexcept { return m_margins.empty() ? 0.0 : m_margins[id]; }
+  /// The number of the box's world; of a removed box, the one it had.
+  [[nodiscard]] std::uint32_t worldOf(BoxId id) const noexcept { return m_worlds.empty() ? 0 : m_worlds[id]; }
+
+  /// The same by id, if isNumbered().
+  [[nodiscard]] std::span<const std::uint32_t> worlds() const noexcept { return m_worlds; }
+
+  /// Whether any box has, or has had, a world number other than 0.
+  [[nodiscard]] bool isNumbered() const noexcept { return !m_worlds.empty(); }
+
+  /// Changes whenever boxes were added, removed, or given another world, or have become static or dynamic.
+  [[nodiscard]] std::uint64_t membership() const noexcept { return m_membership; }
+
   /// The data that a pair test reads; set() has been called since anything changed.
   [[nodiscard]] TestedBoxes tested() const noexcept {
     if (!m_filtered) return {&m_set};
@@ -139,9 +152,17 @@ class BoxStore {
   void noteResettled(BoxId id);
   template <class T>
   void copyRows(std::span<const BoxId> ids, const T* from, T* to);
-  void reserveRoom(std::size_t bound, bool float64, bool margins);
+  /// What is stored only from when it is first needed.
+  struct Needs {
+    bool float64 = false;
+    bool margins = false;
+    bool worlds = false;
+
+    static Needs of(std::span<const BoxProperties> properties) noexcept;
+  };
+  void reserveRoom(std::size_t bound, Needs needs);
   void reserveResettled(std::size_t boxes, std::size_t bound);
-  void prepare(std::size_t bound, bool float64, bool margins);
+  void prepare(std::size_t bound, Needs needs);
   void prepareRemoval(std::size_t boxes);
   [[nodiscard]] bool needsFloat64(const BoxView& boxes) const;
   void widenToDouble();
@@ -157,7 +178,8 @@ class BoxStore {
   bool m_setIsCurrent = false;
   std::pmr::vector<float> m_rows32;
   std::pmr::vector<double> m_rows64;
-  std::pmr::vector<double> m_margins;  ///< Empty while all are 0.
+  std::pmr::vector<double> m_margins;        ///< Empty while all are 0.
+  std::pmr::vector<std::uint32_t> m_worlds;  ///< Empty while all are 0.
   std::pmr::vector<FilterRow> m_filters;
   std::pmr::vector<std::uint8_t> m_flags;
   std::pmr::vector<BoxId> m_free;
@@ -167,6 +189,7 @@ class BoxStore {
   std::pmr::vector<BoxId> m_resettled;
   std::size_t m_touchedCount = 0;
   std::size_t m_staleCount = 0;
+  std::uint64_t m_membership = 0;
   BoxView m_set;
 };
 

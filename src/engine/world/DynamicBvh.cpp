@@ -179,10 +179,12 @@ void DynamicBvh::refitAll(const BoxReader& reader, Executor& executor) {
 }
 
 void DynamicBvh::gather(std::size_t block, const BoxReader& reader) {
-  LaneBlock& lanes = m_levels.block(block);
-  const std::uint32_t* const ids = &m_levels.id(block * kFanOut);
+  m_inexact[block] = gatherLanes(reader, &m_levels.id(block * kFanOut), m_used[block], m_levels.block(block)) ? 0 : 1;
+}
+
+bool gatherLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t used, LaneBlock& lanes) {
   BlockRead read = reader.read({ids, 0, kFanOut}, lanes);
-  const std::uint32_t unused = read.emptyLanes | (~std::uint32_t{m_used[block]} & 0xFFFFU);
+  const std::uint32_t unused = read.emptyLanes | (~used & 0xFFFFU);
   for (std::uint32_t bits = unused; bits != 0; bits &= bits - 1) {
     lanes.set(static_cast<std::size_t>(std::countr_zero(bits)), kNeverLanes);
   }
@@ -194,7 +196,7 @@ void DynamicBvh::gather(std::size_t block, const BoxReader& reader) {
       read.exact &= reader.read({ids + std::countr_zero(bits), 0, 1}, one).exact;
     }
   }
-  m_inexact[block] = read.exact ? 0 : 1;
+  return read.exact;
 }
 
 void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels,

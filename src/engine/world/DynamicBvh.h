@@ -103,6 +103,10 @@ class DynamicBvh {
   std::pmr::vector<std::span<CurveKey>> m_denseCells;
 };
 
+/// Reads sixteen boxes, of which those with a bit in `used` exist, and are not empty, into lanes; the others become lanes
+/// that overlap nothing. Returns whether the lanes are exactly the boxes.
+[[nodiscard]] bool gatherLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t used, LaneBlock& lanes);
+
 /// A hierarchy over the changed boxes of another hierarchy, in the same order.
 ///
 /// The changed boxes of one block form one block here, however few: if it were filled with distant boxes, its bounds

@@ -117,13 +117,26 @@ void PairHistory::makeRoomForChanges() {
   m_result.pairs = {m_pairs.data(), old};
 }
 
+/// Whether one worker has found all pairs, in order, as in small worlds of consecutive ids; then they are the next ones.
+bool PairHistory::takeOrdered() noexcept {
+  const auto isUsed = [](const Fresh& fresh) { return fresh.size != 0; };
+  const auto used = std::find_if(m_fresh.begin(), m_fresh.end(), isUsed);
+  if (used == m_fresh.end() || std::any_of(used + 1, m_fresh.end(), isUsed)) return false;
+  const auto isBefore = [this](Pair a, Pair b) { return keyOf(a) < keyOf(b); };
+  if (!std::is_sorted(used->pairs.data(), used->pairs.data() + used->size, isBefore)) return false;
+  std::swap(m_next, used->pairs);
+  return true;
+}
+
 void PairHistory::finishAll(Executor& executor) {
   const std::size_t size = freshSize();
-  makeRoom(m_next, size);
   makeRoom(m_persisted, size);
   makeRoom(m_began, size);
   makeRoom(m_ended, m_result.pairs.size());
-  sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, executor);
+  if (!takeOrdered()) {
+    makeRoom(m_next, size);
+    sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, executor);
+  }
   compare({m_next.data(), size});
   std::swap(m_pairs, m_next);
   m_result.pairs = {m_pairs.data(), size};

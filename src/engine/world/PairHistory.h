@@ -100,6 +100,7 @@ class PairHistory {
   /// The place of an old pair, or the number of old pairs.
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
   [[nodiscard]] std::size_t freshSize() const noexcept;
+  [[nodiscard]] bool takeOrdered() noexcept;
   void sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor);
   void makeRoomForChanges();
   void compare(std::span<const Pair> now) noexcept;

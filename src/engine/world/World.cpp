@@ -97,6 +97,15 @@ struct World::State {
     isSettled.store(true, std::memory_order_release);
   }
 
+  /// Groups the lists of the last step by world, once after each step.
+  void group() {
+    if (isGrouped.load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(settling);
+    if (isGrouped.load(std::memory_order_relaxed)) return;
+    search.groupLists();
+    isGrouped.store(true, std::memory_order_release);
+  }
+
   static engine::WorldQueries queries(const World& world, const QueryFilter& filter) {
     State& state = of(world);
     state.settle();
@@ -104,7 +113,8 @@ struct World::State {
   }
 
   std::mutex settling;
-  std::atomic<bool> isSettled = true;  ///< Whether the hierarchies hold all changes.
+  std::atomic<bool> isSettled = true;   ///< Whether the hierarchies hold all changes.
+  std::atomic<bool> isGrouped = false;  ///< Whether the lists of the last step are grouped by world.
 };
 
 World::World(WorldOptions options) {
@@ -226,10 +236,17 @@ BoxProperties World::properties(BoxId id) const {
 StepResult World::step() {
   State& state = this->state();
   const InUseScope scope(state.inUse);
+  state.isGrouped.store(false, std::memory_order_relaxed);
   return state.search.step(state.store);
 }
 
 StepResult World::result() const noexcept { return State::of(*this).search.result(); }
+
+StepResult World::result(std::uint32_t world) const {
+  State& state = State::of(*this);
+  state.group();
+  return state.search.resultOf(world);
+}
 
 const WorldStatistics& World::statistics() const noexcept { return State::of(*this).search.statistics(); }
 

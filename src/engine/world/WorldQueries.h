@@ -47,6 +47,8 @@ class WorldQueries {
   /// Calls visit(hierarchy, exact) for each of the two that is not empty and that the filter includes.
   template <class Visit>
   void eachBvh(const Visit& visit) const;
+  template <class Visit>
+  void eachTree(const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id) const noexcept;
   [[nodiscard]] Box widenedBox(const Arrival& at, bool exact) const noexcept;
   [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;

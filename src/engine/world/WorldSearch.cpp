@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <utility>
 
 #include "input/BoxReader.h"
 #include "order/PairSort.h"
@@ -34,14 +35,21 @@ std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
 }  // namespace
 
 void WorldSearch::update(BoxStore& store) {
+  followNumbering(store);
   const BoxView& boxes = store.set();
-  if (store.stale().empty() && m_dynamic.isWhole() && m_static.isWhole()) return;
+  const bool isWhole = store.isNumbered() ? m_dynamicTrees.isWhole() && m_staticTrees.isWhole()
+                                          : m_dynamic.isWhole() && m_static.isWhole();
+  if (store.stale().empty() && isWhole) return;
   OverlapOptions lanes;
   // Queries test the boxes themselves: lanes contain them.
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
-  m_statistics.rebuilds += m_dynamic.update(store, reader, executor()) ? 1U : 0U;
-  m_statistics.rebuilds += m_static.update(store, reader, executor()) ? 1U : 0U;
+  if (store.isNumbered()) {
+    updateTrees(store, reader);
+  } else {
+    m_statistics.rebuilds += m_dynamic.update(store, reader, executor()) ? 1U : 0U;
+    m_statistics.rebuilds += m_static.update(store, reader, executor()) ? 1U : 0U;
+  }
   store.settle();
 }
 
@@ -49,20 +57,43 @@ void WorldSearch::shrink() noexcept {
   std::pmr::memory_resource* const from = memory();
   m_dynamic.release();
   m_static.release();
+  releaseTrees();
   m_changedDynamic = ChangedBoxes(from);
   m_changedStatic = ChangedBoxes(from);
   m_runner = JoinRunner(from);
   m_history.shrink();
 }
 
+/// Releases the hierarchies of the other kind when the store becomes numbered, or is no longer.
+void WorldSearch::followNumbering(const BoxStore& store) noexcept {
+  if (std::exchange(m_isNumbered, store.isNumbered()) == store.isNumbered()) return;
+  m_dynamic.release();
+  m_static.release();
+  releaseTrees();
+}
+
+void WorldSearch::releaseTrees() noexcept {
+  m_members.release();
+  m_dynamicTrees.release();
+  m_staticTrees.release();
+  m_small.release();
+}
+
 StepResult WorldSearch::step(BoxStore& store) {
-  update(store);
+  m_lists.prepareStep(store);
+  followNumbering(store);
+  if (!m_isNumbered) update(store);
   m_statistics.boxTests = 0;
   m_statistics.groupTests = 0;
   m_statistics.exactTests = 0;
   m_statistics.changed = store.touched().size();
   m_statistics.joinedAll = store.touched().size() > store.size() / kShareOfChanged;
-  m_statistics.joinedAll ? joinAll(store) : joinChanged(store);
+  if (m_isNumbered) {
+    joinWorlds(store);
+  } else {
+    m_statistics.joinedAll ? joinAll(store) : joinChanged(store);
+  }
+  m_lists.noteStep(store);
   store.endStep();
   return m_history.result();
 }
@@ -137,6 +168,35 @@ void WorldSearch::joinChanged(const BoxStore& store) {
                           executor());
 }
 
+/// Calls visit(number, hierarchy) for all hierarchies that are not empty.
+template <class Visit>
+void WorldSearch::eachTree(const BoxStore& store, const Visit& visit) const {
+  if (!store.isNumbered()) {
+    treesOf(store, 0, [&](const BvhView& view) { visit(0, view); });
+    return;
+  }
+  for (std::size_t world = 0; world <= m_members.everyWorld(); ++world) {
+    const std::uint32_t number = m_members.numberOf(world);
+    treesOf(store, number, [&](const BvhView& view) { visit(number, view); });
+  }
+}
+
+/// Calls visit(hierarchy) for those of one world, or of the boxes of every world.
+template <class Visit>
+void WorldSearch::treesOf(const BoxStore& store, std::uint32_t number, const Visit& visit) const {
+  const auto show = [&](const BvhView& view) {
+    if (view.depth != 0) visit(view);
+  };
+  if (store.isNumbered()) {
+    const std::size_t world = m_members.find(number);
+    show(m_dynamicTrees.view(world));
+    show(m_staticTrees.view(world));
+  } else if (number == 0) {
+    show(m_dynamic.levels().view());
+    show(m_static.levels().view());
+  }
+}
+
 std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSearch& other,
                                            const BoxStore& otherStore) const {
   const bool exact = isExact() && other.isExact() && m_options.distance == 0.0 && other.m_options.distance == 0.0;
@@ -155,9 +215,18 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   sink.emit.emplace(take);
   JoinRunner runner(defaultMemory());
   runner.start(sink, executor());
-  for (const DynamicBvh* mine : {&m_dynamic, &m_static}) {
-    for (const DynamicBvh* theirs : {&other.m_dynamic, &other.m_static}) join(mine->levels(), theirs->levels(), runner);
-  }
+  eachTree(store, [&](std::uint32_t number, const BvhView& mine) {
+    const auto joinWith = [&](const BvhView& theirs) {
+      const BvhPair both(mine, theirs);
+      join(JoinRunner::Job::ofJoin(both.first, both.second), runner);
+    };
+    if (number == kEveryWorld) {
+      other.eachTree(otherStore, [&](std::uint32_t, const BvhView& theirs) { joinWith(theirs); });
+    } else {
+      other.treesOf(otherStore, number, joinWith);
+      other.treesOf(otherStore, kEveryWorld, joinWith);
+    }
+  });
   PairSort::Task task;
   task.firsts = std::max<std::size_t>(1, store.idBound());
   task.seconds = std::max<std::size_t>(1, otherStore.idBound());

@@ -14,10 +14,15 @@
 #include "world/BoxStore.h"
 #include "world/DynamicBvh.h"
 #include "world/PairHistory.h"
+#include "world/SmallWorlds.h"
+#include "world/WorldForest.h"
+#include "world/WorldLists.h"
+#include "world/WorldMembers.h"
 
 namespace allpairs::engine {
 
-/// The pairs of a world: hierarchies over its dynamic and its static boxes, and what was found in them.
+/// The pairs of a world: hierarchies over its dynamic and its static boxes, and what was found in them. If boxes have world
+/// numbers, each world of the store has hierarchies of its own instead.
 class WorldSearch {
  public:
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
@@ -28,8 +33,17 @@ class WorldSearch {
         m_static(memory, true),
         m_changedDynamic(memory),
         m_changedStatic(memory),
+        m_members(memory),
+        m_dynamicTrees(memory, false),
+        m_staticTrees(memory, true),
+        m_small(memory),
+        m_isChosen(memory),
+        m_chosen(memory),
+        m_large(memory),
+        m_runs(memory),
         m_runner(memory),
-        m_history(memory, options.order) {}
+        m_history(memory, options.order),
+        m_lists(memory, options.order) {}
 
   /// Updates the hierarchies from the store.
   void update(BoxStore& store);
@@ -42,22 +56,48 @@ class WorldSearch {
 
   [[nodiscard]] StepResult result() const noexcept { return m_history.result(); }
 
+  /// The lists of a step by world: groupLists() before resultOf().
+  void groupLists() { m_lists.group(m_history.result()); }
+  [[nodiscard]] StepResult resultOf(std::uint32_t world) const noexcept { return m_lists.of(world); }
+
   /// The pairs of a box of this world and a box of another, in order. Both must be updated.
   [[nodiscard]] std::vector<Pair> findBetween(const BoxStore& store, const WorldSearch& other,
                                               const BoxStore& otherStore) const;
 
   [[nodiscard]] const DynamicBvh& dynamicBoxes() const noexcept { return m_dynamic; }
   [[nodiscard]] const DynamicBvh& staticBoxes() const noexcept { return m_static; }
+
+  /// Those of a numbered store, by world, and the worlds.
+  [[nodiscard]] const WorldMembers& members() const noexcept { return m_members; }
+  [[nodiscard]] const WorldForest& dynamicTrees() const noexcept { return m_dynamicTrees; }
+  [[nodiscard]] const WorldForest& staticTrees() const noexcept { return m_staticTrees; }
   [[nodiscard]] const WorldStatistics& statistics() const noexcept { return m_statistics; }
   [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_runner.memory(); }
   [[nodiscard]] const Kernels& kernels() const noexcept { return m_kernels; }
   [[nodiscard]] Executor& executor() const noexcept { return m_executor; }
 
  private:
-  [[nodiscard]] bool isExact() const noexcept { return m_dynamic.exact() && m_static.exact(); }
+  /// Without numbers there are no trees, with numbers no boxes in the others.
+  [[nodiscard]] bool isExact() const noexcept {
+    return m_dynamic.exact() && m_static.exact() && m_dynamicTrees.exact() && m_staticTrees.exact();
+  }
   [[nodiscard]] PairTest testOf(const BoxStore& store, const BoxStore& other, double distance, bool exact) const;
   void joinAll(const BoxStore& store);
   void joinChanged(const BoxStore& store);
+  void joinWorlds(BoxStore& store);
+  void joinTrees();
+  template <class JoinOne>
+  void joinWorld(std::size_t world, const JoinOne& joinOne);
+  void followNumbering(const BoxStore& store) noexcept;
+  void releaseTrees() noexcept;
+  void updateTrees(const BoxStore& store, const BoxReader& reader);
+  [[nodiscard]] bool chooseWorlds(const BoxStore& store);
+  void moveLarge(const SmallWorlds::Input& small);
+  [[nodiscard]] bool isLookedFor(const BoxStore& store, Pair pair) const noexcept;
+  template <class Visit>
+  void eachTree(const BoxStore& store, const Visit& visit) const;
+  template <class Visit>
+  void treesOf(const BoxStore& store, std::uint32_t number, const Visit& visit) const;
   std::uint64_t join(const BvhLevels& first, const BvhLevels& second, JoinRunner& runner) const;
   std::uint64_t join(const JoinRunner::Job& job, JoinRunner& runner) const;
   void noteTotals();
@@ -70,8 +110,18 @@ class WorldSearch {
   DynamicBvh m_static;
   ChangedBoxes m_changedDynamic;
   ChangedBoxes m_changedStatic;
+  bool m_isNumbered = false;  ///< Whether the store was when this was last updated.
+  WorldMembers m_members;
+  WorldForest m_dynamicTrees;
+  WorldForest m_staticTrees;
+  SmallWorlds m_small;
+  std::pmr::vector<std::uint8_t> m_isChosen;  ///< By world: whether this step searches it.
+  std::pmr::vector<std::uint32_t> m_chosen;   ///< Those worlds, by ascending number,
+  std::pmr::vector<std::uint32_t> m_large;  ///< and those of them that have moved here, to be searched in hierarchies.
+  std::pmr::vector<std::size_t> m_runs;
   JoinRunner m_runner;
   PairHistory m_history;
+  WorldLists m_lists;
   WorldStatistics m_statistics;
 };
 

@@ -12,10 +12,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are
-/// faster (worlds_benchmark).
-constexpr std::size_t kMostInDouble = 96;
-
 /// A world of more boxes is searched by all threads: it has work for them.
 constexpr std::size_t kManyBoxes = 4096;
 

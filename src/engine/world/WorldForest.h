@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "bvh/CurveKey.h"
+#include "input/BoxReader.h"
+#include "kernels/Lanes.h"
+#include "memory/Memory.h"
+#include "world/BoxStore.h"
+#include "world/RebuildRule.h"
+#include "world/WorldMembers.h"
+
+namespace allpairs::engine {
+
+/// Hierarchies over the static or the dynamic boxes of each world of a numbered store, one after the other in memory.
+///
+/// A world's boxes keep their places until boxes are added or removed, or RebuildRule says that their order along the
+/// curve has become a bad one, or they have gone far, as in the reset of a simulation. An update reads the boxes of worlds again in which some have changed.
+class WorldForest {
+ public:
+  WorldForest(std::pmr::memory_resource* memory, bool ofStatic)
+      : m_ofStatic(ofStatic),
+        m_trees(memory),
+        m_inexact(memory),
+        m_marked(memory),
+        m_dirty(memory),
+        m_runs(memory),
+        m_blocks(memory),
+        m_ids(memory),
+        m_keyed(memory),
+        m_spare(memory) {}
+
+  /// Applies the changes of the store since the last call. Returns how many worlds were put in order along the curve.
+  ///
+  /// After an update that threw, only update() may be called; it makes all hierarchies again.
+  std::uint64_t update(const BoxStore& store, const WorldMembers& members, const BoxReader& reader, Executor& executor);
+
+  /// Releases all memory. Until the next update nothing else may be called.
+  void release() noexcept { *this = WorldForest(m_trees.get_allocator().resource(), m_ofStatic); }
+
+  /// Whether the last update completed, and no memory was released since.
+  [[nodiscard]] bool isWhole() const noexcept { return m_isWhole; }
+
+  /// The hierarchy of a world; of depth 0 if it has no boxes.
+  [[nodiscard]] BvhView view(std::size_t world) const noexcept;
+
+  /// Whether the lanes of all boxes are exactly the boxes.
+  [[nodiscard]] bool exact() const noexcept { return m_inexactWorlds == 0; }
+
+  /// Records a join of a world's dynamic boxes, so many, with its boxes here.
+  void noteJoin(std::size_t world, std::size_t boxes, std::uint64_t tests) noexcept {
+    m_trees[world].rule.note(Joined::All, boxes, tests);
+  }
+
+ private:
+  struct Tree {
+    std::size_t firstBlock = 0;  ///< Of all levels, the lowest one first.
+    std::size_t firstLeaf = 0;   ///< Its ids have places from here on, in blocks.
+    std::size_t size = 0;
+    double spread = 0.0;  ///< How wide its blocks of boxes were when they were put in order.
+    RebuildRule rule;
+  };
+
+  [[nodiscard]] bool belongs(const BoxStore& store, BoxId id) const noexcept {
+    return store.isStatic(id) == m_ofStatic;
+  }
+  void plant(const BoxStore& store, const WorldMembers& members);
+  void findDirty(const BoxStore& store, const WorldMembers& members);
+  bool refresh(std::size_t world, const BoxReader& reader, bool planted);
+  void orderByCurve(Tree& tree, const BoxReader& reader);
+  void gather(std::size_t world, const BoxReader& reader);
+  [[nodiscard]] double spreadOf(const Tree& tree) const noexcept;
+
+  bool m_ofStatic;
+  bool m_isWhole = false;
+  std::uint64_t m_membership = 0;            ///< That of the store when the trees were planted.
+  std::pmr::vector<Tree> m_trees;            ///< By world.
+  std::pmr::vector<std::uint8_t> m_inexact;  ///< By world: whether the lanes of some box are not exactly the box.
+  std::size_t m_inexactWorlds = 0;
+  std::pmr::vector<std::uint8_t> m_marked;  ///< By world: whether it is among the dirty ones.
+  std::pmr::vector<std::uint32_t> m_dirty;  ///< The worlds whose boxes changed.
+  std::pmr::vector<std::size_t> m_runs;
+  Buffer<LaneBlock> m_blocks;
+  Buffer<std::uint32_t> m_ids;
+  Buffer<CurveKey> m_keyed;  ///< Only if there is a world large enough for an order.
+  Buffer<CurveKey> m_spare;
+};
+
+}  // namespace allpairs::engine

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/OverlapOptions.h"
+#include "allpairs/Pair.h"
+#include "allpairs/WorldTypes.h"
+#include "memory/Memory.h"
+#include "world/BoxStore.h"
+
+namespace allpairs::engine {
+
+/// The lists of the last step, by world.
+///
+/// A pair belongs to the world of its boxes in that step, one that ended to theirs in the step before it; one of two boxes
+/// of every world to kEveryWorld. A pair whose box has gone to another world, and which is still a pair because the other
+/// one is of every world, has ended there and begun here.
+class WorldLists {
+ public:
+  WorldLists(std::pmr::memory_resource* memory, Order order)
+      : m_order(order),
+        m_now(memory),
+        m_before(memory),
+        m_lists{Grouped(memory), Grouped(memory), Grouped(memory), Grouped(memory)},
+        m_keyed(memory),
+        m_spare(memory) {}
+
+  /// Allocates what noteStep() needs.
+  void prepareStep(const BoxStore& store);
+
+  /// A step is about to complete with the boxes of the store.
+  void noteStep(const BoxStore& store) noexcept;
+
+  /// Groups the lists by world: a pass over them, and a sort of those that are not grouped.
+  void group(const StepResult& result);
+
+  /// The lists of a world; group() has been called since the step.
+  [[nodiscard]] StepResult of(std::uint32_t world) const noexcept;
+
+ private:
+  using Numbers = std::pmr::vector<std::uint32_t>;
+
+  struct Grouped {
+    explicit Grouped(std::pmr::memory_resource* memory) : own(memory), kept(memory) {}
+
+    std::span<const Pair> pairs;
+    std::pmr::vector<Pair> own;   ///< The pairs by world, unless the list was so.
+    std::pmr::vector<Pair> kept;  ///< The list, if it is not quite that of the step.
+    const Numbers* numbers = nullptr;
+  };
+  enum List : std::uint8_t { Current, Began, Persisted, Ended };
+
+  static std::uint32_t numberOf(const Numbers& numbers, Pair pair) noexcept;
+  void moveChanged(const StepResult& result);
+  void groupOne(List list, std::span<const Pair> pairs, const Numbers& numbers);
+  [[nodiscard]] std::span<const Pair> part(List list, std::uint32_t world) const noexcept;
+
+  Order m_order;
+  std::uint64_t m_membership = 0;
+  bool m_isSame = true;  ///< All boxes of the step before the last one had the worlds that they have now.
+  Numbers m_now;         ///< By id, in the last step; 0 beyond the end.
+  Numbers m_before;      ///< In the one before, if they were others.
+  std::array<Grouped, 4> m_lists;
+  Buffer<std::uint64_t> m_keyed;
+  Buffer<std::uint64_t> m_spare;
+};
+
+}  // namespace allpairs::engine

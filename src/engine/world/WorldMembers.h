@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "allpairs/Executor.h"
+#include "allpairs/WorldTypes.h"
+#include "bvh/RadixSort.h"
+#include "input/Parts.h"
+#include "memory/Memory.h"
+#include "world/BoxStore.h"
+
+namespace allpairs::engine {
+
+/// The boxes of each world of a store, by ascending id; the worlds by ascending number. After the last one come the boxes
+/// of every world, as one more.
+class WorldMembers {
+ public:
+  explicit WorldMembers(std::pmr::memory_resource* memory)
+      : m_numbers(memory),
+        m_begin(memory),
+        m_boxes(memory),
+        m_worldOf(memory),
+        m_keyed(memory),
+        m_spare(memory),
+        m_radix(memory) {}
+
+  /// Brings it up to date with the store: a pass over all boxes if some were added or removed.
+  void update(const BoxStore& store, Executor& executor);
+
+  /// Releases all memory, until the next update.
+  void release() noexcept { *this = WorldMembers(m_boxes.get_allocator().resource()); }
+
+  /// The number of worlds, and the world of the boxes that are in every one.
+  [[nodiscard]] std::size_t size() const noexcept { return m_numbers.size(); }
+  [[nodiscard]] std::size_t everyWorld() const noexcept { return size(); }
+
+  [[nodiscard]] std::uint32_t numberOf(std::size_t world) const noexcept {
+    return world == everyWorld() ? kEveryWorld : m_numbers[world];
+  }
+
+  /// The world of that number; one after everyWorld() if there is none.
+  [[nodiscard]] std::size_t find(std::uint32_t number) const noexcept;
+
+  [[nodiscard]] std::span<const BoxId> boxes(std::size_t world) const noexcept {
+    if (world + 1 >= m_begin.size()) return {};
+    return std::span(m_boxes).subspan(m_begin[world], m_begin[world + 1] - m_begin[world]);
+  }
+  [[nodiscard]] std::span<const BoxId> shared() const noexcept { return boxes(everyWorld()); }
+
+  /// The world of a box of the store.
+  [[nodiscard]] std::size_t worldOf(BoxId id) const noexcept { return m_worldOf[id]; }
+
+ private:
+  std::size_t listBoxes(const BoxStore& store);
+
+  std::pmr::vector<std::uint32_t> m_numbers;
+  std::pmr::vector<std::size_t> m_begin;
+  std::pmr::vector<BoxId> m_boxes;
+  std::pmr::vector<std::uint32_t> m_worldOf;  ///< By id.
+  Buffer<std::uint64_t> m_keyed;              ///< World numbers above ids.
+  Buffer<std::uint64_t> m_spare;
+  RadixSort m_radix;
+  bool m_isWhole = false;
+  std::uint64_t m_membership = 0;
+};
+
+/// Cuts a list of worlds into runs of some boxes each, a task's work; `ends` receives where each ends.
+template <class SizeOf>
+void cutIntoRuns(std::span<const std::uint32_t> worlds, const SizeOf& sizeOf, std::pmr::vector<std::size_t>& ends) {
+  ends.clear();
+  std::size_t boxes = 0;
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    boxes += sizeOf(worlds[i]);
+    if (boxes < kPartSize && i + 1 < worlds.size()) continue;
+    ends.push_back(i + 1);
+    boxes = 0;
+  }
+}
+
+}  // namespace allpairs::engine
