@@ -373,7 +373,26 @@ ALLPAIRS_C_API allpairs_status allpairs_world_move_swept(allpairs_world* world, 
 
 ALLPAIRS_C_API allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids);
 
-/// Sets the properties of boxes, one for each id.
+/// The number of a box that every world has, such as the ground.
+#define ALLPAIRS_EVERY_WORLD UINT32_MAX
+
+/// What boxes are added with.
+typedef struct allpairs_membership {
+  const allpairs_properties* properties;  ///< Of all of them; null: the defaults.
+  const uint32_t* worlds;  ///< For each the number of its world, or ALLPAIRS_EVERY_WORLD; null: all are of world 0.
+} allpairs_membership;
+
+/// Adds boxes of many worlds, such as the copies of a scene: boxes of different worlds are never pairs and are not tested
+/// against each other, wherever they are; those of ALLPAIRS_EVERY_WORLD are in each. Else as allpairs_world_add(), whose
+/// boxes are of world 0.
+ALLPAIRS_C_API allpairs_status allpairs_world_add_to_worlds(allpairs_world* world, const allpairs_set* boxes,
+                                                            const allpairs_membership* membership, uint32_t* ids);
+
+/// Gives boxes the number of another world, one for each id: their pairs end, and others begin.
+ALLPAIRS_C_API allpairs_status allpairs_world_set_worlds(allpairs_world* world, allpairs_ids ids,
+                                                         const uint32_t* worlds);
+
+/// Sets the properties of boxes, one for each id; they stay in their worlds.
 ALLPAIRS_C_API allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_ids ids,
                                                              const allpairs_properties* properties);
 
@@ -388,6 +407,14 @@ ALLPAIRS_C_API allpairs_status allpairs_world_box(const allpairs_world* world, u
 
 /// Finds the current pairs.
 ALLPAIRS_C_API allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step);
+
+/// The lists of the last step for one world: the pairs of its boxes with each other and with those of every world; with
+/// ALLPAIRS_EVERY_WORLD, the pairs of two boxes of every world. Valid until the next step.
+ALLPAIRS_C_API allpairs_status allpairs_world_result_of(allpairs_world* world, uint32_t number, allpairs_step* step);
+
+/// From now on queries consider the boxes of the world of that number and those of every world; with
+/// ALLPAIRS_EVERY_WORLD, as at first, of all worlds. allpairs_world_find_between() is not concerned.
+ALLPAIRS_C_API allpairs_status allpairs_world_restrict_queries(allpairs_world* world, uint32_t number);
 
 /// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`.
 typedef struct allpairs_query_filter {

@@ -74,6 +74,8 @@ struct allpairs_world {
   std::unique_ptr<allpairs::Executor> executor;
   allpairs::World world;
 
+  std::uint32_t queried = allpairs::kEveryWorld;  ///< The world whose boxes queries consider.
+
   // What the last query of each kind gave.
   std::vector<allpairs::BoxId> ids{};
   std::vector<allpairs::SweepHit> hits{};

@@ -10,6 +10,10 @@ BoxProperties propertiesOf(const allpairs_properties& given) {
   return {given.category, given.mask, given.group, given.margin, given.is_static};
 }
 
+allpairs_step stepOf(const StepResult& found) {
+  return {c::toC(found.pairs), c::toC(found.began), c::toC(found.persisted), c::toC(found.ended)};
+}
+
 WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor, CallerMemory* memory) {
   WorldOptions options;
   options.distance = given.distance;
@@ -61,6 +65,18 @@ allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* bo
   });
 }
 
+allpairs_status allpairs_world_add_to_worlds(allpairs_world* world, const allpairs_set* boxes,
+                                             const allpairs_membership* membership, uint32_t* ids) {
+  return guarded([&] {
+    const allpairs::BoxView& set = required(boxes, "boxes").boxes;
+    const allpairs_membership& given = required(membership, "membership");
+    const allpairs_properties all = given.properties ? *given.properties : allpairs_default_properties();
+    std::vector<allpairs::BoxProperties> each(set.size(), propertiesOf(all));
+    for (std::size_t i = 0; i < each.size() && given.worlds != nullptr; ++i) each[i].world = given.worlds[i];
+    worldOf(world).add(set, each, requiredSpan(ids, set.size(), "ids"));
+  });
+}
+
 allpairs_status allpairs_world_move(allpairs_world* world, allpairs_ids ids, const allpairs_set* boxes) {
   return guarded([&] { worldOf(world).move(idsOf(ids), required(boxes, "boxes").boxes); });
 }
@@ -81,8 +97,27 @@ allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_id
     const std::span<const allpairs_properties> given = requiredSpan(properties, ids.count, "properties");
     std::vector<allpairs::BoxProperties> each;
     each.reserve(given.size());
-    for (const allpairs_properties& one : given) each.push_back(propertiesOf(one));
-    worldOf(world).setProperties(idsOf(ids), each);
+    const std::span<const allpairs::BoxId> chosen = idsOf(ids);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      each.push_back(propertiesOf(given[i]));
+      // An id that is not there is refused below.
+      if (worldOf(world).contains(chosen[i])) each.back().world = worldOf(world).properties(chosen[i]).world;
+    }
+    worldOf(world).setProperties(chosen, each);
+  });
+}
+
+allpairs_status allpairs_world_set_worlds(allpairs_world* world, allpairs_ids ids, const uint32_t* worlds) {
+  return guarded([&] {
+    const std::span<const std::uint32_t> numbers = requiredSpan(worlds, ids.count, "worlds");
+    const std::span<const allpairs::BoxId> chosen = idsOf(ids);
+    std::vector<allpairs::BoxProperties> each(chosen.size());
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      // An id that is not there is refused below.
+      if (worldOf(world).contains(chosen[i])) each[i] = worldOf(world).properties(chosen[i]);
+      each[i].world = numbers[i];
+    }
+    worldOf(world).setProperties(chosen, each);
   });
 }
 
@@ -111,8 +146,19 @@ allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step) 
   return guarded([&] {
     allpairs_step& result = required(step, "step");
     const allpairs::StepResult found = worldOf(world).step();
-    result = {toC(found.pairs), toC(found.began), toC(found.persisted), toC(found.ended)};
+    result = stepOf(found);
   });
+}
+
+allpairs_status allpairs_world_result_of(allpairs_world* world, uint32_t number, allpairs_step* step) {
+  return guarded([&] {
+    allpairs_step& result = required(step, "step");
+    result = stepOf(worldOf(world).result(number));
+  });
+}
+
+allpairs_status allpairs_world_restrict_queries(allpairs_world* world, uint32_t number) {
+  return guarded([&] { required(world, "world").queried = number; });
 }
 
 // NOLINTEND(readability-identifier-naming)

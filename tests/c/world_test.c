@@ -114,7 +114,54 @@ static void sweptBoxesHoldTheirWay(allpairs_world* world) {
   allpairs_set_destroy(to);
 }
 
+static void checkPairs(allpairs_pairs pairs, const allpairs_pair* expected, size_t count) {
+  ALLPAIRS_CHECK(pairs.count == count);
+  ALLPAIRS_CHECK(count == 0 || !memcmp(pairs.data, expected, count * sizeof *expected));
+}
+
+/// Four boxes at one place: of worlds 5, 9 and 5, and of every world.
+static void worldsAreApart(void) {
+  const double data[24] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
+  const uint32_t numbers[4] = {5, 9, 5, ALLPAIRS_EVERY_WORLD};
+  const allpairs_membership membership = {NULL, numbers};
+  allpairs_world* world = NULL;
+  allpairs_step step;
+  uint32_t made[4];
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  allpairs_set* set = setOf(data, 4);
+  ALLPAIRS_CHECK(allpairs_world_add_to_worlds(world, set, NULL, made) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_add_to_worlds(world, set, &membership, made) == ALLPAIRS_OK);
+  allpairs_set_destroy(set);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  checkPairs(step.pairs, (allpairs_pair[]){{0, 2}, {0, 3}, {1, 3}, {2, 3}}, 4);
+  ALLPAIRS_CHECK(allpairs_world_result_of(world, 5, &step) == ALLPAIRS_OK);
+  checkPairs(step.began, (allpairs_pair[]){{0, 2}, {0, 3}, {2, 3}}, 3);
+
+  allpairs_ids found;
+  ALLPAIRS_CHECK(allpairs_world_restrict_queries(world, 9) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, data, NULL, &found) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(found.count == 2 && found.data[0] == 1 && found.data[1] == 3);
+  ALLPAIRS_CHECK(allpairs_world_restrict_queries(world, ALLPAIRS_EVERY_WORLD) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, data, NULL, &found) == ALLPAIRS_OK && found.count == 4);
+
+  // Other properties leave boxes in their worlds, and worlds leave the properties.
+  const allpairs_ids two = {made, 2};
+  const allpairs_properties still[2] = {{UINT32_MAX, UINT32_MAX, 0, 0.0, true}, {UINT32_MAX, UINT32_MAX, 0, 0.0, true}};
+  ALLPAIRS_CHECK(allpairs_world_set_properties(world, two, still) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  checkPairs(step.pairs, (allpairs_pair[]){{0, 2}, {0, 3}, {1, 3}, {2, 3}}, 4);
+  ALLPAIRS_CHECK(allpairs_world_set_worlds(world, two, (uint32_t[]){9, 5}) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  checkPairs(step.pairs, (allpairs_pair[]){{0, 3}, {1, 2}, {1, 3}, {2, 3}}, 4);
+  checkPairs(step.ended, (allpairs_pair[]){{0, 2}}, 1);
+  const uint32_t missing = 44;
+  const allpairs_ids none = {&missing, 1};
+  ALLPAIRS_CHECK(allpairs_world_set_worlds(world, none, numbers) == ALLPAIRS_INVALID_BOX);
+  allpairs_world_destroy(world);
+}
+
 int main(void) {
+  worldsAreApart();
   allpairs_world* world = NULL;
   allpairs_world_options options = {.struct_size = sizeof options, .distance = 0.5, .threads = 2};
   ALLPAIRS_CHECK(allpairs_world_create(&options, &world) == ALLPAIRS_OK);
