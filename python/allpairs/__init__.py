@@ -17,11 +17,12 @@ from ._neighbors import neighbors, neighbors_between
 from ._partition import JoinSummary, Partition, join, overlaps_in_cell
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
-from ._world import NO_BOX, Step, World
+from ._world import EVERY_WORLD, NO_BOX, Step, World
 from ._worlds import overlaps_in_worlds
 
 __all__ = [
     "Detection",
+    "EVERY_WORLD",
     "Error",
     "FileError",
     "InvalidArgument",

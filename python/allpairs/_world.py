@@ -17,6 +17,9 @@ Ids = npt.NDArray[np.uint32]
 #: The id that no box has.
 NO_BOX: int = _core.NO_BOX
 
+#: The world number of a box that every world has, such as the ground.
+EVERY_WORLD: int = _core.EVERY_WORLD
+
 
 class Step(NamedTuple):
     """The pairs of a step, each array of shape (m, 2), uint32, in ascending order, with ``first < second``."""
@@ -39,6 +42,7 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
         ("mask", properties.set_mask),
         ("group", properties.set_group),
         ("static", properties.set_static),
+        ("world", properties.set_world),
     ):
         if values[name] is not None:
             setter(_arguments.labels(name, values[name], size))
@@ -58,6 +62,8 @@ def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
     query.category = _arguments.bits("category", values["category"])
     query.mask = _arguments.bits("mask", values["mask"])
     query.static, query.moving = bool(values["static"]), bool(values["moving"])
+    if values["world"] is not None:
+        query.world = _arguments.bits("world", values["world"])
     return query
 
 
@@ -65,6 +71,10 @@ class World:
     """Boxes that are added, moved and removed by id, their overlapping pairs step by step, and queries.
 
     Each step costs what has changed since the last one. Boxes are closed.
+
+    Boxes may be of many worlds, such as the copies of a scene that robots learn in: those of different worlds are never
+    pairs and are not tested against each other, wherever they are. A step then searches the worlds in which a box has
+    changed.
 
     A world can be copied and pickled. The copy has the settings and all boxes, with their ids, bounds and properties. It
     has no last step: its next one lists all pairs among those that began. New boxes may get other ids.
@@ -107,7 +117,7 @@ class World:
         """The settings, and ids, bounds and properties of all boxes."""
         ids = np.asarray(self._core.ids())
         properties, margin = map(np.asarray, self._core.properties(ids))
-        names = ("category", "mask", "group", "static")
+        names = ("category", "mask", "group", "static", "world")
         columns = {name: properties[:, i].copy() for i, name in enumerate(names)}
         return {"settings": self._settings, "ids": ids, "boxes": self.boxes(ids), "margin": margin, **columns}
 
@@ -123,8 +133,9 @@ class World:
         self.remove(np.setdiff1d(np.arange(bound, dtype=np.uint32), ids, assume_unique=True))
         self.step()
         self.move(ids, state["boxes"])
-        names = ("category", "mask", "group", "static", "margin")
-        self.set_properties(ids, **{name: state[name] for name in names})
+        names = ("category", "mask", "group", "static", "margin", "world")
+        # States of earlier versions have no worlds.
+        self.set_properties(ids, **{name: state[name] for name in names if name in state})
 
     def add(
         self,
@@ -136,6 +147,7 @@ class World:
         group: npt.ArrayLike | None = None,
         margin: npt.ArrayLike | None = None,
         static: npt.ArrayLike | None = None,
+        world: npt.ArrayLike | None = None,
     ) -> Ids:
         """Adds boxes.
 
@@ -151,6 +163,8 @@ class World:
             How far each box extends beyond its bounds.
         static : bool or array_like, shape (n,)
             Static boxes are never paired with each other. They may still be moved.
+        world : int or array_like, shape (n,)
+            The number of the world that a box is of, 0 by default; EVERY_WORLD for a box that all worlds have.
 
         Returns
         -------
@@ -202,6 +216,7 @@ class World:
         group: npt.ArrayLike | None = None,
         margin: npt.ArrayLike | None = None,
         static: npt.ArrayLike | None = None,
+        world: npt.ArrayLike | None = None,
     ) -> None:
         """Sets all properties of boxes, those of `add`; an omitted one gets its default."""
         chosen = _arguments.ids(ids)
@@ -231,6 +246,17 @@ class World:
         """The current pairs of the boxes, and the changes since the last step."""
         return Step(*map(np.asarray, self._core.step()))
 
+    def result(self, world: int) -> Step:
+        """The lists of the last step for one world.
+
+        Parameters
+        ----------
+        world : int
+            The pairs of its boxes with each other and with those of every world; with EVERY_WORLD, the pairs of two boxes
+            of every world. A number that no box has gives empty lists.
+        """
+        return Step(*map(np.asarray, self._core.result_of(_arguments.bits("world", world))))
+
     def overlapping(
         self,
         lower: npt.ArrayLike,
@@ -240,6 +266,7 @@ class World:
         mask: int = 0xFFFFFFFF,
         static: bool = True,
         moving: bool = True,
+        world: int | None = None,
     ) -> Pairs:
         """The boxes of the world that overlap each of the given boxes.
 
@@ -250,6 +277,8 @@ class World:
             Only boxes whose category shares a bit with ``mask`` and whose mask with ``category``.
         static, moving : bool
             Whether to consider static boxes, and others.
+        world : int, optional
+            Only boxes of this world and those of every world. Without it, all worlds are searched one after the other.
 
         Returns
         -------
@@ -269,6 +298,7 @@ class World:
         mask: int = 0xFFFFFFFF,
         static: bool = True,
         moving: bool = True,
+        world: int | None = None,
     ) -> tuple[Ids, npt.NDArray[np.float64]]:
         """The first box that each ray hits.
 
@@ -303,6 +333,7 @@ class World:
         mask: int = 0xFFFFFFFF,
         static: bool = True,
         moving: bool = True,
+        world: int | None = None,
     ) -> tuple[Ids, npt.NDArray[np.float64]]:
         """The boxes nearest to each point, by Euclidean distance; 0 inside of a box.
 

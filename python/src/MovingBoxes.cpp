@@ -38,6 +38,19 @@ class IdView {
 
 std::unique_ptr<PairArray> copyOf(std::span<const Pair> pairs) { return toPython({pairs.begin(), pairs.end()}); }
 
+/// The lists of a step.
+struct Lists {
+  std::array<std::unique_ptr<PairArray>, 4> each;
+
+  [[nodiscard]] py::tuple arrays() && {
+    return py::make_tuple(std::move(each[0]), std::move(each[1]), std::move(each[2]), std::move(each[3]));
+  }
+};
+
+Lists copyOf(const StepResult& result) {
+  return {{copyOf(result.pairs), copyOf(result.began), copyOf(result.persisted), copyOf(result.ended)}};
+}
+
 std::vector<Ray> raysOf(std::span<const double> rows) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i + 6 < rows.size(); i += 7) {
@@ -163,21 +176,25 @@ py::tuple MovingBoxes::properties(const py::buffer& ids) {
   alone([&](World& world) {
     for (const BoxId id : view.ids()) {
       const BoxProperties properties = world.properties(id);
-      bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U});
+      bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U,
+                               properties.world});
       margins.push_back(properties.margin);
     }
   });
-  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 4),
+  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 5),
                         std::make_unique<NumberArray<double>>(std::move(margins)));
 }
 
 py::tuple MovingBoxes::step() {
-  std::array<std::unique_ptr<PairArray>, 4> lists;
-  search(0, [&](World& world) {
-    const StepResult result = world.step();
-    lists = {copyOf(result.pairs), copyOf(result.began), copyOf(result.persisted), copyOf(result.ended)};
-  });
-  return py::make_tuple(std::move(lists[0]), std::move(lists[1]), std::move(lists[2]), std::move(lists[3]));
+  Lists lists;
+  search(0, [&](World& world) { lists = copyOf(world.step()); });
+  return std::move(lists).arrays();
+}
+
+py::tuple MovingBoxes::resultOf(std::uint32_t world) {
+  Lists lists;
+  alone([&](World& worlds) { lists = copyOf(worlds.result(world)); });
+  return std::move(lists).arrays();
 }
 
 std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const QueryFilter& filter) {

@@ -56,11 +56,14 @@ class MovingBoxes {
   /// All ids, ascending.
   [[nodiscard]] Ids ids();
 
-  /// In each row category, mask, group, and whether the box is static; and the margins.
+  /// In each row category, mask, group, whether the box is static, and its world; and the margins.
   [[nodiscard]] pybind11::tuple properties(const pybind11::buffer& ids);
 
   /// Pairs, and those that began, persisted and ended.
   [[nodiscard]] pybind11::tuple step();
+
+  /// The same of the last step, for one world.
+  [[nodiscard]] pybind11::tuple resultOf(std::uint32_t world);
 
   /// In each row the index of a query and the id of a box that it overlaps.
   [[nodiscard]] std::unique_ptr<PairArray> overlapping(const Boxes& boxes, const QueryFilter& filter);

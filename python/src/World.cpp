@@ -25,6 +25,7 @@ void bindProperties(py::module_& module) {
       .def("set_category", &setField<&BoxProperties::category>)
       .def("set_mask", &setField<&BoxProperties::mask>)
       .def("set_group", &setField<&BoxProperties::group>)
+      .def("set_world", &setField<&BoxProperties::world>)
       .def("set_margin", &Properties::setMargins)
       .def("set_static", &Properties::setStatic);
   py::class_<QueryFilter>(module, "QueryFilter")
@@ -32,7 +33,8 @@ void bindProperties(py::module_& module) {
       .def_readwrite("category", &QueryFilter::category)
       .def_readwrite("mask", &QueryFilter::mask)
       .def_readwrite("static", &QueryFilter::staticBoxes)
-      .def_readwrite("moving", &QueryFilter::dynamicBoxes);
+      .def_readwrite("moving", &QueryFilter::dynamicBoxes)
+      .def_readwrite("world", &QueryFilter::world);
 }
 
 }  // namespace
@@ -42,6 +44,7 @@ void bindWorld(py::module_& module) {
   bindNumbers<double>(module, "RealArray");
   bindProperties(module);
   module.attr("NO_BOX") = kNoBox;
+  module.attr("EVERY_WORLD") = kEveryWorld;
   py::class_<MovingBoxes>(module, "World")
       .def(py::init<double, Order, std::size_t>())
       .def("add", &MovingBoxes::add)
@@ -55,6 +58,7 @@ void bindWorld(py::module_& module) {
       .def("ids", &MovingBoxes::ids)
       .def("properties", &MovingBoxes::properties)
       .def("step", &MovingBoxes::step)
+      .def("result_of", &MovingBoxes::resultOf)
       .def("overlapping", &MovingBoxes::overlapping)
       .def("first_hits", &MovingBoxes::firstHits)
       .def("nearest", &MovingBoxes::nearest);

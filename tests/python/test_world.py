@@ -90,6 +90,35 @@ def test_properties_decide_about_pairs(properties, pairs):
     assert world.step().pairs.tolist() == pairs
 
 
+def test_boxes_of_different_worlds_are_no_pairs():
+    boxes = np.zeros((5, 6)) + [0, 0, 0, 1, 1, 1]
+    world = allpairs.World()
+    ids = world.add(boxes, world=[4, 7, 4, 7, allpairs.EVERY_WORLD])
+    assert world.step().pairs.tolist() == [[0, 2], [0, 4], [1, 3], [1, 4], [2, 4], [3, 4]]
+    assert world.result(7).began.tolist() == [[1, 3], [1, 4], [3, 4]]
+    assert world.result(8).pairs.shape == (0, 2)
+    assert world.overlapping([[0, 0, 0, 1, 1, 1]], world=4).tolist() == [[0, 0], [0, 2], [0, 4]]
+    assert world.first_hits([-1, 0.5, 0.5], [1, 0, 0], world=7)[0].tolist() == [1]
+    assert world.nearest([0, 0, 0], k=2, world=8)[0].tolist() == [[4, allpairs.NO_BOX]]
+    for twin in (copy.deepcopy(world), pickle.loads(pickle.dumps(world))):
+        np.testing.assert_array_equal(twin.step().pairs, world.step().pairs)
+        assert twin.result(4).pairs.tolist() == [[0, 2], [0, 4], [2, 4]]
+    world.set_properties(ids, world=7)
+    assert len(world.step().pairs) == 10
+    with pytest.raises(allpairs.InvalidArgument, match="world is -1"):
+        world.result(-1)
+
+
+def test_a_state_of_an_earlier_version_has_no_worlds():
+    world = allpairs.World()
+    world.add(np.zeros((2, 6)))
+    state = world.__getstate__()
+    del state["world"]
+    again = allpairs.World.__new__(allpairs.World)
+    again.__setstate__(state)
+    assert again.step().pairs.tolist() == [[0, 1]]
+
+
 def test_queries_find_what_a_loop_finds():
     rng = np.random.default_rng(9)
     lower = rng.integers(0, 20, (200, 3)).astype(float)
