@@ -62,6 +62,7 @@ struct Four {
   std::array<T, 4> lanes;
 
   Four(T a, T b, T c, T d) noexcept : lanes{a, b, c, d} {}
+  T operator[](std::size_t i) const noexcept { return lanes[i]; }
 };
 
 using Float4 = Four<float>;
