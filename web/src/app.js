@@ -87,6 +87,7 @@ export class App extends EventTarget {
     this.models = models.length === 2 && models[0] === models[1] ? [models[0]] : models;
     this.isSelf = models.length === 2 && models[0] === models[1];
     this.entry = models.length === 2 ? this.table.find(...models) : -1;
+    if (this.visibility.reveal(models)) this.emit("visibility");
     this.restyle();
     if (frames && models.length > 0) this.lookAtChosen();
     this.emit("choice");
@@ -121,12 +122,24 @@ export class App extends EventTarget {
     this.stage?.lookAt(this.stage.sight);
   }
 
+  /** What a ray through a place of the window meets first, as Stage.hitAt() gives it: what is faint only where nothing else is. */
+  hitAt(x, y, onlyBoxes) {
+    const isShown = (model) => this.visibility.isShown(model);
+    const isSolid = (model) => isShown(model) && !this.stage.styles.isFaint(model);
+    return this.stage.hitAt(x, y, isSolid, onlyBoxes) ?? this.stage.hitAt(x, y, isShown, onlyBoxes);
+  }
+
   /** Hides models, shows all again, or takes the last of these back: a method of Visibility, and what it is to know. */
   changeVisibility(how, ...more) {
     this.visibility[how](...more);
     if (this.models.every((model) => this.visibility.isShown(model))) this.restyle();
     else this.choose([]); // what is hidden is no longer chosen, so that what was behind it is seen
     this.emit("visibility");
+  }
+
+  /** Whether no side of a model's box is at infinity. */
+  isFinite(model) {
+    return this.frame.boxes.subarray(6 * model, 6 * model + 6).every(Number.isFinite);
   }
 
   /** Moves bodies apart, by a part of how far they are from the middle; 0 leaves them where they are. */

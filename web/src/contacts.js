@@ -2,7 +2,7 @@
 // Where surfaces meet, in front of everything: lines as thin rods, since browsers draw lines one pixel wide, and the depth or
 // the gap of a pair as a rod with two ends.
 
-import { BufferAttribute, BufferGeometry, Color, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Color, Mesh, MeshBasicMaterial, Plane, Vector3 } from "three";
 import { contactCorners, state } from "./exact.js";
 import { addBall, addRod } from "./rods.js";
 
@@ -16,6 +16,12 @@ export class Contacts {
     // The halo is drawn first, so that the line stands out from any colour.
     this.objects = [0, 1].map(() => new Mesh(new BufferGeometry(), new MeshBasicMaterial({ depthTest: false, side: 2, transparent: true })));
     this.shown = "";
+  }
+
+  /** Leaves out what lies beyond a plane, given by its normal and how far along that it is. */
+  setCut([x, y, z, at]) {
+    const plane = new Plane(new Vector3(-x, -y, -z), at);
+    for (const { material } of this.objects) material.clippingPlanes = [plane];
   }
 
   paint(colour, background) {

@@ -51,7 +51,7 @@ const upKey = (scene) => `allpairs-up ${scene.title}`;
 /** Which axis the reader has turned up before, or else the input says is up: 1 to 3, below 0 for the other way. */
 export function upOf(scene) {
   const choice = Number(stored(upKey(scene)));
-  return [1, 2, 3].includes(choice) ? choice : scene.up;
+  return [1, 2, 3, scene.up].includes(choice) ? choice : scene.up;
 }
 
 /** Shows one of the two lists. */
@@ -80,6 +80,7 @@ export function setUpTabs() {
 
 /** Buttons that switch what is drawn. */
 export function setUpToolbar(app, theme) {
+  const ups = [1, 2, 3, ...(app.scene.upOfInput < 0 ? [app.scene.upOfInput] : [])];
   const nextMode = { outlines: "solid", solid: "outlines" };
   const acts = {
     "show-boxes": () => app.toggle("boxes"),
@@ -91,7 +92,7 @@ export function setUpToolbar(app, theme) {
     "frame-all": () => app.lookAtAll(),
     "up-axis": () => {
       if (!app.stage) return;
-      app.stage.setUp((Math.abs(app.stage.up) % 3) + 1);
+      app.stage.setUp(ups[(ups.indexOf(app.stage.up) + 1) % ups.length]);
       store(upKey(app.scene), app.stage.up);
       update();
     },
@@ -123,7 +124,7 @@ export function toggleHelp() {
 
 function keysOf(app, panels, timeline, theme) {
   const search = () => byId(`${currentTab()}-search`).focus();
-  const press = (id) => byId(id).click();
+  const press = (id) => byId(id).hidden || byId(id).click();
   return {
     "?": toggleHelp,
     "/": search,
@@ -175,7 +176,7 @@ export function setUpKeys(app, panels, timeline, theme) {
   const keys = keysOf(app, panels, timeline, theme);
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
-    const inText = event.target.matches("input[type=search], select");
+    const inText = event.target.matches("input[type=search], input[type=number], select");
     if (inText && event.key === "Escape") return event.target.blur();
     if (steerByArrow(app, event) || inText || !(event.key in keys)) return;
     if (event.key === " " && event.target.matches("button, summary")) return;
@@ -186,7 +187,7 @@ export function setUpKeys(app, panels, timeline, theme) {
 
 /** The name of the model under the pointer, while that rests. */
 export function setUpHover(app) {
-  const { stage, visibility } = app;
+  const { stage } = app;
   const label = byId("hover");
   const rest = 60; // milliseconds: of many triangles, looking takes some
   const gap = 14; // pixels from the pointer
@@ -196,7 +197,7 @@ export function setUpHover(app) {
     label.hidden = true;
   };
   const show = (event) => {
-    const model = stage.modelAt(event.clientX, event.clientY, (i) => visibility.isShown(i), !app.show.shapes);
+    const model = app.hitAt(event.clientX, event.clientY, !app.show.shapes)?.model ?? -1;
     if (model < 0) return;
     label.textContent = app.scene.nameOf(model);
     label.hidden = false;
@@ -228,7 +229,7 @@ export function setUpPointer(app, measure) {
     if (moved > clickReach) return;
     const onlyBoxes = event.shiftKey || !app.show.shapes;
     if (measure.isOn) return measure.add(event.clientX, event.clientY, onlyBoxes);
-    const model = stage.modelAt(event.clientX, event.clientY, (i) => app.visibility.isShown(i), onlyBoxes);
+    const model = app.hitAt(event.clientX, event.clientY, onlyBoxes)?.model ?? -1;
     app.choose(model < 0 ? [] : [model], { look: false });
     if (model >= 0) openTab("models");
   });

@@ -5,6 +5,7 @@ import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Vecto
 import { byId } from "./dom.js";
 
 const cells = 8; // across the longer side of the scene, or up to twice as many
+const mostLines = 64; // each way
 
 /** The largest of 1, 2 and 5 times a power of ten that is not above a length. */
 function roundStep(length) {
@@ -16,12 +17,12 @@ function roundStep(length) {
 function gridPoints([low, high], step, origin) {
   const points = [];
   for (const [u, v] of [[0, 1], [1, 0]]) {
-    const first = Math.ceil((low[u] + origin[u]) / step);
-    const last = Math.floor((high[u] + origin[u]) / step);
-    for (let i = first; i <= last; ++i) {
+    const first = Math.ceil((low[u] + origin[u]) / step) * step - origin[u];
+    const lines = Math.floor((high[u] - first) / step) + 1; // counted from here: far from zero numbers have gaps
+    for (let i = 0; i < Math.min(lines, mostLines); ++i) {
       for (const end of [low[v], high[v]]) {
         const point = [];
-        point[u] = i * step - origin[u];
+        point[u] = first + i * step;
         point[v] = end;
         points.push(point);
       }
@@ -43,7 +44,7 @@ export class Ground {
     const across = [0, 1, 2].filter((axis) => axis !== k);
     const sides = across.map((axis) => whole[axis + 3] - whole[axis]);
     const longer = Math.max(...sides, whole[k + 3] - whole[k]);
-    if (!(longer > 0)) return;
+    if (!(longer > 0 && longer < 1e30)) return;
     const margin = longer / 4;
     const plane = [across.map((axis) => whole[axis] - margin), across.map((axis) => whole[axis + 3] + margin)];
     const level = up > 0 ? whole[k] - 1e-3 * longer : whole[k + 3] + 1e-3 * longer; // a part that stands on it hides it

@@ -42,6 +42,7 @@ function showPicture(app, theme) {
     stage.resize();
     stage.lookAt(stage.whole);
     app.attach(stage);
+    for (const id of ["axes", "explode", "measure"]) byId(id).toggleAttribute("hidden", false);
     const measure = new Measure(app, stage);
     setUpPointer(app, measure);
     setUpHover(app);
@@ -61,6 +62,7 @@ function start() {
     byId("title").textContent = "No scene: this is the empty page that `allpairs view` fills.";
     return;
   }
+  scene.upOfInput = scene.up;
   scene.up = upOf(scene);
   document.title = `${scene.title} – Allpairs`;
   byId("version").textContent = `Allpairs ${scene.version}`;

@@ -32,6 +32,7 @@ export class Measure {
     this.mark = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ depthTest: false, transparent: true }));
     stage.addMark(this.mark, tone.began);
     stage.addEventListener("spread", () => this.clear()); // points would not be where they were
+    stage.addEventListener("draws", () => this.points.length > 0 && this.draw()); // as large from everywhere
     this.set(false);
   }
 
@@ -51,8 +52,8 @@ export class Measure {
   /** Takes the point at a place of the window: the first, or the second; a third begins anew. */
   add(x, y, onlyBoxes) {
     const { app, stage } = this;
-    const hit = stage.hitAt(x, y, (model) => app.visibility.isShown(model), onlyBoxes);
-    if (!hit) return;
+    const hit = app.hitAt(x, y, onlyBoxes);
+    if (!hit || (!hit.corners && !app.isFinite(hit.model))) return; // sides at infinity are drawn somewhere
     if (this.points.length === 2) this.points = [];
     const drawn = snapped(hit, stage, x, y);
     this.points.push({ drawn, inPlace: drawn.clone().sub(new Vector3(...stage.offsets.of(hit.model))) });
@@ -60,6 +61,12 @@ export class Measure {
   }
 
   update() {
+    this.draw();
+    this.stage.invalidate();
+    byId("measure-result").textContent = this.text();
+  }
+
+  draw() {
     const { stage } = this;
     const corners = [];
     const radius = (point) => thickness * point.distanceTo(stage.camera.position);
@@ -69,8 +76,6 @@ export class Measure {
     this.mark.geometry.dispose();
     this.mark.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(corners), 3));
     this.mark.visible = corners.length > 0;
-    stage.invalidate();
-    byId("measure-result").textContent = this.text();
   }
 
   text() {

@@ -17,7 +17,7 @@ void main() {
 // screen, those in front of its surface darken it, less the farther they are.
 const fragmentShader = `
 uniform sampler2D depths;
-uniform sampler2D colours; // one a model
+uniform sampler2D colours; // one a body
 uniform vec2 size;         // in pixels
 uniform vec2 slope;        // of the borders of the picture, across and up
 uniform vec2 range;        // from where to where there is something to see
@@ -75,7 +75,7 @@ void main() {
 }`;
 
 export class Shade {
-  /** `shapes` are the objects that are solid. */
+  /** `shapes` are the meshes that are solid. */
   constructor(shapes) {
     this.shapes = shapes;
     for (const shape of shapes) shape.layers.enable(solidLayer);
@@ -95,7 +95,7 @@ export class Shade {
     const { width, height } = renderer.domElement;
     if (this.target?.width !== width || this.target.height !== height) this.renew(width, height);
     const background = scene.background;
-    const setLit = (isLit) => this.shapes.forEach((shape) => (shape.material.uniforms.lit.value = isLit && shape.isMesh === true));
+    const setLit = (isLit) => this.shapes.forEach((shape) => (shape.material.uniforms.lit.value = isLit));
     setLit(false);
     scene.background = null;
     camera.layers.set(solidLayer);

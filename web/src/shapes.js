@@ -14,14 +14,14 @@ out vec3 where;
 out vec3 place;
 flat out vec3 colour;
 ${styleLookup}
-vec3 calmColour(float model) {
-  float turn = 6.2832 * fract(0.61803 * model + 0.55); // by the golden ratio: neighbours are far from each other
-  return vec3(0.62) + 0.13 * cos(vec3(turn, turn - 2.094, turn + 2.094)) + 0.06 * sin(7.0 * model);
+vec3 calmColour(float hue) {
+  float turn = 6.2832 * hue / 256.0;
+  return vec3(0.62) + 0.13 * cos(vec3(turn, turn - 2.094, turn + 2.094)) + 0.06 * sin(7.0 * hue);
 }
 void main() {
   uvec4 style = styleOf(model);
   colour = mix(colourOf(style, model), vec3(0.72), style.r < 5u ? neutral : 0.1);
-  if (calm && style.r < 5u) colour = calmColour(model);
+  if (calm && style.r < 5u) colour = calmColour(float(style.b));
   vec3 moved = exploded ? position + texelFetch(offsets, texelOf(model), 0).xyz : position;
   vec4 p = modelViewMatrix * vec4(moved, 1.0);
   where = p.xyz;

@@ -32,10 +32,11 @@ export class Stage extends EventTarget {
     this.canvas = canvas;
     this.data = scene;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer.localClippingEnabled = true;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(40, 1, 0.1, 1000);
     this.sharpness = new Sharpness(() => this.invalidate(), scene.models > manyModels ? 0.5 : 1, scene.models <= tooManyModels);
-    this.styles = new ModelStyles(scene.models);
+    this.styles = new ModelStyles(scene.models, scene.bodyOf);
     this.offsets = new ModelOffsets(scene.models);
     this.explosion = 0;
     this.marks = []; // with their tones: what others add
@@ -64,7 +65,7 @@ export class Stage extends EventTarget {
       mark.frustumCulled = false;
       mark.renderOrder = 10 + i;
     });
-    this.shade = new Shade(this.shapes.filter((shape) => !shape.material.transparent));
+    this.shade = new Shade(this.shapes.filter((shape) => shape.isMesh && !shape.material.transparent));
     this.ground = new Ground();
     this.scene.add(this.ground.object, ...this.boxes.objects, ...this.shapes, this.shade.object, ...marks);
     if (this.data.region) this.place(this.region, drawable(this.data.region, this.data.origin, wideEnough(this.data, this.whole)));
@@ -109,6 +110,7 @@ export class Stage extends EventTarget {
   /** Draws no shape beyond a plane, given by its normal and how far along that it is. */
   setCut(plane) {
     this.shared.cut.value.fromArray(plane);
+    this.contacts.setCut(plane);
     this.invalidate();
   }
 
@@ -140,6 +142,7 @@ export class Stage extends EventTarget {
       this.offsets.texels.fill(0);
     }
     this.boxes.setBoxes(this.drawn);
+    this.ground.place(this.sight, this.data.origin, this.up);
     this.dispatchEvent(new Event("spread"));
     this.invalidate();
   }
@@ -229,11 +232,11 @@ export class Stage extends EventTarget {
     const unit = (k, length) => new Vector3().setComponent(k, length);
     const [right, ahead] = { 1: [unit(1, sign), unit(2, 1)], 2: [unit(0, sign), unit(2, -1)], 3: [unit(0, sign), unit(1, 1)] }[Math.abs(axis)];
     this.camera.up.copy(unit(Math.abs(axis) - 1, sign));
-    this.ground.place(this.whole, this.data.origin, axis);
+    this.ground.place(this.sight, this.data.origin, axis);
     this.controls?.dispose();
     this.controls = this.makeControls();
     const direction = right.multiplyScalar(0.75).sub(ahead).addScaledVector(this.camera.up, 0.65);
-    this.lookAt(this.whole, direction);
+    this.lookAt(this.sight, direction);
   }
 
   makeControls() {
@@ -280,11 +283,6 @@ export class Stage extends EventTarget {
       distance = Math.max(distance, corner.dot(back) + across / slope);
     }
     return distance;
-  }
-
-  /** The model at a place of the window, or -1. */
-  modelAt(clientX, clientY, isShown, onlyBoxes) {
-    return this.hitAt(clientX, clientY, isShown, onlyBoxes)?.model ?? -1;
   }
 
   /** What a ray through a place of the window meets first, as pick() gives it, with the point; or null. */
@@ -335,6 +333,7 @@ export class Stage extends EventTarget {
       this.drawnSize = this.size;
     }
     const begin = performance.now();
+    this.dispatchEvent(new Event("draws"));
     if (this.sharpness.isShaded) this.shade.prepare(this.renderer, this.scene, this.camera);
     else this.shade.hide();
     this.renderer.render(this.scene, this.camera);

@@ -22,18 +22,24 @@ export class ModelOffsets {
 }
 
 export class ModelStyles {
-  constructor(count) {
+  /** `bodyOf` says what each model is a part of: parts of one body have one colour where each body has its own. */
+  constructor(count, bodyOf) {
     const height = Math.max(1, Math.ceil(count / width));
     this.texels = new Uint8Array(4 * width * height);
     this.texture = new DataTexture(this.texels, width, height, RGBAIntegerFormat, UnsignedByteType);
     this.texture.internalFormat = "RGBA8UI";
     this.texture.magFilter = this.texture.minFilter = NearestFilter;
+    for (let i = 0; i < count; ++i) this.texels[4 * i + 2] = (256 * (0.61803 * bodyOf(i) + 0.55)) % 256; // neighbours are far apart
     this.update();
   }
 
   set(model, tone, flags) {
     this.texels[4 * model] = tone;
     this.texels[4 * model + 1] = flags;
+  }
+
+  isFaint(model) {
+    return (this.texels[4 * model + 1] & (look.faint | look.ghost)) !== 0;
   }
 
   update() {

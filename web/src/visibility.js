@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which models the reader has hidden, and what to undo.
 
-const mostSteps = 100; // that can be undone
+const mostSteps = 20; // that can be undone
 
 export class Visibility {
   constructor(count) {
@@ -27,7 +27,15 @@ export class Visibility {
   /** Hides all other models. */
   isolate(models) {
     const kept = new Set(models);
-    if (kept.size > 0) this.change(new Set(Array.from({ length: this.count }, (_, i) => i).filter((i) => !kept.has(i))));
+    const isSo = this.hidden.size === this.count - kept.size && models.every((model) => this.isShown(model));
+    if (kept.size > 0 && !isSo) this.change(new Set(Array.from({ length: this.count }, (_, i) => i).filter((i) => !kept.has(i))));
+  }
+
+  /** Shows models that are chosen. Returns whether one was hidden. */
+  reveal(models) {
+    if (models.every((model) => this.isShown(model))) return false;
+    this.change(new Set([...this.hidden].filter((model) => !models.includes(model))));
+    return true;
   }
 
   showAll() {

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { cuboid, folder, hasExact, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { cuboid, folder, hasExact, npy, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -50,6 +50,8 @@ test("models are hidden, shown alone, and shown again", { skip }, async () => {
   await screenshot(page, "hidden");
   await page.keyboard.press("z");
   assert.equal(await page.isVisible("#hidden-panel"), false);
+  assert.equal(await nameInMiddle(page), "core", "of what is solid and what is faint around it, what is solid");
+  await page.keyboard.press("Escape");
   assert.equal(await nameInMiddle(page), "shell");
   await page.click("#details .act:nth-child(2)"); // only the shell
   assert.equal(await page.textContent("#hidden-count"), "1 model hidden");
@@ -127,6 +129,22 @@ test("the distance of two corners is measured, also while bodies are apart", { s
   await page.keyboard.press("Escape");
   assert.equal(await page.isVisible("#measure-panel"), false);
   assert.equal(await nameInMiddle(page), "cube");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test("a page of boxes far from zero opens, and what is chosen in a list is shown", async () => {
+  const at = [1e16, 1e16, 1e16];
+  const page = await view("far-away", [write("far-away.npy", npy([2, 6], [...at, ...at.map((x) => x + 4), ...at, ...at.map((x) => x + 8)]))]);
+  await page.keyboard.press("j");
+  assert.equal(await page.isVisible("#details"), true);
+  await page.keyboard.press("h");
+  assert.equal(await page.textContent("#hidden-count"), "2 models hidden");
+  await page.click("#pairs-list .row");
+  assert.equal(await page.isVisible("#hidden-panel"), false, "what is chosen is not hidden any more");
+  assert.equal(await page.isVisible("#section-panel"), false);
+  await page.keyboard.press("s");
+  assert.equal(await page.isVisible("#section-panel"), false, "there are no shapes to cut");
   assert.deepEqual(page.problems, []);
   await page.close();
 });

@@ -132,6 +132,9 @@ test("the margin slider finds the pairs of detect --distance", async () => {
     await page.click("#tab-pairs"); // without a pair, models are shown first
     const before = await number(page, "#fact-pairs");
     let different = 0;
+    await page.fill("#margin-number", "");
+    await page.locator("#margin-number").pressSequentially("1.25e-1");
+    assert.equal(await page.inputValue("#margin-number"), "1.25e-1", "keys of the page do not take what is typed");
     for (const distance of [0, 0.1, 0.10000000000000009, 0.5, 1.2, 3, 0.25]) {
       await page.fill("#margin-number", String(distance));
       await page.press("#margin-number", "Enter");
