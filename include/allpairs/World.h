@@ -130,7 +130,8 @@ class World {
   [[nodiscard]] StepResult result() const noexcept;
 
   /// The lists of the last step for one world: the pairs of its boxes with each other and with those of every world, in
-  /// the same order. With kEveryWorld, the pairs of two boxes of every world. Empty for a number that no box has.
+  /// the same order. With kEveryWorld, the pairs of two boxes of every world. Empty for a number that no box
+  /// has, and had in the step before.
   ///
   /// A box that is given another world ends its pairs there and begins them here.
   /// Cost:    O(log pairs), after a pass over all pairs in the first call after a step: cheap if ids ascend with the

@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <map>
+#include <memory_resource>
+#include <new>
+#include <span>
 #include <vector>
 
 #include "allpairs/World.h"
@@ -140,6 +145,141 @@ TEST(WorldNumbers, FindBetweenFindsPairsOfBoxesOfTheSameWorld) {
   const BoxId e = plain.add(cube(0, 0, 0));
   EXPECT_THAT(plain.findBetween(other), ElementsAre(Pair{e, d}));
   EXPECT_THAT(other.findBetween(plain), ElementsAre(Pair{d, e}));
+}
+
+std::vector<BoxId> addRandom(World& world, std::size_t count, unsigned seed, const BoxProperties& properties) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(count, seed));
+  return world.add(boxes, properties);
+}
+
+/// Memory of which one allocation fails.
+class FailingMemory final : public std::pmr::memory_resource {
+ public:
+  std::ptrdiff_t left = -1;  ///< Allocations until the one that fails; below 0 none does.
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    if (left >= 0 && left-- == 0) throw std::bad_alloc();
+    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+  }
+  void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override {
+    std::pmr::new_delete_resource()->deallocate(block, bytes, alignment);
+  }
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+/// Small worlds, and a large one which is updated although the small ones are gone and many static boxes have come.
+void makeWorlds(World& world) {
+  std::vector<BoxId> small;
+  for (std::uint32_t number = 0; number < 40; ++number) {
+    const std::vector<BoxId> ids = addRandom(world, 3, number, inWorld(number));
+    small.insert(small.end(), ids.begin(), ids.end());
+  }
+  addRandom(world, 600, 3, inWorld(1'000'000));
+  static_cast<void>(world.step());
+  static_cast<void>(world.findOverlapping(cube(0, 0, 0)));
+  world.remove(small);
+  BoxProperties fixed = inWorld(1'000'000);
+  fixed.isStatic = true;
+  addRandom(world, 900, 4, fixed);
+}
+
+TEST(WorldNumbers, AStepOrAQueryThatFailsAnywhereIsMadeUpFor) {
+  World whole;
+  makeWorlds(whole);
+  const std::vector<Pair> expected = toVector(whole.step().pairs);
+  ASSERT_GT(expected.size(), 100U);
+  for (const bool isStep : {true, false}) {
+    bool hasFailed = true;
+    for (std::ptrdiff_t k = 0; hasFailed; ++k) {
+      FailingMemory memory;
+      WorldOptions options;
+      options.memory = &memory;
+      World world(options);
+      makeWorlds(world);
+      memory.left = k;
+      hasFailed = false;
+      try {
+        if (isStep) {
+          static_cast<void>(world.step());
+        } else {
+          static_cast<void>(world.findOverlapping(cube(0, 0, 0)));
+        }
+      } catch (const std::bad_alloc&) {
+        hasFailed = true;
+        if (isStep) {
+          EXPECT_THAT(world.result().began, IsEmpty()) << "after a step that threw there are no changes";
+        }
+      }
+      memory.left = -1;
+      ASSERT_EQ(world.findOverlapping(Box{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}}).size(), world.size()) << k;
+      ASSERT_EQ(toVector(world.step().pairs), expected) << k;
+    }
+  }
+}
+
+TEST(WorldNumbers, ShrinkReleasesIdsAndLeavesRoomForTheNextStep) {
+  World world;
+  std::vector<BoxId> ids;
+  for (std::uint32_t number = 0; number < 50; ++number) {
+    const std::vector<BoxId> added = addRandom(world, 5, number, inWorld(number));
+    ids.insert(ids.end(), added.begin(), added.end());
+  }
+  static_cast<void>(world.step());
+  world.remove(std::span(ids).subspan(5));
+  for (int i = 0; i < 2; ++i) static_cast<void>(world.step());
+  world.shrink();
+  EXPECT_EQ(world.idBound(), 5U);
+
+  FailingMemory memory;  // The ids of removed boxes are freed in the step, where nothing may fail.
+  WorldOptions options;
+  options.memory = &memory;
+  for (std::ptrdiff_t k = 0; k < 60; ++k) {
+    World other(options);
+    for (int i = 0; i < 3; ++i) other.add(cube(0, 0, 0));
+    static_cast<void>(other.step());
+    other.remove(0);
+    other.shrink();
+    memory.left = k;
+    try {
+      static_cast<void>(other.step());
+    } catch (const std::bad_alloc&) {
+      memory.left = -1;
+      static_cast<void>(other.step());
+    }
+    memory.left = -1;
+    EXPECT_THAT(toVector(other.result().pairs), ElementsAre(Pair{1, 2}));
+  }
+}
+
+TEST(WorldNumbers, AcceptMayAskForTheListsAndQueriesOfTheWorldThatIsStepped) {
+  for (const std::uint32_t boxes : {20U, 600U}) {
+    parallel::TbbExecutor executor(4);
+    const World* self = nullptr;
+    std::atomic<std::size_t> found = 0;
+    WorldOptions options;
+    options.executor = &executor;
+    options.accept = [&](BoxId first, BoxId) {
+      if (first % 7 == 0) found += self->findOverlapping(self->box(first), ofWorld(1)).size();
+      if (first % 11 == 0) found += self->result(1).pairs.size();
+      return true;
+    };
+    World world(options);
+    self = &world;
+    for (std::uint32_t number = 0; number < 30; ++number) {
+      addRandom(world, boxes, number, inWorld(number));
+    }
+    for (int i = 0; i < 3; ++i) {
+      addRandom(world, boxes, 99, inWorld(1));
+      const std::vector<Pair> pairs = toVector(world.step().pairs);
+      std::vector<Pair> ofOne;
+      for (const Pair pair : pairs) {
+        if (world.properties(pair.first).world == 1) ofOne.push_back(pair);
+      }
+      ASSERT_EQ(toVector(world.result(1).pairs), ofOne) << boxes << " boxes, step " << i;
+    }
+    EXPECT_GT(found, 0U);
+  }
 }
 
 TEST(WorldNumbers, AcceptIsAskedAboutPairsOfOneWorldOnly) {

@@ -188,8 +188,9 @@ void compare(std::size_t worlds, std::size_t boxes, std::size_t rounds, const st
 std::vector<float> swung(std::vector<float> rows, std::size_t step) {
   const std::vector<float> old = rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const float side = old[i / 6 * 6 + i % 3 + 3] - old[i / 6 * 6 + i % 3];
-    const auto phase = static_cast<float>(i / 6) + 2.0F * static_cast<float>(i % 3);
+    const std::size_t box = i / 6;
+    const float side = old[6 * box + i % 3 + 3] - old[6 * box + i % 3];
+    const auto phase = static_cast<float>(box) + 2.0F * static_cast<float>(i % 3);
     rows[i] += 0.14F * side * std::sin(0.7F * static_cast<float>(step) + phase);
   }
   return rows;

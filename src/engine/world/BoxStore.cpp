@@ -149,7 +149,8 @@ void BoxStore::shrink() noexcept {
   m_touched.resize(bound + 1);
   m_stale.resize(bound + 1);
   const auto trim = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
-  trim(m_rows32, m_rows64, m_margins, m_worlds, m_filters, m_flags, m_free, m_removed, m_touched, m_stale, m_resettled);
+  trim(m_rows32, m_rows64, m_margins, m_worlds, m_filters, m_flags, m_touched, m_stale, m_resettled);
+  if (m_removed.empty()) trim(m_free, m_removed);  // Else there is room for them among the free ones, for endStep().
   m_setIsCurrent = false;
 }
 

@@ -19,7 +19,7 @@ constexpr std::size_t kPrefetchPairs = 16;
 
 void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFor) {
   m_looksFor = looksFor;
-  m_result = {m_result.pairs, {}, {}, {}};
+  dropChanges();
   m_rowsAreCurrent = m_rowsAreCurrent && idBound == m_idBound;
   m_idBound = idBound;
   while (m_fresh.size() < workers) m_fresh.emplace_back(m_fresh.get_allocator().resource());

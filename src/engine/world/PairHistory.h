@@ -36,6 +36,9 @@ class PairHistory {
         m_ended(memory),
         m_sort(memory) {}
 
+  /// Leaves of the result the pairs only, until a step completes.
+  void dropChanges() noexcept { m_result = {m_result.pairs, {}, {}, {}}; }
+
   /// Starts a step, without pairs. All ids are below the bound. `workers` is the number of concurrent workers.
   void begin(std::size_t idBound, std::size_t workers, Joined looksFor);
 

@@ -84,6 +84,7 @@ struct World::State {
 
   void shrink() noexcept {
     search.shrink();
+    store.settle();  // What has changed does not matter to hierarchies that are made anew.
     store.shrink();
     swept = std::pmr::vector<Box>(search.memory());
   }
@@ -236,6 +237,11 @@ BoxProperties World::properties(BoxId id) const {
 StepResult World::step() {
   State& state = this->state();
   const InUseScope scope(state.inUse);
+  // `accept` may group the lists of the step before.
+  const struct Ungroup {
+    std::atomic<bool>& isGrouped;
+    ~Ungroup() { isGrouped.store(false, std::memory_order_relaxed); }
+  } ungroup{state.isGrouped};
   state.isGrouped.store(false, std::memory_order_relaxed);
   return state.search.step(state.store);
 }

@@ -95,6 +95,7 @@ void WorldForest::findDirty(const BoxStore& store, const WorldMembers& members) 
   for (const std::uint32_t world : m_dirty) m_marked[world] = 0;
   m_dirty.clear();
   for (const BoxId id : store.stale()) {
+    if (!store.contains(id)) continue;  // Removed before the last update, if what came after that update threw.
     const std::size_t world = members.worldOf(id);
     if (m_marked[world] != 0 || !belongs(store, id)) continue;
     m_dirty.push_back(static_cast<std::uint32_t>(world));

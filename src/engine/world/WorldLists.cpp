@@ -28,6 +28,17 @@ void WorldLists::noteStep(const BoxStore& store) noexcept {
   m_now.assign(store.worlds().begin(), store.worlds().end());
 }
 
+void WorldLists::shrink() noexcept {
+  std::pmr::memory_resource* const from = m_now.get_allocator().resource();
+  m_keyed = Buffer<std::uint64_t>(from);
+  m_spare = Buffer<std::uint64_t>(from);
+  if (m_isSame) m_before = Numbers(from);
+  for (Grouped& grouped : m_lists) {
+    if (grouped.own.empty()) grouped.own.shrink_to_fit();
+    if (grouped.kept.empty()) grouped.kept.shrink_to_fit();
+  }
+}
+
 /// The world of a pair: that of the box that is not of every world.
 std::uint32_t WorldLists::numberOf(const Numbers& numbers, Pair pair) noexcept {
   const auto of = [&](BoxId id) { return id < numbers.size() ? numbers[id] : 0; };
@@ -37,6 +48,7 @@ std::uint32_t WorldLists::numberOf(const Numbers& numbers, Pair pair) noexcept {
 
 void WorldLists::group(const StepResult& result) {
   groupOne(Current, result.pairs, m_now);
+  for (Grouped& grouped : m_lists) grouped.kept.clear();
   if (m_isSame) {
     groupOne(Began, result.began, m_now);
     groupOne(Persisted, result.persisted, m_now);
@@ -74,6 +86,7 @@ void WorldLists::groupOne(List list, std::span<const Pair> pairs, const Numbers&
   Grouped& grouped = m_lists[list];
   grouped.numbers = &numbers;
   grouped.pairs = pairs;
+  grouped.own.clear();
   std::uint32_t all = 0;
   std::uint32_t last = 0;
   bool isGrouped = true;

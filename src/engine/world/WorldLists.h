@@ -39,6 +39,9 @@ class WorldLists {
   /// Groups the lists by world: a pass over them, and a sort of those that are not grouped.
   void group(const StepResult& result);
 
+  /// Releases the memory that the lists of the last step do not need.
+  void shrink() noexcept;
+
   /// The lists of a world; group() has been called since the step.
   [[nodiscard]] StepResult of(std::uint32_t world) const noexcept;
 

@@ -62,6 +62,9 @@ void WorldSearch::shrink() noexcept {
   m_changedStatic = ChangedBoxes(from);
   m_runner = JoinRunner(from);
   m_history.shrink();
+  m_lists.shrink();
+  const auto release = [](auto&... lists) { ((lists.clear(), lists.shrink_to_fit()), ...); };
+  release(m_isChosen, m_chosen, m_large, m_runs);
 }
 
 /// Releases the hierarchies of the other kind when the store becomes numbered, or is no longer.
@@ -80,6 +83,7 @@ void WorldSearch::releaseTrees() noexcept {
 }
 
 StepResult WorldSearch::step(BoxStore& store) {
+  m_history.dropChanges();
   m_lists.prepareStep(store);
   followNumbering(store);
   if (!m_isNumbered) update(store);
