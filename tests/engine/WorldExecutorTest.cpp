@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "CompareStep.h"
 #include "allpairs/World.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
@@ -43,10 +44,7 @@ TEST_P(WorldThreads, SeveralThreadsGiveTheListsOfOne) {
     const StepResult one = serial.step();
     const StepResult several = many.step();
     ASSERT_GT(one.began.size(), 0U);
-    ASSERT_EQ(test::toVector(several.pairs), test::toVector(one.pairs));
-    ASSERT_EQ(test::toVector(several.began), test::toVector(one.began));
-    ASSERT_EQ(test::toVector(several.persisted), test::toVector(one.persisted));
-    ASSERT_EQ(test::toVector(several.ended), test::toVector(one.ended));
+    ASSERT_NO_FATAL_FAILURE(test::compareLists(several, one));
     ASSERT_EQ(many.statistics().rebuilds, serial.statistics().rebuilds);
     moveSome(boxes, GetParam(), frame, ids);
     std::vector<BoxF> moved;

@@ -49,7 +49,7 @@ export class Measure {
     this.update();
   }
 
-  /** Takes the point at a place of the window: the first, or the second; a third begins anew. */
+  /** Takes the point at a place of the window: the first, or the second; a third starts a new measurement. */
   add(x, y, onlyBoxes) {
     const { app, stage } = this;
     const hit = app.hitAt(x, y, onlyBoxes);

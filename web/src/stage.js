@@ -124,6 +124,8 @@ export class Stage extends EventTarget {
   /** Moves bodies away from the middle of the scene: by `factor` times how far from it they are. */
   setExplosion(factor) {
     this.explosion = factor;
+    if (!this.isExploded) this.offsets.texels.fill(0);
+    this.ground.place(this.sight, this.data.origin, this.up);
     this.spread();
   }
 
@@ -138,11 +140,8 @@ export class Stage extends EventTarget {
     if (this.isExploded) {
       this.drawn = spreadBoxes({ boxes: this.inPlace, bodyOf: this.data.bodyOf, whole: this.whole, factor: this.explosion, offsets: this.offsets });
       this.offsets.texture.needsUpdate = true;
-    } else {
-      this.offsets.texels.fill(0);
     }
     this.boxes.setBoxes(this.drawn);
-    this.ground.place(this.sight, this.data.origin, this.up);
     this.dispatchEvent(new Event("spread"));
     this.invalidate();
   }

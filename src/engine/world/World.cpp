@@ -84,7 +84,7 @@ struct World::State {
 
   void shrink() noexcept {
     search.shrink();
-    store.settle();  // What has changed does not matter to hierarchies that are made anew.
+    store.settle();  // The hierarchies will be rebuilt, whatever has changed.
     store.shrink();
     swept = std::pmr::vector<Box>(search.memory());
   }

@@ -16,8 +16,8 @@ namespace {
 /// In worlds of up to this many boxes, eight blocks, most blocks overlap each other in any order (moving_benchmark).
 constexpr std::size_t kFewInAnyOrder = 8 * kFanOut;
 
-/// If blocks become this many times as wide, as if boxes were dealt out anew, joining them once takes longer than ordering
-/// the boxes first.
+/// If the blocks of a world have become this many times as wide as when its boxes were last ordered, ordering the boxes again and
+/// joining the blocks takes less time than joining them as they are.
 constexpr double kMostSpread = 2.0;
 
 /// The blocks of all levels of a hierarchy.

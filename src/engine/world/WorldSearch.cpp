@@ -12,10 +12,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// If at least one box in this many has changed, all boxes are joined: the join of changed boxes finds pairs from both
-/// sides (moving_benchmark).
-constexpr std::size_t kShareOfChanged = 4;
-
 /// Whether to drop a hit of a changed box, the first of the pair: the partner is the box itself, or has changed too and
 /// finds the same pair from its side.
 bool isFoundTwice(const BoxStore& store, Pair pair) noexcept {

@@ -21,6 +21,10 @@
 
 namespace allpairs::engine {
 
+/// If at least one box in this many has changed, all boxes are joined: the join of changed boxes finds pairs from both
+/// sides (moving_benchmark).
+inline constexpr std::size_t kShareOfChanged = 4;
+
 /// The pairs of a world: hierarchies over its dynamic and its static boxes, and what was found in them. If boxes have world
 /// numbers, each world of the store has hierarchies of its own instead.
 class WorldSearch {
@@ -77,7 +81,7 @@ class WorldSearch {
   [[nodiscard]] Executor& executor() const noexcept { return m_executor; }
 
  private:
-  /// Without numbers there are no trees, with numbers no boxes in the others.
+  /// Either the hierarchies of all boxes are empty, or those of single worlds.
   [[nodiscard]] bool isExact() const noexcept {
     return m_dynamic.exact() && m_static.exact() && m_dynamicTrees.exact() && m_staticTrees.exact();
   }

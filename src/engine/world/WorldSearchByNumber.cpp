@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kernels/WorldsRun.h"
 #include "world/WorldSearch.h"
 
 namespace allpairs::engine {
-namespace {
 
-/// If the worlds in which a box has changed have at least one box in this many, all worlds are searched: looking up each
-/// pair among those of the last step would take longer than comparing the lists (moving_benchmark).
-constexpr std::size_t kShareOfSearched = 4;
-
-/// A world of more boxes is searched by all threads: it has work for them.
-constexpr std::size_t kHugeWorld = 4096;
-
-}  // namespace
-
-/// Chooses the worlds to search; returns whether they are all.
+/// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
+/// among those of the last step would then take longer than comparing the lists. Returns whether they are all.
 bool WorldSearch::chooseWorlds(const BoxStore& store) {
   m_isChosen.assign(m_members.everyWorld() + 1, 0);
   m_chosen.clear();
@@ -30,7 +22,7 @@ bool WorldSearch::chooseWorlds(const BoxStore& store) {
     m_chosen.push_back(static_cast<std::uint32_t>(world));
     boxes += m_members.boxes(world).size();
   }
-  const std::size_t most = store.size() / kShareOfSearched;
+  const std::size_t most = store.size() / kShareOfChanged;
   const bool all = std::max(boxes, store.touched().size()) > most || m_isChosen[m_members.everyWorld()] != 0;
   if (all) {
     m_chosen.resize(m_isChosen.size());

@@ -12,9 +12,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// A world of more boxes is searched by all threads: it has work for them.
-constexpr std::size_t kManyBoxes = 4096;
-
 /// The work that a part is worth: some fifty microseconds.
 constexpr std::size_t kLeastWork = std::size_t{1} << 16;
 
@@ -102,7 +99,7 @@ void WorldsSearcher::cutParts() {
   if (mayStop) most = std::min(most, kTestsBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
-    const bool takesAllThreads = sizeOf(world) > kManyBoxes;
+    const bool takesAllThreads = sizeOf(world) > kHugeWorld;
     if (work >= most || takesAllThreads) {
       m_parts.push_back({world, world, takesAllThreads});
       work = 0;
