@@ -91,6 +91,10 @@ class BoxView {
     return m_isFloat64 ? at(m_float64, i) : at(m_float32, i);
   }
 
+  /// Bounds of all margins; of a slice, those of the view that it is part of.
+  [[nodiscard]] double leastMargin() const noexcept { return m_leastMargin; }
+  [[nodiscard]] double greatestMargin() const noexcept { return m_greatestMargin; }
+
   /// The margin of box i.
   [[nodiscard]] double margin(std::size_t i) const noexcept { return m_margins.empty() ? m_margin : m_margins[i]; }
 
@@ -128,6 +132,8 @@ class BoxView {
   Corners<double> m_float64;
   double m_margin = 0.0;
   std::span<const double> m_margins;
+  double m_leastMargin = 0.0;
+  double m_greatestMargin = 0.0;
 };
 
 }  // namespace allpairs

@@ -63,10 +63,10 @@ TEST(Statistics, RowsOfAllHitsEndWhereTheTaskEnds) {
   EXPECT_EQ(search.count(first, second), 900U * 700U);
 }
 
-/// So many boxes end where, in float32, the others begin, a hair too early.
-std::vector<Box> aHairApart(std::size_t ending, std::size_t beginning) {
+/// So many boxes end a hair, in float32 nothing, more than a distance before the others begin.
+std::vector<Box> aHairApart(std::size_t ending, std::size_t beginning, double distance = 0.0) {
   std::vector<Box> boxes(ending, Box{{-1, 0, 0}, {0.1, 1, 1}});
-  boxes.resize(ending + beginning, Box{{std::nextafter(0.1, 1.0), 0, 0}, {2, 1, 1}});
+  boxes.resize(ending + beginning, Box{{std::nextafter(0.1 + distance, 1.0), 0, 0}, {2, 1, 1}});
   return boxes;
 }
 
@@ -74,6 +74,7 @@ TEST(Statistics, ExactTestsAreCountedWhereLanesCannotDecideAndNowhereElse) {
   ManyInTurn many;
   for (const std::size_t side : {3U, 40U, 200U}) {
     const std::vector<Box> boxes = aHairApart(side, 2 * side);
+    const std::vector<Box> nearby = aHairApart(side, 2 * side, 0.25);
     const std::uint64_t pairs = side * (side - 1) / 2 + side * (2 * side - 1);
     const std::vector<Box> plain = allOverlapping(3 * side);
     for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
@@ -86,11 +87,17 @@ TEST(Statistics, ExactTestsAreCountedWhereLanesCannotDecideAndNowhereElse) {
         EXPECT_EQ(search.statistics().exactTests, 2 * side * side) << side;
         EXPECT_EQ(search.count(plain), 3 * side * (3 * side - 1) / 2) << side;
         EXPECT_EQ(search.statistics().exactTests, 0U) << side;
-        // Lanes that a distance widens decide nothing.
         options.distance = 0.25;
         search.setOptions(options);
         EXPECT_EQ(search.find(boxes).size(), 3 * side * (3 * side - 1) / 2) << side;
-        EXPECT_EQ(search.statistics().exactTests, 3 * side * (3 * side - 1) / 2) << side;
+        EXPECT_EQ(search.statistics().exactTests, 0U) << side;
+        EXPECT_EQ(search.count(nearby), pairs) << side;
+        EXPECT_EQ(search.statistics().exactTests, 2 * side * side) << side;
+        // Lanes of boxes that shrink decide nothing.
+        options.distance = -0.25;
+        search.setOptions(options);
+        EXPECT_EQ(search.find(boxes).size(), pairs) << side;
+        EXPECT_EQ(search.statistics().exactTests, pairs) << side;
       }
     }
   }

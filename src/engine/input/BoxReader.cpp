@@ -3,69 +3,50 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace allpairs::engine {
 namespace {
 
-/// Reads a box of float32 without margins: the lanes are the box, except that infinity becomes the largest finite
-/// number. Returns, like the others, whether the lanes are exactly the box.
-bool readPlain(const BoxView& boxes, std::size_t i, LaneBox& lanes) noexcept {
-  const auto& [min, max] = boxes.float32();
-  bool exact = true;
-  const auto row = static_cast<std::ptrdiff_t>(i);
+/// Whether the distance in memory from the first box to any other is an offset that the kernels take, of 32 bits.
+template <class T>
+bool areInPlace(const BoxView::Corners<T>& corners, std::size_t size) noexcept {
+  const std::ptrdiff_t stride = corners.min.boxStride;
+  const std::uint64_t step = stride < 0 ? 0U - static_cast<std::uint64_t>(stride) : static_cast<std::uint64_t>(stride);
+  return stride == corners.max.boxStride &&
+         step <= std::numeric_limits<std::int32_t>::max() / std::max<std::size_t>(size, 1);
+}
+
+/// Where the boxes of a list are; of fewer than sixteen the last one is read again for each that is missing.
+template <class T>
+BoxPlaces<T> placesOf(const BoxView::Corners<T>& corners, const BoxList& boxes) noexcept {
+  BoxPlaces<T> places;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::ptrdiff_t>(axis);
-    const float lo = min.data[row * min.boxStride + k * min.axisStride];
-    const float hi = max.data[row * max.boxStride + k * max.axisStride];
-    lanes.bound[axis] = std::clamp(lo, -kLaneMax, kLaneMax);
-    lanes.bound[axis + 3] = std::clamp(hi, -kLaneMax, kLaneMax);
-    exact &= (lanes.bound[axis] == lo) & (lanes.bound[axis + 3] == hi);
+    places.bound[axis] = corners.min.data + k * corners.min.axisStride;
+    places.bound[axis + 3] = corners.max.data + k * corners.max.axisStride;
   }
-  return exact;
+  const auto stride = static_cast<std::int32_t>(corners.min.boxStride);
+  for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+    places.offset[lane] = stride * static_cast<std::int32_t>(boxes[std::min(lane, boxes.size - 1)]);
+  }
+  return places;
 }
 
-Box relativeTo(const std::array<double, 3>& origin, Box box) noexcept {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.min[axis] -= origin[axis];
-    box.max[axis] -= origin[axis];
+/// The same as rows of six, which the kernels can read wherever the boxes are.
+template <class T>
+std::array<std::array<T, 6>, kFanOut> copyOf(const BoxView::Corners<T>& corners, const BoxList& boxes) noexcept {
+  std::array<std::array<T, 6>, kFanOut> rows;
+  for (std::size_t lane = 0; lane < boxes.size; ++lane) {
+    const auto i = static_cast<std::ptrdiff_t>(boxes[lane]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::ptrdiff_t>(axis);
+      rows[lane][axis] = corners.min.data[i * corners.min.boxStride + k * corners.min.axisStride];
+      rows[lane][axis + 3] = corners.max.data[i * corners.max.boxStride + k * corners.max.axisStride];
+    }
   }
-  return box;
-}
-
-/// A box without margins, rounded outward.
-bool readRounded(const Box& box, LaneBox& lanes) noexcept {
-  bool exact = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lanes.bound[axis] = roundDown(box.min[axis]);
-    lanes.bound[axis + 3] = roundUp(box.max[axis]);
-    exact &= (static_cast<double>(lanes.bound[axis]) == box.min[axis]) &
-             (static_cast<double>(lanes.bound[axis + 3]) == box.max[axis]);
-  }
-  return exact;
-}
-
-/// A box with a margin or a distance, in double, with a slack that is larger than what all roundings of the exact
-/// expression, max + ((distance + margin) + margin), can add up to.
-bool readWidened(const BoxView& boxes, double distance, const std::array<double, 3>& origin, std::size_t i,
-                 LaneBox& lanes) noexcept {
-  constexpr double kSlack = 0x1p-48;  // Sixteen units in the last place of a double.
-  const Box box = boxes[i];
-  const double margin = boxes.margin(i);
-  const double half = 0.5 * distance + margin;
-  const double magnitude = 0.5 * std::abs(distance) + std::abs(margin);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double min = box.min[axis] - half - kSlack * (std::abs(box.min[axis]) + magnitude);
-    const double max = box.max[axis] + half + kSlack * (std::abs(box.max[axis]) + magnitude);
-    const float low = roundDown(min - origin[axis]);
-    const float high = roundUp(max - origin[axis]);
-    // A negative margin may invert a box, which can still overlap a larger one. Swapping its bounds makes it no
-    // smaller.
-    lanes.bound[axis] = std::min(low, high);
-    lanes.bound[axis + 3] = std::max(low, high);
-  }
-  return false;
+  return rows;
 }
 
 }  // namespace
@@ -75,24 +56,22 @@ BoxReader::BoxReader(const BoxView& boxes, const OverlapOptions& options, const 
       m_size(boxes.size()),
       m_kernels(&kernels),
       m_distance(options.distance),
-      m_region(options.region) {
-  if (m_distance != 0.0 || boxes.hasMargins() || m_region) return;
-  // Kernels take offsets of 32 bits, six values a box.
-  if (boxes.size() > std::numeric_limits<std::int32_t>::max() / 6) return;
-  if (boxes.isFloat64()) {
-    if (boxes.float64().isPacked()) m_rows64 = boxes.float64().min.data;
-  } else if (boxes.float32().isPacked()) {
-    m_rows32 = boxes.float32().min.data;
-  }
+      m_region(options.region),
+      m_isInPlace(boxes.isFloat64() ? areInPlace(boxes.float64(), m_size) : areInPlace(boxes.float32(), m_size)) {
+  m_widening.widens = m_distance != 0.0 || boxes.hasMargins();
+  m_widening.half = 0.5 * m_distance;
+  const bool areBounds = !boxes.isFloat64() && !m_widening.widens;
+  if (areBounds && m_isInPlace && boxes.float32().isPacked()) m_run = boxes.float32().min.data;
 }
 
 void BoxReader::setOrigin(const std::array<double, 3>& origin) noexcept {
-  m_origin = origin;
+  m_widening.origin = origin;
   m_isMoved = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
-  if (m_isMoved) m_rows32 = nullptr;
+  if (m_isMoved) m_run = nullptr;
 }
 
 BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
+  if (boxes.size == 0) return {};
   BlockRead result = readListed(boxes, block);
   result.exact &= !m_isMoved;
   return result;
@@ -107,59 +86,59 @@ BlockRead BoxReader::readListed(const BoxList& boxes, LaneBlock& block) const {
 }
 
 BlockRead BoxReader::readBoxes(const BoxList& boxes, LaneBlock& block) const {
-  if ((m_rows32 != nullptr || m_rows64 != nullptr) && boxes.size != 0) {
-    return boxes.size == kFanOut ? readRows(boxes, block) : readFewRows(boxes, block);
-  }
-  const BoxView& set = *m_boxes;
-  if (m_distance != 0.0 || set.hasMargins()) {
-    return readEach(
-        boxes, [&](std::size_t i, LaneBox& lanes) { return readWidened(set, m_distance, m_origin, i, lanes); }, block);
-  }
-  if (set.isFloat64() || m_isMoved) {
-    return readEach(
-        boxes, [&](std::size_t i, LaneBox& lanes) { return readRounded(relativeTo(m_origin, set[i]), lanes); }, block);
-  }
-  return readEach(
-      boxes, [&](std::size_t i, LaneBox& lanes) { return readPlain(set, i, lanes); }, block);
-}
-
-BlockRead BoxReader::readRows(const BoxList& boxes, LaneBlock& block) const {
-  if (boxes.size == kFanOut && boxes.ids == nullptr && m_rows32 != nullptr) {
-    return m_kernels->readRun32(m_rows32 + 6 * boxes.begin, block);
-  }
-  std::array<std::int32_t, kFanOut> offsets;
-  for (std::size_t lane = 0; lane < kFanOut; ++lane) {
-    offsets[lane] = static_cast<std::int32_t>(6 * boxes[std::min(lane, boxes.size - 1)]);
-  }
-  return m_rows32 != nullptr ? m_kernels->readFloat32(m_rows32, offsets.data(), block)
-                             : m_kernels->readFloat64(m_rows64, offsets.data(), m_origin, block);
-}
-
-/// Fewer than sixteen: the kernels read the last one again for each that is missing.
-BlockRead BoxReader::readFewRows(const BoxList& boxes, LaneBlock& block) const {
   LaneBlock all;
-  BlockRead result = readRows(boxes, all);
-  for (std::size_t row = 0; row < 6; ++row) std::copy_n(all.bound[row].data(), boxes.size, block.bound[row].data());
-  result.emptyLanes &= (1U << boxes.size) - 1U;
+  LaneBlock& target = boxes.size == kFanOut ? block : all;
+  BlockRead result;
+  if (m_run != nullptr && boxes.ids == nullptr && boxes.size == kFanOut) {
+    result = m_kernels->readRun32(m_run + 6 * boxes.begin, block);
+  } else {
+    result = m_boxes->isFloat64() ? readSixteen(m_boxes->float64(), boxes, target)
+                                  : readSixteen(m_boxes->float32(), boxes, target);
+  }
+  if (boxes.size < kFanOut) {
+    for (std::size_t row = 0; row < 6; ++row) std::copy_n(all.bound[row].data(), boxes.size, block.bound[row].data());
+    result.emptyLanes &= (1U << boxes.size) - 1U;
+  }
+  if (m_region) result.emptyLanes |= outsideRegion(boxes);
   return result;
 }
 
-template <class LanesOf>
-BlockRead BoxReader::readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const {
-  BlockRead result;
-  LaneBox lanes;
+template <class T>
+BlockRead BoxReader::readSixteen(const BoxView::Corners<T>& corners, const BoxList& boxes, LaneBlock& block) const {
+  if (m_isInPlace) return callKernel(placesOf(corners, boxes), boxes, block);
+  const auto rows = copyOf(corners, boxes);
+  const T* const first = rows.front().data();
+  const BoxList all{nullptr, 0, boxes.size};
+  return callKernel(placesOf<T>({{first, 6, 1}, {first + 3, 6, 1}}, all), boxes, block);
+}
+
+template <class T>
+BlockRead BoxReader::callKernel(const BoxPlaces<T>& places, const BoxList& boxes, LaneBlock& block) const {
+  if constexpr (std::is_same_v<T, float>) {
+    if (!m_widening.widens && !m_isMoved) return m_kernels->readFloat32(places, block);
+  }
+  Widening widening = m_widening;
+  std::array<double, kFanOut> margins;
+  if (m_boxes->hasMargins()) {
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+      margins[lane] = m_boxes->margin(boxes[std::min(lane, boxes.size - 1)]);
+    }
+    widening.margins = margins.data();
+  }
+  if constexpr (std::is_same_v<T, float>) {
+    return m_kernels->readWide32(places, widening, block);
+  } else {
+    return m_kernels->readWide64(places, widening, block);
+  }
+}
+
+std::uint32_t BoxReader::outsideRegion(const BoxList& boxes) const {
+  std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < boxes.size; ++lane) {
     const std::size_t i = boxes[lane];
-    const bool exact = lanesOf(i, lanes);
-    block.set(lane, lanes);
-    const Box box = (*m_boxes)[i];
-    if (isEmpty(box) || (m_region && !overlap(box, *m_region, m_distance + m_boxes->margin(i)))) {
-      result.emptyLanes |= std::uint32_t{1} << lane;
-    } else {
-      result.exact &= exact;
-    }
+    if (!overlap((*m_boxes)[i], *m_region, m_distance + m_boxes->margin(i))) bits |= std::uint32_t{1} << lane;
   }
-  return result;
+  return bits;
 }
 
 }  // namespace allpairs::engine

@@ -52,7 +52,7 @@ class BoxReader {
   /// Boxes that are compared need the same one. Rounded lanes keep the order of what they were rounded from.
   void setOrigin(const std::array<double, 3>& origin) noexcept;
 
-  [[nodiscard]] const std::array<double, 3>& origin() const noexcept { return m_origin; }
+  [[nodiscard]] const std::array<double, 3>& origin() const noexcept { return m_widening.origin; }
 
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {
@@ -91,10 +91,11 @@ class BoxReader {
  private:
   BlockRead readListed(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readBoxes(const BoxList& boxes, LaneBlock& block) const;
-  BlockRead readRows(const BoxList& boxes, LaneBlock& block) const;
-  BlockRead readFewRows(const BoxList& boxes, LaneBlock& block) const;
-  template <class LanesOf>
-  BlockRead readEach(const BoxList& boxes, const LanesOf& lanesOf, LaneBlock& block) const;
+  template <class T>
+  BlockRead readSixteen(const BoxView::Corners<T>& corners, const BoxList& boxes, LaneBlock& block) const;
+  template <class T>
+  BlockRead callKernel(const BoxPlaces<T>& places, const BoxList& boxes, LaneBlock& block) const;
+  [[nodiscard]] std::uint32_t outsideRegion(const BoxList& boxes) const;
 
   const BoxView* m_boxes;
   std::size_t m_size;
@@ -102,10 +103,10 @@ class BoxReader {
   const Kernels* m_kernels;
   double m_distance;
   std::optional<Box> m_region;
-  std::array<double, 3> m_origin{};
-  bool m_isMoved = false;           ///< The origin is not zero.
-  const float* m_rows32 = nullptr;  ///< Rows of six that a kernel can read sixteen at a time.
-  const double* m_rows64 = nullptr;
+  Widening m_widening;
+  bool m_isMoved = false;        ///< The origin is not zero.
+  bool m_isInPlace = false;      ///< The kernels can read the boxes where they are.
+  const float* m_run = nullptr;  ///< Rows of six whose lanes are their bounds.
 };
 
 }  // namespace allpairs::engine

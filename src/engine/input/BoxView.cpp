@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/BoxView.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -58,9 +59,24 @@ bool anyNan(const T* values, std::size_t count) {
   return nans != 0;
 }
 
+/// The same of one corner of each box.
+template <class T>
+bool anyNan(std::size_t size, const CornerView<T>& corner) {
+  if (corner.boxStride == 3 && corner.axisStride == 1) return anyNan(corner.data, 3 * size);
+  if (corner.boxStride == 1) {
+    const auto column = [&](std::ptrdiff_t axis) { return anyNan(corner.data + axis * corner.axisStride, size); };
+    return column(0) || column(1) || column(2);
+  }
+  bool found = false;
+  for (std::size_t i = 0; i < size; ++i) found |= hasNanAt(corner, static_cast<std::ptrdiff_t>(i));
+  return found;
+}
+
 template <class T>
 void checkNoNan(std::size_t size, const BoxView::Corners<T>& corners, const BoxView& set) {
-  if (corners.isPacked() && !anyNan(corners.min.data, 6 * size)) return;
+  const bool found =
+      corners.isPacked() ? anyNan(corners.min.data, 6 * size) : anyNan(size, corners.min) || anyNan(size, corners.max);
+  if (!found) return;
   const auto count = static_cast<std::ptrdiff_t>(size);
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     if (hasNanAt(corners.min, i) || hasNanAt(corners.max, i)) {
@@ -141,19 +157,25 @@ BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerVie
 
 void BoxView::setMargin(double margin) {
   if (!isMargin(margin)) throw InvalidArgument("the margin of the set is NaN or -infinity");
-  m_margin = margin;
+  m_margin = m_leastMargin = m_greatestMargin = margin;
 }
 
 void BoxView::setMargins(std::span<const double> margins) {
   if (!margins.empty() && margins.size() != m_size) {
     throw InvalidArgument(std::to_string(margins.size()) + " margins for " + std::to_string(m_size) + " boxes");
   }
+  double least = margins.empty() ? m_margin : margins.front();
+  double greatest = least;
   for (std::size_t i = 0; i < margins.size(); ++i) {
     if (!isMargin(margins[i])) {
       throw InvalidBox(i, "box " + std::to_string(i) + ": its margin is NaN or -infinity");
     }
+    least = std::min(least, margins[i]);
+    greatest = std::max(greatest, margins[i]);
   }
   m_margins = margins;
+  m_leastMargin = least;
+  m_greatestMargin = greatest;
 }
 
 BoxView BoxView::slice(std::size_t begin, std::size_t end) const {

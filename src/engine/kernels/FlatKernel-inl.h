@@ -45,7 +45,7 @@ template <Density kDensity, class Emitter, class Tile>
 HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const Tile& tile, Range columns, Hits& hits) {
   Emitter emitter = Emitter::ofRow(hits, id);
   emitRow<kDensity>(q, tile, columns.begin, columns.end, emitter);
-  emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q), tile.bound, i); });
+  emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q, hits.slack), tile.bound, i); });
 }
 
 /// One row against the columns [begin, end), tile by tile.
@@ -260,7 +260,7 @@ void listRow(const FlatSearch& search, std::size_t row) {
   bool tested = lists.tested == NeighborLists::Tested::All;
   if (lists.tested == NeighborLists::Tested::InDoubt) {
     HitCounter certain;
-    for (const Range& part : ranges) emitColumns(inward(q), search.columns, part, certain);
+    for (const Range& part : ranges) emitColumns(inward(q, lists.slack), search.columns, part, certain);
     tested = certain.size != size;
   }
   if (tested && size != 0) size = lists.select(lists, id, to, size);

@@ -69,7 +69,8 @@ HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
     }
   }
   emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-    return leaf.overlappingWith(inward(broadcast(leaf.block.get(test / Leaf::kVectors))), test % Leaf::kVectors);
+    return leaf.overlappingWith(inward(broadcast(leaf.block.get(test / Leaf::kVectors)), hits.slack),
+                                test % Leaf::kVectors);
   });
 }
 
@@ -95,7 +96,8 @@ HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<cons
       }
     }
     emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-      return leaf.overlappingWith(inward(queryAt(places[begin + test / Leaf::kVectors])), test % Leaf::kVectors);
+      return leaf.overlappingWith(inward(queryAt(places[begin + test / Leaf::kVectors]), hits.slack),
+                                  test % Leaf::kVectors);
     });
   }
 }
@@ -348,7 +350,7 @@ class JoinRun {
       hitBits[hits] = bits;
       hitIds[hits] = id;
       hits += bits != 0 ? 1U : 0U;
-      if (notesDoubts) doubtful |= bits & ~certainBits(leaf, q);
+      if (notesDoubts) doubtful |= bits & ~certainBits(leaf, q, m_task.lists->slack);
     }
     hn::StoreU(hn::Zero(d), d, hitBits + hits);  // The last vector of bits ends behind them.
     m_hits.groupTests += near.size;
@@ -359,8 +361,8 @@ class JoinRun {
   }
 
   /// Which boxes of a leaf overlap the query whatever the rounding was.
-  static std::uint32_t certainBits(const Leaf& leaf, const Query& q) {
-    const Query certain = inward(q);
+  static std::uint32_t certainBits(const Leaf& leaf, const Query& q, float slack) {
+    const Query certain = inward(q, slack);
     std::uint32_t bits = 0;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
       bits |= allBitsOf(FloatTag(), leaf.overlappingWith(certain, v)) << (v * Leaf::kLanes);

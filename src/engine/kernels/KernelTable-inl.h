@@ -43,7 +43,8 @@ const Kernels* kernelTable() {
                              &curveKeys,
                              &readRun32,
                              &readFloat32,
-                             &readFloat64,
+                             &readWide32,
+                             &readWide64,
                              &touchingLanes,
                              &meetingLanes,
                              &nearLanes};

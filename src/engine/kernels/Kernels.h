@@ -139,7 +139,22 @@ struct NumberRows {
   bool bySecond = false;       ///< Whether the key is second in its pair.
 };
 
-/// Properties of sixteen boxes that were read from rows of six.
+/// Where sixteen boxes lie: bound k of box i, of minx miny minz maxx maxy maxz, at bound[k][offset[i]].
+template <class T>
+struct BoxPlaces {
+  std::array<const T*, 6> bound;
+  std::array<std::int32_t, kFanOut> offset;
+};
+
+/// What is done to bounds before they are rounded to lanes.
+struct Widening {
+  std::array<double, 3> origin{};  ///< Lanes are relative to it.
+  bool widens = false;             ///< By `half`, and by the margin of each box.
+  double half = 0.0;
+  const double* margins = nullptr;  ///< Of the sixteen boxes.
+};
+
+/// Properties of sixteen boxes that were read.
 struct BlockRead {
   bool exact = true;             ///< Their lanes are exactly the boxes.
   std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
@@ -187,11 +202,12 @@ struct Kernels {
   /// Reads sixteen boxes from rows that follow each other.
   BlockRead (*readRun32)(const float* rows, LaneBlock& block);
 
-  /// Reads sixteen boxes, which start `offsets` values after `rows`, as lanes that contain them; those of float64
-  /// relative to an origin.
-  BlockRead (*readFloat32)(const float* rows, const std::int32_t* offsets, LaneBlock& block);
-  BlockRead (*readFloat64)(const double* rows, const std::int32_t* offsets, const std::array<double, 3>& origin,
-                           LaneBlock& block);
+  /// Reads sixteen boxes from anywhere, as lanes that contain them.
+  BlockRead (*readFloat32)(const BoxPlaces<float>& places, LaneBlock& block);
+
+  /// The same in double, widened or relative to an origin.
+  BlockRead (*readWide32)(const BoxPlaces<float>& places, const Widening& widening, LaneBlock& block);
+  BlockRead (*readWide64)(const BoxPlaces<double>& places, const Widening& widening, LaneBlock& block);
 
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
   /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that contains it.

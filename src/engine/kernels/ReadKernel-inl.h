@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sixteen boxes from rows of six in the caller's memory to a block of lanes, and the bounds and the keys along the curve
-// of such blocks.
+// Sixteen boxes from the caller's memory to a block of lanes, and the bounds and the keys along the curve of such blocks.
 
 #if defined(ALLPAIRS_READ_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_READ_KERNEL_INL_H
@@ -13,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "kernels/CurveGrid.h"
@@ -82,22 +82,29 @@ HWY_INLINE bool readRows(const float* rows, LaneBlock& block, std::size_t at) {
 
 #if HWY_TARGET == HWY_SCALAR
 
-/// One box from its row, anywhere in memory.
-HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, LaneBlock& block, std::size_t at) {
-  return readRows(rows + offsets[0], block, at);
+/// One box from anywhere in memory.
+HWY_INLINE void loadBoxes(const BoxPlaces<float>& places, std::size_t at, FloatVector* bound) {
+  for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::LoadU(FloatTag(), places.bound[k] + places.offset[at]);
 }
 
 #else
 
-/// Four values that follow each other of every fourth box: those of box 4k are in block k of 128 bits.
-template <class D>
+/// Which values of a box loadFour() may read: those of its corner only, or its row of six.
+enum class Reach : std::uint8_t { Corner, Row };
+
+/// Three values, or four, that follow each other of every fourth box: those of box 4k are in block k of 128 bits.
+template <Reach kReach, class D>
 HWY_INLINE hn::Vec<D> everyFourth(D d, const float* values, const std::int32_t* offsets) {
-  if constexpr (hn::MaxLanes(D()) == 4) {
+  const hn::Half<D> half;
+  if constexpr (hn::MaxLanes(D()) > 4) {
+    return hn::Combine(d, everyFourth<kReach>(half, values, offsets + hn::MaxLanes(D()) / 2),
+                       everyFourth<kReach>(half, values, offsets));
+  } else if constexpr (kReach == Reach::Row) {
     return hn::LoadU(d, values + offsets[0]);
   } else {
-    const hn::Half<D> half;
-    return hn::Combine(d, everyFourth(half, values, offsets + hn::MaxLanes(D()) / 2),
-                       everyFourth(half, values, offsets));
+    const hn::Half<decltype(half)> one;
+    return hn::Combine(d, hn::ZeroExtendVector(half, hn::LoadU(one, values + offsets[0] + 2)),
+                       hn::LoadU(half, values + offsets[0]));
   }
 }
 
@@ -109,24 +116,55 @@ HWY_INLINE void zip(FloatVector first, FloatVector second, FloatVector& lower, F
   upper = hn::BitCast(d, hn::InterleaveUpper(pairs, hn::BitCast(pairs, first), hn::BitCast(pairs, second)));
 }
 
-/// As many boxes as a vector has lanes, from rows anywhere in memory; returns whether they are finite.
-///
-/// Rows are loaded and transposed, which takes half the time of gathering each bound.
-HWY_INLINE bool readScattered(const float* rows, const std::int32_t* offsets, LaneBlock& block, std::size_t at) {
+/// The values 0 and 1, or 2 and 3, of four vectors of every fourth box.
+HWY_INLINE void zipLower(const FloatVector* from, FloatVector& first, FloatVector& second) {
   const FloatTag d;
-  FloatVector first[4];
-  FloatVector last[4];
+  zip(hn::InterleaveLower(d, from[0], from[1]), hn::InterleaveLower(d, from[2], from[3]), first, second);
+}
+HWY_INLINE void zipUpper(const FloatVector* from, FloatVector& first, FloatVector& second) {
+  const FloatTag d;
+  zip(hn::InterleaveUpper(d, from[0], from[1]), hn::InterleaveUpper(d, from[2], from[3]), first, second);
+}
+
+/// As many boxes as a vector has lanes, from corners anywhere in memory.
+///
+/// Corners are loaded and transposed, which takes half the time of gathering each bound. Of a row of six the second load
+/// begins one value before the maximum, so that both are whole vectors.
+template <Reach kReach>
+HWY_INLINE void loadCorners(const BoxPlaces<float>& places, std::size_t at, FloatVector* bound) {
+  const FloatTag d;
+  const float* const second = places.bound[3] - (kReach == Reach::Row ? 1 : 0);
+  FloatVector min[4];
+  FloatVector max[4];
   for (std::size_t j = 0; j < 4; ++j) {
-    first[j] = everyFourth(d, rows, offsets + j);
-    last[j] = everyFourth(d, rows + 2, offsets + j);
+    min[j] = everyFourth<kReach>(d, places.bound[0], &places.offset[at + j]);
+    max[j] = everyFourth<kReach>(d, second, &places.offset[at + j]);
   }
-  FloatVector bound[6];
-  zip(hn::InterleaveLower(d, first[0], first[1]), hn::InterleaveLower(d, first[2], first[3]), bound[0], bound[1]);
-  zip(hn::InterleaveUpper(d, first[0], first[1]), hn::InterleaveUpper(d, first[2], first[3]), bound[2], bound[3]);
-  zip(hn::InterleaveUpper(d, last[0], last[1]), hn::InterleaveUpper(d, last[2], last[3]), bound[4], bound[5]);
-  bool same = true;
-  for (std::size_t row = 0; row < 6; ++row) hn::Store(finite(bound[row], same), d, &block.bound[row][at]);
-  return same;
+  FloatVector rest;
+  zipLower(min, bound[0], bound[1]);
+  zipUpper(min, bound[2], rest);
+  if constexpr (kReach == Reach::Row) {
+    zipLower(max, rest, bound[3]);
+    zipUpper(max, bound[4], bound[5]);
+  } else {
+    zipLower(max, bound[3], bound[4]);
+    zipUpper(max, bound[5], rest);
+  }
+}
+
+/// As many boxes as a vector has lanes, from anywhere in memory.
+HWY_INLINE void loadBoxes(const BoxPlaces<float>& places, std::size_t at, FloatVector* bound) {
+  const auto& from = places.bound;
+  const auto isCorner = [](const float* const* axis) { return axis[1] == axis[0] + 1 && axis[2] == axis[0] + 2; };
+  if (!isCorner(from.data()) || !isCorner(from.data() + 3)) {
+    const FloatTag d;
+    const auto offsets = hn::LoadU(hn::RebindToSigned<FloatTag>(), &places.offset[at]);
+    for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::GatherIndex(d, from[k], offsets);
+  } else if (from[3] == from[0] + 3) {
+    loadCorners<Reach::Row>(places, at, bound);
+  } else {
+    loadCorners<Reach::Corner>(places, at, bound);
+  }
 }
 
 #endif
@@ -171,40 +209,110 @@ HWY_INLINE hn::Vec<HalfFloatTag> demoteDown(hn::Vec<DoubleTag> value) {
 
 #endif
 
-/// float64 rounded down to float32 and kept within the finite ones; `same` stays true if that changed nothing.
+/// float64 rounded down to float32 and kept within the finite ones, the lowest for a NaN; `same` stays true if that
+/// changed nothing.
 HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
   const DoubleTag d;
   const auto most = hn::Set(d, static_cast<double>(kLaneMax));
-  const auto down = demoteDown(hn::Max(hn::Neg(most), hn::Min(value, most)));
+  const auto least = hn::Neg(most);
+  const auto above = hn::IfThenElse(hn::Gt(value, least), value, least);
+  const auto down = demoteDown(hn::Min(above, most));
   same = same && hn::AllTrue(d, hn::Eq(hn::PromoteTo(d, down), value));
   return down;
 }
 
-BlockRead readFloat32(const float* rows, const std::int32_t* offsets, LaneBlock& block) {
-  bool exact = true;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) exact &= readScattered(rows, offsets + i, block, i);
-  return {exact, emptyLanes(block)};
-}
-
-/// Emptiness is tested in double: rounded outward, an empty box may no longer be empty.
-BlockRead readFloat64(const double* rows, const std::int32_t* offsets, const std::array<double, 3>& origin,
-                      LaneBlock& block) {
-  const DoubleTag d;
-  const HalfFloatTag df;
-  const hn::Rebind<std::int32_t, DoubleTag> di;
+BlockRead readFloat32(const BoxPlaces<float>& places, LaneBlock& block) {
+  const FloatTag d;
   BlockRead result;
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const auto offset = hn::PromoteTo(hn::RebindToSigned<DoubleTag>(), hn::LoadU(di, offsets + i));
+    FloatVector bound[6];
+    loadBoxes(places, i, bound);
+    for (std::size_t k = 0; k < 6; ++k) hn::Store(finite(bound[k], result.exact), d, &block.bound[k][i]);
+  }
+  result.emptyLanes = emptyLanes(block);
+  return result;
+}
+
+/// Widens an interval by a distance, and by a slack that is larger than what all roundings of the exact expression,
+/// max + ((distance + margin) + margin), can add up to.
+struct Widener {
+  hn::Vec<DoubleTag> half, magnitude;
+
+  HWY_INLINE Widener(const Widening& widening, std::size_t at) {
+    const DoubleTag d;
+    const auto margin = widening.margins != nullptr ? hn::LoadU(d, widening.margins + at) : hn::Zero(d);
+    half = hn::Add(hn::Set(d, widening.half), margin);
+    magnitude = hn::Add(hn::Abs(hn::Set(d, widening.half)), hn::Abs(margin));
+  }
+
+  /// A minimum, or a negated maximum. Infinity stays what it is, unless it is taken from itself: that is a NaN.
+  [[nodiscard]] HWY_INLINE hn::Vec<DoubleTag> below(hn::Vec<DoubleTag> bound) const {
+    const DoubleTag d;
+    const auto units = hn::Set(d, 0x1p-48);  // Sixteen units in the last place of a double.
+    const auto finite = hn::Min(hn::Add(hn::Abs(bound), magnitude), hn::Set(d, std::numeric_limits<double>::max()));
+    return hn::Sub(hn::Sub(bound, half), hn::Mul(units, finite));
+  }
+};
+
+/// Sixteen boxes whose bounds are read as doubles: load(k, i) has bound k of the boxes from i on.
+///
+/// Emptiness is tested before anything is added: rounded outward, an empty box may no longer be empty. A negative margin
+/// may invert a box, which can still overlap a larger one; with its bounds swapped it is no smaller.
+template <bool kWidens, class Load>
+HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, LaneBlock& block) {
+  const DoubleTag d;
+  const HalfFloatTag df;
+  BlockRead result{.exact = !kWidens};
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const Widener widener(widening, i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto from = hn::Set(d, origin[axis]);
-      const auto min = hn::GatherIndex(d, rows + axis, offset);
-      const auto max = hn::GatherIndex(d, rows + axis + 3, offset);
-      result.emptyLanes |= bitsOf(d, hn::Gt(min, max)) << i;
-      hn::StoreU(lower(hn::Sub(min, from), result.exact), df, &block.bound[axis][i]);
-      hn::StoreU(hn::Neg(lower(hn::Sub(from, max), result.exact)), df, &block.bound[axis + 3][i]);
+      const auto from = hn::Set(d, widening.origin[axis]);
+      auto min = load(axis, i);
+      auto max = hn::Neg(load(axis + 3, i));
+      result.emptyLanes |= bitsOf(d, hn::Gt(min, hn::Neg(max))) << i;
+      if constexpr (kWidens) {
+        min = widener.below(min);
+        max = widener.below(max);
+      }
+      auto low = lower(hn::Sub(min, from), result.exact);
+      auto high = hn::Neg(lower(hn::Add(max, from), result.exact));
+      if constexpr (kWidens) {
+        const auto swapped = hn::Min(low, high);
+        high = hn::Max(low, high);
+        low = swapped;
+      }
+      hn::StoreU(low, df, &block.bound[axis][i]);
+      hn::StoreU(high, df, &block.bound[axis + 3][i]);
     }
   }
   return result;
+}
+
+template <class Load>
+HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, LaneBlock& block) {
+  return widening.widens ? readDoubles<true>(load, widening, block) : readDoubles<false>(load, widening, block);
+}
+
+BlockRead readWide32(const BoxPlaces<float>& places, const Widening& widening, LaneBlock& block) {
+  LaneBlock bounds;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) {
+    FloatVector bound[6];
+    loadBoxes(places, i, bound);
+    for (std::size_t k = 0; k < 6; ++k) hn::Store(bound[k], FloatTag(), &bounds.bound[k][i]);
+  }
+  const auto load = [&bounds](std::size_t k, std::size_t i)
+                        HWY_ATTR { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfFloatTag(), &bounds.bound[k][i])); };
+  return readDoubles(load, widening, block);
+}
+
+BlockRead readWide64(const BoxPlaces<double>& places, const Widening& widening, LaneBlock& block) {
+  const auto load = [&places](std::size_t k, std::size_t i) HWY_ATTR {
+    const hn::RebindToSigned<DoubleTag> places64;
+    const hn::Rebind<std::int32_t, DoubleTag> places32;
+    const auto offsets = hn::PromoteTo(places64, hn::LoadU(places32, &places.offset[i]));
+    return hn::GatherIndex(DoubleTag(), places.bound[k], offsets);
+  };
+  return readDoubles(load, widening, block);
 }
 
 HWY_INLINE float leastOf(const std::array<float, kFanOut>& row) {

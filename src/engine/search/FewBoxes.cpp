@@ -28,6 +28,7 @@ class Receiver {
     m_hits.row = m_rows.data();
     m_hits.partner = m_partners.data();
     if (test.leavesDoubts()) m_hits.doubt = m_doubts.data();
+    m_hits.slack = test.slack();
     m_hits.capacity = kHits;
     m_hits.receiver = this;
     m_hits.flush = [](void* self, Hits&) { static_cast<Receiver*>(self)->flush(); };
@@ -144,7 +145,7 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
     search.rows = &rows;
     search.tested = Columns::All;
   }
-  test.requireExactTest(!exact);
+  test.requireExactTest(!exact, readers.first.origin());
   Receiver receiver(kernels, bySecond ? PairSide::RowSecond : PairSide::RowFirst, test, options.maxPairs, take);
   kernels.searchFew(search, receiver.hits());
   return receiver.finish();

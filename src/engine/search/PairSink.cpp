@@ -37,6 +37,7 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_hits.row = m_memory.data() + kHitOffset;
   m_hits.partner = m_hits.row + kHitStride;
   if (doubts) m_hits.doubt = m_hits.partner + kHitStride;
+  if (doubts) m_hits.slack = options.test->slack();
   m_hits.capacity = kHitCapacity;
   m_hits.countOnly = options.countOnly && !isSelective();
   m_hits.receiver = this;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -53,13 +56,17 @@ class PairTest {
             TestedBoxes::of(sets.second, sets.one ? filter.first : filter.second), options.distance, filter.accept};
   }
 
-  /// Set once the lanes are known.
-  void requireExactTest(bool required) noexcept { m_exact = required; }
-
-  /// The kernels can tell which hits need the exact test, if lanes are the bounds but for their rounding.
-  [[nodiscard]] bool leavesDoubts() const noexcept {
-    return m_exact && m_distance == 0.0 && !m_first.boxes->hasMargins() && !m_second.boxes->hasMargins();
+  /// Set once the lanes are known, and the point that they are relative to.
+  void requireExactTest(bool required, const std::array<double, 3>& origin = {}) noexcept {
+    m_exact = required;
+    m_slack = slackOf(origin);
   }
+
+  /// The kernels can tell which hits need the exact test, if lanes are the bounds but for their rounding and widening.
+  [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
+
+  /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding.
+  [[nodiscard]] float slack() const noexcept { return m_slack; }
 
   [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
   [[nodiscard]] bool isFiltered() const noexcept { return m_filtered; }
@@ -107,6 +114,20 @@ class PairTest {
   }
 
  private:
+  /// The sums of a bound, the distance, margins and the origin are off by no more than some units in the last place of the
+  /// largest of them; to those of the bound, the slack that is relative to lanes is enough. A box that shrinks may be
+  /// inverted, whose lanes say nothing.
+  [[nodiscard]] float slackOf(const std::array<double, 3>& origin) const noexcept {
+    const BoxView& first = *m_first.boxes;
+    const BoxView& second = *m_second.boxes;
+    if (m_distance == 0.0 && !first.hasMargins() && !second.hasMargins()) return kQueryTiny;
+    if (m_distance < 0.0 || first.leastMargin() < 0.0 || second.leastMargin() < 0.0) return kNever;
+    double most = std::max(first.greatestMargin(), second.greatestMargin()) + 0.5 * m_distance;
+    for (const double value : origin) most = std::max(most, std::abs(value));
+    most *= 0x1p-42;
+    return most < static_cast<double>(kLaneMax) ? kQueryTiny + static_cast<float>(most) : kNever;
+  }
+
   [[nodiscard]] bool touches(Pair pair) const {
     const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
     return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);
@@ -133,6 +154,7 @@ class PairTest {
   double m_distance;
   const PairPredicate* m_accept;
   bool m_exact = false;
+  float m_slack = kNever;
   bool m_filtered;
 };
 
