@@ -40,7 +40,6 @@ struct SinkOptions {
   const Kernels* kernels = nullptr;
   const PairTest* test = nullptr;  ///< If null, all pairs are kept.
   PairSide side = PairSide::RowFirst;
-  bool lanesAreBounds = false;  ///< But for their rounding and the widening; those of a world may be larger.
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
   /// Space for this many pairs is reserved initially: address space, of which only the used part takes memory.

@@ -56,17 +56,32 @@ class PairTest {
             TestedBoxes::of(sets.second, sets.one ? filter.first : filter.second), options.distance, filter.accept};
   }
 
-  /// Set once the lanes are known, and the point that they are relative to.
-  void requireExactTest(bool required, const std::array<double, 3>& origin = {}) noexcept {
+  /// Set once the lanes are known.
+  void requireExactTest(bool required) noexcept { m_exact = required; }
+
+  /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the kernels can
+  /// tell which hits need the exact test.
+  void requireExactTest(bool required, const std::array<double, 3>& origin) noexcept {
     m_exact = required;
     m_slack = slackOf(origin);
   }
 
-  /// The kernels can tell which hits need the exact test, if lanes are the bounds but for their rounding and widening.
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
 
   /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding.
   [[nodiscard]] float slack() const noexcept { return m_slack; }
+
+  /// Its two parts.
+  [[nodiscard]] PairTest withoutFilter() const {
+    PairTest test = *this;
+    test.m_filtered = false;
+    return test;
+  }
+  [[nodiscard]] PairTest withoutBounds() const {
+    PairTest test = *this;
+    test.m_exact = false;
+    return test;
+  }
 
   [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
   [[nodiscard]] bool isFiltered() const noexcept { return m_filtered; }

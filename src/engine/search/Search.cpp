@@ -173,7 +173,6 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
 void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
-  plan.sink.lanesAreBounds = true;
   plan.sink.maxPairs = options.maxPairs;
   plan.sink.stop = options.stop;
   Readers readers = Readers::of(sets, options, *m_kernels);

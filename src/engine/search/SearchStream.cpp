@@ -92,7 +92,6 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   plan.test.requireExactTest(!m_first.exact() || !m_second.exact(), origin);
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
-  plan.sink.lanesAreBounds = true;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.sink.maxPairs = end - begin == 1 ? SinkOptions().maxPairs : kRangePairs;
   plan.sink.limitIsCallers = false;

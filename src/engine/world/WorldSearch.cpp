@@ -2,7 +2,6 @@
 #include "world/WorldSearch.h"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <utility>
 
@@ -98,10 +97,10 @@ StepResult WorldSearch::step(BoxStore& store) {
   return m_history.result();
 }
 
-/// The test of pairs of this world and another one, or of this one alone.
-PairTest WorldSearch::testOf(const BoxStore& store, const BoxStore& other, double distance, bool exact) const {
-  PairTest test(store.tested(), other.tested(), distance, m_options.accept);
-  test.requireExactTest(!exact || distance != 0.0);
+/// The test of pairs of this world. Lanes are widened by the distance, unless it is negative, when all hits are tested.
+PairTest WorldSearch::testOf(const BoxStore& store, double distance, bool exact) const {
+  PairTest test(store.tested(), store.tested(), distance, m_options.accept);
+  test.requireExactTest(!exact || distance != 0.0, {});
   return test;
 }
 
@@ -125,7 +124,7 @@ void WorldSearch::noteTotals() {
 }
 
 void WorldSearch::joinAll(const BoxStore& store) {
-  const PairTest test = testOf(store, store, m_options.distance, isExact());
+  const PairTest test = testOf(store, m_options.distance, isExact());
   const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
     m_history.take(pairs, worker);
     return pairs.size();
@@ -142,15 +141,15 @@ void WorldSearch::joinAll(const BoxStore& store) {
 }
 
 void WorldSearch::joinChanged(const BoxStore& store) {
-  const PairTest test = testOf(store, store, m_options.distance, isExact());
-  std::atomic<std::uint64_t> tested = 0;
+  const PairTest test = testOf(store, m_options.distance, isExact());
+  const PairTest bounds = test.withoutFilter();
+  const PairTest filter = test.withoutBounds();  // Asked once for each pair.
   const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
     const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
-    tested += once.size();
-    m_history.take(once.first(test.select(once)), worker);
+    m_history.take(once.first(filter.select(once)), worker);
     return pairs.size();
   };
-  SinkOptions sink{&m_kernels};
+  SinkOptions sink{&m_kernels, &bounds};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
   m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::Changed);
@@ -163,7 +162,6 @@ void WorldSearch::joinChanged(const BoxStore& store) {
   joinWith(m_changedDynamic, m_static);
   joinWith(m_changedStatic, m_dynamic);
   noteTotals();
-  m_statistics.exactTests = test.exactTestNeeded() ? tested.load() : 0;
   m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
                           executor());
 }
@@ -202,7 +200,8 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   const bool exact = isExact() && other.isExact() && m_options.distance == 0.0 && other.m_options.distance == 0.0;
   // Half of each: the lanes of the two worlds have been enlarged by that.
   const double distance = 0.5 * m_options.distance + 0.5 * other.m_options.distance;
-  const PairTest test = testOf(store, otherStore, distance, exact);
+  PairTest test(store.tested(), otherStore.tested(), distance, m_options.accept);
+  test.requireExactTest(!exact || distance != 0.0);
   std::mutex mutex;
   std::vector<Pair> found;
   const auto take = [&](std::span<Pair> pairs, std::size_t) {

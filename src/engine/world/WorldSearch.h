@@ -85,7 +85,7 @@ class WorldSearch {
   [[nodiscard]] bool isExact() const noexcept {
     return m_dynamic.exact() && m_static.exact() && m_dynamicTrees.exact() && m_staticTrees.exact();
   }
-  [[nodiscard]] PairTest testOf(const BoxStore& store, const BoxStore& other, double distance, bool exact) const;
+  [[nodiscard]] PairTest testOf(const BoxStore& store, double distance, bool exact) const;
   void joinAll(const BoxStore& store);
   void joinChanged(const BoxStore& store);
   void joinWorlds(BoxStore& store);

@@ -57,10 +57,10 @@ void WorldSearch::joinWorlds(BoxStore& store) {
   m_members.update(store, executor());
   static_cast<void>(store.set());  // The tests read it.
   m_statistics.joinedAll = chooseWorlds(store);
-  const SmallWorlds::Input small{store, m_members, m_options, m_kernels, testOf(store, store, 0.0, true)};
+  const SmallWorlds::Input small{store, m_members, m_options, m_kernels, testOf(store, 0.0, true)};
   moveLarge(small);
   if (!m_large.empty() || m_options.accept) update(store);  // `accept` may ask queries.
-  const PairTest test = testOf(store, store, m_options.distance, isExact());
+  const PairTest test = testOf(store, m_options.distance, isExact());
   const auto take = [&](std::span<const Pair> pairs, std::size_t worker) {
     m_history.take(pairs, worker);
     return pairs.size();
