@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bundles the viewer into dist/viewer.html, the one page that the program carries. With --check it writes nothing and
-// fails where that page is not what the sources make.
+// Bundles the viewer into dist/viewer.html and the page of reports into dist/report.html, which the program carries. With --check
+// it writes nothing and fails where these pages are not what the sources make.
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -9,7 +9,12 @@ import { sourcesHash } from "./sources.mjs";
 import { onlyWhatIsUsed } from "./three.mjs";
 
 const here = new URL(".", import.meta.url);
-const target = new URL("dist/viewer.html", here);
+
+/** What each page is made from. */
+const pages = {
+  "dist/viewer.html": { template: "index.html", script: "src/main.js", style: "src/style.css", notice: true },
+  "dist/report.html": { template: "report.html", script: "src/report.js", style: "src/report.css", notice: false },
+};
 
 const common = {
   bundle: true,
@@ -32,21 +37,22 @@ const notice = "/*! three.js: Copyright 2010-2026 three.js authors, SPDX-License
 
 const sha256 = (text) => createHash("sha256").update(text).digest("base64");
 
-async function page() {
-  const script = `${notice}\n${await bundle("src/main.js", "iife")}`.replaceAll("</script", "<\\/script");
-  const style = await bundle("src/style.css");
+async function made({ template, script: entry, style: sheet, notice: isWithThree }) {
+  const script = `${isWithThree ? `${notice}\n` : ""}${await bundle(entry, "iife")}`.replaceAll("</script", "<\\/script");
+  const style = await bundle(sheet);
   const marks = { "SCRIPT-HASH": sha256(script), "STYLE-HASH": sha256(style), "SOURCES-HASH": await sourcesHash(here), STYLE: style, SCRIPT: script };
-  const template = await readFile(new URL("index.html", here), "utf8");
-  return template.replace(/SCRIPT-HASH|STYLE-HASH|SOURCES-HASH|(?<=<style>)STYLE|(?<=<script>)SCRIPT/g, (mark) => marks[mark]);
+  const text = await readFile(new URL(template, here), "utf8");
+  return text.replace(/SCRIPT-HASH|STYLE-HASH|SOURCES-HASH|(?<=<style>)STYLE|(?<=<script>)SCRIPT/g, (mark) => marks[mark]);
 }
 
-const text = await page();
-if (process.argv.includes("--check")) {
-  if ((await readFile(target, "utf8").catch(() => "")) !== text) {
-    console.error("web/dist/viewer.html is not what web/ makes: run ./dev web");
+for (const [name, parts] of Object.entries(pages)) {
+  const target = new URL(name, here);
+  const text = await made(parts);
+  if (process.argv.includes("--check")) {
+    if ((await readFile(target, "utf8").catch(() => "")) === text) continue;
+    console.error(`web/${name} is not what web/ makes: run ./dev web`);
     process.exit(1);
   }
-} else {
   await writeFile(target, text);
-  console.log(`web/dist/viewer.html: ${(text.length / 1024).toFixed(0)} KiB`);
+  console.log(`web/${name}: ${(text.length / 1024).toFixed(0)} KiB`);
 }

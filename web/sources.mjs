@@ -4,7 +4,7 @@
 import { createHash } from "node:crypto";
 import { readdir, readFile } from "node:fs/promises";
 
-const single = ["build.mjs", "index.html", "package-lock.json", "package.json", "sources.mjs", "three.mjs"];
+const single = ["build.mjs", "index.html", "package-lock.json", "package.json", "report.html", "sources.mjs", "three.mjs"];
 
 /** SHA-256 of the lines "hash  path" of all source files, ordered by path as bytes: what sha256sum prints. */
 export async function sourcesHash(folder) {

@@ -13,18 +13,22 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "Base64.h"
 #include "Bcf.h"
 #include "Clash.h"
 #include "ClashPicture.h"
 #include "Commands.h"
 #include "Png.h"
 #include "Since.h"
+#include "WritePage.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
@@ -52,8 +56,8 @@ struct ReportSettings {
   bool open = false;
 };
 
-constexpr const char* kReportExamples = R"(The folder gets index.html, clashes.csv, clashes.bcf (for BIM tools)
-and a folder of pictures. Shapes are tested where the input has any: clashes come
+constexpr const char* kReportExamples = R"(The folder gets index.html, view.html (in 3D), clashes.csv, clashes.bcf
+(for BIM tools) and a folder of pictures. Shapes are tested where the input has any: clashes come
 first, the worst before all, and pairs that are apart are only counted. With
 --boxes all pairs of boxes are listed, those with the largest shared volume first.
 
@@ -102,9 +106,52 @@ std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<co
 
 std::string bcfOf(const view::ViewScene& scene, std::span<const view::Clash> pictured,
                   const std::vector<std::string>& pictures, view::BcfOptions options) {
-  options.date = dateText();
   options.picture = [&pictures](const view::Clash& clash) { return pictures[clash.number - 1]; };
   return view::makeBcf(scene, pictured, options);
+}
+
+/// The page beside the report, or why there is none.
+struct ScenePage {
+  std::string bytes;
+  std::string problem;
+};
+
+ScenePage pageOf(const view::ViewScene& scene) {
+  ScenePage page;
+  try {
+    view::writePage(scene, [&page](std::string_view bytes) { page.bytes += bytes; });
+  } catch (const Error& problem) {  // too much for a page is not too much for a report
+    page = {"", problem.what()};
+  }
+  return page;
+}
+
+std::string unitOf(const ReportSettings& settings, const view::ViewScene& scene) {
+  if (settings.metresPerUnit) return view::unitText(*settings.metresPerUnit) + ", as --metres-per-unit says";
+  if (scene.metresPerUnit) return view::unitText(*scene.metresPerUnit) + ", as the input says";
+  return "those of the input, which does not say how long they are";
+}
+
+std::vector<view::ReportFact> factsOf(const ReportSettings& settings, const view::ViewScene& scene,
+                                      const std::string& date) {
+  const std::map<std::string, std::string> rows{
+      {"body", "pairs of bodies"}, {"file", "pairs of files"}, {"none", "pairs of models"}};
+  std::vector<view::ReportFact> facts{{"Made", date}, {"By", "allpairs " ALLPAIRS_VERSION}};
+  facts.push_back({"Input", scene.title});
+  facts.push_back({"Tested", scene.isExact ? "shapes" : "boxes"});
+  if (settings.view.search.distance) facts.push_back({"Distance", view::shortNumber(scene.distance)});
+  if (scene.isExact) facts.push_back({"Clearance", view::shortNumber(scene.clearance)});
+  facts.push_back({"Rows", rows.at(settings.view.group)});
+  facts.push_back({"Lengths", unitOf(settings, scene)});
+  facts.push_back({"Up", std::string(scene.up < 0 ? "-" : "") + "xyz"[std::abs(scene.up) - 1]});
+  return facts;
+}
+
+/// clashes.bcf as a script that hands it to the page: a page that is a file may not read another file, but may run it.
+void writeBcfScript(const std::string& bcf, scene::ByteSink sink) {
+  sink("allpairsBcf(\"");
+  view::writeBase64(bcf, sink);
+  sink("\");\n");
 }
 
 /// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind.
@@ -118,15 +165,20 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings, c
   options.version = settings.bcf == "3.0" ? view::BcfVersion::V30 : view::BcfVersion::V21;
   options.metresPerUnit = settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0));
   if (since) options.resolved = since->resolved;
+  options.date = dateText();
   const std::string bcf = bcfOf(scene, pictured, pictures, options);
-  const view::Report report{scene, clashes, pictured.size(), since ? &*since : nullptr};
+  const ScenePage page = pageOf(scene);
+  const view::Report report{
+      scene, clashes, pictured.size(), since ? &*since : nullptr, factsOf(settings, scene, options.date), page.problem};
   ReportFolder folder(settings.folder);
   for (const view::Clash& clash : pictured) folder.write(view::pictureName(clash.number), pictures[clash.number - 1]);
   folder.write("clashes.bcf", bcf);
+  folder.write("clashes.bcf.js", [&](scene::ByteSink sink) { writeBcfScript(bcf, sink); });
+  if (page.problem.empty()) folder.write("view.html", page.bytes);
   folder.write("clashes.csv", [&](scene::ByteSink sink) { view::writeReportCsv(report, sink); });
   folder.write("index.html",  // last, so that what it refers to is there
                [&](scene::ByteSink sink) { view::writeReportPage(report, sink); });
-  folder.commit(pictured.size());
+  folder.commit(pictured.size(), page.problem.empty());
   const std::string changes = since ? " (" + view::countText(*since) + ')' : "";
   sayWritten(view::headlineOf(scene) + changes, std::filesystem::path(settings.folder) / "index.html");
 }

@@ -70,10 +70,11 @@ void ReportFolder::write(const fs::path& name, const std::function<void(scene::B
   if (isNew) m_new.push_back(path);
 }
 
-void ReportFolder::commit(std::size_t pictures) {
+void ReportFolder::commit(std::size_t pictures, bool hasPage) {
   m_new.clear();
   if (!m_hadReport) return;
   std::error_code ignored;
+  if (!hasPage) fs::remove(m_folder / "view.html", ignored);
   while (fs::remove(m_folder / view::pictureName(++pictures), ignored)) continue;
 }
 

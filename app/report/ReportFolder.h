@@ -32,8 +32,8 @@ class ReportFolder {
   void write(const std::filesystem::path& name, std::string_view bytes);
   void write(const std::filesystem::path& name, const std::function<void(scene::ByteSink)>& writer);
 
-  /// All is written. Pictures that an earlier, longer report left there are taken away.
-  void commit(std::size_t pictures);
+  /// All is written. Pictures that an earlier, longer report left there are taken away, and its page where there is none now.
+  void commit(std::size_t pictures, bool hasPage);
 
  private:
   void makeFolder(const std::filesystem::path& folder);

@@ -58,8 +58,8 @@ std::string extensions() {
   Node root = document.append_child("Extensions");
   addText(root.append_child("TopicTypes"), "TopicType", "Clash");
   Node statuses = root.append_child("TopicStatuses");
-  addText(statuses, "TopicStatus", "Open");
-  addText(statuses, "TopicStatus", "Closed");
+  for (const char* status : {"Open", "In progress", "Accepted", "Closed"})  // as in web/src/notes.js
+    addText(statuses, "TopicStatus", status);
   Node labels = root.append_child("TopicLabels");
   addText(labels, "TopicLabel", "new");
   addText(labels, "TopicLabel", "persisting");

@@ -4,38 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
+#include "PageTemplate.h"
 #include "Text.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::view {
 namespace {
-
-constexpr const char* kStyle = R"(
-:root{color-scheme:light dark;--ink:light-dark(#1a2129,#e6ebf0);--soft:light-dark(#5a6672,#9aa7b4);
---line:light-dark(#d6dce2,#323b45);--paper:light-dark(#fff,#1c2229);--ground:light-dark(#f4f6f8,#14181d)}
-*{box-sizing:border-box}body{margin:0;background:var(--ground);color:var(--ink);
-font:1rem/1.45 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
-main{max-width:90rem;margin:0 auto;padding:1.5rem}h1{margin:0;overflow-wrap:anywhere}
-p{color:var(--soft);max-width:60rem}.headline{color:var(--ink);font-size:1.6rem;font-weight:600;line-height:1.25;
-margin:.6rem 0 .3rem}.worst{color:var(--ink);margin:.3rem 0}
-.state{display:inline-block;border-radius:.3rem;padding:0 .4rem;font-size:.85em;font-weight:600;color:#fff;background:#5a6672}
-.state.duplicate{background:#7a0f5a}.state.contained{background:#a3123a}.state.clash{background:#c2330f}
-.state.new{background:#1d6b34}.state.touching{background:#7d6e00}.state.clearance{background:#1f6f8b}
-.clashes{display:grid;gap:1rem;
-grid-template-columns:repeat(auto-fill,minmax(min(20rem,100%),1fr))}
-figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:.5rem;overflow:hidden}
-figure img{display:block;width:100%;height:auto;aspect-ratio:4/3}figcaption{padding:.6rem .9rem;overflow-wrap:anywhere}
-.first,.second{font-weight:600}.first::before,.second::before{content:"";display:inline-block;width:.7em;height:.7em;
-border-radius:50%;margin-right:.4em;background:#0072b2}.second::before{background:#e69f00}
-.fact{color:var(--soft);font-variant-numeric:tabular-nums}.scroll{overflow-x:auto}
-details{margin-top:.4rem;color:var(--soft)}summary{cursor:pointer}details ul{margin:.3rem 0;padding-left:1.2rem}
-table{border-collapse:collapse;background:var(--paper);margin-top:1rem;min-width:100%}
-th,td{text-align:left;padding:.3rem .8rem;border-bottom:1px solid var(--line);overflow-wrap:anywhere}
-td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-@media print{figure{break-inside:avoid}}
-)";
 
 constexpr std::size_t kMostRows = 10'000;  // of more, browsers take seconds to lay out the page
 
@@ -82,10 +61,19 @@ std::string partsOf(const ViewScene& scene, const Clash& clash) {
   return text + "</ul></details>";
 }
 
-std::string figureOf(const ViewScene& scene, const Clash& clash) {
-  std::string text = fmt::format("<figure id=\"clash-{}\"><img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" ",
-                                 clash.number, pictureName(clash.number), escapeHtml(titleOf(scene, clash)));
-  text += fmt::format("loading=\"lazy\"><figcaption>{}. {}", clash.number, namesOf(scene, clash));
+/// The picture, which opens the page at the pair: its address has the numbers of models, since names may repeat.
+std::string pictureOf(const Report& report, const Clash& clash) {
+  const std::string picture = fmt::format("<img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" loading=\"lazy\">",
+                                          pictureName(clash.number), escapeHtml(titleOf(report.scene, clash)));
+  if (!report.withoutPage.empty()) return picture;
+  return fmt::format("<a href=\"view.html#pair=@{},@{}\" title=\"Open it in 3D\">{}</a>", clash.first, clash.second,
+                     picture);
+}
+
+std::string figureOf(const Report& report, const Clash& clash) {
+  const ViewScene& scene = report.scene;
+  std::string text = fmt::format("<figure id=\"clash-{}\" data-guid=\"{}\">{}<figcaption>{}. {}", clash.number,
+                                 clash.guid, pictureOf(report, clash), clash.number, namesOf(scene, clash));
   text += fmt::format("<br><span class=\"fact\">{}{}</span>", badgeOf(clash), escapeHtml(findingOf(scene, clash)));
   text += partsOf(scene, clash);
   return text + "</figcaption></figure>\n";
@@ -112,49 +100,14 @@ std::string measuresOf(const Clash& clash) {
 std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
   const std::string number =
       hasPicture ? fmt::format("<a href=\"#clash-{0}\">{0}</a>", clash.number) : std::to_string(clash.number);
-  const std::string state = clash.exact == nullptr && !clash.isNew ? "" : "<td>" + badgeOf(clash) + "</td>";
+  const std::string order =  // states are sorted by how bad they are
+      clash.exact == nullptr ? "" : fmt::format(" data-order=\"{}\"", static_cast<int>(clash.exact->state));
+  const std::string state =
+      clash.exact == nullptr && !clash.isNew ? "" : fmt::format("<td{}>{}</td>", order, badgeOf(clash));
   const std::string more = clash.inside.empty() ? "" : fmt::format(" (worst of {} pairs)", clash.inside.size() + 1);
-  return fmt::format("<tr>{}{}<td>{}</td><td>{}{}</td>{}</tr>\n", numberCell(number), state,
-                     escapeHtml(firstNameOf(scene, clash)),
+  return fmt::format("<tr data-guid=\"{}\">{}{}<td>{}</td><td>{}{}</td>{}</tr>\n", clash.guid, numberCell(number),
+                     state, escapeHtml(firstNameOf(scene, clash)),
                      clash.isSelf() ? "itself" : escapeHtml(secondNameOf(scene, clash)), more, measuresOf(clash));
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
-  return result + '"';
-}
-
-/// A name as a cell that no spreadsheet takes for a formula: an apostrophe before it says that it is text.
-std::string cellOf(const std::string& name) { return quoted(looksLikeFormula(name) ? "'" + name : name); }
-
-std::string csvMeasuresOf(const Clash& clash) {
-  if (clash.exact == nullptr)
-    return fmt::format("{},{},{},{}", clash.overlap[0], clash.overlap[1], clash.overlap[2], clash.volume);
-  const ExactPair& pair = *clash.exact;
-  if (pair.state == ExactState::NotExamined) return fmt::format("{},,,,,,,,,", stateName(pair.state));
-  const auto [x, y, z] = allpairs::placeOf(pair);
-  return fmt::format("{},{},{},{},{},{},{},{},{},{}", stateName(pair.state),
-                     pair.depth ? fmt::to_string(*pair.depth) : "", pair.distance, x, y, z, pair.normal[0],
-                     pair.normal[1], pair.normal[2], pair.contactCount);
-}
-
-std::string idCellsOf(const ViewScene& scene, std::uint32_t model) {
-  if (scene.ids.empty()) return {};
-  return ',' + cellOf(scene.kinds[model]) + ',' + cellOf(scene.ids[model]);
-}
-
-/// A pair of a row.
-void writeCsvLine(const ViewScene& scene, const Clash& row, const Clash& pair, scene::ByteSink sink) {
-  const std::string since = row.isNew ? (*row.isNew ? ",new" : ",persisting") : "";
-  sink(fmt::format("{},{},{},{}{}{}{},{}\n", row.number, cellOf(scene.name(pair.first)),
-                   cellOf(scene.name(pair.second)), csvMeasuresOf(pair), idCellsOf(scene, pair.first),
-                   idCellsOf(scene, pair.second), since, row.guid));
-}
-
-bool isAscii(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
 std::string counted(std::size_t count, const char* noun) {
@@ -203,20 +156,40 @@ std::string changesOf(const Since* since) {
   return text + "</ul></details>\n";
 }
 
+/// When it was made, of what, how.
+std::string aboutOf(const Report& report) {
+  std::string text = "<dl class=\"about\">";
+  for (const auto& [name, value] : report.facts)
+    text += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", escapeHtml(name), escapeHtml(value));
+  return report.facts.empty() ? "" : text + "</dl>\n";
+}
+
+/// What else is in the folder.
+std::string filesOf(const Report& report) {
+  std::string text = "<p>";
+  if (report.withoutPage.empty())
+    text += "<a href=\"view.html\">Open it in 3D</a>; a picture opens its pair. ";
+  else
+    text += fmt::format("Not in 3D: {}. ", escapeHtml(report.withoutPage));
+  text += "Also in this folder: <a href=\"clashes.csv\">clashes.csv</a>, <a href=\"clashes.bcf\">clashes.bcf</a>.";
+  const std::size_t count = report.clashes.size();
+  if (report.pictured < count)
+    text += fmt::format(" The first {} have pictures and are in the BCF file.", report.pictured);
+  if (kMostRows < count) text += fmt::format(" The table here has the first {}, clashes.csv has all.", kMostRows);
+  return text + "</p>\n";
+}
+
 std::string introduction(const Report& report) {
-  const auto& [scene, clashes, pictured, since] = report;
+  const ViewScene& scene = report.scene;
+  const std::span<const Clash> clashes = report.clashes;
   const std::size_t candidates = scene.frames.front().pairs.size();
   const std::size_t count = clashes.size();
   std::string text =
       fmt::format("<h1>{}</h1>\n<p class=\"headline\">{}</p>\n", escapeHtml(scene.title), headlineOf(scene));
-  text += changesOf(since) + worstOf(scene, clashes) + scopeOf(scene, candidates);
+  text += changesOf(report.since) + worstOf(scene, clashes) + scopeOf(scene, candidates) + aboutOf(report);
   if (candidates == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
   if (count == 0) return text + "<p>No two models touch: there is nothing to look at.</p>\n";
-  text += scene.isExact ? kOfShapes : kOfBoxes;
-  text += "<p>Also in this folder: <a href=\"clashes.csv\">clashes.csv</a>, <a href=\"clashes.bcf\">clashes.bcf</a>.";
-  if (pictured < count) text += fmt::format(" The first {} have pictures and are in the BCF file.", pictured);
-  if (kMostRows < count) text += fmt::format(" The table here has the first {}, clashes.csv has all.", kMostRows);
-  return text + "</p>\n";
+  return text + (scene.isExact ? kOfShapes : kOfBoxes) + filesOf(report);
 }
 
 void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured, scene::ByteSink sink) {
@@ -240,40 +213,38 @@ void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::siz
 
 std::string pictureName(std::size_t number) { return fmt::format("pictures/{:04}.png", number); }
 
-void writeReportPage(const Report& report, scene::ByteSink sink) {
-  const auto& [scene, clashes, pictured, since] = report;
-  sink("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-  sink("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-  sink("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self' file:; ");
-  sink("style-src 'unsafe-inline'\">\n");
-  sink(fmt::format("<title>{} – clashes</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", escapeHtml(scene.title),
-                   kStyle));
-  sink(introduction(report));
-  sink("<section class=\"clashes\">\n");
-  for (const Clash& clash : clashes.first(pictured)) sink(figureOf(scene, clash));
-  sink("</section>\n");
-  writeTable(scene, clashes.first(std::min(clashes.size(), kMostRows)), pictured, sink);
-  sink("</main>\n</body>\n</html>\n");
+std::string unitText(double metres) {
+  constexpr std::array<std::pair<double, const char*>, 7> kWords{{{1.0, "metres"},
+                                                                  {1e-3, "millimetres"},
+                                                                  {1e-2, "centimetres"},
+                                                                  {1e3, "kilometres"},
+                                                                  {0.0254, "inches"},
+                                                                  {0.3048, "feet"},
+                                                                  {0.9144, "yards"}}};
+  constexpr double kRounding = 1e-6;  // a float32 that was converted
+  for (const auto& [length, word] : kWords) {
+    if (std::abs(metres - length) <= kRounding * length) return word;
+  }
+  return fmt::format("units of {} m", shortNumber(metres));
 }
 
-void writeReportCsv(const Report& report, scene::ByteSink sink) {
-  constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
-  const ViewScene& scene = report.scene;
-  if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
-  sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts"
-                     : "number,first,second,overlap_x,overlap_y,overlap_z,volume");
-  if (!scene.ids.empty()) sink(",first_type,first_id,second_type,second_id");
-  sink(report.since == nullptr ? ",guid\n" : ",since,guid\n");
-  for (const Clash& clash : report.clashes) {
-    writeCsvLine(scene, clash, clash, sink);
-    for (const Clash& pair : clash.inside) writeCsvLine(scene, clash, pair, sink);
-  }
-  if (report.since == nullptr) return;
-  const std::size_t left = (scene.isExact ? 10U : 4U) + (scene.ids.empty() ? 0U : 4U);
-  for (const EarlierClash& clash : report.since->resolved) {
-    sink(fmt::format(",{},{},{}resolved,{}\n", cellOf(clash.first), cellOf(clash.second), std::string(left, ','),
-                     clash.guid));
-  }
+void writeReportPage(const Report& report, scene::ByteSink sink) {
+  constexpr std::string_view kTitle = "<!--ALLPAIRS-TITLE-->";
+  constexpr std::string_view kPlace = "<!--ALLPAIRS-REPORT-->";
+  const std::string_view page = reportTemplate();
+  const std::size_t title = page.find(kTitle);
+  const std::size_t place = page.find(kPlace);
+  if (place == std::string_view::npos || title > place) throw Error("the page of reports has no place for a report");
+  const std::span<const Clash> clashes = report.clashes;
+  sink(page.substr(0, title));
+  sink(fmt::format("{} – clashes", escapeHtml(report.scene.title)));
+  sink(page.substr(title + kTitle.size(), place - title - kTitle.size()));
+  sink(introduction(report));
+  sink("<section class=\"clashes\">\n");
+  for (const Clash& clash : clashes.first(report.pictured)) sink(figureOf(report, clash));
+  sink("</section>\n");
+  writeTable(report.scene, clashes.first(std::min(clashes.size(), kMostRows)), report.pictured, sink);
+  sink(page.substr(place + kPlace.size()));
 }
 
 }  // namespace allpairs::view

@@ -224,6 +224,46 @@ TEST(Report, WithoutPairsSaysSo) {
   EXPECT_EQ(filesOf(folder.path() / "out/clashes.bcf").size(), 1U);
 }
 
+TEST(Report, HandsItsBcfToThePageAsAScript) {
+  const TempFolder folder;
+  const std::string input = folder.write("a.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n");
+  expectSuccess(runProgram({"report", input, "-o", folder.path() / "out"}));
+  const std::string script = readBytes(folder.path() / "out/clashes.bcf.js");
+  std::smatch parts;
+  ASSERT_TRUE(std::regex_match(script, parts, std::regex("allpairsBcf\\(\"([A-Za-z0-9+/]*=*)\"\\);\n")));
+  const std::string archive = readBytes(folder.path() / "out/clashes.bcf");
+  EXPECT_EQ(parts[1].length(), static_cast<std::ptrdiff_t>((archive.size() + 2) / 3 * 4));
+}
+
+TEST(Report, SaysWhenItWasMadeByWhatAndHow) {
+  const TempFolder folder;
+  const std::string input = folder.write("a.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n");
+  const auto factsOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"report", input, "-o", folder.path() / "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    expectSuccess(runProgram(words));
+    const std::string page = readBytes(folder.path() / "out/index.html");
+    std::map<std::string, std::string> facts;
+    const std::regex form("<div><dt>([^<]*)</dt><dd>([^<]*)</dd></div>");
+    for (std::sregex_iterator fact(page.begin(), page.end(), form), end; fact != end; ++fact)
+      facts.emplace((*fact)[1], (*fact)[2]);
+    return facts;
+  };
+  auto facts = factsOf({"--distance", "0.25", "--metres-per-unit", "0.0254", "--up", "y"});
+  EXPECT_TRUE(std::regex_match(facts["Made"], std::regex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z")));
+  EXPECT_EQ(facts["By"], "allpairs " ALLPAIRS_VERSION);
+  EXPECT_EQ(facts["Distance"], "0.25");
+  EXPECT_EQ(facts["Tested"], "boxes");
+  EXPECT_EQ(facts["Lengths"], "inches, as --metres-per-unit says");
+  EXPECT_EQ(facts["Up"], "y");
+  facts = factsOf({});
+  EXPECT_EQ(facts.count("Distance"), 0U);
+  EXPECT_EQ(facts["Lengths"], "those of the input, which does not say how long they are");
+  const std::string ifc = folder.write("two.ifc", kIfc);
+  expectSuccess(runProgram({"report", ifc, "-o", folder.path() / "ifc"}));
+  EXPECT_NE(readBytes(folder.path() / "ifc/index.html").find("<dd>millimetres, as the input says</dd>"), std::string::npos);
+}
+
 TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
   const TempFolder folder;
   const std::string out = folder.path() / "out";
@@ -233,8 +273,8 @@ TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
   folder.write("out/pictures/0009.png", "");
   const std::string two = folder.write("b.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n");
   expectSuccess(runProgram({"report", two, "-o", out}));
-  EXPECT_EQ(filesIn(out), (Names{"clashes.bcf", "clashes.csv", "index.html", "pictures", "pictures/0001.png",
-                                 "pictures/0009.png", "pictures/mine.png"}));
+  EXPECT_EQ(filesIn(out), (Names{"clashes.bcf", "clashes.bcf.js", "clashes.csv", "index.html", "pictures",
+                                 "pictures/0001.png", "pictures/0009.png", "pictures/mine.png", "view.html"}));
 }
 
 TEST(Report, ThatCannotBeWrittenLeavesNothingBehind) {

@@ -4,7 +4,7 @@
 
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -21,6 +21,9 @@ user_pref("toolkit.telemetry.enabled", false);
 user_pref("app.update.enabled", false);
 user_pref("network.captive-portal-service.enabled", false);
 user_pref("network.connectivity-service.enabled", false);
+user_pref("browser.download.folderList", 2);
+user_pref("browser.download.always_ask_before_handling_new_types", false);
+user_pref("browser.helperApps.neverAsk.saveToDisk", "application/octet-stream");
 `;
 
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
@@ -39,7 +42,8 @@ export class Firefox {
   static async start(width, height) {
     const browser = new Firefox();
     browser.profile = mkdtempSync(join(tmpdir(), "allpairs-firefox-"));
-    writeFileSync(join(browser.profile, "user.js"), settings);
+    browser.downloads = join(browser.profile, "downloads");
+    writeFileSync(join(browser.profile, "user.js"), `${settings}user_pref("browser.download.dir", "${browser.downloads}");\n`);
     const display = await browser.startDisplay(width, height);
     const words = ["--no-remote", "--marionette", "--profile", browser.profile, `--window-size=${width},${height}`];
     browser.process = spawn(firefox, words, { stdio: "ignore", env: { ...process.env, HOME: browser.profile, DISPLAY: display } });
@@ -97,6 +101,13 @@ export class Firefox {
   async press(key) {
     const actions = [{ type: "keyDown", value: key }, { type: "keyUp", value: key }];
     await this.command("WebDriver:PerformActions", { actions: [{ type: "key", id: "keys", actions }] });
+  }
+
+  /** The bytes of a file that the page saved. */
+  async downloaded(name) {
+    const path = join(this.downloads, name);
+    await until(() => existsSync(path) && !existsSync(`${path}.part`) && statSync(path).size > 0, name);
+    return readFileSync(path);
   }
 
   async screenshot(path) {

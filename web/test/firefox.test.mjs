@@ -75,3 +75,25 @@ test("Firefox plays meshes that move, and shows names as text", { skip }, async 
   await picture("firefox-cloth");
   assert.equal(await browser.run("return document.images.length"), 0);
 });
+
+test("Firefox keeps comments of a report, sends them out with the BCF, and sorts", { skip }, async () => {
+  const boxes = write("firefox-report.csv", "a,0,0,0,2,2,2\nb,1,1,1,3,3,3\nc,1.5,1.5,1.5,4,4,4\n");
+  const out = join(folder, "firefox-report");
+  allpairs("report", boxes, "-o", out);
+  await browser.open(join(out, "index.html"));
+  await browser.until("document.documentElement.dataset.ready");
+  const fill = (selector, value, event) => browser.run(`const field = document.querySelector("${selector}"); field.value = "${value}"; field.dispatchEvent(new Event("${event}"))`);
+  await fill("figure textarea", "not so deep", "input");
+  await fill("figure select", "Accepted", "change");
+  await browser.run("delete document.documentElement.dataset.ready; location.reload()");
+  await browser.until("document.documentElement.dataset.ready && document.querySelector('figure textarea').value === 'not so deep'");
+  assert.equal(await browser.run("return document.querySelector('figure select').value"), "Accepted");
+  await browser.run("[...document.querySelectorAll('thead button')].find((button) => button.textContent === 'second').click()");
+  const seconds = await browser.run("return [...document.querySelectorAll('tbody tr')].map((row) => row.cells[2].textContent)");
+  assert.deepEqual(seconds, [...seconds].sort());
+  await browser.run("document.querySelector('button.bcf').click()");
+  const saved = (await browser.downloaded("clashes.bcf")).toString("latin1");
+  assert.ok(saved.includes("<Comment>not so deep</Comment>") && saved.includes('TopicStatus="Accepted"'));
+  assert.equal(await text(".problem"), "");
+  await picture("firefox-report");
+});
