@@ -103,7 +103,7 @@ _allpairs() {
         --distance) return ;;
         --box) return ;;
         --clearance) return ;;
-        --group) words='body file none' ;;
+        --group) words='body assembly file none' ;;
         --up) words='x y z' ;;
         -o | --output) files=-f ;;
         --port) return ;;
@@ -122,7 +122,7 @@ _allpairs() {
         --distance) return ;;
         --box) return ;;
         --clearance) return ;;
-        --group) words='body file none' ;;
+        --group) words='body assembly file none' ;;
         --up) words='x y z' ;;
         -o | --output) files=-d ;;
         --bcf) words='2.1 3.0' ;;

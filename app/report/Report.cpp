@@ -134,8 +134,10 @@ std::string unitOf(const ReportSettings& settings, const view::ViewScene& scene)
 
 std::vector<view::ReportFact> factsOf(const ReportSettings& settings, const view::ViewScene& scene,
                                       const std::string& date) {
-  const std::map<std::string, std::string> rows{
-      {"body", "pairs of bodies"}, {"file", "pairs of files"}, {"none", "pairs of models"}};
+  const std::map<std::string, std::string> rows{{"body", "pairs of bodies"},
+                                                {"assembly", "pairs of assemblies"},
+                                                {"file", "pairs of files"},
+                                                {"none", "pairs of models"}};
   std::vector<view::ReportFact> facts{{"Made", date}, {"By", "allpairs " ALLPAIRS_VERSION}};
   facts.push_back({"Input", scene.title});
   facts.push_back({"Tested", scene.isExact ? "shapes" : "boxes"});

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -37,17 +38,15 @@ std::vector<std::string> fileNames(const scene::Scene& scene) {
 class BodyMaker {
  public:
   BodyMaker(const scene::Scene& scene, Grouping grouping, const view::ViewScene& shown)
-      : m_scene(scene), m_isByFile(grouping == Grouping::File), m_shown(shown), m_paths(ownerPaths(scene)) {
-    if (m_isByFile) m_files = fileNames(scene);
+      : m_scene(scene), m_grouping(grouping), m_shown(shown), m_paths(ownerPaths(scene)) {
+    if (isByFile()) m_files = fileNames(scene);
   }
 
   void add(std::size_t model) {
-    const std::size_t file = m_scene.sources[model].file;
-    const std::pair key(file, m_isByFile ? nullptr : m_scene.models[model]->getOwner());
-    const auto [place, isNew] = m_numbers.emplace(key, static_cast<std::uint32_t>(m_all.size()));
+    const auto [place, isNew] = m_numbers.emplace(keyOf(model), static_cast<std::uint32_t>(m_all.size()));
     if (isNew) m_all.push_back(first(model));
     Body& body = m_all[place->second];
-    if (++body.size == 2 && !m_isByFile) describeSeveral(model, body);
+    if (++body.size == 2 && !isByFile()) describeSeveral(model, body);
     m_bodies.push_back(place->second);
   }
 
@@ -69,29 +68,52 @@ class BodyMaker {
     std::size_t size = 0;
   };
 
+  /// What models of one body have in common: their file, and its part or their owner.
+  using Key = std::tuple<std::size_t, std::string, const void*>;
+
+  [[nodiscard]] bool isByFile() const { return m_grouping == Grouping::File; }
+
+  /// The part of its file that a model is of; empty: that of its owner.
+  [[nodiscard]] const std::string& partOf(std::size_t model) const {
+    const scene::ModelSource& source = m_scene.sources[model];
+    return m_grouping == Grouping::Assembly && !source.assembly.empty() ? source.assembly : source.body;
+  }
+
+  [[nodiscard]] Key keyOf(std::size_t model) const {
+    const std::size_t file = m_scene.sources[model].file;
+    if (isByFile()) return {file, "", nullptr};
+    const std::string& part = partOf(model);
+    return {file, part, part.empty() ? m_scene.models[model]->getOwner() : nullptr};
+  }
+
   [[nodiscard]] Body first(std::size_t model) const {
     const std::size_t file = m_scene.sources[model].file;
-    if (!m_isByFile || m_files[file].empty()) return {m_scene.models[model]->getName(), m_shown.identities[model]};
+    if (!isByFile() || m_files[file].empty()) return {m_scene.models[model]->getName(), m_shown.identities[model]};
     return {m_files[file], m_scene.files[file].filename().string()};
   }
 
-  /// By the path of its node instead of that of one of its models, with what stands before: "arm.scn › /Arm".
+  /// By its part of the file, or the path of its node, instead of one of its models, with what stands before: "arm.scn › /Arm".
   void describeSeveral(std::size_t model, Body& body) const {
     const scene::ModelSource& source = m_scene.sources[model];
-    const auto path = m_paths.find(m_scene.models[model]->getOwner());
-    if (path == m_paths.end()) return;
-    if (source.id.empty()) body.identity = m_scene.files[source.file].filename().string() + '\n' + *path->second;
+    std::string part = partOf(model);
+    const bool isBody = part == source.body;
+    if (part.empty()) {
+      const auto path = m_paths.find(m_scene.models[model]->getOwner());
+      if (path == m_paths.end()) return;
+      part = path->second->empty() ? "/" : *path->second;
+    }
+    if (source.id.empty() || !isBody) body.identity = m_scene.files[source.file].filename().string() + '\n' + part;
     const std::string& name = m_scene.models[model]->getName();
     const std::size_t place = name.rfind(source.name);
-    if (place != std::string::npos) body.name = name.substr(0, place) + (path->second->empty() ? "/" : *path->second);
+    if (place != std::string::npos) body.name = name.substr(0, place) + part;
   }
 
   const scene::Scene& m_scene;
-  bool m_isByFile;
+  Grouping m_grouping;
   const view::ViewScene& m_shown;
   OwnerPaths m_paths;
   std::vector<std::string> m_files;
-  std::map<std::pair<std::size_t, const void*>, std::uint32_t> m_numbers;
+  std::map<Key, std::uint32_t> m_numbers;
   std::vector<Body> m_all;
   std::vector<std::uint32_t> m_bodies;
 };

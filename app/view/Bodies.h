@@ -13,9 +13,10 @@ namespace allpairs::app {
 
 /// Which pairs of models are one row of a list.
 enum class Grouping : std::uint8_t {
-  Body,  ///< Those of the same two bodies: the triangles, lines and points of a SOFA node, or of an object of a mesh file.
-  File,  ///< Those of the same two files.
-  None,  ///< Each pair is a row.
+  Body,  ///< Those of the same two bodies: models of a SOFA node, of an object of a mesh file, or of an IFC's product.
+  Assembly,  ///< Those of the same two assemblies, or bodies that are in none.
+  File,      ///< Those of the same two files.
+  None,      ///< Each pair is a row.
 };
 
 /// What models or bodies are known by, told apart: one that has been given before gets a number.

@@ -15,8 +15,8 @@ void addViewOptions(CLI::App& command, ViewArguments& arguments) {
   addSearchOptions(command, arguments.search);
   command.add_flag("--exact", arguments.exact, "Test shapes, and hide pairs that are apart; the default for meshes");
   command.add_flag("--boxes", arguments.boxes, "Do not test shapes: show all pairs of boxes");
-  addChoice(command, "--group", arguments.group, {"body", "file", "none"})
-      ->description("What is one row: pairs of the same two bodies or files, or each pair of models")
+  addChoice(command, "--group", arguments.group, {"body", "assembly", "file", "none"})
+      ->description("What is one row: pairs of the same two bodies, assemblies or files, or each pair of models")
       ->capture_default_str();
   addChoice(command, "--up", arguments.up, {"x", "y", "z"})
       ->description("The axis that points up; by default as the format says, else z");
@@ -30,6 +30,7 @@ ViewRequest viewRequest(const ViewArguments& arguments) {
   if (arguments.exact || arguments.search.clearance) request.shapes = ShapeTest::Always;
   if (arguments.boxes) request.shapes = ShapeTest::Never;
   if (request.shapes == ShapeTest::Always) requireExact();
+  if (arguments.group == "assembly") request.grouping = Grouping::Assembly;
   if (arguments.group == "file") request.grouping = Grouping::File;
   if (arguments.group == "none") request.grouping = Grouping::None;
   if (!arguments.up.empty()) request.up = arguments.up[0] - 'x' + 1;

@@ -172,11 +172,15 @@ void addColouring(Node components, const ViewScene& scene, const Clash& clash, b
   }
 }
 
-/// The models of all pairs of a row, each once.
-std::vector<std::uint32_t> modelsOf(const Clash& clash) {
+/// The models of all pairs of a row, each once, and each GlobalId once.
+std::vector<std::uint32_t> modelsOf(const ViewScene& scene, const Clash& clash) {
   std::vector<std::uint32_t> models;
-  const auto add = [&models](std::uint32_t model) {
-    if (std::find(models.begin(), models.end(), model) == models.end()) models.push_back(model);
+  const auto isSame = [&scene](std::uint32_t a, std::uint32_t b) {
+    return a == b || (!scene.ids.empty() && !scene.ids[a].empty() && scene.ids[a] == scene.ids[b]);
+  };
+  const auto add = [&](std::uint32_t model) {
+    if (std::none_of(models.begin(), models.end(), [&](std::uint32_t known) { return isSame(known, model); }))
+      models.push_back(model);
   };
   const auto addPair = [&add](const Clash& pair) {
     add(pair.first);
@@ -206,7 +210,7 @@ std::string viewpoint(const ViewScene& scene, const Clash& clash, const BcfOptio
   Node root = addElement(document.root(), "VisualizationInfo", "Guid", viewpointGuid(clash));
   Node components = root.append_child("Components");
   Node selection = components.append_child("Selection");
-  for (const std::uint32_t model : modelsOf(clash)) addComponent(selection, scene, model);
+  for (const std::uint32_t model : modelsOf(scene, clash)) addComponent(selection, scene, model);
   addElement(components, "Visibility", "DefaultVisibility", "true");
   addColouring(components, scene, clash, options.version == BcfVersion::V30);
   addCamera(root, cameraOf(scene, clash), options);

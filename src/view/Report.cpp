@@ -18,9 +18,10 @@ namespace {
 
 constexpr std::size_t kMostRows = 10'000;  // of more, browsers take seconds to lay out the page
 
-/// The class and the GlobalId of a model that has them.
+/// The class and the GlobalId of a model that has them; of a row of several pairs, where they are the body's.
 std::string kindOf(const ViewScene& scene, const Clash& clash, std::uint32_t model) {
-  if (scene.ids.empty() || !clash.inside.empty() || scene.ids[model].empty()) return {};
+  if (scene.ids.empty() || scene.ids[model].empty()) return {};
+  if (!clash.inside.empty() && scene.bodyIdentities[scene.bodyOf(model)] != scene.ids[model]) return {};
   return fmt::format("<br><span class=\"fact\">{} {}</span>", escapeHtml(scene.kinds[model]),
                      escapeHtml(scene.ids[model]));
 }

@@ -269,5 +269,86 @@ TEST(ReportOfBodies, MayBeOfFiles) {
                 "is not one of body");
 }
 
+/// The wall and the column, and a curtain wall of two members, which mapped items place: each member is a beam from x = -500 to 500.
+std::string ifcOfParts() {
+  const std::string parts = R"(#50=IFCRECTANGLEPROFILEDEF(.AREA.,$,#53,1000.,200.);
+#51=IFCEXTRUDEDAREASOLID(#50,#9,#7,300.);
+#52=IFCCARTESIANPOINT((0.,0.));
+#53=IFCAXIS2PLACEMENT2D(#52,#21);
+#54=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#51));
+#55=IFCREPRESENTATIONMAP(#9,#54);
+#56=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#8,1.,$);
+#57=IFCMAPPEDITEM(#55,#56);
+#58=IFCCARTESIANPOINT((300.,0.,0.));
+#59=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#58,1.,$);
+#60=IFCMAPPEDITEM(#55,#59);
+#61=IFCSHAPEREPRESENTATION(#10,'Body','MappedRepresentation',(#57,#60));
+#62=IFCPRODUCTDEFINITIONSHAPE($,$,(#61));
+#63=IFCMEMBER('3AvctVUKr0kugbFTf53O9L',#5,'mullion',$,$,#15,#62,$);
+#64=IFCSHAPEREPRESENTATION(#10,'Body','MappedRepresentation',(#60));
+#65=IFCPRODUCTDEFINITIONSHAPE($,$,(#64));
+#66=IFCMEMBER('4AvctVUKr0kugbFTf53O9L',#5,'mullion',$,$,#15,#65,$);
+#67=IFCCURTAINWALL('5AvctVUKr0kugbFTf53O9L',#5,'front',$,$,#15,$,$);
+#68=IFCRELAGGREGATES('6AvctVUKr0kugbFTf53O9L',#5,$,$,#67,(#63,#66));
+)";
+  std::string text = kIfc;
+  text.replace(text.find("(#27,#39)"), 9, "(#27,#39,#67)");
+  return text.insert(text.find("ENDSEC;", text.find("DATA;")), parts);
+}
+
+TEST(ReportOfIfc, MappedItemsArePartsOfTheirProductAndProductsOfTheirAssembly) {
+  const TempFolder folder;
+  const std::string input = folder.write("parts.ifc", ifcOfParts());
+  const auto result = nlohmann::json::parse(runProgram({"detect", input, "--format", "json"}).out);
+  std::map<std::string, std::string> ids;
+  for (const auto& model : result["models"]) {
+    ids.emplace(model["name"].get<std::string>(), model.value("globalId", ""));
+    EXPECT_EQ(model.value("ifcType", "").substr(0, 3), "Ifc") << model["name"];
+  }
+  EXPECT_EQ(ids, (std::map<std::string, std::string>{{"wall", "1AvctVUKr0kugbFTf53O9L"},
+                                                     {"column", "2AvctVUKr0kugbFTf53O9L"},
+                                                     {"mullion/IfcMappedItem", "3AvctVUKr0kugbFTf53O9L"},
+                                                     {"mullion/IfcMappedItem#2", "3AvctVUKr0kugbFTf53O9L"},
+                                                     {"mullion#2", "4AvctVUKr0kugbFTf53O9L"}}));
+  const auto titlesOf = [&](const std::string& group) {
+    const fs::path out = folder.path() / group;
+    expectSuccess(runProgram({"report", input, "--boxes", "--group", group, "-o", out}));
+    std::set<std::string> titles;
+    for (const auto& [name, bytes] : filesOf(out / "clashes.bcf")) {
+      if (name.ends_with("markup.bcf")) titles.insert(parse(bytes).child("Markup").child("Topic").child_value("Title"));
+    }
+    return titles;
+  };
+  EXPECT_EQ(result["pairs"].size(), 7U);
+  EXPECT_EQ(titlesOf("body"), (std::set<std::string>{"column and wall", "mullion and wall", "mullion#2 and mullion", "mullion#2 and wall",
+                                                     "mullion/IfcMappedItem#2 and mullion/IfcMappedItem"}));
+  EXPECT_EQ(titlesOf("assembly"), (std::set<std::string>{"column and wall", "front and wall", "front with itself"}));
+}
+
+/// A glTF of a camera and a machine, which holds a motor of two triangles and a gear of one; all overlap.
+const std::string kAssembly = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+"nodes": [{"name": "camera"}, {"name": "machine", "children": [2, 5]}, {"name": "motor", "children": [3, 4]},
+{"name": "rotor", "mesh": 0}, {"name": "stator", "mesh": 0}, {"name": "gear", "mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAIA/"}]})";
+
+TEST(ReportOfBodies, MayBeOfAssemblies) {
+  const TempFolder folder;
+  const std::string input = folder.write("machine.gltf", kAssembly);
+  const auto rowsOf = [&](const std::string& group) {
+    const fs::path out = folder.path() / group;
+    expectSuccess(runProgram({"report", input, "--boxes", "--group", group, "-o", out}));
+    EXPECT_EQ(tableOf(out).size(), 3U) << "the table has every pair";
+    return readBytes(out / "index.html");
+  };
+  EXPECT_NE(rowsOf("body").find("<p class=\"headline\">3 pairs of boxes</p>"), std::string::npos);
+  const std::string page = rowsOf("assembly");
+  EXPECT_NE(page.find("<p class=\"headline\">2 pairs of bodies, 3 pairs of boxes</p>"), std::string::npos);
+  EXPECT_NE(page.find("<span class=\"first\">gear</span><br><span class=\"second\">motor</span>"), std::string::npos);
+  EXPECT_NE(page.find("<dt>Rows</dt><dd>pairs of assemblies</dd>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace allpairs::test

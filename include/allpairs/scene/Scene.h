@@ -35,6 +35,10 @@ struct ModelSource {
   std::string kind{};    ///< What it is in the format's own words: "IfcColumn"; else empty.
   std::string id{};      ///< What identifies it for good, an IFC's GlobalId; else empty.
   std::string given{};  ///< What append() or a reader of several files named the model last; empty: as the file has it.
+  /// The body of its file that it is a part of besides its owner: an IFC's product, of which mapped items are parts; else empty.
+  std::string body{};
+  /// The assembly that it is in: in IFC the outermost product, else what is below the node of the file where it first branches.
+  std::string assembly{};
 };
 
 /// One of several collision pipelines of a scene: it tests its own models against one another, in its own way.

@@ -8,15 +8,20 @@
 #include <assimp/Importer.hpp>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/ReadScope.h"
+#include "input/UniqueNames.h"
 #include "input/Words.h"
+#include "mesh/Assemblies.h"
 #include "mesh/AssimpFrame.h"
 #include "mesh/ChildProcess.h"
 #include "mesh/MeshObject.h"
@@ -49,20 +54,31 @@ bool isMadeUp(std::string_view name) {
   return name.empty() || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
 }
 
-/// Takes Assimp's name of an IFC object, IfcColumn_name_2AvctVUKr0kugbFTf53O9L, apart. One without a name of its own is called by
-/// its class.
-void splitIfcName(MeshObject& object) {
+/// An IFC's product, by Assimp's name of its node.
+struct IfcProduct {
+  std::string name;  ///< Its class where it has none of its own.
+  std::string kind;
+  std::string id;
+};
+
+/// Takes a name as IfcColumn_name_2AvctVUKr0kugbFTf53O9L apart; another one is no product's.
+std::optional<IfcProduct> ifcProductOf(const std::string& text) {
   constexpr std::size_t kIdLength = 22;
   constexpr std::string_view kUnnamed = "Unnamed";  // what Assimp writes where there is no name
-  const std::string& text = object.name;
   const std::size_t kindEnd = text.find('_');
-  if (!text.starts_with("Ifc") || text.size() < kindEnd + 2 + kIdLength) return;
+  if (!text.starts_with("Ifc") || text.size() < kindEnd + 2 + kIdLength) return std::nullopt;
   const std::size_t idBegin = text.size() - kIdLength;
-  if (kindEnd == std::string::npos || text[idBegin - 1] != '_') return;
-  object.kind = text.substr(0, kindEnd);
-  object.id = text.substr(idBegin);
+  if (kindEnd == std::string::npos || text[idBegin - 1] != '_') return std::nullopt;
+  const std::string kind = text.substr(0, kindEnd);
   const std::string name = kindEnd + 1 < idBegin - 1 ? text.substr(kindEnd + 1, idBegin - 2 - kindEnd) : "";
-  object.name = name.empty() || name == kUnnamed ? object.kind : name;
+  return IfcProduct{name.empty() || name == kUnnamed ? kind : name, kind, text.substr(idBegin)};
+}
+
+/// Whether a class is of a place, which holds products and is no part of one.
+bool isSpatial(std::string_view kind) {
+  static constexpr std::array<std::string_view, 5> kSpatial{"IfcProject", "IfcSite", "IfcBuilding", "IfcBuildingStorey",
+                                                            "IfcSpace"};
+  return std::find(kSpatial.begin(), kSpatial.end(), kind) != kSpatial.end();
 }
 
 class NodeReader {
@@ -71,24 +87,71 @@ class NodeReader {
       : m_scene(scene), m_path(path), m_scope(scope), m_isIfc(lowerExtension(path).starts_with(".ifc")) {}
 
   std::vector<MeshObject> read(MeshFrame& frame) {
-    addNode(*m_scene.mRootNode, rootOfFile(m_scene, lowerExtension(m_path), frame), 0);
+    addNode(*m_scene.mRootNode, rootOfFile(m_scene, lowerExtension(m_path), frame), {}, 0);
+    m_isIfc ? nameParts() : nameAssemblies();
     return std::move(m_objects);
   }
 
  private:
-  void addNode(const aiNode& node, const Transform& world, std::size_t depth) {
+  /// What a node is below, itself included.
+  struct Place {
+    std::optional<IfcProduct> product{};  ///< The nearest.
+    std::string body{};                   ///< Its name, told apart from others of that name.
+    std::string assembly{};               ///< The outermost's.
+    std::size_t node = NestedNode::kNoParent;
+  };
+
+  void addNode(const aiNode& node, const Transform& world, Place place, std::size_t depth) {
     if (depth > kMaxNodeDepth) throw FileError(m_path, "has nodes that are nested too deep");
-    if (node.mNumMeshes != 0) {
-      MeshObject& object = m_objects.emplace_back();
-      object.name = nameOf(node);
-      if (m_isIfc) splitIfcName(object);
-      for (const unsigned index : std::span(node.mMeshes, node.mNumMeshes)) {
-        addMesh(object, *m_scene.mMeshes[index], world);
-      }
-    }
+    const bool isProduct = m_isIfc && enterProduct(node, place);
+    const std::string name = isMadeUp(node.mName.C_Str()) ? "" : node.mName.C_Str();
+    m_nodes.push_back({place.node, node.mNumMeshes != 0, name});
+    place.node = m_nodes.size() - 1;
+    if (node.mNumMeshes != 0) addObject(node, world, place, isProduct);
     for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) {
-      addNode(*child, multiply(world, transformOf(child->mTransformation)), depth + 1);
+      addNode(*child, multiply(world, transformOf(child->mTransformation)), place, depth + 1);
     }
+  }
+
+  /// Where the node is a product, it is what those below are parts of.
+  bool enterProduct(const aiNode& node, Place& place) {
+    std::optional<IfcProduct> product = ifcProductOf(node.mName.C_Str());
+    if (!product) return false;
+    place.body = m_bodyNames.unique(product->name);
+    if (place.assembly.empty() && !isSpatial(product->kind)) place.assembly = place.body;
+    place.product = std::move(product);
+    return true;
+  }
+
+  void addObject(const aiNode& node, const Transform& world, const Place& place, bool isProduct) {
+    MeshObject& object = m_objects.emplace_back();
+    object.name = isProduct ? place.body : nameOf(node);
+    m_places.push_back(place.node);
+    object.body = place.body;
+    object.assembly = place.assembly;
+    if (place.product) {
+      object.kind = place.product->kind;
+      object.id = place.product->id;
+      ++m_partsOf[object.body];
+      m_isPart.push_back(!isProduct);
+    }
+    for (const unsigned index : std::span(node.mMeshes, node.mNumMeshes)) {
+      addMesh(object, *m_scene.mMeshes[index], world);
+    }
+  }
+
+  /// Parts of an IFC's product, such as mapped items, are called by it: window/IfcMappedItem, or where one is all of it, window.
+  void nameParts() {
+    std::size_t part = 0;
+    for (MeshObject& object : m_objects) {
+      if (object.id.empty() || !m_isPart[part++]) continue;
+      object.name = m_partsOf[object.body] == 1 ? object.body : object.body + '/' + object.name;
+    }
+  }
+
+  void nameAssemblies() {
+    const std::vector<std::string> assemblies = assembliesOf(m_nodes);
+    for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
   }
 
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
@@ -137,6 +200,11 @@ class NodeReader {
   const Path& m_path;
   ReadScope& m_scope;
   bool m_isIfc;
+  std::vector<NestedNode> m_nodes;
+  std::vector<std::size_t> m_places;  ///< Of each object its node's in that list.
+  UniqueNames m_bodyNames;
+  std::map<std::string, std::size_t> m_partsOf;  ///< How many objects a body has.
+  std::vector<bool> m_isPart;                    ///< Of each object of a product: whether it is not the product itself.
   std::vector<MeshObject> m_objects;
 };
 
@@ -195,6 +263,8 @@ class ObjectTransfer {
       put(bytes, object.name);
       put(bytes, object.kind);
       put(bytes, object.id);
+      put(bytes, object.body);
+      put(bytes, object.assembly);
       put(bytes, object.positions);
       put(bytes, object.triangles);
       put(bytes, object.lines);
@@ -212,6 +282,8 @@ class ObjectTransfer {
       take(bytes, object.name);
       take(bytes, object.kind);
       take(bytes, object.id);
+      take(bytes, object.body);
+      take(bytes, object.assembly);
       take(bytes, object.positions);
       take(bytes, object.triangles);
       take(bytes, object.lines);

@@ -18,6 +18,9 @@ struct MeshObject {
   std::string name;    ///< As in the file; empty where it has none.
   std::string kind{};  ///< "IfcColumn", where the format has classes of objects.
   std::string id{};    ///< What identifies it for good, where the format has such: an IFC's GlobalId.
+  std::string
+      body{};  ///< What it is a part of: objects of the same, which has this name alone in the file, are one body.
+  std::string assembly{};  ///< Likewise what it and other bodies are parts of.
   std::vector<Point> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> lines;

@@ -40,11 +40,14 @@ class ObjectModels {
 
   void add(MeshObject object) {
     m_scope.take(ReadScope::kBytesPerModel +
-                 4 * object.name.size());  // its owner, its model and the names in use have it too
+                 4 * object.name.size() +  // its owner, its model and the names in use have it too
+                 3 * (object.body.size() + object.assembly.size()));  // of up to three models
     m_scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
     m_name = std::move(object.name);
     m_kind = std::move(object.kind);
     m_id = std::move(object.id);
+    m_body = std::move(object.body);
+    m_assembly = std::move(object.assembly);
     std::vector<Point> isolated;
     for (const std::uint32_t index : object.points) isolated.push_back(object.positions[index]);
     if (!isolated.empty()) m_points = std::make_unique<collision::PointModel>(m_name, std::move(isolated));
@@ -63,7 +66,12 @@ class ObjectModels {
     if (!model) return;
     model->setName(m_names.unique(m_name));
     model->setOwner(m_scene.owners.back().get());
-    m_scene.sources.push_back({m_scene.files.size() - 1, model->getName(), m_kind, m_id});
+    m_scene.sources.push_back({.file = m_scene.files.size() - 1,
+                               .name = model->getName(),
+                               .kind = m_kind,
+                               .id = m_id,
+                               .body = m_body,
+                               .assembly = m_assembly});
     m_scene.models.push_back(std::move(model));
   }
 
@@ -73,6 +81,8 @@ class ObjectModels {
   std::string m_name;
   std::string m_kind;
   std::string m_id;
+  std::string m_body;
+  std::string m_assembly;
   std::unique_ptr<collision::CollisionModel> m_lines;
   std::unique_ptr<collision::CollisionModel> m_points;
 };

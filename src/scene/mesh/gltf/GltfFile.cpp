@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "mesh/Assemblies.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Transform.h"
 #include "mesh/gltf/GltfDocument.h"
@@ -65,7 +66,7 @@ class GltfNodeReader {
 
   std::vector<MeshObject> read() {
     std::vector<Entry> open;
-    push(open, roots(), kIdentity);
+    push(open, roots(), {.parent = kIdentity});
     while (!open.empty()) {
       const Entry entry = open.back();
       open.pop_back();
@@ -73,22 +74,36 @@ class GltfNodeReader {
       if (m_isSeen[static_cast<std::size_t>(entry.node)]) m_document.fail(node.name + " has more than one parent");
       m_isSeen[static_cast<std::size_t>(entry.node)] = true;
       const Transform world = multiply(entry.parent, transformOf(node));
-      if (const auto mesh = m_document.count(node, "mesh")) addObject(node, m_document.item("meshes", *mesh), world);
-      push(open, m_document.indices(node, "children"), world);
+      const auto mesh = m_document.count(node, "mesh");
+      if (mesh) addObject(node, m_document.item("meshes", *mesh), world);
+      push(open, m_document.indices(node, "children"), {.parent = world, .parentPlace = m_nodes.size()});
+      noteNode(node, mesh.has_value(), entry.parentPlace);
     }
+    const std::vector<std::string> assemblies = assembliesOf(m_nodes);
+    for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
     return std::move(m_objects);
   }
 
  private:
   struct Entry {
-    std::uint64_t node;
-    Transform parent;
+    std::uint64_t node = 0;
+    Transform parent{};
+    std::size_t parentPlace = NestedNode::kNoParent;  ///< In the list of nodes.
   };
 
-  /// The last is taken first.
-  void push(std::vector<Entry>& open, const std::vector<std::uint64_t>& nodes, const Transform& parent) const {
+  /// The last is taken first. They have the parent of `like`.
+  void push(std::vector<Entry>& open, const std::vector<std::uint64_t>& nodes, Entry like) const {
     m_document.scope().takeElements(nodes.size(), sizeof(Entry));
-    std::for_each(nodes.rbegin(), nodes.rend(), [&](std::uint64_t node) { open.push_back({node, parent}); });
+    std::for_each(nodes.rbegin(), nodes.rend(), [&](std::uint64_t node) {
+      like.node = node;
+      open.push_back(like);
+    });
+  }
+
+  void noteNode(const GltfItem& node, bool hasObject, std::size_t parent) {
+    if (hasObject) m_places.push_back(m_nodes.size());
+    m_nodes.push_back({parent, hasObject, m_document.text(node, "name")});
+    m_document.scope().takeElements(1, sizeof(NestedNode) + 4 * m_nodes.back().name.size());  // of assemblies too
   }
 
   /// Those of the scene to be shown, else of the first; without scenes, the nodes without a parent.
@@ -196,6 +211,8 @@ class GltfNodeReader {
 
   GltfDocument& m_document;
   std::vector<bool> m_isSeen;
+  std::vector<NestedNode> m_nodes;
+  std::vector<std::size_t> m_places;  ///< Of each object its node's in that list.
   std::vector<MeshObject> m_objects;
 };
 
