@@ -53,7 +53,7 @@ class MeshCandidates {
                                                            .betweenMeshes = settings.between,
                                                            .order = settings.order,
                                                            .executor = m_executor.get(),
-                                                           .stop = &m_stop}) {}
+                                                           .stop = &m_stop.flag()}) {}
 
   /// Contiguous buffers of shape (n, 3), both float32 or both float64.
   void setPositions(std::size_t mesh, const py::buffer& start, const py::buffer& end) {
@@ -73,7 +73,8 @@ class MeshCandidates {
   /// Runs a search without the GIL, alone, until it ends or a signal interrupts it.
   template <class Work>
   auto search(const Work& work) {
-    return interruptibly(m_candidates.topology().edges().size(), [&](Stopper& stopper) {
+    const Runs runs = m_executor ? Runs::OnThreads : Runs::Alone;
+    return interruptibly(m_candidates.topology().edges().size(), runs, [&](Stopper& stopper) {
       const std::lock_guard lock(m_mutex);
       const Stopper::Hold hold(stopper, m_stop);
       return work(m_candidates);
@@ -115,7 +116,7 @@ class MeshCandidates {
   }
 
   std::mutex m_mutex;
-  StopFlag m_stop;
+  CallFlag m_stop;
   std::unique_ptr<Executor> m_executor;
   elements::ElementCandidates m_candidates;
 };

@@ -8,13 +8,24 @@
 #include <system_error>
 #include <thread>
 
+#include "allpairs/Error.h"
+
 namespace allpairs::python {
 namespace py = pybind11;
 namespace {
 
-/// A search of fewer boxes ends within half a second even if all of them overlap, and takes a millisecond if few do, of
-/// which a thread would cost a tenth.
+/// From so many boxes on a search takes at least a millisecond, so that another thread costs it a few percent.
 constexpr std::size_t kWorthWatching = 20'000;
+
+/// The same of a search that runs on threads, which costs as much to begin; with fewer boxes it ends within a fifth of a second
+/// even if all of them overlap.
+constexpr std::size_t kWorthWatchingThreads = 2'000;
+
+/// Looks of a search between two readings of the clock; no more than some milliseconds of work lie between two looks.
+constexpr std::size_t kLooksAtOnce = 8;
+
+/// Other threads of Python may make a question wait for the GIL, for 5 ms each time.
+constexpr std::chrono::milliseconds kBetweenQuestions{50};
 
 /// Work in a thread of its own, which has ended when this goes.
 class Running {
@@ -56,41 +67,84 @@ bool isInterrupted(Running& running) {
   return false;
 }
 
-}  // namespace
-
-void Stopper::stop() {
-  const std::lock_guard lock(m_mutex);
-  m_isStopped = true;
-  if (m_flag != nullptr) m_flag->set();
-}
-
-void Stopper::reset(StopFlag* flag) {
-  const std::lock_guard lock(m_mutex);
-  m_flag = flag;
-  if (m_flag != nullptr) m_isStopped ? m_flag->set() : m_flag->clear();
-}
-
-void watchSignals(std::size_t boxes, FunctionRef<void(Stopper&)> work) {
-  Stopper stopper;
+/// Runs work in another thread, or in this one if no other can be had; returns whether a signal handler raised an exception, which
+/// then is Python's current one.
+bool isInterruptedElsewhere(FunctionRef<void(Stopper&)> work) {
+  Stopper stopper(Stopper::Asks::Nobody);
   std::exception_ptr error;
-  bool interrupted = false;
   {
     const py::gil_scoped_release release;
     std::optional<Running> running;
     try {
-      if (boxes >= kWorthWatching) running.emplace(stopper, work, error);
+      running.emplace(stopper, work, error);
     } catch (const std::system_error&) {
-      // No other thread can be had.
-    }
-    if (!running) {
       work(stopper);
-    } else if (isInterrupted(*running)) {
-      interrupted = true;
+      return false;
+    }
+    if (isInterrupted(*running)) {
       stopper.stop();
+      return true;
     }
   }
-  if (interrupted) throw py::error_already_set();
   if (error) std::rethrow_exception(error);
+  return false;
+}
+
+/// Runs work in this thread; returns whether Ctrl-C stopped it, which Python then is about to handle.
+bool isInterruptedHere(FunctionRef<void(Stopper&)> work) {
+  Stopper stopper(Stopper::Asks::Python);
+  const py::gil_scoped_release release;
+  try {
+    work(stopper);
+  } catch (const Stopped&) {
+    if (stopper.isInterrupted()) return true;
+    throw;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool CallFlag::operator()() const noexcept { return m_stopper != nullptr && m_stopper->ask(); }
+
+Stopper::~Stopper() {
+  if (m_isInterrupted) PyErr_SetInterrupt();
+}
+
+/// Handlers do not run here: they may use the object that is searched.
+bool Stopper::ask() {
+  if (m_asker != std::this_thread::get_id()) return false;
+  if (m_isInterrupted || ++m_looks % kLooksAtOnce != 0) return m_isInterrupted;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - m_asked < kBetweenQuestions) return false;
+  m_asked = now;
+  const py::gil_scoped_acquire acquire;
+  m_isInterrupted = PyOS_InterruptOccurred() != 0;
+  if (m_isInterrupted) stop();  // for other threads
+  return m_isInterrupted;
+}
+
+void Stopper::stop() {
+  const std::lock_guard lock(m_mutex);
+  m_isStopped = true;
+  if (m_flag != nullptr) m_flag->m_flag.set();
+}
+
+void Stopper::reset(CallFlag* flag) {
+  const std::lock_guard lock(m_mutex);
+  if (m_flag != nullptr) m_flag->m_stopper = nullptr;
+  m_flag = flag;
+  if (m_flag == nullptr) return;
+  m_flag->m_stopper = this;
+  m_isStopped ? m_flag->m_flag.set() : m_flag->m_flag.clear();
+}
+
+void watchSignals(std::size_t boxes, Runs runs, FunctionRef<void(Stopper&)> work) {
+  if (boxes < (runs == Runs::Alone ? kWorthWatching : kWorthWatchingThreads)) {
+    if (!isInterruptedHere(work)) return;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  if (isInterruptedElsewhere(work)) throw py::error_already_set();
 }
 
 }  // namespace allpairs::python

@@ -23,10 +23,9 @@ namespace {
 py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
                     const std::optional<std::filesystem::path>& output, join::JoinOptions& options,
                     std::size_t threads) {
-  constexpr std::size_t kLong = std::size_t{1} << 30;  // as many boxes: it may take long
-  StopFlag stop;
-  options.stop = &stop;
-  const join::JoinSummary summary = interruptibly(kLong, [&](Stopper& stopper) {
+  CallFlag stop;
+  options.stop = &stop.flag();
+  const join::JoinSummary summary = interruptibly(kLong, Runs::OnThreads, [&](Stopper& stopper) {
     const Stopper::Hold hold(stopper, stop);
     std::unique_ptr<Executor> executor;
     if (threads != 1) executor = std::make_unique<parallel::TbbExecutor>(threads);

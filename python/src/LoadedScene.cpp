@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/CollisionPipeline.h"
@@ -51,7 +52,11 @@ std::unique_ptr<Executor> executorOf(std::size_t threads) {
   return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
 }
 
-std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options) {
+void checkStop(const StopFlag& stop) {
+  if (stop.isSet()) throw Stopped();
+}
+
+std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options, const StopFlag& stop) {
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
   OverlapOptions engine;
   engine.strategy = options.strategy;
@@ -59,18 +64,25 @@ std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& opti
   engine.distance = options.distance.value_or(0.0);
   engine.region = options.region;
   engine.executor = executor.get();
+  engine.stop = &stop;
   std::vector<Pair> pairs = overlaps(boxes, engine);
   for (Pair& pair : pairs) std::swap(pair.first, pair.second);
   return pairs;
 }
 
+/// Pairs of models that are appended between two looks at a flag: a fraction of a millisecond.
+constexpr std::size_t kPairsBetweenLooks = 4096;
+
 /// Appends pairs by the indices of their models, which a pair may name by any level.
 void append(const std::vector<collision::CollisionModelPair>& pairs, const scene::SceneSearch& search,
-            std::vector<Pair>& to) {
+            const StopFlag& stop, std::vector<Pair>& to) {
   std::unordered_map<const CollisionModel*, std::uint32_t> indices;
   for (std::size_t i = 0; i < search.models.size(); ++i)
     indices.emplace(search.models[i]->getLast(), static_cast<std::uint32_t>(search.indices[i]));
-  for (const auto& [first, second] : pairs) to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
+  for (const auto& [first, second] : pairs) {
+    if (to.size() % kPairsBetweenLooks == 0) checkStop(stop);
+    to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
+  }
 }
 
 /// Gives the method another alarm distance, until the end of the scope.
@@ -91,7 +103,8 @@ class AlarmDistance {
   double m_before;
 };
 
-void run(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options, std::vector<Pair>& to) {
+void run(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options, const StopFlag& stop,
+         std::vector<Pair>& to) {
   const AlarmDistance distance(*search.intersection, options.distance);
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
   collision::BruteForceBroadPhase broadPhase;
@@ -99,12 +112,13 @@ void run(const scene::SceneSearch& search, double timeStep, const DetectionOptio
   if (region) broadPhase.setBox(*region);
   broadPhase.setStrategy(options.strategy);
   broadPhase.setExecutor(executor.get());
+  broadPhase.setStop(&stop);
   collision::CollisionPipeline pipeline;
   pipeline.setIntersectionMethod(search.intersection);
   pipeline.setBroadPhase(&broadPhase);
   const auto& pairs = pipeline.step(search.models, timeStep);
   if (options.verify) broadPhase.verify();
-  append(pairs, search, to);
+  append(pairs, search, stop, to);
 }
 
 }  // namespace
@@ -167,12 +181,14 @@ Table LoadedScene::boxes() {
   return set.isFloat64() ? columnsOf(set.float64(), set.size()) : columnsOf(set.float32(), set.size());
 }
 
-std::vector<Pair> LoadedScene::detect(const DetectionOptions& options) {
+std::vector<Pair> LoadedScene::detect(const DetectionOptions& options, Stopper& stopper) {
   const std::lock_guard lock(m_mutex);
-  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options);
+  const Stopper::Hold hold(stopper, m_stop);
+  const StopFlag& stop = m_stop.flag();
+  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options, stop);
   const auto& scene = std::get<scene::Scene>(m_content);
   std::vector<Pair> pairs;
-  for (const scene::SceneSearch& search : scene::searchesOf(scene)) run(search, scene.timeStep, options, pairs);
+  for (const scene::SceneSearch& search : scene::searchesOf(scene)) run(search, scene.timeStep, options, stop, pairs);
   return pairs;
 }
 

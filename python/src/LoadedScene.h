@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "BufferProtocol.h"
+#include "Interrupts.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "allpairs/scene/BoxArray.h"
@@ -49,7 +50,7 @@ class LoadedScene {
   [[nodiscard]] Table& table() { return m_boxes; }
 
   /// The pairs that may touch, newest model first, in the order of the double loop.
-  [[nodiscard]] std::vector<Pair> detect(const DetectionOptions& options);
+  [[nodiscard]] std::vector<Pair> detect(const DetectionOptions& options, Stopper& stopper);
 
  private:
   [[nodiscard]] Table boxes();
@@ -58,6 +59,7 @@ class LoadedScene {
   std::vector<double> m_rootBoxes;
   Table m_boxes;
   std::mutex m_mutex;
+  CallFlag m_stop;
 };
 
 }  // namespace allpairs::python

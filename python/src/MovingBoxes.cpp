@@ -36,7 +36,19 @@ class IdView {
   py::buffer_info m_info;
 };
 
-std::unique_ptr<PairArray> copyOf(std::span<const Pair> pairs) { return toPython({pairs.begin(), pairs.end()}); }
+/// Copies pairs of a search, which may take as long as it does.
+std::unique_ptr<PairArray> copyOf(std::span<const Pair> pairs, const StopFlag& stop) {
+  constexpr std::size_t kCopiedAtOnce = std::size_t{1} << 20;
+  std::vector<Pair> copy;
+  copy.reserve(pairs.size());
+  while (!pairs.empty()) {
+    if (stop.isSet()) throw Stopped();
+    const std::span<const Pair> piece = pairs.first(std::min(pairs.size(), kCopiedAtOnce));
+    copy.insert(copy.end(), piece.begin(), piece.end());
+    pairs = pairs.subspan(piece.size());
+  }
+  return toPython(std::move(copy));
+}
 
 /// The lists of a step.
 struct Lists {
@@ -47,8 +59,9 @@ struct Lists {
   }
 };
 
-Lists copyOf(const StepResult& result) {
-  return {{copyOf(result.pairs), copyOf(result.began), copyOf(result.persisted), copyOf(result.ended)}};
+Lists copyOf(const StepResult& result, const StopFlag& stop) {
+  return {{copyOf(result.pairs, stop), copyOf(result.began, stop), copyOf(result.persisted, stop),
+           copyOf(result.ended, stop)}};
 }
 
 std::vector<Ray> raysOf(std::span<const double> rows) {
@@ -101,7 +114,7 @@ void Properties::setStatic(const py::buffer& values) {
 }
 
 MovingBoxes::MovingBoxes(double distance, Order order, std::size_t threads)
-    : m_executor(executorOf(threads)), m_world(optionsOf(distance, order, m_executor.get(), m_stop)) {}
+    : m_executor(executorOf(threads)), m_world(optionsOf(distance, order, m_executor.get(), m_stop.flag())) {}
 
 MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properties) {
   // All memory first: boxes whose ids nobody knows could never be removed.
@@ -187,13 +200,18 @@ py::tuple MovingBoxes::properties(const py::buffer& ids) {
 
 py::tuple MovingBoxes::step() {
   Lists lists;
-  search(0, [&](World& world) { lists = copyOf(world.step()); });
+  bool isDone = false;
+  search(0, [&](World& world) {
+    if (!isDone) static_cast<void>(world.step());
+    isDone = true;  // and is not repeated if only copying is
+    lists = copyOf(world.result(), m_stop.flag());
+  });
   return std::move(lists).arrays();
 }
 
 py::tuple MovingBoxes::resultOf(std::uint32_t world) {
   Lists lists;
-  alone([&](World& worlds) { lists = copyOf(worlds.result(world)); });
+  search(0, [&](World& worlds) { lists = copyOf(worlds.result(world), m_stop.flag()); });
   return std::move(lists).arrays();
 }
 
@@ -203,6 +221,7 @@ std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const Qu
     std::vector<Pair> pairs;
     pairs.reserve(found.values.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
+      if (m_stop.flag().isSet()) throw Stopped();
       for (const BoxId id : found[i]) pairs.push_back({static_cast<std::uint32_t>(i), id});
     }
     return toPython(std::move(pairs));

@@ -86,7 +86,8 @@ class MovingBoxes {
   /// The same for a search, with as many boxes that it asks for, that a signal may interrupt.
   template <class Work>
   auto search(std::size_t queries, const Work& work) {
-    return interruptibly(m_size + queries, [&](Stopper& stopper) {
+    const Runs runs = m_executor ? Runs::OnThreads : Runs::Alone;
+    return interruptibly(m_size + queries, runs, [&](Stopper& stopper) {
       const std::lock_guard lock(m_mutex);
       const Stopper::Hold hold(stopper, m_stop);
       return work(m_world);
@@ -94,7 +95,7 @@ class MovingBoxes {
   }
 
   std::mutex m_mutex;
-  StopFlag m_stop;
+  CallFlag m_stop;
   std::atomic<std::size_t> m_size = 0;
   std::unique_ptr<Executor> m_executor;
   World m_world;

@@ -39,10 +39,10 @@ class Options {
   /// Runs a search over that many boxes, search(settings), without the GIL, until it ends or a signal interrupts it.
   template <class Search>
   auto run(std::size_t boxes, const Search& search) {
-    return interruptibly(boxes, [&](Stopper& stopper) {
+    return interruptibly(boxes, Runs::Alone, [&](Stopper& stopper) {
       const Stopper::Hold hold(stopper, m_stop);
       OverlapOptions settings = withExecutor(boxes);
-      settings.stop = &m_stop;
+      settings.stop = &m_stop.flag();
       return search(settings);
     });
   }
@@ -53,7 +53,7 @@ class Options {
 
   std::vector<std::unique_ptr<pybind11::buffer_info>> m_held;
   std::unique_ptr<Executor> m_executor;
-  StopFlag m_stop;
+  CallFlag m_stop;
 };
 
 }  // namespace allpairs::python

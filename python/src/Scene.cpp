@@ -8,6 +8,7 @@
 
 #include "Bindings.h"
 #include "BufferProtocol.h"
+#include "Interrupts.h"
 #include "LoadedScene.h"
 #include "PairArray.h"
 
@@ -20,19 +21,23 @@ using Bounds = std::array<double, 6>;
 // NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
 std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
                                   bool partial, const std::string& sofa, bool allowOutside, std::uint64_t maxMemory) {
-  const py::gil_scoped_release release;
   scene::ReadOptions options;
   options.searchRoots = std::move(searchRoots);
   options.partial = partial;
   if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.allowOutside = allowOutside;
   options.maxMemory = maxMemory;
-  return std::make_shared<LoadedScene>(path, options);
+  CallFlag stop;
+  options.stop = &stop.flag();
+  return interruptibly(kLong, Runs::Alone, [&](Stopper& stopper) {
+    const Stopper::Hold hold(stopper, stop);
+    return std::make_shared<LoadedScene>(path, options);
+  });
 }
 
 std::unique_ptr<PairArray> detect(LoadedScene& scene, const DetectionOptions& options) {
-  const py::gil_scoped_release release;
-  return toPython(scene.detect(options));
+  const Runs runs = options.threads == 1 ? Runs::Alone : Runs::OnThreads;
+  return interruptibly(scene.size(), runs, [&](Stopper& stopper) { return toPython(scene.detect(options, stopper)); });
 }
 
 /// The fields of the package's Model, in its order.

@@ -42,6 +42,7 @@ struct BruteForceBroadPhase::State {
   std::optional<Box> box;
   std::unique_ptr<BoxModel> region;
   Strategy strategy = Strategy::Automatic;
+  const StopFlag* stop = nullptr;
   ModelTable models;
   PairRules rules{models};
   PairSearch search{models, rules};
@@ -87,6 +88,7 @@ void BruteForceBroadPhase::State::addPairs() {
 
 void BruteForceBroadPhase::State::completeExhaustively() {
   for (std::size_t newer = rowsDone; newer < models.size(); ++newer) {
+    checkStop(stop);
     const ModelRow& row = models.row(newer);
     if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
     for (std::size_t older = 0; older < newer; ++older) {
@@ -178,12 +180,19 @@ Strategy BruteForceBroadPhase::getStrategy() const { return m_state->strategy; }
 void BruteForceBroadPhase::setKeepsSearch(bool keeps) { m_state->search.setKept(keeps); }
 bool BruteForceBroadPhase::getKeepsSearch() const { return m_state->search.isKept(); }
 void BruteForceBroadPhase::setExecutor(Executor* executor) { m_state->search.setExecutor(executor); }
+
+void BruteForceBroadPhase::setStop(const StopFlag* stop) {
+  m_state->stop = stop;
+  m_state->search.setStop(stop);
+}
+
 const BroadPhaseStatistics& BruteForceBroadPhase::statistics() const { return m_state->statistics; }
 
 void BruteForceBroadPhase::verify() {
   m_state->complete();
   std::vector<CollisionModelPair> expected;
   for (std::size_t newer = 0; newer < m_state->models.size(); ++newer) {
+    checkStop(m_state->stop);
     CollisionModel* model = m_state->models.row(newer).model;
     if (doesSelfCollide(model)) expected.emplace_back(model, model);
     for (std::size_t older = 0; older < newer; ++older) {

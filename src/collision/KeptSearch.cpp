@@ -68,6 +68,7 @@ void KeptSearch::makeWorld(const ModelTable& models) {
   WorldOptions options;
   options.distance = m_settings.distance;
   options.executor = m_settings.executor;
+  options.stop = m_settings.stop;
   World world(std::move(options));
   world.add(BoxView(std::span<const Box>(m_boxes)), m_properties, m_ids);
   m_lastId = m_ids.back();

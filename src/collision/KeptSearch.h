@@ -25,6 +25,7 @@ class KeptSearch {
     double distance = 0.0;
     bool addsContactDistances = false;
     Executor* executor = nullptr;
+    const StopFlag* stop = nullptr;
 
     friend bool operator==(const Settings&, const Settings&) = default;
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "PairSearch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +12,9 @@ namespace {
 /// How much a distance is widened, by the size of its summands, before the search: far more than any order in which the
 /// three may be summed can round off (2^-51), and too little to let in more than a few pairs.
 constexpr double kSearchSlack = 0x1p-48;
+
+/// Pairs that the rules are asked about between two looks at the flag that ends a step.
+constexpr std::size_t kAskedAtOnce = std::size_t{1} << 14;
 
 void addTests(const OverlapStatistics& search, BroadPhaseStatistics& statistics) {
   statistics.testsMade += search.boxTests + search.groupTests;
@@ -34,6 +38,7 @@ void PairSearch::setKept(bool kept) {
 
 void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
   for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
+    checkStop(m_stop);
     const ModelRow& row = m_models.row(newer);
     if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
     for (std::size_t older = 0; older < newer; ++older) {
@@ -48,18 +53,27 @@ void PairSearch::askFound(std::size_t begin, std::vector<CollisionModelPair>& pa
   Candidates withOlder = searchOlder(begin, statistics);
   Candidates withNewer = begin == 0 ? searchAll(statistics) : searchNewer(begin, statistics);
   statistics.candidates += withOlder.left.size() + withNewer.left.size();
-  const bool plain = m_rules.arePlain();
-  if (plain && begin == 0 && !m_models.anySelfPair()) {
-    askPlain(withNewer.left, withNewer, pairs);
+  if (m_rules.arePlain() && begin == 0 && !m_models.anySelfPair()) {
+    askAllOf(withNewer.left, withNewer, pairs);
     return;
   }
   for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
     const ModelRow& row = m_models.row(newer);
     if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
     for (Candidates* candidates : {&withOlder, &withNewer}) {
-      const std::span<const Pair> ofRow = takeRow(newer, *candidates);
-      plain ? askPlain(ofRow, *candidates, pairs) : askEach(ofRow, *candidates, pairs);
+      askAllOf(takeRow(newer, *candidates), *candidates, pairs);
     }
+  }
+}
+
+void PairSearch::askAllOf(std::span<const Pair> found, const Candidates& offsets,
+                          std::vector<CollisionModelPair>& pairs) {
+  const bool plain = m_rules.arePlain();
+  while (!found.empty()) {
+    checkStop(m_stop);
+    const std::span<const Pair> part = found.first(std::min(found.size(), kAskedAtOnce));
+    plain ? askPlain(part, offsets, pairs) : askEach(part, offsets, pairs);
+    found = found.subspan(part.size());
   }
 }
 
@@ -104,7 +118,7 @@ PairSearch::Candidates PairSearch::searchOlder(std::size_t begin, BroadPhaseStat
 PairSearch::Candidates PairSearch::searchAll(BroadPhaseStatistics& statistics) {
   if (!m_kept || m_strategy != Strategy::Automatic) return searchNewer(0, statistics);
   const bool addsContactDistances = m_rules.addsContactDistances() && m_models.anyContactDistance();
-  const KeptSearch::Settings settings{searchDistance(), addsContactDistances, m_executor};
+  const KeptSearch::Settings settings{searchDistance(), addsContactDistances, m_executor, m_stop};
   if (m_kept->isWorthIt(m_models, settings)) {
     const std::span<const Pair> found = m_kept->find(m_models);
     statistics.testsMade += m_kept->testsMade();
@@ -144,6 +158,7 @@ OverlapOptions PairSearch::options() const {
   options.order = Order::BySecond;
   options.distance = searchDistance();
   options.executor = m_executor;
+  options.stop = m_stop;
   return options;
 }
 

@@ -10,10 +10,16 @@
 #include "KeptSearch.h"
 #include "ModelTable.h"
 #include "PairRules.h"
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 
 namespace allpairs::collision {
+
+/// Throws Stopped if there is a flag and it is set.
+inline void checkStop(const StopFlag* stop) {
+  if (stop != nullptr && stop->isSet()) throw Stopped();
+}
 
 /// Finds the pairs of the newest rows of a table: the engine gives those whose boxes are near, the rules decide.
 class PairSearch {
@@ -22,6 +28,7 @@ class PairSearch {
 
   void setStrategy(Strategy strategy) { m_strategy = strategy; }
   void setExecutor(Executor* executor) { m_executor = executor; }
+  void setStop(const StopFlag* stop) { m_stop = stop; }
 
   /// Whether a search may be kept from step to step; if not, its memory is given back.
   void setKept(bool kept);
@@ -41,6 +48,7 @@ class PairSearch {
 
   void askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
   void askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
+  void askAllOf(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs);
   void askPlain(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs) const;
   void askEach(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs);
   [[nodiscard]] static std::span<const Pair> takeRow(std::size_t newer, Candidates& candidates);
@@ -55,6 +63,7 @@ class PairSearch {
   PairRules& m_rules;
   Strategy m_strategy = Strategy::Automatic;
   Executor* m_executor = nullptr;
+  const StopFlag* m_stop = nullptr;
   OverlapSearch m_amongNewer;
   OverlapSearch m_betweenNewerAndOlder;
   std::optional<KeptSearch> m_kept{std::in_place};

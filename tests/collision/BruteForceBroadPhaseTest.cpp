@@ -52,6 +52,27 @@ TEST_F(Component, TheListGrowsWithEachModelThatIsAdded) {
   EXPECT_TRUE(m_phase.getCollisionModelPairs().empty());
 }
 
+TEST_F(Component, AStopEndsAStepAndVerifyAndTheNextStepIsWhole) {
+  addTouching(60);
+  const Numbers expected = step();
+  ASSERT_EQ(expected.size(), 60U * 59U / 2U);
+  std::size_t asked = 0;
+  std::size_t answersNo = 0;
+  const auto ask = [&] { return asked++ == answersNo; };
+  const StopFlag stop(ask);
+  m_phase.setStop(&stop);
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive}) {
+    m_phase.setStrategy(strategy);
+    asked = 0;
+    answersNo = 0;
+    EXPECT_THROW(static_cast<void>(step()), Stopped);
+    EXPECT_EQ(step(), expected);
+    asked = 0;
+    EXPECT_THROW(m_phase.verify(), Stopped);
+    m_phase.verify();
+  }
+}
+
 TEST_F(Component, FlagsGroupsDistancesAndBoxesAreReadWhenAModelIsAdded) {
   addTouching(2);
   m_phase.beginBroadPhase();

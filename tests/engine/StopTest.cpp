@@ -237,6 +237,58 @@ TEST(Stop, EndsOneLongTaskOfTheSearch) {
   stopInTheMiddle(manyBoxes(500'000, 0), options);
 }
 
+TEST(Stop, AFlagThatAsksIsHeededWheneverItIsAskedFor) {
+  const std::vector<BoxF> boxes = test::randomBoxes(3000, 97, 2.5F);
+  for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
+    OverlapOptions options;
+    options.strategy = strategy;
+    const std::vector<Pair> expected = overlaps(boxes, options);
+    std::size_t asked = 0;
+    std::size_t answersNo = 0;
+    const auto ask = [&] { return asked++ >= answersNo; };
+    const StopFlag stop(ask);
+    options.stop = &stop;
+    OverlapSearch search(options);
+    for (bool isStopped = true; isStopped; ++answersNo) {
+      asked = 0;
+      try {
+        ASSERT_EQ(test::toVector(search.find(boxes)), expected) << answersNo;
+        isStopped = false;
+        EXPECT_LE(asked, answersNo);
+      } catch (const Stopped&) {
+        EXPECT_EQ(asked, answersNo + 1);
+      }
+    }
+    EXPECT_GT(answersNo, 10U) << "looks";
+  }
+}
+
+TEST(Stop, WhereMemoryGrowsAndPairsAreComparedLeavesAStepToTheNext) {
+  const std::vector<BoxF> boxes = manyBoxes(4000, 0);
+  World world;
+  static_cast<void>(world.add(BoxView(boxes)));
+  std::size_t asked = 0;
+  std::size_t answersNo = 0;
+  const auto ask = [&] { return asked++ == answersNo; };
+  const StopFlag asking(ask);
+  WorldOptions options;
+  options.stop = &asking;
+  World stopped(options);
+  static_cast<void>(stopped.add(BoxView(boxes)));
+  const auto expected = test::toVector(world.step().began);
+  ASSERT_EQ(expected.size(), 4000U * 3999U / 2U);
+  for (answersNo = 1;; answersNo = answersNo * 3 / 2 + 1) {
+    asked = 0;
+    try {
+      ASSERT_EQ(test::toVector(stopped.step().began), expected);
+      break;
+    } catch (const Stopped&) {
+      ASSERT_TRUE(stopped.result().pairs.empty());
+    }
+  }
+  EXPECT_GT(answersNo, 100U);
+}
+
 TEST(Stop, OfWhatIsReceivedComesBeforeMany) {
   const std::vector<BoxF> boxes = manyBoxes(3000, 0);
   StopFlag stop;

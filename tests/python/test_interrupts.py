@@ -2,7 +2,8 @@
 """Ctrl-C ends a search soon, and signal handlers run during one; what was searching can be used on.
 
 Each search runs in a process of its own and would take a minute or more to its end. The limits are a small part of
-that, and a large multiple of the fifth of a second that an interrupt takes: the machine may be busy.
+that, and a large multiple of the fifth of a second that an interrupt takes: the machine may be busy. Searches of few
+boxes take a second; of these it is the processor time that is compared with that of the whole search.
 """
 
 import signal
@@ -76,9 +77,95 @@ assert mesh.count("face-face") == 0
 }
 
 
-def run(program):
+FEW = """
+import os, threading, time
+
+few = heap[:19_000]
+groups = np.arange(19_000) // 2 + 1
+
+def halves(work, count=lambda result: result):
+    "The whole, then one that Ctrl-C ends after a tenth of it; then one with a handler that raises nothing."
+    def press(after):
+        begin = time.process_time()
+        def wait():
+            while time.process_time() - begin < after:
+                time.sleep(0.002)
+            os.kill(os.getpid(), signal.SIGINT)
+        thread = threading.Thread(target=wait)
+        thread.start()
+        return thread
+    begin = time.process_time()
+    expected = count(work())
+    whole = time.process_time() - begin
+    thread = press(whole / 10)
+    try:
+        work()
+        sys.exit("ran to its end")
+    except KeyboardInterrupt:
+        part = time.process_time() - begin - whole
+    thread.join()
+    if part > 0.7 * whole:
+        sys.exit(f"{part} of {whole} s")
+    seen = []
+    usual = signal.signal(signal.SIGINT, lambda *_: seen.append(1))
+    thread = press(whole / 10)
+    assert count(work()) == expected
+    thread.join()
+    signal.signal(signal.SIGINT, usual)
+    assert seen == [1]
+"""
+
+FEW_SEARCHES = {
+    "count": "halves(lambda: allpairs.count(few, group=groups))",
+    "count by a hierarchy": "halves(lambda: allpairs.count(few, group=groups, strategy='bvh'))",
+    "count between": """
+half, its_groups = few[:9500], groups[:9500]
+halves(lambda: allpairs.count_between(half, half, group=(its_groups, its_groups)))
+""",
+    "overlaps": "halves(lambda: allpairs.overlaps(few, group=one[:19_000]), len)",
+    "overlaps by a hierarchy": """
+halves(lambda: allpairs.overlaps(few, group=one[:19_000], order="second", strategy="bvh"), len)
+""",
+    "neighbors": "halves(lambda: allpairs.neighbors(few, group=one[:19_000]), lambda rows: len(rows[1]))",
+    "many worlds": """
+offsets = [0, 9500, 19_000]
+halves(lambda: allpairs.overlaps_in_worlds(few, offsets=offsets, group=groups), lambda found: len(found[0]))
+""",
+    "a query": """
+world = allpairs.World()
+world.add(few[:9000])
+halves(lambda: world.overlapping(few[:9000]), len)
+""",
+    "a step": """
+world = allpairs.World()
+ids = world.add(few[:9000])
+assert len(world.step().pairs) == 9000 * 8999 // 2
+world.remove(ids)
+assert len(world.step().ended) == 9000 * 8999 // 2
+ids = world.add(few[:9000])
+thread = threading.Timer(0.05, lambda: os.kill(os.getpid(), signal.SIGINT))
+thread.start()
+try:
+    world.step()
+    sys.exit("ran to its end")
+except KeyboardInterrupt:
+    assert len(world.step().began) == 9000 * 8999 // 2
+""",
+    "detect": """
+scene = allpairs.load(sys.argv[1])
+assert len(scene) == 4000
+halves(lambda: scene.detect(strategy="exhaustive"), len)
+halves(lambda: scene.detect(strategy="exhaustive", threads=2), len)
+halves(lambda: scene.detect(verify=True), len)
+""",
+    "load": "halves(lambda: allpairs.load(sys.argv[2]), len)",
+}
+
+
+def run(program, *arguments):
     """The process of a program; one that hangs ends after a while."""
-    process = subprocess.Popen([sys.executable, "-c", PRELUDE + program], stdout=subprocess.PIPE, text=True)
+    command = [sys.executable, "-c", PRELUDE + program, *map(str, arguments)]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     watch = threading.Timer(60, process.kill)
     watch.daemon = True
     watch.start()
@@ -96,6 +183,22 @@ def test_ctrl_c_ends(name):
             assert time.monotonic() - begin < 5
         assert line == "usable\n"
         assert process.wait() == 0
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Many triangles in one place, and as many boxes as take a while to read."""
+    folder = tmp_path_factory.mktemp("files")
+    triangles = (f"o t{i}\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf -1 -2 -3\n" for i in range(4000))
+    (folder / "heap.obj").write_text("".join(triangles))
+    (folder / "boxes.csv").write_text("0.125,0.25,0.5,1.125,1.25,1.5\n" * 400_000)
+    return folder / "heap.obj", folder / "boxes.csv"
+
+
+@pytest.mark.parametrize("name", FEW_SEARCHES)
+def test_ctrl_c_ends_what_takes_no_thread(name, files):
+    with run(FEW + FEW_SEARCHES[name] + "\nprint('usable')", *files) as process:
+        assert process.communicate()[0] == "usable\n"
 
 
 def test_a_handler_that_raises_nothing_runs_during_the_search_and_changes_nothing():

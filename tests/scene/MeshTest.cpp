@@ -169,5 +169,20 @@ TEST(MeshFolder, AMeshThatCannotBeReadIsAnErrorUnlessPartial) {
   EXPECT_EQ(scene.remarks[0].subject, "bad.obj");
 }
 
+TEST(Mesh, AStopEndsReadingOfWhateverKind) {
+  const TempFolder folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string scene = "<Node><MechanicalObject position='0 0 0'/><PointCollisionModel/></Node>";
+  const std::string collada = "<COLLADA></COLLADA>";
+  for (const auto& path : {folder.write("boxes.csv", "0,0,0,1,1,1\n"), folder.write("mesh.obj", mesh),
+                           folder.write("scene.scn", scene), folder.write("mesh.dae", collada)}) {
+    StopFlag stop;
+    stop.set();
+    scene::ReadOptions options;
+    options.stop = &stop;
+    EXPECT_THROW(static_cast<void>(scene::readInput(path, options)), Stopped) << path;
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test

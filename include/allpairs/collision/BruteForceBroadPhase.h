@@ -10,6 +10,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/Executor.h"
 #include "allpairs/OverlapOptions.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/collision/BroadPhaseDetection.h"
 
 namespace allpairs::collision {
@@ -93,6 +94,10 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
 
   /// Runs the search in parallel; null means on the calling thread. Not owned.
   void setExecutor(Executor* executor);
+
+  /// A flag that ends steps and verify() with Stopped soon after it is set; null, the default, means none. Not owned. What
+  /// the broad phase holds then is as after any other exception.
+  void setStop(const StopFlag* stop);
 
   /// Statistics since beginBroadPhase(); complete when the list of pairs is.
   [[nodiscard]] const BroadPhaseStatistics& statistics() const;

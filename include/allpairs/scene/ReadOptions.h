@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "allpairs/StopFlag.h"
+
 namespace allpairs::scene {
 
 /// The progress of a reader: `done` of `total` steps, and what it is reading. `total` is 0 if unknown.
@@ -43,6 +45,9 @@ struct ReadOptions {
   std::uint64_t maxMemory = 0;
 
   SofaVersion sofa = SofaVersion::FromScene;
+
+  /// If set, reading throws Stopped soon after this is set. Not owned.
+  const StopFlag* stop = nullptr;
 
   /// Called now and then with the progress; may be empty.
   std::function<void(const Progress&)> progress{};

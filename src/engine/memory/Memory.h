@@ -83,13 +83,22 @@ class Buffer {
   /// Allocates `size` values and keeps the contents; at least doubles, so that appending is linear. If memory is
   /// exhausted, the buffer is unchanged.
   void grow(std::size_t size) {
+    grow(size, [] {});
+  }
+
+  /// The same, which calls look() between pieces of the contents: copying all of many may take long. If that throws, the buffer
+  /// is unchanged.
+  template <class Look>
+  void grow(std::size_t size, const Look& look) {
     if (size <= m_capacity) return;
-    const std::size_t capacity = std::max(size, 2 * m_capacity);
-    T* larger = allocate(capacity);
-    if (m_data != nullptr) std::memcpy(static_cast<void*>(larger), m_data, m_capacity * sizeof(T));
-    release();
-    m_data = larger;
-    m_capacity = capacity;
+    Buffer larger(m_memory);
+    larger.require(std::max(size, 2 * m_capacity));
+    for (std::size_t begin = 0; begin < m_capacity; begin += kCopiedAtOnce) {
+      const std::size_t count = std::min(kCopiedAtOnce, m_capacity - begin);
+      std::memcpy(static_cast<void*>(larger.m_data + begin), m_data + begin, count * sizeof(T));
+      look();
+    }
+    *this = std::move(larger);
   }
 
   /// Releases the memory.
@@ -104,6 +113,9 @@ class Buffer {
   [[nodiscard]] T& operator[](std::size_t i) const noexcept { return m_data[i]; }
 
  private:
+  /// Some milliseconds, memory that is touched for the first time included.
+  static constexpr std::size_t kCopiedAtOnce = (std::size_t{8} << 20) / sizeof(T);
+
   static constexpr std::size_t kAlignment = 64;  ///< A cache line, and the widest vector.
 
   [[nodiscard]] T* allocate(std::size_t size) const {

@@ -19,6 +19,9 @@ constexpr unsigned kPlaceBits = 48;
 /// (dense_benchmark).
 constexpr std::size_t kPrefetchDistance = 8;
 
+/// Partners of the rows of a task, on average: of long lists a few milliseconds of work, between two looks at a flag that stops it.
+constexpr std::size_t kPartPartners = std::size_t{1} << 20;
+
 template <bool kBySecond>
 void expandRow(std::uint32_t row, std::span<const std::uint32_t> list, Pair* to) noexcept {
   for (std::size_t i = 0; i < list.size(); ++i) to[i] = kBySecond ? Pair{list[i], row} : Pair{row, list[i]};
@@ -45,9 +48,9 @@ void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers
   }
 }
 
-void PairLists::grow(NeighborLists& lists, std::size_t more) {
+void PairLists::grow(NeighborLists& lists, std::size_t more, FunctionRef<void()> look) {
   Buffer<std::uint32_t>& partners = m_partners[lists.base >> kPlaceBits];
-  partners.grow(lists.size + more);
+  partners.grow(lists.size + more, look);
   lists.partners = partners.data();
   lists.capacity = partners.capacity();
 }
@@ -63,13 +66,15 @@ template <class Use>
 void PairLists::forEachList(Executor& executor, const Use& use) {
   m_places.clear();
   std::size_t place = 0;
-  for (std::size_t begin = 0; begin < m_rows; begin += kPartSize) {
+  const std::size_t longest = kPartPartners * m_rows / std::max<std::size_t>(1, size());
+  const std::size_t partSize = std::clamp<std::size_t>(longest, 1, kPartSize);
+  for (std::size_t begin = 0; begin < m_rows; begin += partSize) {
     m_places.push_back(place);
     const std::uint32_t* const length = m_length.data();
-    place = std::accumulate(length + begin, length + std::min(m_rows, begin + kPartSize), place);
+    place = std::accumulate(length + begin, length + std::min(m_rows, begin + partSize), place);
   }
-  runInParts(m_rows, kPartSize, executor, [&](std::size_t begin, std::size_t end) {
-    std::size_t before = m_places[begin / kPartSize];
+  runInParts(m_rows, partSize, executor, [&](std::size_t begin, std::size_t end) {
+    std::size_t before = m_places[begin / partSize];
     const auto listOf = [this](std::size_t row) -> std::span<const std::uint32_t> {
       if (m_length[row] == 0) return {};
       const std::uint64_t first = m_begin[row];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
+#include "allpairs/FunctionRef.h"
 #include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
@@ -28,8 +29,8 @@ class PairLists {
 
   [[nodiscard]] std::span<NeighborLists> ofWorkers() noexcept { return m_ofWorkers; }
 
-  /// Provides more memory for the lists of a worker; keeps what is there.
-  void grow(NeighborLists& lists, std::size_t more);
+  /// Provides more memory for the lists of a worker; keeps what is there. Calls look() now and then, which may throw.
+  void grow(NeighborLists& lists, std::size_t more, FunctionRef<void()> look);
 
   /// The length of all lists.
   [[nodiscard]] std::size_t size() const noexcept;

@@ -62,9 +62,13 @@ bool PairSink::isSelective() const noexcept {
   return !isWhole() || (m_options->test != nullptr && m_options->test->needed());
 }
 
+void PairSink::makeRoom(std::size_t size) {
+  m_pairs.grow(std::max(m_options->likelyPairs, size), [this] { checkStop(m_options->stop); });
+}
+
 RoomForPairs PairSink::roomFor(Hits& hits, std::size_t most) {
   receive(hits);
-  m_pairs.grow(std::max(m_options->likelyPairs, m_size + most + kVectorSlack));
+  makeRoom(m_size + most + kVectorSlack);
   return {m_pairs.data() + m_size, m_size};
 }
 
@@ -78,7 +82,7 @@ void PairSink::take(std::size_t count) {
 void PairSink::receive(Hits& hits) {
   if (hits.size == 0) return;
   const std::size_t begin = m_size;
-  m_pairs.grow(std::max(m_options->likelyPairs, begin + hits.size + kVectorSlack));
+  makeRoom(begin + hits.size + kVectorSlack);
   m_options->kernels->writePairs(hits, m_options->side, m_pairs.data() + begin);
   m_size += hits.size;
   if (isSelective()) selectTested(begin, hits);

@@ -98,6 +98,7 @@ class PairSink {
  private:
   [[nodiscard]] bool isWhole() const noexcept;
   [[nodiscard]] bool isSelective() const noexcept;
+  void makeRoom(std::size_t size);
   RoomForPairs roomFor(Hits& hits, std::size_t most);
   void take(std::size_t count);
   void receive(Hits& hits);

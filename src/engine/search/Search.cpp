@@ -56,8 +56,9 @@ struct ListReceiver {
     lists.grow = [](NeighborLists& of, std::size_t more) {
       const auto& self = *static_cast<const ListReceiver*>(of.receiver);
       checkLimit(self.sink, of.size / self.timesListed);
-      checkStop(self.sink.stop);
-      self.memory.grow(of, more);
+      const auto look = [&] { checkStop(self.sink.stop); };
+      look();
+      self.memory.grow(of, more, look);
     };
   }
 

@@ -7,6 +7,6 @@ namespace allpairs {
 
 void StopFlag::set() noexcept { engine::storeFlag(m_isSet, true); }
 void StopFlag::clear() noexcept { engine::storeFlag(m_isSet, false); }
-bool StopFlag::isSet() const noexcept { return engine::loadFlag(m_isSet); }
+bool StopFlag::isSet() const noexcept { return engine::loadFlag(m_isSet) || (m_ask && (*m_ask)()); }
 
 }  // namespace allpairs

@@ -4,13 +4,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "input/Parts.h"
 #include "memory/Platform.h"
+#include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
 namespace {
 
 /// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark).
 constexpr std::size_t kShortRow = 16;
+
+/// Pairs that are compared between two looks at the flag: a fraction of a millisecond.
+constexpr std::size_t kComparedAtOnce = std::size_t{1} << 16;
 
 /// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark).
 constexpr std::size_t kPrefetchPairs = 16;
@@ -31,7 +36,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
 }
 
 void PairHistory::shrink() noexcept {
-  PairHistory rest(m_fresh.get_allocator().resource(), m_order);
+  PairHistory rest(m_fresh.get_allocator().resource(), m_order, m_stop);
   rest.m_pairs = std::move(m_pairs);
   rest.m_began = std::move(m_began);
   rest.m_persisted = std::move(m_persisted);
@@ -69,13 +74,13 @@ std::size_t PairHistory::find(Pair pair) const noexcept {
 }
 
 void PairHistory::gather(std::span<const Pair> found, Fresh& fresh) {
-  fresh.pairs.grow(fresh.size + found.size());
+  fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_stop); });
   std::copy(found.begin(), found.end(), fresh.pairs.data() + fresh.size);
   fresh.size += found.size();
 }
 
 void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
-  fresh.pairs.grow(fresh.size + found.size());
+  fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_stop); });
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
     prefetchLine(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
@@ -97,7 +102,12 @@ std::size_t PairHistory::freshSize() const noexcept {
 /// Sorts the new pairs, with memory that may be overwritten.
 void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor) {
   Pair* end = to.data();
-  for (const Fresh& fresh : m_fresh) end = std::copy_n(fresh.pairs.data(), fresh.size, end);
+  for (const Fresh& fresh : m_fresh) {
+    runInParts(fresh.size, kPartSize, executor, [&](std::size_t first, std::size_t last) {
+      std::copy(fresh.pairs.data() + first, fresh.pairs.data() + last, end + first);
+    });
+    end += fresh.size;
+  }
   PairSort::Task task;
   task.firsts = m_idBound;
   task.seconds = m_idBound;
@@ -143,8 +153,17 @@ void PairHistory::finishAll(Executor& executor) {
   m_rowsAreCurrent = false;
 }
 
+/// Copies pairs and returns where they end.
+Pair* PairHistory::copyAll(std::span<const Pair> pairs, Pair* to) const {
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kComparedAtOnce))) {
+    checkStop(m_stop);
+    to = std::copy_n(pairs.begin(), std::min(pairs.size(), kComparedAtOnce), to);
+  }
+  return to;
+}
+
 /// Compares two ordered lists, without branches: pairs in both persist, pairs in only one began or ended.
-void PairHistory::compare(std::span<const Pair> now) noexcept {
+void PairHistory::compare(std::span<const Pair> now) {
   const std::span<const Pair> old = m_result.pairs;
   Pair* persisted = m_persisted.data();
   Pair* began = m_began.data();
@@ -152,21 +171,26 @@ void PairHistory::compare(std::span<const Pair> now) noexcept {
   std::size_t i = 0;
   std::size_t k = 0;
   while (i < old.size() && k < now.size()) {
-    const Pair was = old[i];
-    const Pair is = now[k];
-    const bool isKept = keyOf(was) <= keyOf(is);
-    const bool isNeeded = keyOf(is) <= keyOf(was);
-    *persisted = is;
-    *began = is;
-    *ended = was;
-    persisted += isKept && isNeeded ? 1 : 0;
-    began += isKept ? 0 : 1;
-    ended += isNeeded ? 0 : 1;
-    i += isKept ? 1U : 0U;
-    k += isNeeded ? 1U : 0U;
+    checkStop(m_stop);
+    const std::size_t oldEnd = std::min(old.size(), i + kComparedAtOnce);
+    const std::size_t nowEnd = std::min(now.size(), k + kComparedAtOnce);
+    while (i < oldEnd && k < nowEnd) {
+      const Pair was = old[i];
+      const Pair is = now[k];
+      const bool isKept = keyOf(was) <= keyOf(is);
+      const bool isNeeded = keyOf(is) <= keyOf(was);
+      *persisted = is;
+      *began = is;
+      *ended = was;
+      persisted += isKept && isNeeded ? 1 : 0;
+      began += isKept ? 0 : 1;
+      ended += isNeeded ? 0 : 1;
+      i += isKept ? 1U : 0U;
+      k += isNeeded ? 1U : 0U;
+    }
   }
-  ended = std::copy(old.begin() + static_cast<std::ptrdiff_t>(i), old.end(), ended);
-  began = std::copy(now.begin() + static_cast<std::ptrdiff_t>(k), now.end(), began);
+  ended = copyAll(old.subspan(i), ended);
+  began = copyAll(now.subspan(k), began);
   m_result.persisted = {m_persisted.data(), persisted};
   m_result.began = {m_began.data(), began};
   m_result.ended = {m_ended.data(), ended};

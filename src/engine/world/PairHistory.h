@@ -9,6 +9,7 @@
 
 #include "allpairs/Executor.h"
 #include "allpairs/Pair.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/WorldTypes.h"
 #include "memory/Memory.h"
 #include "order/PairSort.h"
@@ -24,8 +25,9 @@ namespace allpairs::engine {
 /// Memory: until a step completes, the pairs are those of the last completed step.
 class PairHistory {
  public:
-  PairHistory(std::pmr::memory_resource* memory, Order order)
+  PairHistory(std::pmr::memory_resource* memory, Order order, const StopFlag* stop)
       : m_order(order),
+        m_stop(stop),
         m_fresh(memory),
         m_rowBegin(memory),
         m_seen(memory),
@@ -98,7 +100,7 @@ class PairHistory {
   static void makeRoom(Buffer<T>& buffer, std::size_t size) {
     if (size + 1 > buffer.capacity()) buffer.require(size + size / 4 + 1);
   }
-  static void gather(std::span<const Pair> found, Fresh& fresh);
+  void gather(std::span<const Pair> found, Fresh& fresh);
   void tickOff(std::span<const Pair> found, Fresh& fresh);
   /// The place of an old pair, or the number of old pairs.
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
@@ -106,7 +108,8 @@ class PairHistory {
   [[nodiscard]] bool takeOrdered() noexcept;
   void sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& executor);
   void makeRoomForChanges();
-  void compare(std::span<const Pair> now) noexcept;
+  [[nodiscard]] Pair* copyAll(std::span<const Pair> pairs, Pair* to) const;
+  void compare(std::span<const Pair> now);
   void mergeFresh() noexcept;
   void findRows();
   void shiftRows() noexcept;
@@ -121,6 +124,7 @@ class PairHistory {
   }
 
   Order m_order;
+  const StopFlag* m_stop;
   Joined m_looksFor = Joined::All;
   std::size_t m_idBound = 0;
   std::pmr::vector<Fresh> m_fresh;           ///< By worker.

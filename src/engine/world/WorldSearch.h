@@ -46,7 +46,7 @@ class WorldSearch {
         m_large(memory),
         m_runs(memory),
         m_runner(memory),
-        m_history(memory, options.order),
+        m_history(memory, options.order, options.stop),
         m_lists(memory, options.order) {}
 
   /// Updates the hierarchies from the store.

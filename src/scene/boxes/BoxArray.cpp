@@ -8,6 +8,7 @@
 
 #include "allpairs/Error.h"
 #include "boxes/CsvLine.h"
+#include "boxes/NpyInput.h"
 #include "input/FileBytes.h"
 #include "input/ReadScope.h"
 #include "input/UniqueNames.h"
@@ -91,7 +92,7 @@ BoxArray readBoxArray(const std::filesystem::path& path, const ReadOptions& opti
   ReadScope scope(path, options);
   if (lowerExtension(path) == ".csv") return readCsv(path, scope);
   scope.admit(path);  // twice its size is more than it takes
-  return readNpy(path);
+  return readNpy(path, scope.stop());
 }
 
 }  // namespace allpairs::scene

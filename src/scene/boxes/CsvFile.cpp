@@ -140,7 +140,7 @@ class CsvReader {
 
 BoxArray readCsv(const Path& path, ReadScope& scope) {
   scope.admit(path);
-  const std::string text = readText(path);
+  const std::string text = readText(path, scope.stop());
   std::string_view rest = text;
   if (const std::size_t zero = rest.find('\0'); zero != std::string_view::npos) {
     const auto line =

@@ -47,12 +47,14 @@ BoxArray readTable(const NpyHeader& header, InputFile& file, const Path& path) {
 
 }  // namespace
 
-BoxArray readNpy(const Path& path) {
-  InputFile file(path);
+BoxArray readNpy(const Path& path, const StopFlag* stop) {
+  InputFile file(path, stop);
   const NpyHeader header = readNpyHeader(file, path);
   const bool isFloat32 = holdsFloat32(header, path);
   checkShape(header, path);
   return isFloat32 ? readTable<float>(header, file, path) : readTable<double>(header, file, path);
 }
+
+BoxArray readNpy(const Path& path) { return readNpy(path, nullptr); }
 
 }  // namespace allpairs::scene

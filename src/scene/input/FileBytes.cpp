@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "input/FileBytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
+#include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
 #include "input/Words.h"
 
 namespace allpairs::scene {
 namespace {
+
+/// Some ten milliseconds, of which most is memory that is touched for the first time.
+constexpr std::size_t kReadAtOnce = std::size_t{16} << 20;
 
 std::string lastProblem() { return std::generic_category().message(errno); }
 
@@ -25,7 +30,7 @@ void requireFile(const std::filesystem::path& path) {
   if (!std::ifstream(path, std::ios::binary)) throw FileError(path, "cannot be opened: " + lastProblem());
 }
 
-InputFile::InputFile(const std::filesystem::path& path) : m_path(path) {
+InputFile::InputFile(const std::filesystem::path& path, const StopFlag* stop) : m_path(path), m_stop(stop) {
   requireFile(path);
   m_stream.open(path, std::ios::binary);
   m_stream.seekg(0, std::ios::end);
@@ -43,14 +48,21 @@ void InputFile::seek(std::uint64_t position) {
 
 void InputFile::read(void* target, std::size_t count) {
   if (count > m_remaining) throw FileError(m_path, "ends too early");
+  for (std::size_t done = 0; done < count; done += kReadAtOnce) {
+    readPiece(static_cast<char*>(target) + done, std::min(kReadAtOnce, count - done));
+  }
+}
+
+void InputFile::readPiece(char* target, std::size_t count) {
+  if (m_stop != nullptr && m_stop->isSet()) throw Stopped();
   errno = 0;
-  m_stream.read(static_cast<char*>(target), static_cast<std::streamsize>(count));
+  m_stream.read(target, static_cast<std::streamsize>(count));
   if (!m_stream) throw FileError(m_path, errno == 0 ? "ends too early" : "cannot be read: " + lastProblem());
   m_remaining -= count;
 }
 
-std::string readText(const std::filesystem::path& path) {
-  InputFile file(path);
+std::string readText(const std::filesystem::path& path, const StopFlag* stop) {
+  InputFile file(path, stop);
   std::string text(static_cast<std::size_t>(file.remaining()), '\0');
   file.read(text.data(), text.size());
   return text;

@@ -7,13 +7,17 @@
 #include <fstream>
 #include <string>
 
+#include "allpairs/StopFlag.h"
+
 namespace allpairs::scene {
 
 /// A file that is read from front to back, or from where seek() goes, and says with FileError what went wrong.
 class InputFile {
  public:
+  /// Reading throws Stopped soon after a flag that is given is set.
+  ///
   /// Bad input: a file that is missing, a folder, or unreadable throws FileError.
-  explicit InputFile(const std::filesystem::path& path);
+  explicit InputFile(const std::filesystem::path& path, const StopFlag* stop = nullptr);
 
   /// How many bytes are left to read.
   [[nodiscard]] std::uint64_t remaining() const noexcept { return m_remaining; }
@@ -28,7 +32,10 @@ class InputFile {
   void read(void* target, std::size_t count);
 
  private:
+  void readPiece(char* target, std::size_t count);
+
   std::filesystem::path m_path;
+  const StopFlag* m_stop;
   std::ifstream m_stream;
   std::uint64_t m_size = 0;
   std::uint64_t m_remaining = 0;
@@ -38,7 +45,7 @@ class InputFile {
 void requireFile(const std::filesystem::path& path);
 
 /// The whole file as text.
-[[nodiscard]] std::string readText(const std::filesystem::path& path);
+[[nodiscard]] std::string readText(const std::filesystem::path& path, const StopFlag* stop = nullptr);
 
 /// The extension in lower case, with its dot: ".npy".
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);

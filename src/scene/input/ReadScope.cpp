@@ -54,7 +54,8 @@ ReadScope::ReadScope(const fs::path& input, const ReadOptions& options)
     : m_input(input),
       m_searchRoots(options.searchRoots),
       m_allowOutside(options.allowOutside),
-      m_maxMemory(options.maxMemory) {
+      m_maxMemory(options.maxMemory),
+      m_stop(options.stop) {
   std::error_code problem;
   m_folders.push_back(fs::canonical(folderOf(input), problem));
   for (const fs::path& root : options.searchRoots) m_folders.push_back(fs::canonical(root, problem));

@@ -8,11 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "allpairs/Error.h"
 #include "allpairs/scene/ReadOptions.h"
 
 namespace allpairs::scene {
 
-/// What reading one input may touch: the files that it may name, and the memory that it may take.
+/// What reading one input may touch: the files that it may name, and the memory that it may take; and whether it is to go on.
 ///
 /// Files:  regular ones in the input's own folder, in the search roots, and below these, symbolic links resolved; all
 ///         where ReadOptions::allowOutside is set.
@@ -52,6 +53,7 @@ class ReadScope {
   ///
   /// Bad input: throws FileError if it is too much.
   void take(std::uint64_t bytes) {
+    checkStop();
     m_taken = bytes > UINT64_MAX - m_taken ? UINT64_MAX : m_taken + bytes;
     if (m_taken > m_limit) refuse();
   }
@@ -61,6 +63,13 @@ class ReadScope {
     constexpr std::uint64_t kGrowth = 3;
     take(count > UINT64_MAX / (kGrowth * size) ? UINT64_MAX : kGrowth * size * count);
   }
+
+  /// Throws Stopped if ReadOptions::stop is set.
+  void checkStop() const {
+    if (m_stop != nullptr && m_stop->isSet()) throw Stopped();
+  }
+
+  [[nodiscard]] const StopFlag* stop() const noexcept { return m_stop; }
 
   /// How much is left of what may be taken.
   [[nodiscard]] std::uint64_t left() const noexcept { return m_limit - m_taken; }
@@ -74,6 +83,7 @@ class ReadScope {
   std::vector<std::filesystem::path> m_folders;  ///< In which files may be, canonical.
   bool m_allowOutside;
   std::uint64_t m_maxMemory;
+  const StopFlag* m_stop;
   std::set<std::filesystem::path> m_files;  ///< That were counted.
   std::uint64_t m_bytes = 0;                ///< Of these files.
   std::uint64_t m_taken = 0;

@@ -2,6 +2,7 @@
 #include "mesh/ChildProcess.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +21,8 @@
 
 namespace allpairs::scene {
 namespace {
+
+constexpr int kMillisecondsOfPatience = 50;  // between two calls of beforeReading() while nothing comes
 
 constexpr char kComplete = 'C';  // stands behind what the child has written in full
 
@@ -123,6 +126,8 @@ std::string readAll(int source, const std::function<void(std::uint64_t)>& before
     beforeReading(kPiece);
     const std::size_t before = text.size();
     text.resize(before + kPiece);
+    pollfd waited{source, POLLIN, 0};
+    while (::poll(&waited, 1, kMillisecondsOfPatience) == 0) beforeReading(0);
     const ssize_t count = ::read(source, text.data() + before, kPiece);
     text.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
     if (count == 0 || (count < 0 && errno != EINTR)) return text;

@@ -143,7 +143,7 @@ class ObjReader final : ObjParser {
 }  // namespace
 
 std::vector<MeshObject> readObjObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path);
+  const std::string text = readText(path, scope.stop());
   return ObjReader(path, scope).read(text);
 }
 

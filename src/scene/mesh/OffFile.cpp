@@ -111,7 +111,7 @@ class OffReader {
 }  // namespace
 
 std::vector<MeshObject> readOffObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path);
+  const std::string text = readText(path, scope.stop());
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw FileError(path, "is empty");
   return OffReader(text, path, scope).read();
 }

@@ -212,7 +212,7 @@ class PlyReader {
 }  // namespace
 
 std::vector<MeshObject> readPlyObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path);
+  const std::string text = readText(path, scope.stop());
   return PlyReader(text, path, scope).read();
 }
 

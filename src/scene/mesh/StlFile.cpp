@@ -127,7 +127,7 @@ class TextReader {
 }  // namespace
 
 std::vector<MeshObject> readStlObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path);
+  const std::string text = readText(path, scope.stop());
   return isBinary(text) ? readBinary(text, path, scope) : TextReader(text, path, scope).read();
 }
 

@@ -77,7 +77,7 @@ std::string itemName(std::string_view list, std::uint64_t index) {
 }  // namespace
 
 GltfDocument::GltfDocument(const std::filesystem::path& path, ReadScope& scope)
-    : m_path(path), m_scope(scope), m_bytes(readText(path)) {
+    : m_path(path), m_scope(scope), m_bytes(readText(path, scope.stop())) {
   if (m_bytes.starts_with("glTF")) {
     readChunks();
   } else {
@@ -233,7 +233,7 @@ std::string GltfDocument::loadBuffer(const GltfItem& buffer) const {
     const ReadScope::Found file = m_scope.find(fileNameOf(uri), m_path);
     if (!file.problem.empty()) fail(buffer.name + ": the file '" + uri + "' " + file.problem);
     m_scope.admit(file.path);
-    return readText(file.path);
+    return readText(file.path, m_scope.stop());
   }
   constexpr std::string_view kEncoding = ";base64";
   const std::size_t comma = uri.find(',');
