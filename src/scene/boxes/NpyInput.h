@@ -15,12 +15,12 @@
 
 namespace allpairs::scene {
 
-/// Reads what stands before the numbers of a .npy file.
-///
-/// Bad input: throws FileError; nothing is allocated for what a header only claims.
 /// readNpy(), which throws Stopped soon after a flag that is given is set.
 [[nodiscard]] BoxArray readNpy(const std::filesystem::path& path, const StopFlag* stop);
 
+/// Reads what stands before the numbers of a .npy file.
+///
+/// Bad input: throws FileError; nothing is allocated for what a header only claims.
 [[nodiscard]] NpyHeader readNpyHeader(InputFile& file, const std::filesystem::path& path);
 
 /// Whether the array holds float32; if not, it is float64.
