@@ -320,8 +320,9 @@ TEST(ReportOfIfc, MappedItemsArePartsOfTheirProductAndProductsOfTheirAssembly) {
     return titles;
   };
   EXPECT_EQ(result["pairs"].size(), 7U);
-  EXPECT_EQ(titlesOf("body"), (std::set<std::string>{"column and wall", "mullion and wall", "mullion#2 and mullion", "mullion#2 and wall",
-                                                     "mullion/IfcMappedItem#2 and mullion/IfcMappedItem"}));
+  EXPECT_EQ(titlesOf("body"),
+            (std::set<std::string>{"column and wall", "mullion and wall", "mullion#2 and mullion", "mullion#2 and wall",
+                                   "mullion/IfcMappedItem#2 and mullion/IfcMappedItem"}));
   EXPECT_EQ(titlesOf("assembly"), (std::set<std::string>{"column and wall", "front and wall", "front with itself"}));
 }
 
