@@ -64,8 +64,8 @@ std::string partsOf(const ViewScene& scene, const Clash& clash) {
 
 /// The picture, which opens the page at the pair: its address has the numbers of models, since names may repeat.
 std::string pictureOf(const Report& report, const Clash& clash) {
-  const std::string picture = fmt::format("<img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" loading=\"lazy\">",
-                                          pictureName(clash.number), escapeHtml(titleOf(report.scene, clash)));
+  std::string picture = fmt::format("<img src=\"{}\" alt=\"{}\" width=\"640\" height=\"480\" loading=\"lazy\">",
+                                    pictureName(clash.number), escapeHtml(titleOf(report.scene, clash)));
   if (!report.withoutPage.empty()) return picture;
   return fmt::format("<a href=\"view.html#pair=@{},@{}\" title=\"Open it in 3D\">{}</a>", clash.first, clash.second,
                      picture);

@@ -261,7 +261,8 @@ TEST(Report, SaysWhenItWasMadeByWhatAndHow) {
   EXPECT_EQ(facts["Lengths"], "those of the input, which does not say how long they are");
   const std::string ifc = folder.write("two.ifc", kIfc);
   expectSuccess(runProgram({"report", ifc, "-o", folder.path() / "ifc"}));
-  EXPECT_NE(readBytes(folder.path() / "ifc/index.html").find("<dd>millimetres, as the input says</dd>"), std::string::npos);
+  EXPECT_NE(readBytes(folder.path() / "ifc/index.html").find("<dd>millimetres, as the input says</dd>"),
+            std::string::npos);
 }
 
 TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
