@@ -70,12 +70,13 @@ std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& opti
   return pairs;
 }
 
-/// Pairs of models that are appended between two looks at a flag: a fraction of a millisecond.
+/// Pairs of models that are put down between two looks at a flag: a fraction of a millisecond.
 constexpr std::size_t kPairsBetweenLooks = 4096;
 
-/// Appends pairs by the indices of their models, which a pair may name by any level.
-void append(const std::vector<collision::CollisionModelPair>& pairs, const scene::SceneSearch& search,
-            const StopFlag& stop, std::vector<Pair>& to) {
+/// Pairs by the indices of their models, which a pair may name by any level.
+std::vector<Pair> indicesOf(const std::vector<collision::CollisionModelPair>& pairs, const scene::SceneSearch& search,
+                            const StopFlag& stop) {
+  std::vector<Pair> to;
   std::unordered_map<const CollisionModel*, std::uint32_t> indices;
   for (std::size_t i = 0; i < search.models.size(); ++i)
     indices.emplace(search.models[i]->getLast(), static_cast<std::uint32_t>(search.indices[i]));
@@ -83,6 +84,7 @@ void append(const std::vector<collision::CollisionModelPair>& pairs, const scene
     if (to.size() % kPairsBetweenLooks == 0) checkStop(stop);
     to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
   }
+  return to;
 }
 
 /// Gives the method another alarm distance, until the end of the scope.
@@ -103,8 +105,8 @@ class AlarmDistance {
   double m_before;
 };
 
-void run(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options, const StopFlag& stop,
-         std::vector<Pair>& to) {
+std::vector<Pair> pairsOf(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options,
+                          const StopFlag& stop) {
   const AlarmDistance distance(*search.intersection, options.distance);
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
   collision::BruteForceBroadPhase broadPhase;
@@ -118,7 +120,7 @@ void run(const scene::SceneSearch& search, double timeStep, const DetectionOptio
   pipeline.setBroadPhase(&broadPhase);
   const auto& pairs = pipeline.step(search.models, timeStep);
   if (options.verify) broadPhase.verify();
-  append(pairs, search, stop, to);
+  return indicesOf(pairs, search, stop);
 }
 
 }  // namespace
@@ -188,7 +190,10 @@ std::vector<Pair> LoadedScene::detect(const DetectionOptions& options, Stopper& 
   if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options, stop);
   const auto& scene = std::get<scene::Scene>(m_content);
   std::vector<Pair> pairs;
-  for (const scene::SceneSearch& search : scene::searchesOf(scene)) run(search, scene.timeStep, options, stop, pairs);
+  for (const scene::SceneSearch& search : scene::searchesOf(scene)) {
+    const std::vector<Pair> more = pairsOf(search, scene.timeStep, options, stop);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
   return pairs;
 }
 

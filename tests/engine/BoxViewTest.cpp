@@ -45,6 +45,28 @@ TEST(BoxView, IsTheSameFromBoxesRowsCornersAndStrides) {
   expectTwo(BoxView::fromCorners(minF, maxF));
 }
 
+TEST(BoxView, KnowsTheBoundsOfItsMargins) {
+  BoxView set(kTwo);
+  const auto expectMargins = [&](double first, double second, double least, double greatest) {
+    EXPECT_EQ(set.margin(0), first);
+    EXPECT_EQ(set.margin(1), second);
+    EXPECT_EQ(set.leastMargin(), least);
+    EXPECT_EQ(set.greatestMargin(), greatest);
+  };
+  expectMargins(0, 0, 0, 0);
+  set.setMargin(-2);
+  expectMargins(-2, -2, -2, -2);
+  const std::vector<double> margins{3, -1};
+  set.setMargins(margins);
+  expectMargins(3, -1, -1, 3);
+  set = set.slice(0, 2);
+  set.setMargin(0.5);
+  expectMargins(0.5, 0.5, 0.5, 0.5);
+  set.setMargins(margins);
+  set.setMargins({});
+  expectMargins(0.5, 0.5, 0.5, 0.5);
+}
+
 TEST(BoxView, ReadsBackwardWithNegativeStrides) {
   const std::vector<double> rows{-1, -2, -3, 7, 8, 9, 1, 2, 3, 4, 5, 6};
   expectTwo(BoxView::fromStrided(2, CornerView<double>{rows.data() + 6, -6, 1}, {rows.data() + 9, -6, 1}));

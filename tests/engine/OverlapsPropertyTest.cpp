@@ -82,14 +82,16 @@ RC_GTEST_PROP(OverlapsProperty, BoxesFarFromTheOriginGiveTheOraclesPairs, ()) {
 /// Margins and distances as large as the coordinates, which cancel them, beside usual ones.
 RC_GTEST_PROP(OverlapsProperty, WidenedBoxesFarFromTheOriginGiveTheOraclesPairs, ()) {
   auto boxes = *scene();
-  const double place = *rc::gen::element(1.0, -0.5, 1e3, -1e7, 0x1p52, -1e15, 1e30, 3.4e38, 1e300);
+  const double place = *rc::gen::element(1.0, -0.5, 1e3, -1e7, 0x1p52, -1e15, 1e30, 3.4e38, 1e300, 1.7e308);
+  const double otherPlace = *rc::gen::element(place, -place);
   for (Box& box : boxes) {
-    box.min[0] += place;
-    box.max[0] += place;
-    box.min[1] -= 2.0 * place;
-    box.max[1] -= 2.0 * place;
+    const double at = &box == &boxes.back() ? otherPlace : place;
+    box.min[0] += at;
+    box.max[0] += at;
+    box.min[1] -= 0.5 * place;
+    box.max[1] -= 0.5 * place;
   }
-  const auto large = rc::gen::element(0.0, std::abs(place), 2.0 * std::abs(place), 0.5 * std::abs(place));
+  const auto large = rc::gen::element(0.0, std::abs(place), 2.0 * std::abs(place), 0.6 * std::abs(place));
   const auto reach = rc::gen::weightedOneOf<double>({{2, large}, {3, distance()}});
   const double d = *reach;
   const auto margins = *rc::gen::container<std::vector<double>>(boxes.size(), reach);

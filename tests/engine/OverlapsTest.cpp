@@ -300,6 +300,25 @@ TEST_P(Overlaps_, BadOptionsAreRefusedByName) {
   }
 }
 
+/// The sum that the exact test makes overflows, and nothing is farther apart than infinity.
+TEST(Overlaps, MarginsThatAddUpToInfinityReachEveryBox) {
+  std::vector<Box> boxes(12, Box{{0, 1, 1}, {0, 1, 1}});
+  boxes[0].min[0] = boxes[0].max[0] = 1.79e308;
+  boxes[1].min[0] = boxes[1].max[0] = -1.79e308;
+  BoxView set(boxes);
+  const std::vector<double> margins(boxes.size(), 1e308);
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+    OverlapOptions options;
+    options.strategy = strategy;
+    set.setMargins(margins);
+    EXPECT_EQ(overlaps(set, options), test::oracle(boxes, 0.0, margins));
+    EXPECT_EQ(countOverlaps(set, options), 66U);
+    set.setMargins({});
+    options.distance = 1.79e308;
+    EXPECT_EQ(overlaps(set, options), test::oracle(boxes, options.distance));
+  }
+}
+
 TEST(Overlaps, ExhaustiveMakesEveryTestAndCountsThem) {
   OverlapOptions exhaustive;
   exhaustive.strategy = Strategy::Exhaustive;

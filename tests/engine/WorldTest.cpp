@@ -18,6 +18,29 @@
 namespace allpairs {
 namespace {
 
+/// A sum of three depends on its order: that of the ids, whichever box has changed.
+TEST(World, AddsMarginsInTheOrderOfIds) {
+  const double distance = 0.1;
+  const double marginA = 0.1;
+  const double marginB = 0.4;
+  const double gap = (distance + marginA) + marginB;
+  ASSERT_GT(gap, (distance + marginB) + marginA);
+  for (const bool isNumbered : {false, true}) {
+    World world({.distance = distance});
+    const std::uint32_t number = isNumbered ? 3 : 0;
+    const BoxId a = world.add(Box{{gap, 0, 0}, {gap + 1, 1, 1}}, {.margin = marginA, .world = number});
+    const BoxId b = world.add(Box{{-1, 0, 0}, {0, 1, 1}}, {.margin = marginB, .world = number});
+    for (int k = 0; k < 20; ++k) {
+      static_cast<void>(world.add(Box{{1000.0 + 10 * k, 0, 0}, {1001.0 + 10 * k, 1, 1}}, {.world = number}));
+    }
+    EXPECT_EQ(world.step().pairs.size(), 1U);
+    for (const BoxId changed : {a, b}) {
+      world.invalidate({&changed, 1});
+      EXPECT_EQ(world.step().pairs.size(), 1U) << changed;
+    }
+  }
+}
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -60,7 +60,7 @@ struct Cubes {
 
 template <class T>
 struct Call {
-  const char* name;
+  const char* name = "";
   std::function<std::size_t(const Cubes<T>&, OverlapOptions)> search;
   bool widens = false;
   std::vector<double> ms{};

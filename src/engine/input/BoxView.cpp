@@ -158,6 +158,7 @@ BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerVie
 void BoxView::setMargin(double margin) {
   if (!isMargin(margin)) throw InvalidArgument("the margin of the set is NaN or -infinity");
   m_margin = m_leastMargin = m_greatestMargin = margin;
+  m_margins = {};
 }
 
 void BoxView::setMargins(std::span<const double> margins) {

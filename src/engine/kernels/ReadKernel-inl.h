@@ -89,7 +89,7 @@ HWY_INLINE void loadBoxes(const BoxPlaces<float>& places, std::size_t at, FloatV
 
 #else
 
-/// Which values of a box loadFour() may read: those of its corner only, or its row of six.
+/// Which values of a box everyFourth() may read: those of its corner only, or its row of six.
 enum class Reach : std::uint8_t { Corner, Row };
 
 /// Three values, or four, that follow each other of every fourth box: those of box 4k are in block k of 128 bits.
@@ -242,6 +242,8 @@ struct Widener {
     const DoubleTag d;
     const auto margin = widening.margins != nullptr ? hn::LoadU(d, widening.margins + at) : hn::Zero(d);
     half = hn::Add(hn::Set(d, widening.half), margin);
+    // The sum of a distance and two margins is infinite if it overflows, to which one of them has to be large.
+    half = hn::IfThenElse(hn::Lt(half, hn::Set(d, 0x1p1022)), half, hn::Inf(d));
     magnitude = hn::Add(hn::Abs(hn::Set(d, widening.half)), hn::Abs(margin));
   }
 

@@ -145,7 +145,7 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
     search.rows = &rows;
     search.tested = Columns::All;
   }
-  test.requireExactTest(!exact, readers.first.origin());
+  test.requireExactTestInDoubt(!exact, readers.first.origin());
   Receiver receiver(kernels, bySecond ? PairSide::RowSecond : PairSide::RowFirst, test, options.maxPairs, take);
   kernels.searchFew(search, receiver.hits());
   return receiver.finish();

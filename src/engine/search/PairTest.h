@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "allpairs/BoxView.h"
 #include "allpairs/Filter.h"
@@ -57,11 +58,14 @@ class PairTest {
   }
 
   /// Set once the lanes are known.
-  void requireExactTest(bool required) noexcept { m_exact = required; }
+  void requireExactTest(bool required) noexcept {
+    m_exact = required;
+    m_slack = kNever;
+  }
 
   /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the kernels can
   /// tell which hits need the exact test.
-  void requireExactTest(bool required, const std::array<double, 3>& origin) noexcept {
+  void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin) noexcept {
     m_exact = required;
     m_slack = slackOf(origin);
   }
@@ -71,10 +75,11 @@ class PairTest {
   /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding.
   [[nodiscard]] float slack() const noexcept { return m_slack; }
 
-  /// Its two parts.
-  [[nodiscard]] PairTest withoutFilter() const {
+  /// Its two parts: the exact test of hits of one set, whichever of the two boxes comes first, and the filter.
+  [[nodiscard]] PairTest boundsOfHits() const {
     PairTest test = *this;
     test.m_filtered = false;
+    test.m_inAnyOrder = true;
     return test;
   }
   [[nodiscard]] PairTest withoutBounds() const {
@@ -144,6 +149,8 @@ class PairTest {
   }
 
   [[nodiscard]] bool touches(Pair pair) const {
+    // The order of a sum is part of the contract: margins are added by the order of ids.
+    if (m_inAnyOrder && pair.second < pair.first) std::swap(pair.first, pair.second);
     const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
     return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);
   }
@@ -169,6 +176,7 @@ class PairTest {
   double m_distance;
   const PairPredicate* m_accept;
   bool m_exact = false;
+  bool m_inAnyOrder = false;
   float m_slack = kNever;
   bool m_filtered;
 };

@@ -196,7 +196,7 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
   } else {
     exact &= readList(rowSet, m_rows, flat.rows);
   }
-  plan.test.requireExactTest(!exact, readers.first.origin());
+  plan.test.requireExactTestInDoubt(!exact, readers.first.origin());
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.job.isFlat = true;
   plan.job.units = rowSet.size();
@@ -206,7 +206,7 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
   const BvhBuilder& second = readers.one ? m_first : m_second;
-  plan.test.requireExactTest(!m_first.exact() || !second.exact(), readers.first.origin());
+  plan.test.requireExactTestInDoubt(!m_first.exact() || !second.exact(), readers.first.origin());
   plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;
   joinBoth(readers.one, plan);
 }

@@ -89,7 +89,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   m_first.build(reader, *m_executor);
   Plan plan{PairTest::of(sets, options), options.order};
   joinBoth(false, plan);
-  plan.test.requireExactTest(!m_first.exact() || !m_second.exact(), origin);
+  plan.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), origin);
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;

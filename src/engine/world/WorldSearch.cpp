@@ -100,7 +100,7 @@ StepResult WorldSearch::step(BoxStore& store) {
 /// The test of pairs of this world. Lanes are widened by the distance, unless it is negative, when all hits are tested.
 PairTest WorldSearch::testOf(const BoxStore& store, double distance, bool exact) const {
   PairTest test(store.tested(), store.tested(), distance, m_options.accept);
-  test.requireExactTest(!exact || distance != 0.0, {});
+  test.requireExactTestInDoubt(!exact || distance != 0.0, {});
   return test;
 }
 
@@ -142,7 +142,7 @@ void WorldSearch::joinAll(const BoxStore& store) {
 
 void WorldSearch::joinChanged(const BoxStore& store) {
   const PairTest test = testOf(store, m_options.distance, isExact());
-  const PairTest bounds = test.withoutFilter();
+  const PairTest bounds = test.boundsOfHits();
   const PairTest filter = test.withoutBounds();  // Asked once for each pair.
   const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
     const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
@@ -201,7 +201,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   // Half of each: the lanes of the two worlds have been enlarged by that.
   const double distance = 0.5 * m_options.distance + 0.5 * other.m_options.distance;
   PairTest test(store.tested(), otherStore.tested(), distance, m_options.accept);
-  test.requireExactTest(!exact || distance != 0.0);
+  test.requireExactTest(!exact);
   std::mutex mutex;
   std::vector<Pair> found;
   const auto take = [&](std::span<Pair> pairs, std::size_t) {

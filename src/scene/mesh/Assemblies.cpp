@@ -6,37 +6,37 @@
 namespace allpairs::scene {
 namespace {
 
-constexpr std::size_t kNone = NestedNode::kNoParent;
+constexpr std::size_t kNoNode = NestedNode::kNoParent;
 
 /// Whether there is an object at a node or below it.
 std::vector<bool> whichShow(const std::vector<NestedNode>& nodes) {
   std::vector<bool> shows(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
     shows[i] = shows[i] || nodes[i].hasObject;
-    if (shows[i] && nodes[i].parent != kNone) shows[nodes[i].parent] = true;
+    if (shows[i] && nodes[i].parent != kNoNode) shows[nodes[i].parent] = true;
   }
   return shows;
 }
 
-/// The node below which the file first branches; kNone: the roots are several, or nothing branches.
+/// The node below which the file first branches; kNoNode: the roots are several, or nothing branches.
 struct Branching {
   bool exists = false;
-  std::size_t node = kNone;
+  std::size_t node = kNoNode;
 };
 
 Branching branchingOf(const std::vector<NestedNode>& nodes, const std::vector<bool>& shows) {
   std::vector<std::size_t> children(nodes.size() +
                                     1);  // how many of them show something; the last entry is of the roots
-  std::vector<std::size_t> onlyChild(nodes.size() + 1, kNone);
+  std::vector<std::size_t> onlyChild(nodes.size() + 1, kNoNode);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!shows[i]) continue;
-    const std::size_t parent = nodes[i].parent == kNone ? nodes.size() : nodes[i].parent;
+    const std::size_t parent = nodes[i].parent == kNoNode ? nodes.size() : nodes[i].parent;
     ++children[parent];
     onlyChild[parent] = i;
   }
   std::size_t at = nodes.size();
   while (children[at] == 1 && !nodes[onlyChild[at]].hasObject) at = onlyChild[at];
-  return {children[at] > 1, at == nodes.size() ? kNone : at};
+  return {children[at] > 1, at == nodes.size() ? kNoNode : at};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes) {
     if (!shows[i]) continue;
     if (nodes[i].parent == branching.node)
       assemblies[i] = names.unique(nodes[i].name.empty() ? "node" : nodes[i].name);
-    else if (nodes[i].parent != kNone)
+    else if (nodes[i].parent != kNoNode)
       assemblies[i] = assemblies[nodes[i].parent];
   }
   return assemblies;
