@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "allpairs/StopFlag.h"
+#include "allpairs/scene/BoxArray.h"
 #include "boxes/NpyHeader.h"
 #include "input/FileBytes.h"
 
