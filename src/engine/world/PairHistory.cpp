@@ -14,9 +14,6 @@ namespace {
 /// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark).
 constexpr std::size_t kShortRow = 16;
 
-/// Pairs that are compared between two looks at the flag: a fraction of a millisecond.
-constexpr std::size_t kComparedAtOnce = std::size_t{1} << 16;
-
 /// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark).
 constexpr std::size_t kPrefetchPairs = 16;
 
@@ -153,11 +150,11 @@ void PairHistory::finishAll(Executor& executor) {
   m_rowsAreCurrent = false;
 }
 
-/// Copies pairs and returns where they end.
+/// Copies pairs part by part, and looks at the flag before each; returns where they end.
 Pair* PairHistory::copyAll(std::span<const Pair> pairs, Pair* to) const {
-  for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kComparedAtOnce))) {
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPartSize))) {
     checkStop(m_stop);
-    to = std::copy_n(pairs.begin(), std::min(pairs.size(), kComparedAtOnce), to);
+    to = std::copy_n(pairs.begin(), std::min(pairs.size(), kPartSize), to);
   }
   return to;
 }
@@ -172,8 +169,8 @@ void PairHistory::compare(std::span<const Pair> now) {
   std::size_t k = 0;
   while (i < old.size() && k < now.size()) {
     checkStop(m_stop);
-    const std::size_t oldEnd = std::min(old.size(), i + kComparedAtOnce);
-    const std::size_t nowEnd = std::min(now.size(), k + kComparedAtOnce);
+    const std::size_t oldEnd = std::min(old.size(), i + kPartSize);
+    const std::size_t nowEnd = std::min(now.size(), k + kPartSize);
     while (i < oldEnd && k < nowEnd) {
       const Pair was = old[i];
       const Pair is = now[k];
