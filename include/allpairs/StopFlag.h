@@ -33,4 +33,7 @@ class StopFlag {
   bool m_isSet = false;  // not std::atomic, whose header is larger than all that a search needs besides
 };
 
+/// Throws Stopped if there is a flag and it is set.
+void checkStop(const StopFlag* stop);
+
 }  // namespace allpairs

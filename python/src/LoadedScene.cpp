@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/CollisionPipeline.h"
 #include "allpairs/parallel/TbbExecutor.h"
@@ -52,10 +52,6 @@ std::unique_ptr<Executor> executorOf(std::size_t threads) {
   return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
 }
 
-void checkStop(const StopFlag& stop) {
-  if (stop.isSet()) throw Stopped();
-}
-
 std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options, const StopFlag& stop) {
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
   OverlapOptions engine;
@@ -81,7 +77,7 @@ std::vector<Pair> indicesOf(const std::vector<collision::CollisionModelPair>& pa
   for (std::size_t i = 0; i < search.models.size(); ++i)
     indices.emplace(search.models[i]->getLast(), static_cast<std::uint32_t>(search.indices[i]));
   for (const auto& [first, second] : pairs) {
-    if (to.size() % kPairsBetweenLooks == 0) checkStop(stop);
+    if (to.size() % kPairsBetweenLooks == 0) checkStop(&stop);
     to.push_back({indices.at(first->getLast()), indices.at(second->getLast())});
   }
   return to;

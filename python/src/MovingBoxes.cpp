@@ -7,6 +7,7 @@
 
 #include "Arguments.h"
 #include "allpairs/Error.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/parallel/TbbExecutor.h"
 
 namespace allpairs::python {
@@ -42,7 +43,7 @@ std::unique_ptr<PairArray> copyOf(std::span<const Pair> pairs, const StopFlag& s
   std::vector<Pair> copy;
   copy.reserve(pairs.size());
   while (!pairs.empty()) {
-    if (stop.isSet()) throw Stopped();
+    checkStop(&stop);
     const std::span<const Pair> piece = pairs.first(std::min(pairs.size(), kCopiedAtOnce));
     copy.insert(copy.end(), piece.begin(), piece.end());
     pairs = pairs.subspan(piece.size());
@@ -221,7 +222,7 @@ std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const Qu
     std::vector<Pair> pairs;
     pairs.reserve(found.values.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (m_stop.flag().isSet()) throw Stopped();
+      checkStop(&m_stop.flag());
       for (const BoxId id : found[i]) pairs.push_back({static_cast<std::uint32_t>(i), id});
     }
     return toPython(std::move(pairs));

@@ -10,16 +10,11 @@
 #include "KeptSearch.h"
 #include "ModelTable.h"
 #include "PairRules.h"
-#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 
 namespace allpairs::collision {
-
-/// Throws Stopped if there is a flag and it is set.
-inline void checkStop(const StopFlag* stop) {
-  if (stop != nullptr && stop->isSet()) throw Stopped();
-}
 
 /// Finds the pairs of the newest rows of a table: the engine gives those whose boxes are near, the rules decide.
 class PairSearch {

@@ -15,7 +15,7 @@
 
 #include "CellJoin.h"
 #include "PairMerge.h"
-#include "allpairs/Error.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/WriteResult.h"
 
@@ -133,7 +133,7 @@ bool DiskJoin::hasAllBoxes() {
   if (!fs::exists(file("boxes"))) return false;
   m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
   for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
-    checkStop();
+    checkStop(m_options.stop);
     report("checking", cell, m_manifest.extents.size());
     if (!m_spill->isIntact(cell)) return false;
   }
@@ -178,7 +178,7 @@ void DiskJoin::distribute() {
   m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
   CellFinder finder(m_cells, m_options.distance);
   m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
-    checkStop();
+    checkStop(m_options.stop);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       for (const std::uint32_t cell : finder.cellsOf(boxes[i])) m_spill->add(cell, begin + i, boxes, i);
     }
@@ -273,9 +273,9 @@ void DiskJoin::writePairs(ResultSink sink) {
   }
   sink(headerFor<Id>(pairs));
   std::uint64_t written = 0;
-  PairMerge<Id> merge(m_ranges, m_input.size(), m_budget.mergeBytes, m_runs.file, file("divided"));
+  PairMerge<Id> merge(m_ranges, m_input.size(), m_budget.mergeBytes, m_runs.file, file("divided"), m_options.stop);
   merge.merge(runs, [&](std::span<const StoredPair<Id>> batch) {
-    checkStop();
+    checkStop(m_options.stop);
     sink({reinterpret_cast<const char*>(batch.data()), batch.size_bytes()});
     written += batch.size();
     report("writing", written, pairs);
@@ -293,10 +293,6 @@ JoinSummary DiskJoin::summary() const {
   summary.pairBytes = m_manifest.isCount ? 0 : summary.pairs * pairSize();
   summary.resumedCells = m_resumed;
   return summary;
-}
-
-void DiskJoin::checkStop() const {
-  if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
 }
 
 void DiskJoin::report(std::string_view step, std::uint64_t done, std::uint64_t total) {

@@ -51,7 +51,6 @@ class DiskJoin {
   [[nodiscard]] RecordType recordType() const { return {m_input.isFloat64()}; }
   [[nodiscard]] std::size_t pairSize() const { return pairSizeFor(m_input.size()); }
   [[nodiscard]] std::filesystem::path file(const char* name) const { return m_options.work / name; }
-  void checkStop() const;
   void report(std::string_view step, std::uint64_t done, std::uint64_t total);
 
   BoxInput& m_input;

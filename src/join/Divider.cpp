@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs::join {
 namespace {
@@ -67,7 +67,7 @@ void Divider::count(Division& division) {
   m_evenSample.clear();
   CellFinder finder(division.cells, m_options.distance);
   m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
-    if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
+    checkStop(m_options.stop);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const Box box = boxes[i];
       for (const std::uint32_t cell : finder.cellsOf(box)) ++division.counts[cell];

@@ -23,8 +23,8 @@ void release(std::vector<T>& values) {
 
 template <class Id>
 PairMerge<Id>::PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
-                         std::filesystem::path scratch)
-    : m_ranges(ranges), m_boxes(boxes), m_memory(memory), m_file(file), m_scratch(std::move(scratch)) {}
+                         std::filesystem::path scratch, const StopFlag* stop)
+    : m_ranges(ranges), m_boxes(boxes), m_memory(memory), m_file(file), m_scratch(std::move(scratch)), m_stop(stop) {}
 
 template <class Id>
 void PairMerge<Id>::merge(std::span<const Run> runs, Receiver receive) {
@@ -181,6 +181,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
     m_batch.resize(kBatch);
     forEachPart(runs, range, range + 1, [&](std::uint64_t position, std::uint64_t count) {
       while (count > 0) {
+        checkStop(m_stop);
         const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBatch));
         m_file.read(position, m_batch.data(), part * sizeof(StoredPair<Id>));
         for (std::size_t i = 0; i < part; ++i) writer.add(m_batch[i].first, m_batch[i].second);
@@ -190,7 +191,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
     });
     divided = writer.finish();
   }
-  PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-");
+  PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-", m_stop);
   inner.merge(divided, receive);
   std::filesystem::remove(m_scratch);
 }

@@ -9,6 +9,7 @@
 
 #include "PairRuns.h"
 #include "allpairs/FunctionRef.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs::join {
 
@@ -19,9 +20,9 @@ class PairMerge {
   using Receiver = FunctionRef<void(std::span<const StoredPair<Id>>)>;
 
   /// `file` has the runs; `boxes` is one more than the greatest number of a box. A range that is too large by itself is divided again, by way
-  /// of `scratch`.
+  /// of `scratch`. `stop` ends that, if it is given.
   PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
-            std::filesystem::path scratch);
+            std::filesystem::path scratch, const StopFlag* stop = nullptr);
 
   /// Passes all pairs on, ordered by (first, second), in batches.
   void merge(std::span<const Run> runs, Receiver receive);
@@ -54,6 +55,7 @@ class PairMerge {
   std::size_t m_memory;
   const WorkFile& m_file;
   std::filesystem::path m_scratch;
+  const StopFlag* m_stop;
   std::vector<StoredPair<Id>> m_pairs;
   std::vector<Id> m_seconds;
   std::vector<std::uint64_t> m_begins;

@@ -10,6 +10,7 @@
 #include "allpairs.h"
 #include "support/FailingAllocation.h"
 #include "support/ProcessMemory.h"
+#include "support/Sanitizers.h"
 
 namespace {
 

@@ -14,6 +14,7 @@
 #include "support/Boxes.h"
 #include "support/FailingAllocation.h"
 #include "support/ProcessMemory.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {

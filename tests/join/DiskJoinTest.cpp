@@ -10,6 +10,7 @@
 #include "JoinCase.h"
 #include "PairMerge.h"
 #include "allpairs/Error.h"
+#include "allpairs/StopFlag.h"
 #include "support/Numbers.h"
 #include "support/PoolExecutor.h"
 
@@ -185,6 +186,26 @@ TEST(DiskJoin, NumbersOf64BitsAreWrittenWhole) {
     for (const auto& pair : batch) found.emplace_back(pair.first, pair.second);
   });
   EXPECT_EQ(found, expected);
+}
+
+TEST(DiskJoin, ARangeThatIsDividedAgainCanBeStopped) {
+  const TempFolder folder;
+  const join::KeyRanges ranges = join::KeyRanges::of(0, 10'000, false, 1);
+  join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+  join::RunWriter<std::uint64_t> writer(ranges, 4'000, file);
+  for (std::uint64_t i = 0; i < 4'000; ++i) writer.add(i, i + 1);
+  const std::vector<join::Run> runs = writer.finish();
+  StopFlag stop;
+  std::size_t pairs = 0;
+  const auto merge = [&] {
+    join::PairMerge<std::uint64_t>(ranges, 10'000, 4'000, file.file, folder.path() / "divided", &stop)
+        .merge(runs, [&pairs](std::span<const join::StoredPair<std::uint64_t>> batch) { pairs += batch.size(); });
+  };
+  merge();
+  EXPECT_EQ(pairs, 4'000U);
+  stop.set();
+  EXPECT_THROW(merge(), Stopped);
+  EXPECT_EQ(pairs, 4'000U) << "none was passed on";
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "support/Sanitizers.h"
+
 namespace allpairs::test {
 
 /// What fails besides the k-th allocation of an operation.
@@ -67,9 +69,7 @@ class Fault {
 /// is free at its end. Every `stride`th allocation is enough where there are many.
 template <class Scene>
 void failEachAllocation(const Scene& scene, std::uint64_t stride = 1) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  stride = stride * 7 + 4;  // Each run takes many times as long.
-#endif
+  if (kIsSanitized) stride = stride * 7 + 4;  // each run takes many times as long
   for (const Failing failing : {Failing::Once, Failing::Onwards}) {
     for (std::uint64_t k = 1;; k += stride) {
       SCOPED_TRACE("allocation " + std::to_string(k) + (failing == Failing::Once ? " fails" : " and later ones fail"));

@@ -10,6 +10,7 @@
 
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/partition/Partition.h"
 
 namespace allpairs::mpi {
@@ -35,7 +36,7 @@ std::uint64_t DistributedSearch::count(std::span<const LocalBoxes> given) {
 
 void DistributedSearch::search(std::span<const LocalBoxes> given) {
   m_ranks.onAll([&] {
-    checkStop();
+    checkStop(m_options.stop);
     takeSets(given);
     checkSets();
     m_outgoing.resize(static_cast<std::size_t>(m_ranks.size()));
@@ -180,7 +181,7 @@ void DistributedSearch::searchCells(const Distribution& distribution, std::size_
   std::optional<BoxRecords> second;
   if (m_sets.size() > 1) second = fetchCell(distribution, round, 1);
   m_ranks.onAll([&] {
-    checkStop();
+    checkStop(m_options.stop);
     const std::optional<std::uint32_t> cell = distribution.cellOf(round, m_ranks.rank());
     if (!cell) return;
     const partition::Cell bounds = distribution.bounds(*cell);
@@ -221,7 +222,7 @@ void DistributedSearch::searchWide(const Distribution& distribution, std::size_t
     packed.bounds = m_ranks.collect(packed.bounds);
     packed.others = m_ranks.collect(packed.others);
     m_ranks.onAll([&] {
-      checkStop();
+      checkStop(m_options.stop);
       const BoxRecords wide(std::move(packed), m_layout);
       searchChunk(wide, set, isWideHere);
     });
@@ -254,10 +255,6 @@ void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std
       }
     });
   }
-}
-
-void DistributedSearch::checkStop() const {
-  if (m_options.stop != nullptr && m_options.stop->isSet()) throw Stopped();
 }
 
 void DistributedSearch::add(std::uint64_t first, std::uint64_t second) {

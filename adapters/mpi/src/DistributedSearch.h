@@ -32,7 +32,6 @@ class DistributedSearch {
   void search(std::span<const LocalBoxes> given);
   void takeSets(std::span<const LocalBoxes> given);
   void checkSets() const;
-  void checkStop() const;
   void checkAgreement() const;
   void measureSets();
   void searchHere();

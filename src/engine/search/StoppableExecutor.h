@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "allpairs/Error.h"
 #include "allpairs/Executor.h"
 #include "allpairs/StopFlag.h"
 
@@ -12,11 +11,6 @@ namespace allpairs::engine {
 
 /// Tests of boxes, some milliseconds of work, between two looks at the flag that stops them.
 inline constexpr std::uint64_t kTestsBetweenLooks = std::uint64_t{1} << 22;
-
-/// Throws Stopped if there is a flag and it is set.
-inline void checkStop(const StopFlag* stop) {
-  if (stop != nullptr && stop->isSet()) throw Stopped();
-}
 
 /// Runs tasks on another executor until a flag is set: from then on they throw Stopped.
 class StoppableExecutor final : public Executor {

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "allpairs/Error.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/scene/FileError.h"
 #include "input/Words.h"
 
@@ -54,7 +54,7 @@ void InputFile::read(void* target, std::size_t count) {
 }
 
 void InputFile::readPiece(char* target, std::size_t count) {
-  if (m_stop != nullptr && m_stop->isSet()) throw Stopped();
+  checkStop(m_stop);
   errno = 0;
   m_stream.read(target, static_cast<std::streamsize>(count));
   if (!m_stream) throw FileError(m_path, errno == 0 ? "ends too early" : "cannot be read: " + lastProblem());

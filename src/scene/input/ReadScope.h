@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "allpairs/Error.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/scene/ReadOptions.h"
 
 namespace allpairs::scene {
@@ -65,9 +65,7 @@ class ReadScope {
   }
 
   /// Throws Stopped if ReadOptions::stop is set.
-  void checkStop() const {
-    if (m_stop != nullptr && m_stop->isSet()) throw Stopped();
-  }
+  void checkStop() const { allpairs::checkStop(m_stop); }
 
   [[nodiscard]] const StopFlag* stop() const noexcept { return m_stop; }
 
