@@ -4,8 +4,8 @@
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { cuboid, folder, hasExact, npy, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { after, before } from "node:test";
+import { cuboid, folder, hasExact, inBoth, npy, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -21,7 +21,7 @@ async function nameInMiddle(page) {
   return page.textContent("#details .model-name");
 }
 
-test("a page opens at the worst clash, or at what its address says", { skip }, async () => {
+inBoth("a page opens at the worst clash, or at what its address says", { skip }, async () => {
   const page = await view("worst", [shapes()], { exact: true });
   assert.deepEqual((await texts(page, "#details .link.first, #details .link.second")).sort(), ["copy", "original"]);
   assert.equal(await page.getAttribute("#pairs-list [aria-selected=true]", "data-index"), "0");
@@ -38,7 +38,7 @@ test("a page opens at the worst clash, or at what its address says", { skip }, a
   await without.close();
 });
 
-test("models are hidden, shown alone, and shown again", { skip }, async () => {
+inBoth("models are hidden, shown alone, and shown again", { skip }, async () => {
   const page = await view("hiding", [nested()], { exact: true });
   for (const key of ["Escape", "u", "u", "u"]) await page.keyboard.press(key); // the middle of the whole is in the middle
   assert.equal(await page.isVisible("#hidden-panel"), false);
@@ -71,7 +71,7 @@ test("models are hidden, shown alone, and shown again", { skip }, async () => {
   await page.close();
 });
 
-test("bodies move apart and come back", { skip }, async () => {
+inBoth("bodies move apart and come back", { skip }, async () => {
   const parts = [[0, 0, 0], [1, 0, 0], [0, 1, 0]].map((low, i) => cuboid(`part ${i}`, low, low.map((x) => x + 1))).join("");
   const page = await view("apart", [write("apart.obj", parts)], { exact: true });
   await page.keyboard.press("Escape");
@@ -109,7 +109,7 @@ async function ends(png) {
   return [found[0], found.at(-1)];
 }
 
-test("the distance of two corners is measured, also while bodies are apart", { skip }, async () => {
+inBoth("the distance of two corners is measured, also while bodies are apart", { skip }, async () => {
   const page = await view("measure", [write("cube.obj", cuboid("cube", [0, 0, 0], [2, 2, 2]))], { exact: true });
   const area = await page.locator("#canvas").boundingBox();
   await settled(page, () => picture(page));
@@ -133,7 +133,7 @@ test("the distance of two corners is measured, also while bodies are apart", { s
   await page.close();
 });
 
-test("a page of boxes far from zero opens, and what is chosen in a list is shown", async () => {
+inBoth("a page of boxes far from zero opens, and what is chosen in a list is shown", async () => {
   const at = [1e16, 1e16, 1e16];
   const page = await view("far-away", [write("far-away.npy", npy([2, 6], [...at, ...at.map((x) => x + 4), ...at, ...at.map((x) => x + 8)]))]);
   await page.keyboard.press("j");

@@ -4,7 +4,7 @@
 
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -14,6 +14,7 @@ export const hasFirefox = [firefox, "/usr/bin/Xvfb"].every(existsSync);
 
 const settings = `
 user_pref("marionette.port", 0);
+user_pref("toolkit.legacyUserProfileCustomizations.stylesheets", true);
 user_pref("webgl.force-enabled", true);
 user_pref("browser.shell.checkDefaultBrowser", false);
 user_pref("datareporting.policy.dataSubmissionEnabled", false);
@@ -25,6 +26,8 @@ user_pref("browser.download.folderList", 2);
 user_pref("browser.download.always_ask_before_handling_new_types", false);
 user_pref("browser.helperApps.neverAsk.saveToDisk", "application/octet-stream");
 `;
+
+const narrow = ":root, body { min-width: 0 !important; min-height: 0 !important; }"; // a window as small as a phone
 
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
@@ -43,9 +46,11 @@ export class Firefox {
     const browser = new Firefox();
     browser.profile = mkdtempSync(join(tmpdir(), "allpairs-firefox-"));
     browser.downloads = join(browser.profile, "downloads");
+    mkdirSync(join(browser.profile, "chrome"));
+    writeFileSync(join(browser.profile, "chrome/userChrome.css"), narrow);
     writeFileSync(join(browser.profile, "user.js"), `${settings}user_pref("browser.download.dir", "${browser.downloads}");\n`);
     const display = await browser.startDisplay(width, height);
-    const words = ["--no-remote", "--marionette", "--profile", browser.profile, `--window-size=${width},${height}`];
+    const words = ["--no-remote", "--marionette", "--remote-allow-system-access", "--profile", browser.profile, `--window-size=${width},${height}`];
     browser.process = spawn(firefox, words, { stdio: "ignore", env: { ...process.env, HOME: browser.profile, DISPLAY: display } });
     await browser.connect();
     await browser.command("WebDriver:NewSession", {});
@@ -95,12 +100,38 @@ export class Firefox {
   }
 
   open = (path) => this.command("WebDriver:Navigate", { url: `file://${path}` });
-  run = async (script) => (await this.command("WebDriver:ExecuteScript", { script, args: [] })).value;
+  run = async (script, ...args) => (await this.command("WebDriver:ExecuteScript", { script, args })).value;
   until = (script) => until(() => this.run(`return ${script}`), script);
 
-  async press(key) {
-    const actions = [{ type: "keyDown", value: key }, { type: "keyUp", value: key }];
+  /** Presses keys, all of them before the first is let go. */
+  async press(...keys) {
+    const actions = [...keys.map((value) => ({ type: "keyDown", value })), ...keys.reverse().map((value) => ({ type: "keyUp", value }))];
     await this.command("WebDriver:PerformActions", { actions: [{ type: "key", id: "keys", actions }] });
+  }
+
+  /** Moves the pointer to a place of the page, and then does what `actions` say. */
+  async point(x, y, ...actions) {
+    const move = { type: "pointerMove", x: Math.round(x), y: Math.round(y), duration: 0 };
+    await this.command("WebDriver:PerformActions", { actions: [{ type: "pointer", id: "pointer", parameters: { pointerType: "mouse" }, actions: [move, ...actions] }] });
+  }
+
+  click = (x, y) => this.point(x, y, { type: "pointerDown", button: 0 }, { type: "pointerUp", button: 0 });
+
+  /** Makes the page, without the window around it, so large. */
+  async resize(width, height) {
+    const [around, above] = await this.run("return [outerWidth - innerWidth, outerHeight - innerHeight]");
+    await this.command("WebDriver:SetWindowRect", { x: 0, y: 0, width: width + around, height: height + above });
+    await this.until(`innerWidth === ${width} && innerHeight === ${height}`);
+  }
+
+  /** What a script of the browser itself, not of the page, gives. */
+  async runInBrowser(script) {
+    await this.command("Marionette:SetContext", { value: "chrome" });
+    try {
+      return await this.run(script);
+    } finally {
+      await this.command("Marionette:SetContext", { value: "content" });
+    }
   }
 
   /** The bytes of a file that the page saved. */
@@ -110,10 +141,15 @@ export class Firefox {
     return readFileSync(path);
   }
 
-  async screenshot(path) {
-    const { value } = await this.command("WebDriver:TakeScreenshot", { full: false });
-    writeFileSync(path, Buffer.from(value, "base64"));
+  /** The bytes of a picture of the page, or of an element of it. */
+  async picture(selector) {
+    const element = selector && (await this.command("WebDriver:FindElement", { using: "css selector", value: selector }));
+    const id = element && Object.values(element.value)[0];
+    const { value } = await this.command("WebDriver:TakeScreenshot", { full: false, ...(id && { id, hash: false, scroll: false }) });
+    return Buffer.from(value, "base64");
   }
+
+  screenshot = async (path) => writeFileSync(path, await this.picture());
 
   async stop() {
     const ended = new Promise((done) => this.process.once("exit", done));

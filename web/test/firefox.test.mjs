@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The page in Firefox, as far as it may differ from Chromium: it loads, draws, searches, plays and obeys keys.
+// The page in Firefox, as far as it may differ from Chromium: it loads, draws, searches, plays and obeys keys. The tests of both
+// browsers are in the files that are imported here.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { Firefox, hasFirefox } from "./firefox.mjs";
-import { allpairs, clothFrames, detect, folder, pages, root, write } from "./program.mjs";
+import { before } from "node:test";
+import { allpairs, clothFrames, detect, folder, inBoth, pages, root, startBrowser, write } from "./program.mjs";
+import "./explore.test.mjs";
+import "./layout.test.mjs";
+import "./page.test.mjs";
 
-const skip = hasFirefox ? false : "Firefox or Xvfb is missing (scripts/packages.txt, group browser)";
 let browser;
-before(async () => (browser = skip ? null : await Firefox.start(1280, 900)));
-after(() => browser?.stop());
+before(async () => (browser = await startBrowser()));
 
 const text = (selector) => browser.run(`return document.querySelector(${JSON.stringify(selector)}).textContent`);
 const count = async (selector) => Number((await browser.run(`return document.querySelector("${selector}").firstChild.textContent`)).replaceAll(",", ""));
@@ -30,7 +31,7 @@ async function picture(name) {
   return readFileSync(path);
 }
 
-test("Firefox shows the numbers of detect, draws, and obeys keys", { skip }, async () => {
+inBoth("Firefox shows the numbers of detect, draws, and obeys keys", async () => {
   const demo = join(root, "examples/scenes/demo.scn");
   const result = detect(demo);
   await view("firefox-demo", demo);
@@ -47,21 +48,7 @@ test("Firefox shows the numbers of detect, draws, and obeys keys", { skip }, asy
   assert.match(await browser.run("return location.hash"), /^#pair=/);
 });
 
-test("Firefox finds the pairs of another margin, and those of an address", { skip }, async () => {
-  const boxes = write("firefox.csv", "a,0,0,0,1,1,1\nb,1.5,0,0,2,1,1\nc,3,0,0,4,1,1\n");
-  await view("firefox-margin", boxes);
-  assert.equal(await count("#fact-pairs"), 0);
-  for (const margin of [0.5, 0.75, 1, 2]) {
-    await browser.run(`const number = document.getElementById("margin-number"); number.value = ${margin}; number.dispatchEvent(new Event("change"))`);
-    assert.equal(await count("#fact-pairs"), detect(boxes, "--distance", String(margin)).pairs.length, `at ${margin}`);
-  }
-  await browser.run("location.hash = '#pair=c,a'");
-  await browser.until("document.querySelector('#details .link.first')?.textContent === 'c'");
-  await browser.run("location.hash = '#model=b'");
-  await browser.until("document.querySelector('#details .model-name')?.textContent === 'b'");
-});
-
-test("Firefox plays meshes that move, and shows names as text", { skip }, async () => {
+inBoth("Firefox plays meshes that move, and shows names as text", async () => {
   const files = clothFrames(5);
   const track = JSON.parse(allpairs("track", ...files, "--format", "json"));
   await view("firefox-cloth", "--sequence", ...files);
@@ -76,7 +63,7 @@ test("Firefox plays meshes that move, and shows names as text", { skip }, async 
   assert.equal(await browser.run("return document.images.length"), 0);
 });
 
-test("Firefox keeps comments of a report, sends them out with the BCF, and sorts", { skip }, async () => {
+inBoth("Firefox keeps comments of a report, sends them out with the BCF, and sorts", async () => {
   const boxes = write("firefox-report.csv", "a,0,0,0,2,2,2\nb,1,1,1,3,3,3\nc,1.5,1.5,1.5,4,4,4\n");
   const out = join(folder, "firefox-report");
   allpairs("report", boxes, "-o", out);

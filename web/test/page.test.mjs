@@ -4,8 +4,8 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { allpairs, clothFrames, cuboid, dataFolder, detect, folder, hasExact, npy, number, open, ownText, pages, root, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { after, before } from "node:test";
+import { allpairs, clothFrames, cuboid, dataFolder, detect, folder, hasExact, inBoth, inChromium, npy, number, open, ownText, pages, root, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -32,7 +32,7 @@ async function compareSummary(page, result) {
   assert.equal(counts.self ?? 0, result.pairs.filter(isSelf).length);
 }
 
-test("the demo: summary, list, search, order, choice and reasons are those of detect", async () => {
+inChromium("the demo: summary, list, search, order, choice and reasons are those of detect", async () => {
   const result = detect(demo);
   const page = await view("demo", [demo]);
   await compareSummary(page, result);
@@ -74,7 +74,7 @@ test("the demo: summary, list, search, order, choice and reasons are those of de
   await page.close();
 });
 
-test("pairs of the same two bodies are one row, with its pairs inside", async () => {
+inChromium("pairs of the same two bodies are one row, with its pairs inside", async () => {
   const triangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -3 -2 -1\n";
   const left = write("bodies/left.obj", `o axle\n${triangle}o wheel\n${triangle}`);
   const right = write("bodies/right.obj", `o rim\n${triangle}o wheel\n${triangle}`);
@@ -119,7 +119,7 @@ async function allPairs(page) {
   return pairs;
 }
 
-test("the margin slider finds the pairs of detect --distance", async () => {
+inBoth("the margin slider finds the pairs of detect --distance", async () => {
   const grid = Array.from({ length: 27 }, (_, i) => [i % 3, Math.floor(i / 3) % 3, Math.floor(i / 9)].map((k) => 1.1 * k)); // gaps of 0.1, more or less
   const boxes = write("grid.npy", npy([27, 6], grid.flatMap((p) => [...p, ...p.map((x) => x + 1)])));
   const scene = write("bodies.scn", `<Node name="root"><CollisionPipeline/><MinProximityIntersection alarmDistance="0.25"/>
@@ -160,10 +160,10 @@ test("the margin slider finds the pairs of detect --distance", async () => {
   }
 });
 
-test("the address has what is chosen, and chooses it", async () => {
+inBoth("the address has what is chosen, and chooses it", async () => {
   const input = write("address.csv", "a b,0,0,0,2,2,2\nc,1,1,1,3,3,3\nc,1,1,1,3,3,2\n\"d,&\",0,0,0,2,2,1\n");
   const page = await view("address", [input]);
-  const file = page.url().split("#")[0];
+  const file = (await page.evaluate(() => location.href)).split("#")[0];
   const hash = () => page.evaluate(() => location.hash);
   assert.equal(await hash(), "");
   await page.keyboard.press("j");
@@ -190,7 +190,7 @@ test("the address has what is chosen, and chooses it", async () => {
   await page.close();
 });
 
-test("the name of the model under the pointer is shown while that rests", async () => {
+inBoth("the name of the model under the pointer is shown while that rests", async () => {
   const input = write("hover.csv", "only one <b>,0,0,0,2,2,2\n");
   const page = await view("hover", [input]);
   const area = await page.locator("#canvas").boundingBox();
@@ -203,7 +203,7 @@ test("the name of the model under the pointer is shown while that rests", async 
   await page.close();
 });
 
-test("a section shows what is within a closed part, and what is cut away is not chosen", async () => {
+inBoth("a section shows what is within a closed part, and what is cut away is not chosen", async () => {
   const input = write("nested.obj", cuboid("shell", [0, 0, 0], [4, 4, 4]) + cuboid("core", [1, 1, 1], [3, 3, 3]));
   const page = await view("section", [input], { exact: true });
   const area = await page.locator("#canvas").boundingBox();
@@ -233,7 +233,7 @@ test("a section shows what is within a closed part, and what is cut away is not 
   await page.close();
 });
 
-test("keys choose, leave, switch and explain", async () => {
+inBoth("keys choose, leave, switch and explain", async () => {
   const page = await view("keys", [demo], { colorScheme: "dark" });
   assert.equal(await page.getAttribute("html", "data-theme"), "dark");
   await page.keyboard.press("j");
@@ -256,7 +256,7 @@ test("keys choose, leave, switch and explain", async () => {
   await page.close();
 });
 
-test("keys turn, move and bring the picture nearer, and leave arrows to what has the focus", async () => {
+inChromium("keys turn, move and bring the picture nearer, and leave arrows to what has the focus", async () => {
   const page = await view("steer", [demo]);
   const picture = async () => (await page.locator("#canvas").screenshot()).toString("base64");
   const seen = [await settled(page, picture)];
@@ -272,7 +272,7 @@ test("keys turn, move and bring the picture nearer, and leave arrows to what has
   await page.close();
 });
 
-test("the space bar opens the remarks when they have the focus", async () => {
+inChromium("the space bar opens the remarks when they have the focus", async () => {
   write("remarks/only.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("remarks/notes.txt", "no mesh");
   const page = await view("remarks", [join(folder, "remarks")]);
@@ -284,7 +284,7 @@ test("the space bar opens the remarks when they have the focus", async () => {
   await page.close();
 });
 
-test("each rule says in words why two models are no pair", async () => {
+inChromium("each rule says in words why two models are no pair", async () => {
   const page = await view("why", [join(root, "tests/view/rules.scn")]);
   const reasonsOf = async (name) => {
     await page.keyboard.press("m");
@@ -307,7 +307,7 @@ test("each rule says in words why two models are no pair", async () => {
   await page.close();
 });
 
-test("Tab reaches everything in order, and one sees where it is", async () => {
+inChromium("Tab reaches everything in order, and one sees where it is", async () => {
   const page = await view("tab", [demo]);
   const reached = [];
   for (let i = 0; i < 30; ++i) {
@@ -332,7 +332,7 @@ test("Tab reaches everything in order, and one sees where it is", async () => {
   await page.close();
 });
 
-test("a click into the picture chooses the model that is there", async () => {
+inChromium("a click into the picture chooses the model that is there", async () => {
   const input = write("one.csv", "0,0,0,1,1,1\n");
   const page = await view("one", [input]);
   const area = await page.locator("#canvas").boundingBox();
@@ -357,7 +357,7 @@ async function countRed(png) {
   return red;
 }
 
-test("what two boxes share is drawn in red, however small they are", async () => {
+inChromium("what two boxes share is drawn in red, however small they are", async () => {
   for (const unit of ["", "e-12"]) {
     const rows = [[0, 0, 0, 2, 1, 1], [1, 0, 0, 3, 1, 1]].map((row) => row.map((x) => `${x}${unit}`).join(","));
     const page = await view("shared", [write("shared.csv", `${rows.join("\n")}\n`)]);
@@ -371,7 +371,7 @@ test("what two boxes share is drawn in red, however small they are", async () =>
 });
 
 const data = dataFolder();
-test("a real scene has the numbers of detect", { skip: data ? false : "no folder of data" }, async () => {
+inChromium("a real scene has the numbers of detect", { skip: data ? false : "no folder of data" }, async () => {
   const input = [join(data, "scenes/examples/Demos/chainAll.scn"), "--data", join(data, "scenes"), "--data", join(data, "scenes/examples")];
   const result = detect(...input);
   const page = await view("chain", input, { colorScheme: "dark", viewport: { width: 1920, height: 1080 } });
@@ -401,7 +401,7 @@ function movingBoxes(frames, count) {
   return rows;
 }
 
-test("a sequence of frames has the pairs of each frame, and what began and ended", async () => {
+inChromium("a sequence of frames has the pairs of each frame, and what began and ended", async () => {
   const frames = movingBoxes(12, 30);
   const sequence = write("frames.npy", npy([12, 30, 6], frames.flat(2)));
   const pairs = frames.map((boxes, t) => detect(write(`frame${t}.npy`, npy([30, 6], boxes.flat()))).pairs.map(String));
@@ -426,7 +426,7 @@ test("a sequence of frames has the pairs of each frame, and what began and ended
   await page.close();
 });
 
-test("a frame has the numbers of track whichever way it is reached, and marks where pairs begin and end", async () => {
+inBoth("a frame has the numbers of track whichever way it is reached, and marks where pairs begin and end", async () => {
   const frames = movingBoxes(12, 30);
   const sequence = write("frames.npy", npy([12, 30, 6], frames.flat(2)));
   const track = JSON.parse(allpairs("track", sequence, "--format", "json"));
@@ -457,7 +457,7 @@ test("a frame has the numbers of track whichever way it is reached, and marks wh
   await page.close();
 });
 
-test("a sequence that is slow to show plays as fast as chosen, and leaves frames out", async () => {
+inBoth("a sequence that is slow to show plays as fast as chosen, and leaves frames out", async () => {
   const count = 400;
   const sequence = write("long.npy", npy([count, 5, 6], movingBoxes(count, 5).flat(2)));
   const page = await view("long", [sequence]);
@@ -482,7 +482,7 @@ test("a sequence that is slow to show plays as fast as chosen, and leaves frames
   await page.close();
 });
 
-test("meshes that move have the pairs of track, frame by frame, and are drawn where they are", async () => {
+inChromium("meshes that move have the pairs of track, frame by frame, and are drawn where they are", async () => {
   const files = clothFrames(5);
   const track = JSON.parse(allpairs("track", ...files, "--format", "json"));
   const page = await view("cloth", ["--sequence", ...files]);
@@ -515,7 +515,7 @@ test("meshes that move have the pairs of track, frame by frame, and are drawn wh
   await page.close();
 });
 
-test("names from files are text, in the page and in the report", async () => {
+inChromium("names from files are text, in the page and in the report", async () => {
   const name = "<img src=x onerror=alert(1)></script><script>alert(2)</script>";
   const input = write("evil.obj", `o ${name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nv 0 0 0\nv 1 0 1\nv 0 1 0\nf 4 5 6\n`);
   const page = await view("evil", [input]);
@@ -549,7 +549,7 @@ function countDraws() {
   count("fenceSync", "frames");
 }
 
-test("ten thousand models with fifty thousand pairs are all there", async () => {
+inChromium("ten thousand models with fifty thousand pairs are all there", async () => {
   const boxes = write("many.npy", "");
   allpairs("generate", "uniform", "-n", "10000", "-o", boxes);
   const input = [boxes, "--distance", "0.014"];
@@ -573,7 +573,7 @@ test("ten thousand models with fifty thousand pairs are all there", async () => 
   await page.close();
 });
 
-test("what really clashes comes first, what is apart is counted and hidden", { skip: hasExact() ? false : "built without FCL" }, async () => {
+inBoth("what really clashes comes first, what is apart is counted and hidden", { skip: hasExact() ? false : "built without FCL" }, async () => {
   const input = shapes();
   const result = detect(input, "--exact");
   const { exactStatistics: statistics } = result;
@@ -602,7 +602,7 @@ test("what really clashes comes first, what is apart is counted and hidden", { s
   await page.close();
 });
 
-test("where surfaces cross is drawn, and the block of what boxes share only on demand", { skip: hasExact() ? false : "built without FCL" }, async () => {
+inBoth("where surfaces cross is drawn, and the block of what boxes share only on demand", { skip: hasExact() ? false : "built without FCL" }, async () => {
   const page = await view("contact", [shapes()], { exact: true });
   const count = async () => page.evaluate(countRed, (await page.locator("#canvas").screenshot()).toString("base64"));
   await page.click('#pairs-list .row[data-index="2"]');
@@ -615,7 +615,7 @@ test("where surfaces cross is drawn, and the block of what boxes share only on d
   await page.close();
 });
 
-test("what is up is as the input says, and stays as the reader has turned it", async () => {
+inBoth("what is up is as the input says, and stays as the reader has turned it", async () => {
   const up = async (page) => (await page.textContent("#up-axis")).trim();
   const scene = await view("upright", [write("up.scn", "<Node gravity='0 -9.81 0'><CollisionPipeline/><DiscreteIntersection/><Node name='a'><MechanicalObject position='0 0 0'/><SphereCollisionModel radius='1'/></Node></Node>")]);
   assert.equal(await up(scene), "y up");
@@ -631,7 +631,7 @@ test("what is up is as the input says, and stays as the reader has turned it", a
   await page.close();
 });
 
-test("the report shows a picture of each pair", async () => {
+inChromium("the report shows a picture of each pair", async () => {
   allpairs("report", demo, "--boxes", "--group", "none", "-o", join(folder, "report"));
   const page = await open(join(folder, "report/index.html"));
   await page.$$eval("img", (images) => images.forEach((image) => (image.loading = "eager")));

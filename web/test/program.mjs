@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the tests run: the program, and Debian's Chromium on the pages that it writes.
+// What the tests run: the program, and Debian's Chromium, or for firefox.test.mjs Firefox, on the pages that it writes.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join, resolve } from "node:path";
+import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { test } from "node:test";
 import { chromium } from "playwright-core";
+import { Firefox, hasFirefox } from "./firefox.mjs";
+import { FirefoxPage } from "./firefox-page.mjs";
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const folder = mkdtempSync(join(tmpdir(), "allpairs-page-"));
@@ -94,13 +97,35 @@ function clothAt(time) {
 export const clothFrames = (count) => Array.from({ length: count }, (_, time) => write(`cloth${time}.obj`, clothAt(time)));
 
 const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+const isFirefox = basename(process.argv[1]) === "firefox.test.mjs"; // which imports other files of tests
 let browser;
-export const startBrowser = async (...more) => (browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: [...args, ...more], timeout: 120_000 }));
-export const stopBrowser = () => browser?.close();
+
+/** Firefox, with which several files of tests begin, starts once. */
+export async function startBrowser(...more) {
+  if (isFirefox) browser ??= hasFirefox ? Firefox.start(1920, 1200) : undefined;
+  else browser = chromium.launch({ executablePath: "/usr/bin/chromium", args: [...args, ...more], timeout: 120_000 });
+  return browser;
+}
+
+export async function stopBrowser() {
+  const running = await browser;
+  browser = undefined;
+  await (isFirefox ? running?.stop() : running?.close());
+}
+
+/** A test of what does not depend on the browser. */
+export const inChromium = isFirefox ? () => {} : test;
+/** A test in Chromium, and by firefox.test.mjs in Firefox. */
+export const inBoth = isFirefox && !hasFirefox ? (name) => test(name, { skip: "Firefox or Xvfb is missing (scripts/packages.txt, group browser)" }) : test;
 
 /** Opens a file as a page; what it complains about, and what it asks of the network, is kept in `page.problems`. */
 export async function open(path, { init, ...options } = {}) {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  if (isFirefox) {
+    const page = new FirefoxPage(await browser);
+    await page.show(path, { init, ...options });
+    return page;
+  }
+  const page = await (await browser).newPage({ viewport: { width: 1280, height: 800 }, ...options });
   if (init) await page.addInitScript(init);
   page.setDefaultTimeout(120_000);
   page.problems = [];
