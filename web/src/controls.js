@@ -2,6 +2,7 @@
 // Buttons over the picture, keys, pointer, and the choice between dark and light.
 
 import { byId } from "./dom.js";
+import { copyNames } from "./listed.js";
 import { paint } from "./palette.js";
 
 const stored = (key) => {
@@ -145,6 +146,7 @@ function keysOf(app, panels, timeline, theme) {
     s: () => press("section"),
     x: () => press("explode"),
     d: () => press("measure"),
+    c: () => copyNames(app),
     h: () => app.changeVisibility("hide", app.models),
     i: () => app.changeVisibility("isolate", app.models),
     z: () => app.changeVisibility("undo"),

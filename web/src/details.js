@@ -4,7 +4,8 @@
 import { byId, button, fillWith, make, nameLine } from "./dom.js";
 import { contactCorners, findingOf, headingOf, shortFinding, state, stateWords } from "./exact.js";
 import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
-import { tagsOf } from "./lists.js";
+import { copyNames } from "./listed.js";
+import { hiddenMark, tagsOf } from "./lists.js";
 import { VirtualList } from "./list.js";
 import { sharedExtents } from "./pairs.js";
 import { distanceOf, explainAny } from "./rules.js";
@@ -19,6 +20,7 @@ export class Details {
     this.app = app;
     this.element = byId("details");
     app.addEventListener("choice", () => this.update());
+    app.addEventListener("visibility", () => this.list?.refresh());
     this.update();
   }
 
@@ -33,7 +35,7 @@ export class Details {
   head(...content) {
     const { app } = this;
     const act = (text, how, title) => button(text, () => app.changeVisibility(how, app.models), { title, className: "act" });
-    const acts = make("span", "acts", act("hide", "hide", "Hide what is chosen (h)"), act("show only", "isolate", "Hide all else (i)"));
+    const acts = make("span", "acts", act("hide", "hide", "Hide what is chosen (h)"), act("show only", "isolate", "Hide all else (i)"), button("copy", () => copyNames(app), { title: "Copy the names, a line each (c)", className: "act" }));
     const close = button("×", () => app.choose([]), { title: "Choose nothing (Esc)", className: "close" });
     close.setAttribute("aria-label", "Choose nothing");
     return make("header", "", make("h2", "", ...content), acts, close);
@@ -143,6 +145,7 @@ export class Details {
     const partners = new Set(table.entriesOf(model).map((e) => (table.first(e) === model ? table.second(e) : table.first(e))));
     const rows = this.othersOf(model, partners, frame);
     const { list, virtual } = this.listOf(model, rows);
+    this.list = virtual;
     fillWith(this.element, this.head("Model"), name, facts, this.partnerCount(model, partners), list);
     virtual.setLength(rows.length); // rows are measured, so only now that the list is in the document
   }
@@ -184,6 +187,6 @@ export class Details {
     const name = this.app.scene.nameOf(other);
     row.classList.add(isPartner ? "pair" : "free");
     row.title = `${name}: ${text}`;
-    row.append(make("span", "dot"), make("span", "names", nameLine(name)), make("span", "reason", text));
+    row.append(make("span", "dot"), make("span", "names", nameLine(name), ...hiddenMark(row, !this.app.visibility.isShown(other))), make("span", "reason", text));
   }
 }

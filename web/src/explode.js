@@ -20,6 +20,7 @@ export class Explosion {
   update() {
     this.button.setAttribute("aria-pressed", this.isOn);
     byId("explode-panel").hidden = !this.isOn;
+    this.slider.setAttribute("aria-valuetext", `${this.slider.value} % of the way from the middle`);
     this.app.explode(this.isOn ? this.slider.value / 100 : 0);
   }
 }

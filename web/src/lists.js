@@ -48,6 +48,7 @@ class Panel {
     this.sort.addEventListener("change", () => this.update());
     app.addEventListener("frame", () => this.renew());
     app.addEventListener("choice", () => this.mark());
+    app.addEventListener("visibility", () => this.list.refresh());
   }
 
   filter(key) {
@@ -85,6 +86,12 @@ class Panel {
     const next = at < 0 ? (by > 0 ? 0 : this.items.length - 1) : (at + by + this.items.length) % this.items.length;
     this.app.choose(this.modelsOf(this.items[next]));
   }
+}
+
+/** What marks the row of what the reader has hidden; nothing on other rows. */
+export function hiddenMark(row, isHidden) {
+  row.classList.toggle("unseen", isHidden);
+  return isHidden ? [make("span", "tag", "hidden")] : [];
 }
 
 const stateFilter = (is) => `state ${is}`;
@@ -171,7 +178,8 @@ export class PairPanel extends Panel {
     row.classList.add(finding ? states[finding.state] : kindNames[is]);
     const names = first === second ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
     const count = inside > 1 ? [make("span", "tag", `${grouped(inside)} pairs`)] : [];
-    row.append(make("span", "dot"), make("span", "names", ...names), ...count, make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
+    const hidden = hiddenMark(row, !table.rowOf(entry).some((e) => this.app.isInSight(e)));
+    row.append(make("span", "dot"), make("span", "names", ...names), ...count, ...hidden, make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
     row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
   }
 }
@@ -245,7 +253,7 @@ export class ModelPanel extends Panel {
   fill(row, model) {
     const { app } = this;
     row.classList.add(kindNames[app.kinds[model]]);
-    const tags = tagsOf(app, model).map((tag) => make("span", "tag", tag));
+    const tags = hiddenMark(row, !app.visibility.isShown(model)).concat(tagsOf(app, model).map((tag) => make("span", "tag", tag)));
     const name = app.scene.nameOf(model);
     row.append(make("span", "dot"), make("span", "names", nameLine(name), ...tags), make("span", "value", grouped(app.partners[model])));
     row.title = `${name}\n${app.scene.typeNames[app.scene.types[model]]}, model ${model}`;

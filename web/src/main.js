@@ -10,6 +10,7 @@ import { Explosion } from "./explode.js";
 import { wholeOf } from "./extent.js";
 import { setUpAxes } from "./ground.js";
 import { setUpHiding } from "./hiding.js";
+import { setUpPictures, setUpSaving } from "./listed.js";
 import { ModelPanel, PairPanel } from "./lists.js";
 import { Margin } from "./margin.js";
 import { Measure } from "./measure.js";
@@ -47,6 +48,7 @@ function showPicture(app, theme) {
     setUpPointer(app, measure);
     setUpHover(app);
     setUpAxes(stage);
+    setUpPictures(stage);
     new Section(stage);
     new Explosion(app);
     stage.addEventListener("drawn", () => note("ready"), { once: true });
@@ -71,6 +73,7 @@ function start() {
   showSummary(app);
   const panels = { pairs: new PairPanel(app), models: new ModelPanel(app) };
   new Details(app);
+  setUpSaving(app, panels);
   const timeline = new Timeline(app);
   setUpTabs();
   setUpToolbar(app, theme);

@@ -70,6 +70,7 @@ export class Margin {
   show(distance) {
     this.number.value = distance;
     this.slider.value = 1000 * Math.sqrt(Math.min(1, distance / this.most));
+    this.slider.setAttribute("aria-valuetext", measure(distance));
     byId("margin-reset").hidden = distance === this.first.distance;
   }
 

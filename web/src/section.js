@@ -39,7 +39,9 @@ export class Section {
     plane[3] = sign * at;
     this.button.setAttribute("aria-pressed", this.isOn);
     byId("section-panel").hidden = !this.isOn;
-    byId("section-place").textContent = `${"xyz"[k]} ${this.isFlipped ? "≥" : "≤"} ${measure(at + data.origin[k], 4)}`;
+    const place = `${"xyz"[k]} ${this.isFlipped ? "≥" : "≤"} ${measure(at + data.origin[k], 4)}`;
+    byId("section-place").textContent = place;
+    this.slider.setAttribute("aria-valuetext", place);
     this.stage.setCut(this.isOn ? plane : off);
   }
 }

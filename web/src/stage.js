@@ -319,6 +319,15 @@ export class Stage extends EventTarget {
     else this.pending ??= requestAnimationFrame(() => this.draw());
   }
 
+  /** The whole picture as the bytes of a PNG. */
+  async picture() {
+    if (this.fence) await new Promise((done) => this.addEventListener("drawn", done, { once: true }));
+    cancelAnimationFrame(this.pending);
+    this.sharpness.isFinal = true;
+    this.draw();
+    return new Promise((done) => this.canvas.toBlob(done)); // at once: what is drawn is kept until the browser has shown it
+  }
+
   draw() {
     this.pending = undefined;
     if (!this.size) return;

@@ -3,9 +3,10 @@
 // points are measured.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import { cuboid, folder, hasExact, inBoth, npy, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { allpairs, cuboid, detect, folder, hasExact, inBoth, npy, open, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -145,6 +146,79 @@ inBoth("a page of boxes far from zero opens, and what is chosen in a list is sho
   assert.equal(await page.isVisible("#section-panel"), false);
   await page.keyboard.press("s");
   assert.equal(await page.isVisible("#section-panel"), false, "there are no shapes to cut");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+/** The rows of a CSV by the names of its columns. */
+function rowsOf(csv) {
+  const [header, ...lines] = csv.trimEnd().split("\n").map((line) => [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].map(([, cell]) => cell.replace(/^"(.*)"$/, "$1").replaceAll('""', '"')));
+  return lines.map((cells) => Object.fromEntries(header.map((name, i) => [name, cells[i]])));
+}
+
+/** The numbers of a row as numbers. */
+const valuesOf = (row, columns) => columns.map((name) => (row[name] === "" || row[name] === null || Number.isNaN(Number(row[name])) ? row[name] || "" : Number(Number(row[name]).toPrecision(12))));
+
+/** How many colours are in a picture, counted by the page. */
+async function coloursOf(png) {
+  const image = new Image();
+  image.src = `data:image/png;base64,${png}`;
+  await image.decode();
+  const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+  canvas.drawImage(image, 0, 0);
+  return new Set(new Uint32Array(canvas.getImageData(0, 0, image.width, image.height).data.buffer)).size;
+}
+
+inBoth("what is listed is saved as in the report, as CSV and as JSON, names are copied, and so is the picture", async () => {
+  const boxes = write("listed.csv", '"=sum,1",0,0,0,2,2,2\n"b ""x""",1,1,1,3,3,3\nc,1.5,1.5,1.5,4,4,4\nd,9,9,9,9.5,9.5,9.5\n');
+  for (const input of hasExact() ? [shapes(), boxes] : [boxes]) {
+    allpairs("report", input, "--group", "none", "-o", join(folder, "listed"));
+    const expected = rowsOf(readFileSync(join(folder, "listed/clashes.csv"), "utf8"));
+    const page = await view("listed", [input], { exact: input !== boxes });
+    const saved = async (id) => (await page.download(() => page.click(`#${id}`), id.replace("-", "."))).toString();
+    if (input === boxes) await page.selectOption("#pairs-sort", "volume"); // as in the report
+    const csv = rowsOf(await saved("pairs-csv"));
+    const columns = Object.keys(csv[0]).filter((name) => name !== "kind");
+    assert.ok(columns.length >= 7 && columns.every((name) => name in expected[0]), columns.join());
+    assert.deepEqual(csv.map((row) => valuesOf(row, columns)), expected.map((row) => valuesOf(row, columns)));
+    const json = JSON.parse(await saved("pairs-json"));
+    const unquoted = (row) => valuesOf(row, columns).map((value) => (typeof value === "string" ? value.replace(/^'/, "") : value));
+    assert.deepEqual(json.map((row) => unquoted(row)), csv.map((row) => unquoted(row)));
+    await page.fill("#pairs-search", json[0].first);
+    assert.ok(rowsOf(await saved("pairs-csv")).every((row) => [row.first, row.second].includes(csv[0].first)), "only what is listed");
+    await page.keyboard.press("Escape");
+    await page.click("#tab-models");
+    const models = JSON.parse(await saved("models-json"));
+    const { models: all } = detect(input);
+    assert.deepEqual(models.map((m) => [m.name, [[m.min_x, m.min_y, m.min_z], [m.max_x, m.max_y, m.max_z]]]), all.map((m) => [m.name, m.box]));
+    const png = await page.download(() => page.click("#save-picture"), "picture.png");
+    const { width, height } = await page.locator("#canvas").boundingBox();
+    assert.deepEqual([png.toString("latin1", 1, 4), png.readUInt32BE(16), png.readUInt32BE(20)], ["PNG", Math.round(width), Math.round(height)]);
+    assert.ok((await page.evaluate(coloursOf, png.toString("base64"))) > 20, "and something is in it");
+    await page.click("#models-list .row");
+    assert.equal(await page.copied(() => page.keyboard.press("c")), all[0].name);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});
+
+inBoth("rows of what is hidden are marked, and sliders say what their values mean", { skip }, async () => {
+  const page = await view("marked", [nested()], { exact: true });
+  const unseen = (list) => page.$$eval(`#${list} .row`, (rows) => rows.sort((a, b) => a.dataset.index - b.dataset.index).map((row) => [row.classList.contains("unseen"), row.textContent.includes("hidden")].join()));
+  const none = "false,false";
+  const marked = "true,true";
+  assert.deepEqual(await unseen("pairs-list"), [none]);
+  await page.click("#tab-models");
+  await page.click('#models-list .row[data-index="0"]');
+  await page.keyboard.press("h");
+  assert.deepEqual([await unseen("pairs-list"), await unseen("models-list")], [[marked], [marked, none]]);
+  await page.click('#models-list .row[data-index="1"]');
+  assert.deepEqual(await unseen("details"), [marked, none], "also among the partners");
+  await page.keyboard.press("z");
+  assert.deepEqual([await unseen("pairs-list"), await unseen("models-list"), await unseen("details")], [[none], [none, none], [none, none]]);
+  for (const key of ["x", "s"]) await page.keyboard.press(key);
+  assert.equal(await page.getAttribute("#explode-slider", "aria-valuetext"), "50 % of the way from the middle");
+  assert.equal(await page.getAttribute("#section-slider", "aria-valuetext"), await page.textContent("#section-place"));
   assert.deepEqual(page.problems, []);
   await page.close();
 });

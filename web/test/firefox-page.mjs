@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A page in Firefox with those methods of Playwright's pages that tests of both browsers use.
 
-import { writeFileSync } from "node:fs";
+import { rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 
 const codes = { Tab: "\ue004", Enter: "\ue007", Shift: "\ue008", Escape: "\ue00c", End: "\ue010", Home: "\ue011", ArrowLeft: "\ue012", ArrowUp: "\ue013", ArrowRight: "\ue014", ArrowDown: "\ue015" };
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
@@ -96,6 +97,26 @@ export class FirefoxPage {
       await this.keyboard.type(text);
     };
     return { boundingBox, pressSequentially, screenshot: () => this.browser.picture(selector) };
+  }
+
+  /** The bytes of the file that the page saves. */
+  async download(act, name) {
+    rmSync(join(this.browser.downloads, name), { force: true });
+    await act();
+    return this.browser.downloaded(name);
+  }
+
+  /** What the page copies, through the clipboard itself. */
+  async copied(act) {
+    await act();
+    return this.browser.runInBrowser(`
+      const item = Cc["@mozilla.org/widget/transferable;1"].createInstance(Ci.nsITransferable);
+      item.init(null);
+      item.addDataFlavor("text/plain");
+      Services.clipboard.getData(item, Ci.nsIClipboard.kGlobalClipboard);
+      const data = {};
+      item.getTransferData("text/plain", data);
+      return data.value.QueryInterface(Ci.nsISupportsString).data;`);
   }
 
   async screenshot({ path }) {

@@ -24,7 +24,7 @@ user_pref("network.captive-portal-service.enabled", false);
 user_pref("network.connectivity-service.enabled", false);
 user_pref("browser.download.folderList", 2);
 user_pref("browser.download.always_ask_before_handling_new_types", false);
-user_pref("browser.helperApps.neverAsk.saveToDisk", "application/octet-stream");
+user_pref("browser.helperApps.neverAsk.saveToDisk", "application/octet-stream,text/csv,application/json,image/png");
 `;
 
 const narrow = ":root, body { min-width: 0 !important; min-height: 0 !important; }"; // a window as small as a phone

@@ -2,7 +2,7 @@
 // What the tests run: the program, and Debian's Chromium, or for firefox.test.mjs Firefox, on the pages that it writes.
 
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -118,6 +118,16 @@ export const inChromium = isFirefox ? () => {} : test;
 /** A test in Chromium, and by firefox.test.mjs in Firefox. */
 export const inBoth = isFirefox && !hasFirefox ? (name) => test(name, { skip: "Firefox or Xvfb is missing (scripts/packages.txt, group browser)" }) : test;
 
+/** What a page copies, which is asked of the page itself: the clipboard is one for all tests. */
+async function copiedBy(page, act) {
+  await page.evaluate(() => {
+    navigator.clipboard.writeText = async (text) => (document.documentElement.dataset.copied = text);
+  });
+  await act();
+  await page.waitForFunction(() => document.documentElement.dataset.copied);
+  return page.evaluate(() => document.documentElement.dataset.copied);
+}
+
 /** Opens a file as a page; what it complains about, and what it asks of the network, is kept in `page.problems`. */
 export async function open(path, { init, ...options } = {}) {
   if (isFirefox) {
@@ -133,6 +143,11 @@ export async function open(path, { init, ...options } = {}) {
   page.on("pageerror", (problem) => page.problems.push(problem.message));
   page.on("dialog", (dialog) => page.problems.push(`dialog: ${dialog.message()}`) && dialog.dismiss());
   page.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && page.problems.push(request.url()));
+  page.download = async (act) => {
+    const [saved] = await Promise.all([page.waitForEvent("download"), act()]);
+    return readFileSync(await saved.path());
+  };
+  page.copied = (act) => copiedBy(page, act);
   await page.goto(`file://${path}`, { timeout: 120_000 });
   return page;
 }
