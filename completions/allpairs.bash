@@ -2,9 +2,16 @@
 
 _allpairs() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
-  local words='' options='' files=''
+  local words='' options='' files='' before=''
   COMPREPLY=()
   ((COMP_CWORD > 1)) || command=''
+  if [[ $current == = ]]; then
+    current=''
+  elif [[ $previous == = ]]; then
+    previous=${COMP_WORDS[COMP_CWORD - 2]}
+  elif [[ $current == --*=* ]]; then
+    previous=${current%%=*} before=${current%%=*}= current=${current#*=}
+  fi
   case $command in
     '') words='detect join plan info elements track view report generate bench completion help -h --help -V --version' ;;
     help) words='detect join plan info elements track view report generate bench completion' ;;
@@ -174,11 +181,11 @@ _allpairs() {
     words=$options files=''
   fi
   if [[ -n $words ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    mapfile -t COMPREPLY < <(compgen -P "$before" -W "$words" -- "$current")
   fi
   if [[ -n $files ]]; then
     compopt -o filenames 2>/dev/null
-    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen "$files" -- "$current")
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -P "$before" "$files" -- "$current")
   fi
 }
 

@@ -136,16 +136,23 @@ std::string bashCompletion(const ProgramWords& program) {
       fmt::format("# Completion of the command {0} for bash; made by '{0} completion bash'.\n\n", program.name);
   text += fmt::format("_{}() {{\n", program.name);
   text += "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}\n";
-  text +=
-      "  local words='' options='' files=''\n  COMPREPLY=()\n  ((COMP_CWORD > 1)) || command=''\n  case $command in\n";
+  text += "  local words='' options='' files='' before=''\n  COMPREPLY=()\n  ((COMP_CWORD > 1)) || command=''\n";
+  text +=  // --option=value: three words, or one where = does not divide words
+      "  if [[ $current == = ]]; then\n    current=''\n  elif [[ $previous == = ]]; then\n"
+      "    previous=${COMP_WORDS[COMP_CWORD - 2]}\n  elif [[ $current == --*=* ]]; then\n"
+      "    previous=${current%%=*} before=${current%%=*}= current=${current#*=}\n  fi\n  case $command in\n";
   text += fmt::format("    '') words='{} help {}' ;;\n", joined(namesOf(program.commands)),
                       joined(namesOf(program.options)));
   text += fmt::format("    help) words='{}' ;;\n", joined(namesOf(program.commands)));
   for (const CommandWords& command : program.commands) text += bashCommand(command);
   text += "  esac\n  if [[ -n $options && $current == -* ]]; then\n    words=$options files=''\n  fi\n";
-  text += "  if [[ -n $words ]]; then\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n  fi\n";
+  text +=
+      "  if [[ -n $words ]]; then\n    mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$words\" -- "
+      "\"$current\")\n  fi\n";
   text += "  if [[ -n $files ]]; then\n    compopt -o filenames 2>/dev/null\n";
-  text += "    mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen \"$files\" -- \"$current\")\n  fi\n}\n\n";
+  text +=
+      "    mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen -P \"$before\" \"$files\" -- \"$current\")\n  "
+      "fi\n}\n\n";
   return text + fmt::format("complete -F _{0} {0}\n", program.name);
 }
 

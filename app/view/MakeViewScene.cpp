@@ -201,7 +201,7 @@ view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& req
     return frames;
   }
   view::ViewScene result;
-  result.title = titleOf(input.paths);
+  result.title = titleOf(input);
   const Timer timer;
   Inputs inputs = readInputs(input);
   const double readSeconds = timer.seconds();

@@ -7,15 +7,18 @@
 #include <filesystem>
 
 #include "cli/Text.h"
+#include "input/SpooledInputs.h"
 
 namespace allpairs::app {
 
 namespace flag = view::flag;
 
-std::string titleOf(const std::vector<std::string>& paths) {
+std::string titleOf(const InputSettings& input) {
   std::vector<std::string> names;
-  for (const std::string& path : paths) {
-    const std::filesystem::path clean = std::filesystem::path(path).lexically_normal();
+  for (const std::string& path : input.paths) {
+    const std::filesystem::path shown =
+        input.spooled == nullptr ? std::filesystem::path(path) : input.spooled->shown(path);
+    const std::filesystem::path clean = shown.lexically_normal();
     names.push_back((clean.has_filename() ? clean : clean.parent_path()).filename().string());
   }
   constexpr std::size_t kShown = 3;

@@ -7,12 +7,13 @@
 
 #include "ViewScene.h"
 #include "allpairs/BoxView.h"
+#include "cli/Options.h"
 #include "detect/Detection.h"
 
 namespace allpairs::app {
 
-/// What the inputs are called, all together: the names of up to three, or how many.
-[[nodiscard]] std::string titleOf(const std::vector<std::string>& paths);
+/// What the user calls the inputs, all together: the names of up to three, or how many.
+[[nodiscard]] std::string titleOf(const InputSettings& input);
 
 /// How boxes are tested, in words.
 [[nodiscard]] std::string boxMethod(const DetectionOptions& options);

@@ -66,6 +66,16 @@ TEST(Completion, OfBashOffersCommandsOptionsAndWords) {
             (Lines{kFolder + "allpairs.bash", kFolder + "allpairs.fish"}));
 }
 
+TEST(Completion, OfBashOffersTheWordsOfAnOptionBehindAnEqualsSign) {
+  if (!hasShell("bash")) GTEST_SKIP() << "bash is not here";
+  EXPECT_EQ(offeredByBash("allpairs detect --format ="), (Lines{"csv", "json", "npy", "table"}));
+  EXPECT_EQ(offeredByBash("allpairs detect --format = c"), (Lines{"csv"}));
+  EXPECT_EQ(offeredByBash("allpairs detect --format=c"), (Lines{"--format=csv"}));
+  EXPECT_EQ(offeredByBash("allpairs detect --output = " + kFolder + "_a"), (Lines{kFolder + "_allpairs"}));
+  EXPECT_EQ(offeredByBash("allpairs detect --output=" + kFolder + "_a"), (Lines{"--output=" + kFolder + "_allpairs"}));
+  EXPECT_EQ(offeredByBash("allpairs detect --distance ="), (Lines{""}));
+}
+
 TEST(Completion, OfFishOffersCommandsOptionsAndWords) {
   if (!hasShell("fish")) GTEST_SKIP() << "fish is not here";
   EXPECT_EQ(offeredByFish("allpairs re"), (Lines{"report"}));

@@ -57,6 +57,15 @@ TEST_F(StandardInput, GivesWhatAFileGives) {
       "\"$0\" generate brownian -n 20 --frames 3 -o f.npy; \"$0\" track f.npy --format csv | cut -d, -f1-4");
 }
 
+TEST_F(StandardInput, IsWhatPagesAndReportsOfItAreCalled) {
+  expectSuccess(run("\"$0\" view - --input-format csv -o page.html < boxes.csv"));
+  EXPECT_EQ(run("grep -o '\"title\":\"[^\"]*' page.html").out, "\"title\":\"standard input\n");
+  expectSuccess(run("mkfifo pipe.npy && { cat boxes.npy > pipe.npy & \"$0\" view boxes.csv pipe.npy -o both.html; }"));
+  EXPECT_EQ(run("grep -o '\"title\":\"[^\"]*' both.html").out, "\"title\":\"boxes.csv, pipe.npy\n");
+  expectSuccess(run("\"$0\" report /dev/stdin --input-format csv -o report < boxes.csv"));
+  EXPECT_EQ(run("grep -o '<title>[^<]*' report/index.html").out, "<title>standard input – clashes\n");
+}
+
 TEST_F(StandardInput, MayBeAPipeWithAName) {
   expectSame("mkfifo pipe.npy && { cat boxes.npy > pipe.npy & \"$0\" detect pipe.npy boxes.csv --format csv; }",
              "rm pipe.npy; cp boxes.npy pipe.npy; \"$0\" detect pipe.npy boxes.csv --format csv");
