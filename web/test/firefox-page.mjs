@@ -22,6 +22,16 @@ function pick(field, value) {
   for (const name of ["input", "change"]) field.dispatchEvent(new Event(name, { bubbles: true }));
 }
 
+/** The middle of an element, brought into sight, or null where that is nothing to click. */
+function middleOf(element) {
+  if (element === null) return null;
+  element.scrollIntoView({ block: "nearest" });
+  const { left, top, width, height } = element.getBoundingClientRect();
+  const place = [left + width / 2, top + height / 2];
+  const met = document.elementFromPoint(...place);
+  return width > 0 && height > 0 && (element.contains(met) || met?.contains(element)) ? place : null;
+}
+
 export class FirefoxPage {
   problems = []; // known when the page is closed
 
@@ -76,18 +86,15 @@ export class FirefoxPage {
     await this.keyboard.press(key);
   }
 
-  /** Clicks into the middle of an element, which is there and not covered. */
+  /** Clicks into the middle of an element once that is there, rests, and is not covered. */
   async click(selector) {
-    await this.waitForSelector(selector);
-    const { x, y, isFree } = await this.$eval(selector, (element) => {
-      element.scrollIntoView({ block: "nearest" });
-      const { left, top, width, height } = element.getBoundingClientRect();
-      const [x, y] = [left + width / 2, top + height / 2];
-      const met = document.elementFromPoint(x, y);
-      return { x, y, isFree: element.contains(met) || met?.contains(element) };
-    });
-    if (!isFree) throw new Error(`${selector} is covered`);
-    await this.browser.click(x, y);
+    const end = Date.now() + deadline;
+    for (let last = ""; ; await pause(20)) {
+      const place = await this.$eval(selector, middleOf);
+      if (place !== null && JSON.stringify(place) === last) return this.browser.click(...place);
+      last = JSON.stringify(place);
+      if (Date.now() > end) throw new Error(`${selector} cannot be clicked`);
+    }
   }
 
   locator(selector) {

@@ -33,31 +33,33 @@ function collisions() {
   return found;
 }
 
-async function checkLayout(viewport, keys, name, prepare = () => {}) {
-  const page = await view("layout", [demo], { viewport });
-  await prepare(page);
-  for (const key of keys) await page.keyboard.press(key);
-  await page.waitForTimeout(100);
-  assert.deepEqual(await page.evaluate(collisions), [], name);
-  await screenshot(page, `layout-${name}`);
-  assert.deepEqual(page.problems, []);
-  return page;
+/** Chooses the first pair, and then the first model, at a size of the window, and checks each time. */
+async function checkLayouts(page, [width, height], name, check = () => {}) {
+  await page.setViewportSize({ width, height });
+  for (const keys of [["p", "j"], ["m", "j"]]) {
+    await page.keyboard.press("Escape");
+    for (const key of keys) await page.keyboard.press(key);
+    await page.waitForTimeout(100);
+    const what = `${width}x${height}-${name}-${keys[0]}`;
+    assert.deepEqual(await page.evaluate(collisions), [], what);
+    await screenshot(page, `layout-${what}`);
+    await check(keys[0] === "p" ? "#details .link.first" : "#details .model-name");
+  }
 }
 
 inChromium("nothing covers anything else, on small and wide screens and with large text", async () => {
+  const page = await view("layout", [demo]);
   for (const [width, height, font] of [[1280, 800, "16px"], [1280, 800, "32px"], [2560, 1080, "16px"], [700, 900, "20px"], [853, 533, "16px"]]) {
-    for (const keys of [["j"], ["m", "j"]]) {
-      const enlarge = (page) => page.evaluate((size) => (document.documentElement.style.fontSize = size), font);
-      const page = await checkLayout({ width, height }, keys, `${width}x${height}-${font}-${keys.join("")}`, enlarge);
-      if (width > 800 && font === "16px") {
-        const chosen = keys.length === 1 ? "#details .link.first" : "#details .model-name";
-        assert.ok((await page.locator(chosen).boundingBox()).y < height, "what is chosen is in sight");
-        const footer = await page.locator("footer").boundingBox();
-        assert.ok(height < 600 || footer.y + footer.height <= height, "all of the panel is in sight");
-      }
-      await page.close();
-    }
+    await page.evaluate((size) => (document.documentElement.style.fontSize = size), font);
+    await checkLayouts(page, [width, height], font, async (chosen) => {
+      if (width <= 800 || font !== "16px") return;
+      assert.ok((await page.locator(chosen).boundingBox()).y < height, "what is chosen is in sight");
+      const footer = await page.locator("footer").boundingBox();
+      assert.ok(height < 600 || footer.y + footer.height <= height, "all of the panel is in sight");
+    });
   }
+  assert.deepEqual(page.problems, []);
+  await page.close();
 });
 
 /** A train of wheels, each of which clashes with the next, as mesh files. */
@@ -124,13 +126,13 @@ inBoth("a clash list: nothing is cut, and the picture stays in sight when a pair
 inChromium("the page follows the browser's own size of text", async () => {
   await stopBrowser();
   await startBrowser("--blink-settings=defaultFontSize=32");
-  for (const [width, height] of [[1280, 800], [1920, 1080]]) {
-    for (const keys of [["j"], ["m", "j"]]) {
-      const page = await checkLayout({ width, height }, keys, `${width}x${height}-browser-${keys.join("")}`);
-      assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector("#title")).fontSize), "36px");
-      await page.close();
-    }
+  const page = await view("layout", [demo]);
+  for (const size of [[1280, 800], [1920, 1080]]) {
+    await checkLayouts(page, size, "browser");
+    assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector("#title")).fontSize), "36px");
   }
+  assert.deepEqual(page.problems, []);
+  await page.close();
   await stopBrowser();
   await startBrowser();
 });
