@@ -98,6 +98,12 @@ export class App extends EventTarget {
     return this.isSelf ? [this.models[0], this.models[0]] : this.models.length === 2 ? this.models : null;
   }
 
+  /** The pair of the model that is chosen and another, or null where none is, or they are no pair. */
+  pairWith(model) {
+    const entry = this.models.length === 1 && this.models[0] !== model ? this.table.find(this.models[0], model) : -1;
+    return entry < 0 ? null : [this.table.first(entry), this.table.second(entry)];
+  }
+
   /** What shapes say of the pair that is chosen, or null. */
   get finding() {
     return this.scene.exact !== null && this.entry >= 0 && this.entry < this.table.found ? this.scene.exact.of(this.entry) : null;

@@ -217,8 +217,8 @@ export function setUpHover(app) {
 
 const clickReach = 4; // pixels that a click may move before it is a drag
 
-/** A click chooses the model under the pointer, or while points are measured takes a point; with Shift, boxes count and not
- * shapes. */
+/** A click chooses the model under the pointer, then with a click on a partner of it their pair, or while points are measured
+ * takes a point; with Shift, boxes count and not shapes. */
 export function setUpPointer(app, measure) {
   const { stage } = app;
   if (!stage) return;
@@ -232,8 +232,9 @@ export function setUpPointer(app, measure) {
     const onlyBoxes = event.shiftKey || !app.show.shapes;
     if (measure.isOn) return measure.add(event.clientX, event.clientY, onlyBoxes);
     const model = app.hitAt(event.clientX, event.clientY, onlyBoxes)?.model ?? -1;
-    app.choose(model < 0 ? [] : [model], { look: false });
-    if (model >= 0) openTab("models");
+    const models = model < 0 ? [] : app.pairWith(model) ?? [model];
+    app.choose(models, { look: false });
+    if (model >= 0) openTab(models.length === 2 ? "pairs" : "models");
   });
   stage.canvas.addEventListener("dblclick", () => app.lookAtChosen());
 }

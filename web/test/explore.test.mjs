@@ -202,6 +202,34 @@ inBoth("what is listed is saved as in the report, as CSV and as JSON, names are 
   }
 });
 
+inBoth("a click chooses a model, and a click on a partner of it their pair", async () => {
+  const blocks = [cuboid("left", [0, 0, 0], [2, 2, 1]), cuboid("right", [1.9, 0, 0], [4, 2, 1]), cuboid("far", [10, 0, 0], [12, 2, 1])];
+  const page = await view("clicks", [write("clicks.obj", blocks.join(""))], { exact: true });
+  for (const key of ["Escape", "u", "u", "u", "a"]) await page.keyboard.press(key); // x goes to the right and down
+  const area = await page.locator("#canvas").boundingBox();
+  const chosen = async ([x, y]) => {
+    await page.mouse.click(area.x + x * area.width, area.y + y * area.height);
+    return page.$$eval("#details .model-name, #details .link.first, #details .link.second", (names) => names.map((name) => name.textContent));
+  };
+  const of = new Map();
+  for (const slope of [0.3, 0.5, 0.1, 0.7]) {
+    for (let x = 0.1; x < 0.95 && of.size < 3; x += 0.1) {
+      await page.keyboard.press("Escape");
+      const place = [x, 0.5 + slope * (x - 0.5)];
+      for (const name of await chosen(place)) of.set(name, place);
+    }
+  }
+  await page.keyboard.press("Escape");
+  assert.deepEqual(await chosen(of.get("left")), ["left"]);
+  assert.deepEqual((await chosen(of.get("right"))).sort(), ["left", "right"]);
+  assert.equal(await page.isVisible("#panel-pairs"), true);
+  assert.deepEqual(await chosen(of.get("left")), ["left"]);
+  assert.deepEqual(await chosen(of.get("far")), ["far"], "which is no partner of it");
+  assert.equal(await page.isVisible("#panel-models"), true);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 inBoth("rows of what is hidden are marked, and sliders say what their values mean", { skip }, async () => {
   const page = await view("marked", [nested()], { exact: true });
   const unseen = (list) => page.$$eval(`#${list} .row`, (rows) => rows.sort((a, b) => a.dataset.index - b.dataset.index).map((row) => [row.classList.contains("unseen"), row.textContent.includes("hidden")].join()));
