@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "report/ReportFolder.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "Report.h"
 #include "allpairs/scene/FileError.h"
+#include "cli/ExitStatus.h"
+#include "cli/Options.h"
 #include "cli/Output.h"
 
 namespace allpairs::app {
@@ -19,10 +24,18 @@ bool holdsReport(const fs::path& folder) {
   return fs::exists(folder / "index.html", ignored) && fs::exists(folder / "clashes.csv", ignored);
 }
 
+/// Whether a name is that of a file such as a report consists of, and so hardly that of a folder.
+bool looksLikeFile(const fs::path& folder) {
+  constexpr std::array<std::string_view, 4> kSuffixes{".html", ".htm", ".csv", ".bcf"};
+  return std::find(kSuffixes.begin(), kSuffixes.end(), lowerExtension(folder.string())) != kSuffixes.end();
+}
+
 }  // namespace
 
 void checkReportFolder(const fs::path& folder, bool force) {
   std::error_code ignored;
+  if (looksLikeFile(folder) && !fs::exists(folder, ignored))
+    throw UsageError("-o: '" + folder.string() + "': a report is a folder, which holds index.html and clashes.bcf");
   if (fs::is_regular_file(folder, ignored)) throw FileError(folder, "is a file; -o takes a folder");
   for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
     if (fs::is_regular_file(above, ignored)) {

@@ -13,7 +13,7 @@ namespace allpairs::app {
 /// Fails before the work that a report needs where the folder cannot be: a file is in its place, or, unless it is forced,
 /// the folder holds something else than an earlier report.
 ///
-/// Bad input: throws FileError.
+/// Bad input: throws FileError; a new folder that is called like a file of a report, UsageError.
 void checkReportFolder(const std::filesystem::path& folder, bool force);
 
 /// The files of a report. Each appears when it is complete; without commit(), those that were not there before are taken

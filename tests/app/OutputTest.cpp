@@ -76,6 +76,13 @@ TEST(OutputFile, OfANameThatEndsInNoFormatIsWrongUsage) {
     EXPECT_FALSE(std::filesystem::exists(file));
   }
   expectFailure(runProgram({"view", boxes, "-o", folder.path() / "page.pdf"}), 2, "a page is written as .html");
+  for (const char* name : {"report.html", "clashes.BCF", "clashes.csv"}) {
+    expectFailure(runProgram({"report", boxes, "-o", folder.path() / name}), 2, "a report is a folder");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / name));
+  }
+  std::filesystem::create_directory(folder.path() / "old.html");
+  for (const char* name : {"v1.2", "old.html"})
+    expectSuccess(runProgram({"report", boxes, "-o", folder.path() / name}));
   for (const char* name : {"pairs", "pairs.txt", "pairs.CSV", ".pairs"}) {
     expectSuccess(runProgram({"detect", boxes, "-o", folder.path() / name}));
   }
