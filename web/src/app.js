@@ -113,19 +113,15 @@ export class App extends EventTarget {
     if (!this.stage || this.models.length === 0) return;
     const { finding } = this;
     if (finding && finding.state !== state.notExamined && !this.stage.isExploded) return this.stage.lookAtContact(finding, this.models, this.scene.exact.viewOf(this.entry));
-    const corners = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
-    for (const model of this.models) {
-      const box = this.stage.boxOf(model);
-      for (let k = 0; k < 3; ++k) {
-        corners[k] = Math.min(corners[k], box[k]);
-        corners[k + 3] = Math.max(corners[k + 3], box[k + 3]);
-      }
-    }
-    if (corners[0] <= corners[3]) this.stage.lookAt(corners);
+    const corners = this.stage.boxAround(this.models);
+    if (corners) this.stage.lookAt(corners);
   }
 
+  /** Looks at everything that is not hidden. */
   lookAtAll() {
-    this.stage?.lookAt(this.stage.sight);
+    if (!this.stage) return;
+    const shown = this.visibility.hidden.size > 0 ? Array.from({ length: this.scene.models }, (_, i) => i).filter((i) => this.visibility.isShown(i)) : [];
+    this.stage.lookAt(this.stage.boxAround(shown) ?? this.stage.sight);
   }
 
   /** What a ray through a place of the window meets first, as Stage.hitAt() gives it: what is faint only where nothing else is. */

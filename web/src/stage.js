@@ -164,6 +164,20 @@ export class Stage extends EventTarget {
     return this.drawn.subarray(6 * model, 6 * model + 6);
   }
 
+  /** The box around those of some models, as six numbers, or null where all of these are empty. */
+  boxAround(models) {
+    const corners = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+    for (const model of models) {
+      const box = this.boxOf(model);
+      if (box[0] > box[3]) continue; // empty
+      for (let k = 0; k < 3; ++k) {
+        corners[k] = Math.min(corners[k], box[k]);
+        corners[k + 3] = Math.max(corners[k + 3], box[k + 3]);
+      }
+    }
+    return corners[0] <= corners[3] ? corners : null;
+  }
+
   /** Draws the boxes of up to two models bold, and what they share. */
   setChosen(models, showBoxes = true) {
     this.chosen.forEach((helper, i) => {

@@ -226,6 +226,8 @@ inBoth("a click chooses a model, and a click on a partner of it their pair", asy
   assert.deepEqual(await chosen(of.get("left")), ["left"]);
   assert.deepEqual(await chosen(of.get("far")), ["far"], "which is no partner of it");
   assert.equal(await page.isVisible("#panel-models"), true);
+  for (const key of ["i", "a", "Escape"]) await page.keyboard.press(key);
+  assert.deepEqual(await chosen([0.5, 0.5]), ["far"], "everything is what is not hidden");
   assert.deepEqual(page.problems, []);
   await page.close();
 });
