@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -147,27 +150,46 @@ Timing show(const Film& film, btBroadphaseInterface& broadphase) {
   return timing;
 }
 
-template <class Broadphase>
-Timing best(const Film& film, int repetitions) {
-  Timing best;
-  for (int i = 0; i < repetitions; ++i) {
-    Broadphase broadphase;
-    const Timing timing = show(film, broadphase);
-    if (i == 0 || timing.total() < best.total()) best = timing;
-  }
-  return best;
+/// The run in the middle, by its whole time.
+Timing median(std::vector<Timing> timings) {
+  const auto middle = timings.begin() + static_cast<std::ptrdiff_t>(timings.size() / 2);
+  std::nth_element(timings.begin(), middle, timings.end(),
+                   [](const Timing& a, const Timing& b) { return a.total() < b.total(); });
+  return *middle;
 }
 
+struct Contender {
+  const char* name;
+  std::function<std::unique_ptr<btBroadphaseInterface>()> make;
+};
+
+std::unique_ptr<btBroadphaseInterface> makeNumbered() {
+  allpairs::BulletBroadphaseOptions options;
+  options.number = [next = 0](const btBroadphaseProxy&) mutable { return next++; };
+  return std::make_unique<allpairs::BulletBroadphase>(options);
+}
+
+/// Each shows the film in turns.
 void compare(const std::string& name, const Film& film) {
-  constexpr int kRepetitions = 5;
-  const Timing theirs = best<btDbvtBroadphase>(film, kRepetitions);
-  const Timing ours = best<allpairs::BulletBroadphase>(film, kRepetitions);
-  for (const auto& [who, timing] : {std::pair("btDbvtBroadphase", theirs), std::pair("BulletBroadphase", ours)}) {
-    fmt::print("{:<12} {:<17} {:8.3f} ms a step ({:.3f} setAabb, {:.3f} pairs), {} pairs, {} of them exact\n", name,
-               who, timing.total() * 1e3, timing.moving * 1e3, timing.pairing * 1e3, timing.pairs, timing.exactPairs);
+  constexpr int kRepetitions = 9;
+  const std::array<Contender, 3> contenders{{
+      {"btDbvtBroadphase", [] { return std::make_unique<btDbvtBroadphase>(); }},
+      {"BulletBroadphase", [] { return std::make_unique<allpairs::BulletBroadphase>(); }},
+      {"with numbers", makeNumbered},
+  }};
+  std::array<std::vector<Timing>, contenders.size()> timings;
+  for (int run = 0; run < kRepetitions; ++run) {
+    for (std::size_t i = 0; i < contenders.size(); ++i) timings[i].push_back(show(film, *contenders[i].make()));
   }
-  fmt::print("{:<12} ratio {:.2f}{}\n", name, theirs.total() / ours.total(),
-             theirs.exactPairs == ours.pairs ? "" : "; THE PAIRS DIFFER");
+  const Timing theirs = median(timings[0]);
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    const Timing timing = median(timings[i]);
+    fmt::print(
+        "{:<12} {:<17} {:8.3f} ms a step ({:.3f} setAabb, {:.3f} pairs), {} pairs, {} of them exact, ratio {:.2f}{}\n",
+        name, contenders[i].name, timing.total() * 1e3, timing.moving * 1e3, timing.pairing * 1e3, timing.pairs,
+        timing.exactPairs, theirs.total() / timing.total(),
+        theirs.exactPairs == timing.exactPairs ? "" : "; THE PAIRS DIFFER");
+  }
 }
 
 }  // namespace

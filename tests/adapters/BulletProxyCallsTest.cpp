@@ -164,6 +164,28 @@ TEST(BulletProxyCalls, InAnyOrderLeaveExactlyTheDemandedPairsInASortedCache) {
   expectExactPairsAfterAnyCalls<btSortedOverlappingPairCache>();
 }
 
+TEST(BulletProxyCalls, InAnyOrderLeaveExactlyTheDemandedPairsInOrderIfProxiesHaveNumbers) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    int next = 0;
+    const auto number = [&next](const btBroadphaseProxy&) { return ++next * 7919 % 10007; };
+    BulletBroadphase broadphase({.immediatePairs = static_cast<ImmediatePairs>(seed % 3), .number = number});
+    Caller caller(broadphase, seed);
+    for (int call = 0; call < kCalls; ++call) {
+      caller.callAny();
+      if (caller.number(3) != 0) continue;
+      broadphase.calculateOverlappingPairs(nullptr);
+      btOverlappingPairCache& cache = *broadphase.getOverlappingPairCache();
+      ASSERT_EQ(pairsOf(cache), caller.demanded()) << "seed " << seed << ", call " << call;
+      std::vector<std::pair<int, int>> held;
+      for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+        const btBroadphasePair& pair = cache.getOverlappingPairArray()[i];
+        held.emplace_back(pair.m_pProxy0->getUid(), pair.m_pProxy1->getUid());
+      }
+      ASSERT_TRUE(std::is_sorted(held.begin(), held.end())) << "seed " << seed << ", call " << call;
+    }
+  }
+}
+
 TEST(BulletProxyCalls, InAnyOrderLeaveANullCacheEmptyAndTheWorldWithItsPairs) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     btNullPairCache cache;

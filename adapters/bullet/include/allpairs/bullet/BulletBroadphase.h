@@ -17,37 +17,17 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "allpairs/Error.h"
 #include "allpairs/World.h"
+#include "allpairs/bullet/BulletBroadphaseOptions.h"
+#include "allpairs/bullet/OrderedPairCache.h"
 
 namespace allpairs {
-
-/// Whose new pairs BulletBroadphase adds as soon as a proxy is created or its box is set.
-enum class ImmediatePairs : std::uint8_t {
-  None,    ///< Nobody's: all pairs are added in calculateOverlappingPairs().
-  Ghosts,  ///< Those of ghost objects, which character controllers move and ask between steps.
-  All,     ///< Those of every proxy, as in a btDbvtBroadphase, at more than its cost: a query for each box that is set.
-};
-
-/// Settings of BulletBroadphase; the defaults are right for most worlds.
-struct BulletBroadphaseOptions {
-  /// Where Bullet keeps its pairs, not owned; null gives the broad phase a btHashedOverlappingPairCache of its own.
-  btOverlappingPairCache* pairCache = nullptr;
-
-  /// Runs parallel work; null means on the calling thread. Not owned.
-  Executor* executor = nullptr;
-
-  /// Unless it is None, proxies that are created with a dispatcher must have null or a btCollisionObject as their client
-  /// object, as in all of Bullet's worlds.
-  ImmediatePairs immediatePairs = ImmediatePairs::Ghosts;
-
-  /// How far around its box a ghost object with CF_CHARACTER_OBJECT has pairs, unless immediatePairs is None. A
-  /// btKinematicCharacterController looks only among the pairs of its ghost for what is in the way of a move; this is
-  /// how far it sees, in a btDbvtBroadphase too. With 0 its pairs are exact.
-  btScalar characterMargin = btScalar(0.05);
-};
 
 /// A broad phase for Bullet on allpairs::World: give it to a btDiscreteDynamicsWorld in place of a btDbvtBroadphase.
 ///
@@ -60,7 +40,10 @@ struct BulletBroadphaseOptions {
 ///
 /// Geometry:  boxes are closed, in the precision of btScalar. Rays, with the box that Bullet may give them, are tested
 ///            in double.
-/// Bad input: a box with a NaN throws InvalidBox.
+/// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same. With
+///            BulletBroadphaseOptions::number the order does not depend on earlier calls either.
+/// Bad input: a box with a NaN throws InvalidBox; a number that is negative or taken, and a number with a pairCache,
+///            InvalidArgument. The call then has no effect.
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the cache.
 /// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
 ///            too, and must not add, move or remove proxies.
@@ -70,10 +53,20 @@ class BulletBroadphase : public btBroadphaseInterface {
       : m_executor(options.executor),
         m_immediatePairs(options.immediatePairs),
         m_characterMargin(options.characterMargin),
+        m_number(options.number),
         m_world(makeWorld()),
         m_cache(options.pairCache) {
+    if (m_number && m_cache != nullptr) {
+      throw InvalidArgument("BulletBroadphaseOptions: pairs are ordered by number in the broad phase's own cache only");
+    }
     if (m_cache != nullptr) return;
-    m_ownCache = std::make_unique<btHashedOverlappingPairCache>();
+    if (m_number) {
+      auto ordered = std::make_unique<OrderedPairCache>();
+      m_ordered = ordered.get();
+      m_ownCache = std::move(ordered);
+    } else {
+      m_ownCache = std::make_unique<btHashedOverlappingPairCache>();
+    }
     m_cache = m_ownCache.get();
   }
 
@@ -88,22 +81,23 @@ class BulletBroadphase : public btBroadphaseInterface {
                                  int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override {
     if (m_proxies.size() <= m_world.idBound()) m_proxies.push_back(std::make_unique<Proxy>());
     Proxy made(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
+    made.m_uniqueId = 0;
     made.knownGroup = collisionFilterGroup;
     made.knownMask = collisionFilterMask;
     made.isThere = true;
     made.isGhost = isGhost(made, dispatcher);
-    const BoxId id =
-        m_world.add(reachOf(made, aabbMin, aabbMax), propertiesOf(collisionFilterGroup, collisionFilterMask));
-    made.m_uniqueId = static_cast<int>(id) + 1;  // dense, which suits the hash of the pair cache; 0 is Bullet's own
-    *m_proxies[id] = made;
-    if (isImmediate(made)) addPairsOf(*m_proxies[id]);
-    return m_proxies[id].get();
+    addToWorld(made);
+    Proxy& proxy = *m_proxies[made.id];
+    proxy = made;
+    if (isImmediate(proxy)) addPairsOf(proxy);
+    return &proxy;
   }
 
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override {
     m_cache->removeOverlappingPairsContainingProxy(proxy, dispatcher);
     const BoxId id = idOf(*proxy);
     m_world.remove(id);
+    m_numbers.erase(proxy->m_uniqueId);
     m_proxies[id]->isThere = false;
   }
 
@@ -146,6 +140,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     m_early.clear();
     noteChanges(step);
     if (!isComplete()) restorePairs(step.pairs, dispatcher);
+    if (m_ordered != nullptr) m_ordered->order();
   }
 
   btOverlappingPairCache* getOverlappingPairCache() override { return m_cache; }
@@ -190,6 +185,7 @@ class BulletBroadphase : public btBroadphaseInterface {
       return m_collisionFilterGroup == knownGroup && m_collisionFilterMask == knownMask;
     }
 
+    BoxId id = kNoBox;
     int knownGroup = 0;  ///< What the world was told.
     int knownMask = 0;
     bool isThere = false;  ///< Not destroyed.
@@ -200,7 +196,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
   }
   static Box toBox(const btVector3& min, const btVector3& max) { return {toArray(min), toArray(max)}; }
-  static BoxId idOf(const btBroadphaseProxy& proxy) { return static_cast<BoxId>(proxy.m_uniqueId - 1); }
+  static BoxId idOf(const btBroadphaseProxy& proxy) { return static_cast<const Proxy&>(proxy).id; }
 
   static btVector3 minimum(btVector3 a, const btVector3& b) {
     a.setMin(b);
@@ -218,6 +214,29 @@ class BulletBroadphase : public btBroadphaseInterface {
       return m_filter == nullptr || m_filter->needBroadphaseCollision(m_proxies[a].get(), m_proxies[b].get());
     };
     return World(std::move(options));
+  }
+
+  /// Gives a proxy its id and its m_uniqueId.
+  void addToWorld(Proxy& proxy) {
+    if (m_number) takeNumber(proxy);
+    try {
+      proxy.id = m_world.add(reachOf(proxy, proxy.m_aabbMin, proxy.m_aabbMax),
+                             propertiesOf(proxy.knownGroup, proxy.knownMask));
+    } catch (...) {
+      m_numbers.erase(proxy.m_uniqueId);
+      throw;
+    }
+    // Ids are dense, which suits the hash of the pair cache; 0 is Bullet's own.
+    if (!m_number) proxy.m_uniqueId = static_cast<int>(proxy.id) + 1;
+  }
+
+  void takeNumber(Proxy& proxy) {
+    const int number = m_number(proxy);
+    if (number < 0) throw InvalidArgument("BulletBroadphase: the number " + std::to_string(number) + " is negative");
+    if (!m_numbers.insert(number).second) {
+      throw InvalidArgument("BulletBroadphase: the number " + std::to_string(number) + " is another proxy's");
+    }
+    proxy.m_uniqueId = number;
   }
 
   /// A filter callback takes the place of groups and masks.
@@ -429,6 +448,9 @@ class BulletBroadphase : public btBroadphaseInterface {
   Executor* m_executor;
   ImmediatePairs m_immediatePairs;
   btScalar m_characterMargin;
+  std::function<int(const btBroadphaseProxy&)> m_number;
+  std::unordered_set<int> m_numbers;      // of all proxies, if they have numbers
+  OrderedPairCache* m_ordered = nullptr;  // the own cache, if proxies have numbers
   btOverlapFilterCallback* m_filter = nullptr;
   std::vector<std::unique_ptr<Proxy> > m_proxies;  // by id; one that was destroyed waits for a box with its id
   World m_world;
