@@ -190,9 +190,19 @@ def with_margins(boxes: _core.Boxes, margin: npt.ArrayLike | None, prefix: str =
 
 
 def boxes_of(lower: npt.ArrayLike, upper: npt.ArrayLike | None, prefix: str = "") -> _core.Boxes:
-    """Boxes of a world, or for one; a single one too. ``prefix`` is how errors call them where there are two sets."""
+    """Boxes of three axes; a single one too. ``prefix`` is how errors call them where there are two sets."""
     corners = _corners(lower, upper, prefix, (3,), single=True)
     return _core.Boxes(corners[0], corners[1], prefix)
+
+
+def world_boxes(lower: npt.ArrayLike, upper: npt.ArrayLike | None, prefix: str = "") -> _core.Boxes:
+    """Boxes of a world, or for one; a single one too. Those in the plane are unbounded in depth, so that it decides
+    nothing, whatever the margins will be."""
+    low, high = _corners(lower, upper, prefix, (3, 2), single=True)
+    if low.shape[1] == 2:
+        deep = np.full((len(low), 1), np.inf, low.dtype)
+        low, high = np.hstack([low, -deep]), np.hstack([high, deep])
+    return _core.Boxes(low, high, prefix)
 
 
 class BoxSet(NamedTuple):
@@ -277,11 +287,11 @@ def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Points or directions as rows of three."""
+    """Points or directions as rows of three; those in the plane have no depth."""
     array: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3)")
-    return array
+    if array.ndim != 2 or array.shape[1] not in (3, 2):
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3) or (k, 2)")
+    return array if array.shape[1] == 3 else np.pad(array, ((0, 0), (0, 1)))
 
 
 def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.uint32]:

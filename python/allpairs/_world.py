@@ -72,6 +72,10 @@ class World:
 
     Each step costs what has changed since the last one. Boxes are closed.
 
+    Boxes may be in the plane, of two axes: they are unbounded in depth, so that pairs and queries depend on the two axes
+    alone. Points, rays and boxes of queries may be in the plane too: points and rays there have depth 0. Boxes of two and
+    of three axes may be in one world.
+
     Boxes may be of many worlds, such as the copies of a scene that robots learn in: those of different worlds are never
     pairs and are not tested against each other, wherever they are. A step then searches the worlds in which a box has
     changed.
@@ -154,7 +158,8 @@ class World:
         Parameters
         ----------
         lower, upper : array_like, shape (n, 3), or one of shape (n, 6)
-            As in `allpairs.overlaps`, of three axes; one box may have shape (3,) or (6,). They are copied.
+            As in `allpairs.overlaps`; in the plane (n, 2) or (n, 4). One box may have shape (3,) or (6,), in the plane
+            (2,) or (4,). They are copied.
         category, mask : int or array_like, shape (n,)
             Bits: a pair is kept if each box's mask shares a bit with the other's category. All bits are set by default.
         group : int or array_like, shape (n,)
@@ -171,7 +176,7 @@ class World:
         ndarray, shape (n,), uint32
             The ids of the boxes. Ids of removed boxes are reused.
         """
-        boxes = _arguments.boxes_of(lower, upper)
+        boxes = _arguments.world_boxes(lower, upper)
         return np.asarray(self._core.add(boxes, _properties(len(boxes), locals())))
 
     def move(self, ids: npt.ArrayLike, lower: npt.ArrayLike, upper: npt.ArrayLike | None = None) -> None:
@@ -181,8 +186,9 @@ class World:
         ----------
         ids : array_like, shape (k,), integers
         lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
+            With 2 and 4 instead of 3 and 6 in the plane.
         """
-        self._core.move(_arguments.ids(ids), _arguments.boxes_of(lower, upper))
+        self._core.move(_arguments.ids(ids), _arguments.world_boxes(lower, upper))
 
     def move_swept(
         self, ids: npt.ArrayLike, starts: _arguments.BoxesLike, ends: _arguments.BoxesLike
@@ -193,9 +199,10 @@ class World:
         ----------
         ids : array_like, shape (k,), integers
         starts, ends : array_like, shape (k, 6), or tuple of two array_like of shape (k, 3)
+            With 4 and 2 instead of 6 and 3 in the plane.
         """
-        begin = _arguments.boxes_of(*_arguments.two_corners(starts, "starts: "), "starts: ")
-        end = _arguments.boxes_of(*_arguments.two_corners(ends, "ends: "), "ends: ")
+        begin = _arguments.world_boxes(*_arguments.two_corners(starts, "starts: "), "starts: ")
+        end = _arguments.world_boxes(*_arguments.two_corners(ends, "ends: "), "ends: ")
         self._core.move_swept(_arguments.ids(ids), begin, end)
 
     def remove(self, ids: npt.ArrayLike) -> None:
@@ -239,6 +246,7 @@ class World:
         Returns
         -------
         ndarray, shape (k, 6), float64
+            A box in the plane reaches from minus infinity to infinity in depth.
         """
         return np.asarray(self._core.boxes(_arguments.ids(ids)))
 
@@ -273,6 +281,7 @@ class World:
         Parameters
         ----------
         lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
+            With 2 and 4 instead of 3 and 6 in the plane.
         category, mask : int
             Only boxes whose category shares a bit with ``mask`` and whose mask with ``category``.
         static, moving : bool
@@ -286,7 +295,7 @@ class World:
             In each row the index of a query and the id of a box, in ascending order.
         """
         query = _query_filter(locals())
-        return np.asarray(self._core.overlapping(_arguments.boxes_of(lower, upper), query))
+        return np.asarray(self._core.overlapping(_arguments.world_boxes(lower, upper), query))
 
     def first_hits(
         self,
@@ -304,7 +313,7 @@ class World:
 
         Parameters
         ----------
-        origins, directions : array_like, shape (k, 3) or (3,)
+        origins, directions : array_like, shape (k, 3) or (3,); in the plane (k, 2) or (2,)
         length : float or array_like, shape (k,)
             Rays end at ``origin + length * direction``.
 
@@ -339,7 +348,7 @@ class World:
 
         Parameters
         ----------
-        points : array_like, shape (n, 3) or (3,)
+        points : array_like, shape (n, 3) or (3,); in the plane (n, 2) or (2,)
         k : int
 
         The others are those of `overlapping`.

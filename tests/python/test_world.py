@@ -205,8 +205,8 @@ def test_one_box_needs_no_list():
     assert world.step().ended.tolist() == [[0, 1]]
     assert world.overlapping([0, 0, 0, 9, 9, 9]).tolist() == [[0, 0], [0, 1]]
     assert world.overlapping((2, 2, 2), (4, 4, 4)).tolist() == [[0, 1]]
-    with pytest.raises(allpairs.InvalidArgument, match=r"lower has shape \(4,\)"):
-        world.overlapping([0, 0, 1, 1])
+    with pytest.raises(allpairs.InvalidArgument, match=r"lower has shape \(5,\)"):
+        world.overlapping([0, 0, 1, 1, 1])
 
 
 def crowd(n, rng):
