@@ -18,6 +18,8 @@
 
 #include "FclScene.h"
 #include "allpairs/Error.h"
+#include "allpairs/Executor.h"
+#include "allpairs/FunctionRef.h"
 #include "allpairs/fcl/FclBroadPhaseManager.h"
 
 namespace allpairs::test {
@@ -234,6 +236,45 @@ TYPED_TEST(FclManager, FindsTheSamePairsWhetherFewObjectsMoveOrMany) {
     EXPECT_THAT(candidates(this->m_ours), ::testing::UnorderedElementsAreArray(overlapping(objects)))
         << "seed " << kSceneSeed << ", every " << stride;
   }
+}
+
+/// Counts the searches that ask it how to divide their work.
+class CountingExecutor final : public Executor {
+ public:
+  [[nodiscard]] std::size_t concurrency() const noexcept override {
+    ++m_asked;
+    return 2;
+  }
+
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    ++m_asked;
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  }
+
+  [[nodiscard]] int takeAsked() { return std::exchange(m_asked, 0); }
+
+ private:
+  mutable int m_asked = 0;
+};
+
+TYPED_TEST(FclManager, SearchesNothingBeforeItIsAskedFor) {
+  CountingExecutor executor;
+  FclBroadPhaseManager<TypeParam> manager({.executor = &executor});
+  const auto objects = this->addObjects(3000, TypeParam(40));
+  const auto changeAll = [&] {
+    for (auto* object : objects) this->place(*object, TypeParam(40));
+    manager.update();
+  };
+  manager.registerObjects(objects);
+  manager.setup();
+  changeAll();
+  EXPECT_EQ(executor.takeAsked(), 0);
+  this->collisions(manager);
+  EXPECT_GT(executor.takeAsked(), 0);
+  changeAll();
+  EXPECT_EQ(executor.takeAsked(), 0);
+  this->collisions(manager, objects[7]);  // one query is a scan
+  EXPECT_EQ(executor.takeAsked(), 0);
 }
 
 TYPED_TEST(FclManager, BoxesThatTouchAreAPairAndTheNextNumberIsApart) {

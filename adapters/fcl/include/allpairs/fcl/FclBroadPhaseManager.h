@@ -221,7 +221,7 @@ class FclBroadPhaseManager : public FclTree<S> {
   /// Calls visit(id) for the objects whose boxes overlap a box until it returns true, and says whether it did.
   template <class Visit>
   bool eachOverlapping(const Bounds& bounds, const Visit& visit) const {
-    if (!isBox(bounds)) return false;
+    if (!isBox(bounds) || !m_objects.mayOverlap(bounds)) return false;
     const World* const world = m_search.worldForQuery(m_objects.rows());
     if (world == nullptr) return scan(bounds, visit);
     const std::vector<BoxId> found = world->findOverlapping(toBox(bounds));
@@ -262,7 +262,8 @@ class FclBroadPhaseManager : public FclTree<S> {
   void scanWith(const FclBroadPhaseManager& other, void* data, CollisionCallBack callback) const {
     for (BoxId id = 0; id < m_objects.bound(); ++id) {
       const auto ask = [&](BoxId found) { return callback(m_objects[id], other.m_objects[found], data); };
-      if (m_objects.hasBox(id) && other.scan(m_objects.bounds(id), ask)) return;
+      if (!m_objects.hasBox(id) || !other.m_objects.mayOverlap(m_objects.bounds(id))) continue;
+      if (other.scan(m_objects.bounds(id), ask)) return;
     }
   }
 

@@ -87,6 +87,8 @@ class FclObjects {
     for (int axis = 0; axis < 3; ++axis) {
       row[axis] = now.min_[axis];
       row[3 + axis] = now.max_[axis];
+      m_hull.min_[axis] = std::min(m_hull.min_[axis], now.min_[axis]);
+      m_hull.max_[axis] = std::max(m_hull.max_[axis], now.max_[axis]);
     }
     return true;
   }
@@ -117,6 +119,9 @@ class FclObjects {
     }
     return hasBox(number);
   }
+
+  /// Whether a box that is not empty overlaps the box around all that were read since the last clear(): else it overlaps none.
+  [[nodiscard]] bool mayOverlap(const Bounds& other) const { return m_hull.overlap(other); }
 
   /// The square of the distance of an object's box from another box.
   [[nodiscard]] S squaredDistance(BoxId number, const Bounds& other) const {
@@ -153,6 +158,7 @@ class FclObjects {
 
   std::vector<Object*> m_objects;
   std::vector<S> m_rows;
+  Bounds m_hull;  // empty without any
   std::unordered_map<Object*, BoxId> m_numbers;
   std::vector<BoxId> m_free;
 };
