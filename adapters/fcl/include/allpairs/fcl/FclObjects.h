@@ -9,12 +9,12 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/Error.h"
 #include "allpairs/Pair.h"
+#include "allpairs/fcl/ObjectNumbers.h"
 
 namespace allpairs {
 
@@ -27,10 +27,7 @@ class FclObjects {
   using Bounds = ::fcl::AABB<S>;
 
   /// The number of an object; kNoBox if it has none.
-  [[nodiscard]] BoxId numberOf(Object* object) const {
-    const auto found = m_numbers.find(object);
-    return found == m_numbers.end() ? kNoBox : found->second;
-  }
+  [[nodiscard]] BoxId numberOf(Object* object) const { return m_numbers.find(object); }
 
   void reserve(std::size_t objects) {
     m_numbers.reserve(objects);
@@ -40,9 +37,10 @@ class FclObjects {
 
   /// Gives an object a number, or finds the one that it has.
   BoxId add(Object* object) {
+    const BoxId known = m_numbers.find(object);
+    if (known != kNoBox) return known;
     const BoxId next = m_free.empty() ? static_cast<BoxId>(m_objects.size()) : m_free.back();
-    const auto [place, isNew] = m_numbers.try_emplace(object, next);
-    if (!isNew) return place->second;
+    m_numbers.insert(object, next);
     if (m_free.empty()) {
       m_objects.push_back(object);
       m_rows.insert(m_rows.end(), kNothing.begin(), kNothing.end());
@@ -55,10 +53,9 @@ class FclObjects {
 
   /// Takes an object out, and returns the number that it had; its box becomes empty.
   BoxId remove(Object* object) {
-    const auto found = m_numbers.find(object);
-    if (found == m_numbers.end()) return kNoBox;
-    const BoxId number = found->second;
-    m_numbers.erase(found);
+    const BoxId number = m_numbers.find(object);
+    if (number == kNoBox) return kNoBox;
+    m_numbers.erase(object);
     m_objects[number] = nullptr;
     std::copy(kNothing.begin(), kNothing.end(), m_rows.begin() + std::ptrdiff_t{6} * number);
     m_free.push_back(number);
@@ -159,7 +156,7 @@ class FclObjects {
   std::vector<Object*> m_objects;
   std::vector<S> m_rows;
   Bounds m_hull;  // empty without any
-  std::unordered_map<Object*, BoxId> m_numbers;
+  ObjectNumbers m_numbers;
   std::vector<BoxId> m_free;
 };
 
