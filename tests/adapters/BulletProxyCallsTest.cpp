@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -246,6 +247,27 @@ TEST(BulletProxyCalls, WithImmediatePairsOfAllNoneIsEverMissingAsInADynamicTree)
       ASSERT_TRUE(includes(pairsOf(*broadphase->getOverlappingPairCache()), caller.demanded())) << "call " << call;
     }
   }
+}
+
+TEST(BulletProxyCalls, AProxyWhosePairsFailIsNotThere) {
+  struct Refuses : btOverlapFilterCallback {
+    bool needBroadphaseCollision(btBroadphaseProxy* /*a*/, btBroadphaseProxy* /*b*/) const override {
+      if (fails) throw std::runtime_error("asked too early");
+      return true;
+    }
+    bool fails = true;
+  } filter;
+  BulletBroadphase broadphase({.immediatePairs = ImmediatePairs::All});
+  broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  const auto add = [&] { return broadphase.createProxy({0, 0, 0}, {1, 1, 1}, 0, nullptr, 1, -1, nullptr); };
+  auto* const first = add();
+  EXPECT_THROW((void)add(), std::runtime_error);
+  EXPECT_EQ(broadphase.world().size(), 1U);
+  filter.fails = false;
+  auto* const second = add();
+  broadphase.calculateOverlappingPairs(nullptr);
+  EXPECT_EQ(pairsOf(*broadphase.getOverlappingPairCache()), sorted({{first, second}}));
+  for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
 }
 
 }  // namespace

@@ -89,7 +89,12 @@ class BulletBroadphase : public btBroadphaseInterface {
     addToWorld(made);
     Proxy& proxy = *m_proxies[made.id];
     proxy = made;
-    if (isImmediate(proxy)) addPairsOf(proxy);
+    try {
+      if (isImmediate(proxy)) addPairsOf(proxy);
+    } catch (...) {
+      destroyProxy(&proxy, dispatcher);
+      throw;
+    }
     return &proxy;
   }
 

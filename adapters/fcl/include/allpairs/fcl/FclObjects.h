@@ -40,14 +40,16 @@ class FclObjects {
     const BoxId known = m_numbers.find(object);
     if (known != kNoBox) return known;
     const BoxId next = m_free.empty() ? static_cast<BoxId>(m_objects.size()) : m_free.back();
-    m_numbers.insert(object, next);
+    m_numbers.reserve(m_numbers.size() + 1);
     if (m_free.empty()) {
-      m_objects.push_back(object);
+      m_rows.resize(6 * m_objects.size());  // without what is left of a call that ran out of memory
       m_rows.insert(m_rows.end(), kNothing.begin(), kNothing.end());
+      m_objects.push_back(object);
     } else {
       m_free.pop_back();
       m_objects[next] = object;
     }
+    m_numbers.insert(object, next);
     return next;
   }
 
@@ -55,10 +57,10 @@ class FclObjects {
   BoxId remove(Object* object) {
     const BoxId number = m_numbers.find(object);
     if (number == kNoBox) return kNoBox;
+    m_free.push_back(number);
     m_numbers.erase(object);
     m_objects[number] = nullptr;
     std::copy(kNothing.begin(), kNothing.end(), m_rows.begin() + std::ptrdiff_t{6} * number);
-    m_free.push_back(number);
     return number;
   }
 
