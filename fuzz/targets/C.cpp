@@ -76,7 +76,12 @@ class Calls {
         &Calls::find,      &Calls::findBetween,   &Calls::createWorld,    &Calls::add,
         &Calls::change,    &Calls::change,        &Calls::step,           &Calls::query,
         &Calls::queryMany, &Calls::betweenWorlds, &Calls::createElements, &Calls::useElements};
-    (this->*kOperations[m_choices.below(kOperations.size())])();
+    static constexpr std::array<Operation, 7> kRarer{&Calls::findInto,    &Calls::findRows,  &Calls::findInWorlds,
+                                                     &Calls::addToWorlds, &Calls::setWorlds, &Calls::restrictQueries,
+                                                     &Calls::shrink};
+    const std::uint8_t choice = m_choices.byte();
+    const bool isRarer = choice >= 160;
+    (this->*(isRarer ? kRarer[choice % kRarer.size()] : kOperations[choice % kOperations.size()]))();
   }
 
   /// Passes a status on, after a look at what it promises.
@@ -223,6 +228,106 @@ class Calls {
             "a visitor stops the search");
   }
 
+  /// The pairs of one set or, with another, of two; none if they are not found.
+  std::vector<allpairs_pair> pairsOf(allpairs_search* search, const allpairs_set* set, const allpairs_set* other) {
+    allpairs_pairs pairs{};
+    const allpairs_status status = checked(other == nullptr ? allpairs_find(search, set, &pairs)
+                                                            : allpairs_find_between(search, set, other, &pairs));
+    return status == ALLPAIRS_OK ? std::vector(pairs.data, pairs.data + pairs.count) : std::vector<allpairs_pair>();
+  }
+
+  /// In memory of the caller is what is found, or nothing fits.
+  void findInto() {
+    allpairs_search* const search = anySearch();
+    const allpairs_set* const set = anySet().set;
+    const allpairs_set* const other = m_choices.flag() ? anySet().set : nullptr;
+    const std::vector<allpairs_pair> expected = pairsOf(search, set, other);
+    std::vector<allpairs_pair> memory(expected.size());
+    const bool isTooSmall = !memory.empty() && m_choices.byte() >= 192;
+    allpairs_pair_memory into{memory.data(), memory.size() - (isTooSmall ? 1 : 0), 0};
+    const allpairs_status status = checked(other == nullptr ? allpairs_find_into(search, set, maybeNull(&into))
+                                                            : allpairs_find_between_into(search, set, other, &into));
+    if (isTooSmall) require(status != ALLPAIRS_OK, "what does not fit is not given");
+    if (status != ALLPAIRS_OK) return;
+    require(into.count == memory.size() && std::equal(memory.begin(), memory.end(), expected.begin(), isPair),
+            "the caller's memory has the pairs that are found");
+  }
+
+  /// Rows of neighbors are the pairs by their boxes.
+  void findRows() {
+    allpairs_search* const search = anySearch();
+    const allpairs_set* const set = anySet().set;
+    const allpairs_set* const other = m_choices.flag() ? anySet().set : nullptr;
+    const auto kind = static_cast<allpairs_rows_kind>(m_choices.below(2));
+    const std::vector<allpairs_pair> found = pairsOf(search, set, other);
+    allpairs_rows rows{};
+    const allpairs_status status =
+        checked(other == nullptr ? allpairs_find_neighbors(search, set, kind, maybeNull(&rows))
+                                 : allpairs_find_neighbors_between(search, set, other, &rows));
+    if (status != ALLPAIRS_OK || rows.offsets == nullptr) return;
+    require(rows.count == allpairs_set_size(set), "each box has a row");
+    std::vector<std::vector<std::uint32_t>> expected(rows.count);
+    for (const allpairs_pair& pair : found) {
+      expected[pair.first].push_back(pair.second);
+      if (other == nullptr && kind == ALLPAIRS_FULL_ROWS) expected[pair.second].push_back(pair.first);
+    }
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      std::sort(expected[i].begin(), expected[i].end());
+      require(std::equal(expected[i].begin(), expected[i].end(), rows.indices + rows.offsets[i],
+                         rows.indices + rows.offsets[i + 1]),
+              "a row has the partners of its box");
+    }
+    compareRows(search, set, other, kind, rows);
+  }
+
+  /// The same rows in memory of the caller.
+  void compareRows(allpairs_search* search, const allpairs_set* set, const allpairs_set* other, allpairs_rows_kind kind,
+                   const allpairs_rows& rows) {
+    const std::vector<std::uint64_t> begins(rows.offsets, rows.offsets + rows.count + 1);
+    const std::vector<std::uint32_t> expected(rows.indices, rows.indices + begins.back());
+    std::vector<std::uint64_t> offsets(begins.size());
+    std::vector<std::uint32_t> indices(expected.size());
+    allpairs_rows_memory memory{offsets.data(), indices.data(), indices.size(), 0};
+    require(
+        checked(other == nullptr ? allpairs_find_neighbors_into(search, set, kind, &memory)
+                                 : allpairs_find_neighbors_between_into(search, set, other, &memory)) == ALLPAIRS_OK,
+        "rows fit in memory of their size");
+    require(memory.count == expected.size() && offsets == begins && indices == expected,
+            "the caller's memory has the rows that are found");
+  }
+
+  /// Finding, counting and listing in worlds agree.
+  void findInWorlds() {
+    allpairs_search* const search = anySearch();
+    const SetHandle& handle = anySet();
+    std::vector<std::uint64_t> offsets{0};
+    const std::size_t count = m_choices.below(6);
+    for (std::size_t k = 0; k < count; ++k) offsets.push_back(offsets.back() + m_choices.below(40));
+    if (m_choices.byte() < 240) offsets.back() = allpairs_set_size(handle.set);
+    const allpairs_pair ignored{static_cast<std::uint32_t>(m_choices.below(20)), 1};
+    allpairs_worlds worlds{};
+    worlds.struct_size = sizeof(worlds);
+    worlds.boxes = handle.set;
+    worlds.count = count;
+    if (m_choices.flag()) worlds.begin = offsets.data();
+    if (m_choices.byte() >= 192) worlds.shared = anySet().set;
+    if (m_choices.byte() >= 192) worlds.ignored = &ignored, worlds.ignored_count = 1;
+    worlds.filter_is_of_one = m_choices.byte() >= 224;
+    std::vector<std::uint64_t> begin(count + 1);
+    const allpairs_status counted = checked(allpairs_count_in_worlds(search, maybeNull(&worlds), begin.data()));
+    if (counted != ALLPAIRS_OK) return;
+    allpairs_world_pairs found{};
+    if (checked(allpairs_find_in_worlds(search, &worlds, &found)) != ALLPAIRS_OK) return;
+    require(std::equal(begin.begin(), begin.end(), found.begin) && found.pairs.count == begin.back(),
+            "as many pairs of each world are found as are counted");
+    const std::vector<allpairs_pair> expected(found.pairs.data, found.pairs.data + found.pairs.count);
+    std::vector<allpairs_pair> listed(expected.size());
+    require(checked(allpairs_list_in_worlds(search, &worlds, begin.data(), listed.data())) == ALLPAIRS_OK,
+            "what was counted can be listed");
+    require(std::equal(listed.begin(), listed.end(), expected.begin(), isPair),
+            "the pairs that are listed are those that are found");
+  }
+
   void createWorld() {
     allpairs_world*& world = m_worlds[m_choices.below(kHandles)];
     allpairs_world_destroy(world);
@@ -262,6 +367,43 @@ class Calls {
     require(allpairs_world_size(world) == before + (isDone ? ids.size() : 0), "boxes are added all or not at all");
     for (const std::uint32_t id : ids)
       require(!isDone || allpairs_world_contains(world, id), "what was added is there");
+  }
+
+  /// The numbers of worlds that boxes have here, each as likely.
+  static constexpr std::array<std::uint32_t, 4> kNumbers{0, 1, 7, ALLPAIRS_EVERY_WORLD};
+  std::uint32_t anyNumber() { return kNumbers[m_choices.below(kNumbers.size())]; }
+
+  void addToWorlds() {
+    allpairs_world* world = anyWorld();
+    const SetHandle& handle = anySet();
+    const std::size_t before = allpairs_world_size(world);
+    if (before > 400) return;
+    const allpairs_properties given = properties();
+    std::vector<std::uint32_t> numbers(allpairs_set_size(handle.set));
+    for (std::uint32_t& number : numbers) number = anyNumber();
+    const allpairs_membership membership{m_choices.flag() ? &given : nullptr,
+                                         m_choices.byte() >= 32 ? numbers.data() : nullptr};
+    std::vector<std::uint32_t> ids(numbers.size());
+    const allpairs_status status =
+        checked(allpairs_world_add_to_worlds(world, handle.set, maybeNull(&membership), ids.data()));
+    const bool isDone = status == ALLPAIRS_OK;
+    require(allpairs_world_size(world) == before + (isDone ? ids.size() : 0), "boxes are added all or not at all");
+  }
+
+  void setWorlds() {
+    allpairs_world* world = anyWorld();
+    const std::vector<std::uint32_t> list = ids(world, 1 + m_choices.below(20));
+    std::vector<std::uint32_t> numbers(list.size());
+    for (std::uint32_t& number : numbers) number = anyNumber();
+    checked(allpairs_world_set_worlds(world, {list.data(), list.size()}, maybeNull(numbers.data())));
+  }
+
+  void restrictQueries() { checked(allpairs_world_restrict_queries(anyWorld(), anyNumber())); }
+
+  void shrink() {
+    checked(allpairs_search_shrink(anySearch()));
+    checked(allpairs_world_shrink(anyWorld()));
+    checked(allpairs_elements_shrink(m_elements[m_choices.below(kHandles)]));
   }
 
   /// Ids of a world, now and then one that isn't there.
@@ -309,6 +451,20 @@ class Calls {
       std::array<double, 6> bounds{};
       require(checked(allpairs_world_box(world, pair.first, bounds.data())) == ALLPAIRS_OK, "a box can be asked for");
     }
+    compareResults(world, step);
+  }
+
+  /// Each pair of a step is of one world, or of every world.
+  void compareResults(allpairs_world* world, const allpairs_step& step) {
+    std::array<std::size_t, 4> sums{};
+    for (const std::uint32_t number : kNumbers) {
+      allpairs_step result{};
+      require(checked(allpairs_world_result_of(world, number, &result)) == ALLPAIRS_OK, "each world has a result");
+      const std::array counts{result.pairs.count, result.began.count, result.persisted.count, result.ended.count};
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts[i];
+    }
+    require(sums == std::array{step.pairs.count, step.began.count, step.persisted.count, step.ended.count},
+            "the worlds have the pairs of a step, each once");
   }
 
   allpairs_query_filter filter() {
