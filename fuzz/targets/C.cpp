@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../Choices.h"
+#include "CSearch.h"
 
 namespace allpairs::fuzz {
 namespace {
@@ -29,23 +30,6 @@ struct SetHandle {
 struct Labels {
   std::array<std::uint32_t, 256> values{};
 };
-
-bool isPair(const allpairs_pair& a, const allpairs_pair& b) { return a.first == b.first && a.second == b.second; }
-
-bool acceptSome(void* context, std::uint32_t first, std::uint32_t second) {
-  return (first * 3 + second + *static_cast<const std::uint8_t*>(context)) % 4 != 0;
-}
-
-struct Seen {
-  std::vector<allpairs_pair> pairs;
-  std::size_t most = std::numeric_limits<std::size_t>::max();
-};
-
-bool see(void* context, allpairs_pairs batch) {
-  auto& seen = *static_cast<Seen*>(context);
-  seen.pairs.insert(seen.pairs.end(), batch.data, batch.data + batch.count);
-  return seen.pairs.size() < seen.most;
-}
 
 class Calls {
  public:
@@ -82,18 +66,6 @@ class Calls {
     const std::uint8_t choice = m_choices.byte();
     const bool isRarer = choice >= 160;
     (this->*(isRarer ? kRarer[choice % kRarer.size()] : kOperations[choice % kOperations.size()]))();
-  }
-
-  /// Passes a status on, after a look at what it promises.
-  allpairs_status checked(allpairs_status status) {
-    require(status != ALLPAIRS_INTERNAL, "no call fails for an internal reason");
-    require(status != ALLPAIRS_OUT_OF_MEMORY, "no call of this size runs out of memory");
-    require(status >= ALLPAIRS_OK && status <= ALLPAIRS_STOPPED, "a status is one of the declared");
-    if (status == ALLPAIRS_OK) return status;
-    const char* message = allpairs_error_message();
-    require(message != nullptr && *message != '\0', "a failure has a message");
-    require(std::strchr(message, '\n') == nullptr && std::strlen(message) < 512, "a message is one line");
-    return status;
   }
 
   template <class T>
@@ -193,108 +165,15 @@ class Calls {
     require(search != nullptr || status == ALLPAIRS_INVALID_ARGUMENT, "no handle is an invalid argument");
   }
 
-  void find() { compareSearch(anySearch(), anySet().set, nullptr); }
-  void findBetween() { compareSearch(anySearch(), anySet().set, anySet().set); }
+  void find() { compareSearch({anySearch(), anySet().set}); }
+  void findBetween() { compareSearch({anySearch(), anySet().set, anySet().set}); }
+  void compareSearch(const CSearch& search) { search.compareAll(m_choices.below(100), m_choices.byte() == 255); }
 
-  /// Finding, counting and streaming agree; another set makes it a search between two.
-  void compareSearch(allpairs_search* search, const allpairs_set* set, const allpairs_set* other) {
-    allpairs_pairs pairs{};
-    std::uint64_t count = 0;
-    Seen seen;
-    const allpairs_visitor visitor{see, &seen, m_choices.below(100)};
-    const allpairs_status counted = checked(other == nullptr ? allpairs_count(search, set, &count)
-                                                             : allpairs_count_between(search, set, other, &count));
-    const allpairs_status streamed = checked(other == nullptr ? allpairs_stream(search, set, visitor)
-                                                              : allpairs_stream_between(search, set, other, visitor));
-    require(counted == streamed, "counting and streaming succeed or fail alike");
-    require(counted != ALLPAIRS_OK || count == seen.pairs.size(), "as many pairs are streamed as are counted");
-    const allpairs_status found = checked(other == nullptr ? allpairs_find(search, set, maybeNull(&pairs))
-                                                           : allpairs_find_between(search, set, other, &pairs));
-    if (search == nullptr || set == nullptr)
-      require(found == ALLPAIRS_INVALID_ARGUMENT, "no handle is an invalid argument");
-    if (found != ALLPAIRS_OK) return;
-    require(std::equal(pairs.data, pairs.data + pairs.count, seen.pairs.begin(), seen.pairs.end(), isPair),
-            "the pairs that are found are those that are streamed");
-    stopEarly(search, set, other, seen.pairs.size());
-  }
+  CSearch anyCSearch() { return {anySearch(), anySet().set, m_choices.flag() ? anySet().set : nullptr}; }
 
-  void stopEarly(allpairs_search* search, const allpairs_set* set, const allpairs_set* other, std::size_t count) {
-    if (count == 0) return;
-    Seen seen;
-    seen.most = 1;
-    const allpairs_visitor visitor{see, &seen, 0};
-    require(checked(other == nullptr ? allpairs_stream(search, set, visitor)
-                                     : allpairs_stream_between(search, set, other, visitor)) == ALLPAIRS_STOPPED,
-            "a visitor stops the search");
-  }
+  void findInto() { anyCSearch().compareInto(m_choices.byte() >= 192); }
 
-  /// The pairs of one set or, with another, of two; none if they are not found.
-  std::vector<allpairs_pair> pairsOf(allpairs_search* search, const allpairs_set* set, const allpairs_set* other) {
-    allpairs_pairs pairs{};
-    const allpairs_status status = checked(other == nullptr ? allpairs_find(search, set, &pairs)
-                                                            : allpairs_find_between(search, set, other, &pairs));
-    return status == ALLPAIRS_OK ? std::vector(pairs.data, pairs.data + pairs.count) : std::vector<allpairs_pair>();
-  }
-
-  /// In memory of the caller is what is found, or nothing fits.
-  void findInto() {
-    allpairs_search* const search = anySearch();
-    const allpairs_set* const set = anySet().set;
-    const allpairs_set* const other = m_choices.flag() ? anySet().set : nullptr;
-    const std::vector<allpairs_pair> expected = pairsOf(search, set, other);
-    std::vector<allpairs_pair> memory(expected.size());
-    const bool isTooSmall = !memory.empty() && m_choices.byte() >= 192;
-    allpairs_pair_memory into{memory.data(), memory.size() - (isTooSmall ? 1 : 0), 0};
-    const allpairs_status status = checked(other == nullptr ? allpairs_find_into(search, set, maybeNull(&into))
-                                                            : allpairs_find_between_into(search, set, other, &into));
-    if (isTooSmall) require(status != ALLPAIRS_OK, "what does not fit is not given");
-    if (status != ALLPAIRS_OK) return;
-    require(into.count == memory.size() && std::equal(memory.begin(), memory.end(), expected.begin(), isPair),
-            "the caller's memory has the pairs that are found");
-  }
-
-  /// Rows of neighbors are the pairs by their boxes.
-  void findRows() {
-    allpairs_search* const search = anySearch();
-    const allpairs_set* const set = anySet().set;
-    const allpairs_set* const other = m_choices.flag() ? anySet().set : nullptr;
-    const auto kind = static_cast<allpairs_rows_kind>(m_choices.below(2));
-    const std::vector<allpairs_pair> found = pairsOf(search, set, other);
-    allpairs_rows rows{};
-    const allpairs_status status =
-        checked(other == nullptr ? allpairs_find_neighbors(search, set, kind, maybeNull(&rows))
-                                 : allpairs_find_neighbors_between(search, set, other, &rows));
-    if (status != ALLPAIRS_OK || rows.offsets == nullptr) return;
-    require(rows.count == allpairs_set_size(set), "each box has a row");
-    std::vector<std::vector<std::uint32_t>> expected(rows.count);
-    for (const allpairs_pair& pair : found) {
-      expected[pair.first].push_back(pair.second);
-      if (other == nullptr && kind == ALLPAIRS_FULL_ROWS) expected[pair.second].push_back(pair.first);
-    }
-    for (std::size_t i = 0; i < rows.count; ++i) {
-      std::sort(expected[i].begin(), expected[i].end());
-      require(std::equal(expected[i].begin(), expected[i].end(), rows.indices + rows.offsets[i],
-                         rows.indices + rows.offsets[i + 1]),
-              "a row has the partners of its box");
-    }
-    compareRows(search, set, other, kind, rows);
-  }
-
-  /// The same rows in memory of the caller.
-  void compareRows(allpairs_search* search, const allpairs_set* set, const allpairs_set* other, allpairs_rows_kind kind,
-                   const allpairs_rows& rows) {
-    const std::vector<std::uint64_t> begins(rows.offsets, rows.offsets + rows.count + 1);
-    const std::vector<std::uint32_t> expected(rows.indices, rows.indices + begins.back());
-    std::vector<std::uint64_t> offsets(begins.size());
-    std::vector<std::uint32_t> indices(expected.size());
-    allpairs_rows_memory memory{offsets.data(), indices.data(), indices.size(), 0};
-    require(
-        checked(other == nullptr ? allpairs_find_neighbors_into(search, set, kind, &memory)
-                                 : allpairs_find_neighbors_between_into(search, set, other, &memory)) == ALLPAIRS_OK,
-        "rows fit in memory of their size");
-    require(memory.count == expected.size() && offsets == begins && indices == expected,
-            "the caller's memory has the rows that are found");
-  }
+  void findRows() { anyCSearch().compareRows(static_cast<allpairs_rows_kind>(m_choices.below(2))); }
 
   /// Finding, counting and listing in worlds agree.
   void findInWorlds() {
@@ -313,19 +192,7 @@ class Calls {
     if (m_choices.byte() >= 192) worlds.shared = anySet().set;
     if (m_choices.byte() >= 192) worlds.ignored = &ignored, worlds.ignored_count = 1;
     worlds.filter_is_of_one = m_choices.byte() >= 224;
-    std::vector<std::uint64_t> begin(count + 1);
-    const allpairs_status counted = checked(allpairs_count_in_worlds(search, maybeNull(&worlds), begin.data()));
-    if (counted != ALLPAIRS_OK) return;
-    allpairs_world_pairs found{};
-    if (checked(allpairs_find_in_worlds(search, &worlds, &found)) != ALLPAIRS_OK) return;
-    require(std::equal(begin.begin(), begin.end(), found.begin) && found.pairs.count == begin.back(),
-            "as many pairs of each world are found as are counted");
-    const std::vector<allpairs_pair> expected(found.pairs.data, found.pairs.data + found.pairs.count);
-    std::vector<allpairs_pair> listed(expected.size());
-    require(checked(allpairs_list_in_worlds(search, &worlds, begin.data(), listed.data())) == ALLPAIRS_OK,
-            "what was counted can be listed");
-    require(std::equal(listed.begin(), listed.end(), expected.begin(), isPair),
-            "the pairs that are listed are those that are found");
+    compareWorlds(search, worlds);
   }
 
   void createWorld() {

@@ -163,6 +163,8 @@ def corner_pair(
     high = _table(high_name, upper, columns if low.size == 0 else (low.shape[1],), single=single)
     if len(low) != len(high):
         raise InvalidArgument(f"{low_name} has {len(low)} rows and {high_name} {len(high)}")
+    if len(low) == 0:
+        low = low.reshape(high.shape)  # of whatever axes nothing was given
     if low.dtype != high.dtype:
         low, high = low.astype(np.float64, copy=False), high.astype(np.float64, copy=False)
     return low, high
@@ -292,6 +294,13 @@ def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if array.ndim != 2 or array.shape[1] not in (3, 2):
         raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3) or (k, 2)")
     return array if array.shape[1] == 3 else np.pad(array, ((0, 0), (0, 1)))
+
+
+def rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Rays, all in space or all in the plane."""
+    if np.shape(origins)[-1:] != np.shape(directions)[-1:]:
+        raise InvalidArgument(f"origins has shape {np.shape(origins)}, directions {np.shape(directions)}: not of the same axes")
+    return points("origins", origins), points("directions", directions)
 
 
 def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.uint32]:

@@ -327,7 +327,7 @@ class World:
             The parameter of the hit, in units of the direction; infinity without a hit.
         """
         query = _query_filter(locals())
-        start, way = _arguments.points("origins", origins), _arguments.points("directions", directions)
+        start, way = _arguments.rays(origins, directions)
         start, way = np.broadcast_arrays(start, way)
         end = np.broadcast_to(_arguments.floats("length", length).astype(np.float64), (len(start),))
         ids, t = self._core.first_hits(np.column_stack([start, way, end]), query)

@@ -249,6 +249,49 @@ TEST(BulletProxyCalls, WithImmediatePairsOfAllNoneIsEverMissingAsInADynamicTree)
   }
 }
 
+TEST(BulletProxyCalls, AStepThatFailsIsMadeUpForByTheNext) {
+  struct Fails : btOverlapFilterCallback {
+    bool needBroadphaseCollision(btBroadphaseProxy* /*a*/, btBroadphaseProxy* /*b*/) const override {
+      if (--calls == 0) throw std::runtime_error("not now");
+      return true;
+    }
+    mutable int calls = 0;
+  };
+  int failures = 0;
+  for (int failing = 1; failing < 60; ++failing) {
+    Fails filter;
+    BulletBroadphase broadphase;
+    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+    std::vector<btBroadphaseProxy*> proxies;
+    const auto boxOf = [](int i, int step) {
+      const auto x = btScalar(step == 0 ? i / 2 : i / 4);
+      return std::pair(btVector3(x, 0, 0), btVector3(x + btScalar(0.5), 1, 1));
+    };
+    for (int i = 0; i < 12; ++i) {
+      const auto [min, max] = boxOf(i, 0);
+      proxies.push_back(broadphase.createProxy(min, max, 0, nullptr, 1, -1, nullptr));
+    }
+    broadphase.calculateOverlappingPairs(nullptr);
+    for (std::size_t i = 0; i < proxies.size(); ++i) {
+      const auto [min, max] = boxOf(static_cast<int>(i), 1);
+      broadphase.setAabb(proxies[i], min, max, nullptr);
+    }
+    filter.calls = failing;
+    try {
+      broadphase.calculateOverlappingPairs(nullptr);
+    } catch (const std::runtime_error&) {
+      ++failures;
+    }
+    filter.calls = 0;
+    broadphase.calculateOverlappingPairs(nullptr);
+    EXPECT_EQ(pairsOf(*broadphase.getOverlappingPairCache()),
+              demandedPairs(std::vector<const btBroadphaseProxy*>(proxies.begin(), proxies.end())))
+        << "call " << failing << " of the filter failed";
+    for (auto* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+  }
+  EXPECT_GT(failures, 5);
+}
+
 TEST(BulletProxyCalls, AProxyWhosePairsFailIsNotThere) {
   struct Refuses : btOverlapFilterCallback {
     bool needBroadphaseCollision(btBroadphaseProxy* /*a*/, btBroadphaseProxy* /*b*/) const override {

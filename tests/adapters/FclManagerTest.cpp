@@ -277,6 +277,59 @@ TYPED_TEST(FclManager, SearchesNothingBeforeItIsAskedFor) {
   EXPECT_EQ(executor.takeAsked(), 0);
 }
 
+TYPED_TEST(FclManager, FindsWhatHasLeftTheBoxAroundAllWhereverItIs) {
+  using S = TypeParam;
+  for (const unsigned count : {2U, 30U, 200U}) {
+    FclBroadPhaseManager<S> ours;
+    const auto objects = this->addObjects(count, S(4));
+    const auto probes = this->addObjects(10, S(4));
+    FclBroadPhaseManager<S> probing;
+    ::fcl::NaiveCollisionManager<S> naiveProbing;
+    ours.registerObjects(objects);
+    for (int step = 0; step < 7; ++step) {
+      const S offset = S(30) * S(step % 2 == 0 ? step : -step);
+      for (const auto& all : {objects, probes}) {
+        for (auto* object : all) this->place(*object, S(4));
+        for (auto* object : all) object->setTranslation(object->getTranslation().array() + offset);
+        for (auto* object : all) object->computeAABB();
+      }
+      if (step == 3) ours.unregisterObject(objects[1]);
+      if (step == 4) ours.registerObject(objects[1]);
+      if (step == 5) ours.clear();
+      if (step == 5) ours.registerObjects(objects);
+      ours.update();
+      for (typename TestFixture::Base* manager : {static_cast<typename TestFixture::Base*>(&probing),
+                                                  static_cast<typename TestFixture::Base*>(&naiveProbing)}) {
+        manager->clear();
+        manager->registerObjects(probes);
+      }
+      this->m_naive.clear();
+      for (auto* object : objects) {
+        if (step != 3 || object != objects[1]) this->m_naive.registerObject(object);
+      }
+      std::size_t found = 0;
+      for (auto* probe : probes) {
+        const auto expected = this->collisions(this->m_naive, probe);
+        ASSERT_EQ(this->collisions(ours, probe), expected) << count << " objects, step " << step;
+        found += expected.size();
+      }
+      EXPECT_TRUE(count == 2 || found > 0) << "probes are among the objects";
+      ASSERT_EQ(this->collisions(ours, static_cast<typename TestFixture::Base*>(&probing)),
+                this->collisions(this->m_naive, static_cast<typename TestFixture::Base*>(&naiveProbing)));
+    }
+  }
+}
+
+TYPED_TEST(FclManager, IsAskedToRegisterAFewAtATime) {
+  const auto objects = this->addObjects(300, TypeParam(12));
+  for (std::size_t i = 0; i < objects.size(); i += 3) {
+    this->m_ours.registerObjects({objects[i], objects[i + 1], nullptr, objects[i + 2], objects[i / 2]});
+  }
+  this->m_naive.registerObjects(objects);
+  EXPECT_EQ(this->m_ours.size(), objects.size());
+  EXPECT_EQ(this->collisions(this->m_ours), this->collisions(this->m_naive));
+}
+
 TYPED_TEST(FclManager, BoxesThatTouchAreAPairAndTheNextNumberIsApart) {
   using S = TypeParam;
   const S next = std::nextafter(S(1), S(2));  // in double the same as 1 when it is rounded to float
@@ -325,6 +378,12 @@ TYPED_TEST(FclManager, NamesTheObjectWhoseBoxHasANan) {
   bad.set(S(4), S(5));
   this->m_ours.update();
   EXPECT_EQ(candidates(this->m_ours).size(), 1U);
+  BoxedObject<S> fresh(std::numeric_limits<S>::quiet_NaN(), S(1));
+  EXPECT_THROW(this->m_ours.registerObject(&fresh), InvalidBox);
+  EXPECT_EQ(this->m_ours.size(), 2U) << "it was not registered";
+  fresh.set(S(5), S(6));
+  this->m_ours.registerObject(&fresh);
+  EXPECT_EQ(candidates(this->m_ours).size(), 2U);
 }
 
 }  // namespace

@@ -140,3 +140,14 @@ def test_other_shapes_and_a_nan_are_refused_with_a_sentence():
     with pytest.raises(allpairs.InvalidBox, match="^box 1: max y"):
         world.add([[0, 0, 1, 1], [0, 0, 1, np.nan]])
     assert len(world) == 2
+    with pytest.raises(ValueError, match=r"origins has shape \(1, 2\), directions \(1, 3\): not of the same axes"):
+        world.first_hits([[0, 0]], [[1, 0, 0]])
+    with pytest.raises(ValueError, match=r"origins has shape \(3,\), directions \(2,\)"):
+        world.first_hits([0, 0, 0], [1, 0])
+
+
+def test_nothing_is_of_any_axes():
+    world = allpairs.World()
+    for lower, upper in (([], np.zeros((0, 2))), (np.zeros((0, 2)), []), ([], np.zeros((0, 3))), ([], [])):
+        assert world.add(lower, upper).tolist() == []
+        assert len(allpairs.overlaps(lower, upper)) == 0

@@ -43,7 +43,8 @@ namespace allpairs {
 /// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same. With
 ///            BulletBroadphaseOptions::number the order does not depend on earlier calls either.
 /// Bad input: a box with a NaN throws InvalidBox; a number that is negative or taken, and a number with a pairCache,
-///            InvalidArgument. The call then has no effect.
+///            InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject() made it has the
+///            object in its list already, without a proxy: remove it from the world before the next step.
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the cache.
 /// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
 ///            too, and must not add, move or remove proxies.
@@ -86,12 +87,13 @@ class BulletBroadphase : public btBroadphaseInterface {
     made.knownMask = collisionFilterMask;
     made.isThere = true;
     made.isGhost = isGhost(made, dispatcher);
+    const std::vector<BoxId> near = nearTo(made, aabbMin, aabbMax);
     addToWorld(made);
     Proxy& proxy = *m_proxies[made.id];
     proxy = made;
     try {
-      if (isImmediate(proxy)) addPairsOf(proxy);
-    } catch (...) {
+      addPairs(proxy, near);
+    } catch (...) {  // of a filter callback
       destroyProxy(&proxy, dispatcher);
       throw;
     }
@@ -112,7 +114,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     m_world.move(idOf(own), reachOf(own, aabbMin, aabbMax));
     own.m_aabbMin = aabbMin;
     own.m_aabbMax = aabbMax;
-    if (isImmediate(own)) addPairsOf(own);
+    addPairs(own, nearTo(own, aabbMin, aabbMax));
   }
 
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override {
@@ -135,6 +137,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   }
 
   void calculateOverlappingPairs(btDispatcher* dispatcher) override {
+    const bool wasLeft = std::exchange(m_isInStep, true);  // by an exception
     noteFilterCallback();
     noteFilters();
     const StepResult step = m_world.step();
@@ -144,8 +147,9 @@ class BulletBroadphase : public btBroadphaseInterface {
     }
     m_early.clear();
     noteChanges(step);
-    if (!isComplete()) restorePairs(step.pairs, dispatcher);
+    if (wasLeft || !isComplete()) restorePairs(step.pairs, dispatcher);
     if (m_ordered != nullptr) m_ordered->order();
+    m_isInStep = false;
   }
 
   btOverlappingPairCache* getOverlappingPairCache() override { return m_cache; }
@@ -289,28 +293,42 @@ class BulletBroadphase : public btBroadphaseInterface {
   void noteFilters() {
     for (const auto& proxy : m_proxies) {
       if (!proxy->isThere || proxy->hasKnownFilter()) continue;
+      m_world.setProperties(idOf(*proxy), propertiesOf(proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask));
       proxy->knownGroup = proxy->m_collisionFilterGroup;
       proxy->knownMask = proxy->m_collisionFilterMask;
-      m_world.setProperties(idOf(*proxy), propertiesOf(proxy->knownGroup, proxy->knownMask));
     }
   }
 
   void noteFilterCallback() {
     btOverlapFilterCallback* const filter = m_cache->getOverlapFilterCallback();
     if (filter == m_filter) return;
-    m_filter = filter;
-    for (const auto& proxy : m_proxies) {
-      if (!proxy->isThere) continue;
-      const BoxId id = idOf(*proxy);
-      m_world.setProperties(id, propertiesOf(proxy->knownGroup, proxy->knownMask));
-      m_world.invalidate(std::span<const BoxId>(&id, 1));
+    btOverlapFilterCallback* const before = std::exchange(m_filter, filter);
+    try {
+      for (const auto& proxy : m_proxies) {
+        if (!proxy->isThere) continue;
+        const BoxId id = idOf(*proxy);
+        m_world.setProperties(id, propertiesOf(proxy->knownGroup, proxy->knownMask));
+        m_world.invalidate(std::span<const BoxId>(&id, 1));
+      }
+    } catch (...) {
+      m_filter = before;  // the next step begins again
+      throw;
     }
   }
 
-  /// Adds the pairs that a box has now and that the cache lacks. Those that it no longer has stay until the next step.
-  void addPairsOf(Proxy& proxy) {
+  /// What overlaps a proxy in its new box, if its pairs are added at once; and room for them in m_early.
+  [[nodiscard]] std::vector<BoxId> nearTo(const Proxy& proxy, const btVector3& min, const btVector3& max) {
+    if (!isImmediate(proxy)) return {};
+    std::vector<BoxId> near = m_world.findOverlapping(reachOf(proxy, min, max));
+    const std::size_t room = m_early.size() + near.size();
+    if (room > m_early.capacity()) m_early.reserve(std::max(room, 2 * m_early.capacity()));
+    return near;
+  }
+
+  /// Adds those of its pairs that the cache lacks. Those that a proxy no longer has stay until the next step.
+  void addPairs(Proxy& proxy, std::span<const BoxId> near) {
     const BoxId id = idOf(proxy);
-    for (const BoxId other : m_world.findOverlapping(m_world.box(id))) {
+    for (const BoxId other : near) {
       if (other == id || m_cache->findPair(&proxy, m_proxies[other].get()) != nullptr) continue;
       const Pair pair{std::min(id, other), std::max(id, other)};
       if (m_cache->addOverlappingPair(m_proxies[pair.first].get(), m_proxies[pair.second].get()) != nullptr) {
@@ -460,7 +478,8 @@ class BulletBroadphase : public btBroadphaseInterface {
   std::vector<std::unique_ptr<Proxy> > m_proxies;  // by id; one that was destroyed waits for a box with its id
   World m_world;
   btOverlappingPairCache* m_cache;
-  bool m_keepsPairs = true;   // unlike a btNullPairCache
+  bool m_keepsPairs = true;  // unlike a btNullPairCache
+  bool m_isInStep = false;
   Digest m_wanted;            // of the pairs of the last step
   std::vector<Pair> m_early;  // that were added to the cache since the last step
   std::vector<Pair> m_ended;

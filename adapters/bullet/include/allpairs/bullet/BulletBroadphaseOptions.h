@@ -40,13 +40,14 @@ struct BulletBroadphaseOptions {
   /// If set, the order of the pairs does not depend on history: whatever was created, moved and destroyed before, and in
   /// whatever order, the pairs of the same boxes are in the same order. Called once for each proxy, in createProxy(): its
   /// number, not negative and unlike that of every other proxy, which becomes its m_uniqueId. Pairs are in ascending order
-  /// of the number of their first proxy, then of the second; the first is the one with the lower number.
+  /// of the number of their first proxy, then of the second; the first is the one with the lower number. Numbers that are
+  /// small and dense suit Bullet's hash of pairs best. What is given is a copy of the proxy, gone after the call.
   /// userIndexOf() gives the user index of the collision object. Not together with a pairCache.
   std::function<int(const btBroadphaseProxy&)> number{};
 };
 
-/// For BulletBroadphaseOptions::number: the user index of the collision object that is the proxy's client, which has to be
-/// set before the object is added to a world.
+/// For BulletBroadphaseOptions::number: the user index of the collision object that is the proxy's client, which may not be
+/// null. The index has to be set before the object is added to a world: Bullet's default, -1, is refused.
 inline int userIndexOf(const btBroadphaseProxy& proxy) {
   return static_cast<const btCollisionObject*>(proxy.m_clientObject)->getUserIndex();
 }

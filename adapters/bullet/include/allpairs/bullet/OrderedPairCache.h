@@ -16,7 +16,7 @@ namespace allpairs {
 /// the first proxy before that of the second. A pair keeps its collision algorithm and so its contacts.
 ///
 /// Cost:    order() a pass over the pairs if any was added or removed since the last call, and a sort of those that are not
-///          in their place; 16 bytes of scratch memory per pair and those of the pairs once more.
+///          in their place; about 72 bytes of scratch memory per pair, which are kept.
 /// Threads: one call at a time, as in Bullet's caches.
 /// Memory:  if order() throws std::bad_alloc, the cache is as before.
 class OrderedPairCache : public btHashedOverlappingPairCache {

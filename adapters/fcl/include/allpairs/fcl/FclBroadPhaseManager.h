@@ -52,10 +52,12 @@ struct FclBroadPhaseManagerOptions {
 ///            a DynamicAABBTreeCollisionManager takes this one as the other manager; size() keeps a tree for it. No other
 ///            manager of FCL may get this one: each takes the other for one of its own kind without asking.
 /// Geometry:  boxes are closed, in the precision of S. An empty box has no pairs and no distance.
-/// Bad input: a box with a NaN throws InvalidBox.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps the
+///            box that it had. No object, a null pointer, is none.
 /// Cost:      nothing is searched before it is asked for. The first collide() after a change finds the pairs, by a
 ///            search of all boxes or, where few change, by a step of allpairs::World; each further one is a pass over
-///            them. The first queries with an object after a change scan all boxes; more, O(log n + found).
+///            them. The first queries with an object after a change scan all boxes; more, O(log n + found). A query outside
+///            of all boxes since the last clear() ends at once.
 /// Threads:   const members, queries, may be called concurrently while no other member runs. A callback may query the
 ///            manager, and must not register, update or unregister.
 template <class S>
@@ -74,7 +76,18 @@ class FclBroadPhaseManager : public FclTree<S> {
     for (Object* object : objects) registerObject(object);
   }
 
-  void registerObject(Object* object) override { refresh(m_objects.add(object)); }
+  void registerObject(Object* object) override {
+    if (object == nullptr) return;
+    const bool isNew = m_objects.numberOf(object) == kNoBox;
+    const BoxId number = m_objects.add(object);
+    try {
+      m_search.reserve(m_objects.bound());  // so that no change of a row is lost for want of memory
+      refresh(number);
+    } catch (...) {
+      if (isNew) unregisterObject(object);
+      throw;
+    }
+  }
 
   void unregisterObject(Object* object) override {
     const BoxId number = m_objects.remove(object);

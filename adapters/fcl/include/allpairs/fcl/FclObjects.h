@@ -29,10 +29,13 @@ class FclObjects {
   /// The number of an object; kNoBox if it has none.
   [[nodiscard]] BoxId numberOf(Object* object) const { return m_numbers.find(object); }
 
+  /// Makes room for so many objects; often, a few more each time, too.
   void reserve(std::size_t objects) {
     m_numbers.reserve(objects);
+    if (objects > m_objects.capacity()) objects = std::max(objects, 2 * m_objects.capacity());
     m_objects.reserve(objects);
     m_rows.reserve(6 * objects);
+    m_free.reserve(objects);  // so that remove() needs no memory
   }
 
   /// Gives an object a number, or finds the one that it has.
@@ -40,9 +43,8 @@ class FclObjects {
     const BoxId known = m_numbers.find(object);
     if (known != kNoBox) return known;
     const BoxId next = m_free.empty() ? static_cast<BoxId>(m_objects.size()) : m_free.back();
-    m_numbers.reserve(m_numbers.size() + 1);
+    reserve(m_free.empty() ? m_objects.size() + 1 : m_objects.size());
     if (m_free.empty()) {
-      m_rows.resize(6 * m_objects.size());  // without what is left of a call that ran out of memory
       m_rows.insert(m_rows.end(), kNothing.begin(), kNothing.end());
       m_objects.push_back(object);
     } else {

@@ -69,10 +69,11 @@ class ObjectNumbers {
     return (to - from) & (m_places.size() - 1);
   }
 
-  /// Fibonacci hashing: the upper half of the product depends on all bits of the address.
+  /// Two rounds of Fibonacci hashing: with one, objects that were allocated one after the other share places.
   [[nodiscard]] std::size_t homeOf(const void* object) const {
     constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15U;
-    const auto product = std::uint64_t{reinterpret_cast<std::uintptr_t>(object)} * kOdd;
+    std::uint64_t product = std::uint64_t{reinterpret_cast<std::uintptr_t>(object)} * kOdd;
+    product = (product ^ (product >> 32U)) * kOdd;
     return static_cast<std::size_t>(product >> 32U) & (m_places.size() - 1);
   }
 

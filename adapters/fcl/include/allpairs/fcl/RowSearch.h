@@ -41,6 +41,11 @@ class RowSearch {
   /// Removes all boxes.
   void clear();
 
+  /// Makes room for marks of so many rows: note() of these needs no memory.
+  void reserve(std::size_t rows) {
+    if (m_isPending.size() < rows) m_isPending.resize(rows, 0);
+  }
+
   /// Marks a row as new or changed; for an unmarked row, its previous contents may be used.
   void note(BoxId row) {
     constexpr auto kRelaxed = std::memory_order_relaxed;
