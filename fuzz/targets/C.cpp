@@ -323,15 +323,15 @@ class Calls {
 
   /// Each pair of a step is of one world, or of every world.
   void compareResults(allpairs_world* world, const allpairs_step& step) {
-    std::array<std::size_t, 4> sums{};
+    std::array<std::size_t, 4> sums{};  // of pairs, began, persisted, ended
     for (const std::uint32_t number : kNumbers) {
       allpairs_step result{};
       require(checked(allpairs_world_result_of(world, number, &result)) == ALLPAIRS_OK, "each world has a result");
       const std::array counts{result.pairs.count, result.began.count, result.persisted.count, result.ended.count};
       for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts[i];
     }
-    require(sums == std::array{step.pairs.count, step.began.count, step.persisted.count, step.ended.count},
-            "the worlds have the pairs of a step, each once");
+    require(sums[0] == step.pairs.count && sums[1] + sums[2] == sums[0], "each pair of a step is of one world");
+    require(sums[1] - step.began.count == sums[3] - step.ended.count, "what changes its world ends there, begins here");
   }
 
   allpairs_query_filter filter() {

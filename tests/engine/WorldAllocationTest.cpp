@@ -9,6 +9,7 @@
 #include "memory/Memory.h"
 #include "support/AllocationCount.h"
 #include "support/Boxes.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -48,6 +49,7 @@ TEST_P(WorldAllocation, StepsInASteadyStateAllocateNothing) {
 }
 
 TEST_P(WorldAllocation, StepsOfManyWorldsInASteadyStateAllocateNothing) {
+  if (test::kIsThreadSanitized) GTEST_SKIP() << "one thread, for a minute then";
   for (const std::size_t worlds : {std::size_t{3}, std::size_t{100}}) {
     const std::vector<BoxF> boxes = test::randomBoxes(5000, 43, 4.0F);
     std::vector<BoxProperties> properties(boxes.size());
