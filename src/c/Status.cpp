@@ -103,6 +103,10 @@ T known(const T* options) {
     throw InvalidArgument("struct_size is " + std::to_string(options->struct_size) + "; this library knows up to " +
                           std::to_string(sizeof(T)));
   }
+  if (options->struct_size % alignof(T) != 0) {  // ends within a field
+    throw InvalidArgument("struct_size is " + std::to_string(options->struct_size) +
+                          "; no such structure has that size");
+  }
   std::memcpy(&result, options, options->struct_size);
   return result;
 }

@@ -48,6 +48,8 @@ static void settingsThatMakeNoSenseAreRefused(void) {
   allpairs_pairs pairs;
   allpairs_options options = {0};
   ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_INVALID_ARGUMENT && says("struct_size is 0"));
+  options.struct_size = offsetof(allpairs_options, region) + 4;  // half of a pointer
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_INVALID_ARGUMENT && says("no such structure"));
   options.struct_size = sizeof options + 8;
   ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_INVALID_ARGUMENT);
   options = allpairs_default_options();
