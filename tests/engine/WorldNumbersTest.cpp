@@ -253,6 +253,21 @@ TEST(WorldNumbers, ShrinkReleasesIdsAndLeavesRoomForTheNextStep) {
   }
 }
 
+TEST(WorldNumbers, AWorldWhoseBoxesWithFiltersHaveAllLeftIsSearched) {
+  World world, other;
+  const BoxId id = world.add(cube(0, 0, 0), {.category = 2});
+  other.add(cube(0, 0, 0));
+  ASSERT_EQ(world.findBetween(other).size(), 1U);
+  world.remove(id);
+  for (int i = 0; i < 2; ++i) static_cast<void>(world.step());
+  world.shrink();
+  EXPECT_EQ(world.findBetween(other).size(), 0U);
+  EXPECT_EQ(other.findBetween(world).size(), 0U);
+  EXPECT_THAT(world.step().pairs, IsEmpty());
+  world.add(cube(0, 0, 0), {.category = 4});
+  EXPECT_EQ(world.findBetween(other).size(), 1U);
+}
+
 TEST(WorldNumbers, AcceptMayAskForTheListsAndQueriesOfTheWorldThatIsStepped) {
   for (const std::uint32_t boxes : {20U, 600U}) {
     parallel::TbbExecutor executor(4);

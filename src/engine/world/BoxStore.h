@@ -90,7 +90,7 @@ class BoxStore {
 
   /// The data that a pair test reads; set() has been called since anything changed.
   [[nodiscard]] TestedBoxes tested() const noexcept {
-    if (!m_filtered) return {&m_set};
+    if (!m_filtered || m_filters.empty()) return {&m_set};
     const FilterRow* rows = m_filters.data();
     static_assert(sizeof(FilterRow) == 3 * sizeof(std::uint32_t));
     return {&m_set, &rows->category, &rows->mask, &rows->group, 3};
