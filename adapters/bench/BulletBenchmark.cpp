@@ -5,7 +5,6 @@
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "Median.h"
 #include "ProcessorTime.h"
 #include "allpairs/bullet/BulletBroadphase.h"
 
@@ -148,14 +148,6 @@ Timing show(const Film& film, btBroadphaseInterface& broadphase) {
   timing.exactPairs = exactPairs(*broadphase.getOverlappingPairCache());
   for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
   return timing;
-}
-
-/// The run in the middle, by its whole time.
-Timing median(std::vector<Timing> timings) {
-  const auto middle = timings.begin() + static_cast<std::ptrdiff_t>(timings.size() / 2);
-  std::nth_element(timings.begin(), middle, timings.end(),
-                   [](const Timing& a, const Timing& b) { return a.total() < b.total(); });
-  return *middle;
 }
 
 struct Contender {

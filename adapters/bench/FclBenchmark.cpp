@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "Median.h"
 #include "ProcessorTime.h"
 #include "allpairs/fcl/FclBroadPhaseManager.h"
 
@@ -89,14 +90,6 @@ struct Step {
 
   [[nodiscard]] double total() const { return update + collide; }
 };
-
-/// The step in the middle, by its whole time.
-Step median(std::vector<Step> steps) {
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end(),
-                   [](const Step& a, const Step& b) { return a.total() < b.total(); });
-  return *middle;
-}
 
 template <class Prepare>
 Step timeStep(Manager& manager, const Prepare& prepare) {
@@ -202,12 +195,6 @@ void askAll(Manager& manager, const Questions& questions, const std::vector<Obje
     manager.distance(probes[static_cast<std::size_t>(i) % probes.size()], &found, distanceCallback);
   }
   if (questions.itself) manager.collide(&found, callback);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Steps of a scene, which take so little time that many managers of a kind take them in turns.

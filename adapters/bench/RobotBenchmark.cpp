@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "Median.h"
 #include "ProcessorTime.h"
 #include "allpairs/fcl/FclBroadPhaseManager.h"
 
@@ -167,12 +168,6 @@ const std::array<Check, 5> kChecks{{
     {"self and world, two managers",
      [](const Scene&, Contender& own, Bodies& pose) { return checkKept(own, pose, true); }},
 }};
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Bodies> makePoses(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);

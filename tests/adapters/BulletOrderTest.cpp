@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "BulletBody.h"
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
 
@@ -251,14 +252,7 @@ class Heap {
 
  private:
   void add(btCollisionShape& shape, btScalar mass, const btVector3& place) {
-    btVector3 inertia(0, 0, 0);
-    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-    m_bodies.push_back(
-        std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &shape, inertia)));
-    btTransform pose = btTransform::getIdentity();
-    pose.setOrigin(place);
-    m_bodies.back()->setWorldTransform(pose);
-    m_bodies.back()->setInterpolationWorldTransform(pose);
+    m_bodies.push_back(makeBody(shape, mass, place));
     m_bodies.back()->setUserIndex(static_cast<int>(m_bodies.size()) - 1);
     m_world.addRigidBody(m_bodies.back().get());
   }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "BulletBody.h"
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
 #include "allpairs/parallel/TbbExecutor.h"
@@ -84,15 +85,8 @@ class FallingBodies {
 
  private:
   void add(btCollisionShape& shape, btScalar mass, const btVector3& place) {
-    btVector3 inertia(0, 0, 0);
-    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-    m_bodies.push_back(
-        std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &shape, inertia)));
+    m_bodies.push_back(makeBody(shape, mass, place));
     m_bodies.back()->setDamping(btScalar(0.1), btScalar(0.5));  // balls on a smooth floor would roll for ever
-    btTransform pose = btTransform::getIdentity();
-    pose.setOrigin(place);
-    m_bodies.back()->setWorldTransform(pose);
-    m_bodies.back()->setInterpolationWorldTransform(pose);
     m_world.addRigidBody(m_bodies.back().get());
   }
 

@@ -24,6 +24,11 @@ def random_boxes(n, seed=1, dtype=np.float64):
     return lower, upper
 
 
+def plane_boxes(n=300, seed=21, dtype=np.float64):
+    lower, upper = random_boxes(n, seed, dtype)
+    return lower[:, :2], upper[:, :2]
+
+
 @pytest.fixture
 def boxes():
     return random_boxes(400)

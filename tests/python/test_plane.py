@@ -4,18 +4,13 @@
 import allpairs
 import numpy as np
 import pytest
-from conftest import every_pair, random_boxes
+from conftest import every_pair, plane_boxes
 
 
 def plane_pairs(lower, upper, distance=0.0):
     """The double loop over two axes; the third is one where all overlap, however much is asked for."""
     n = len(lower)
     return every_pair(np.hstack([lower, np.full((n, 1), -1e9)]), np.hstack([upper, np.full((n, 1), 1e9)]), distance)
-
-
-def plane_boxes(n=300, seed=21, dtype=np.float64):
-    lower, upper = random_boxes(n, seed, dtype)
-    return lower[:, :2], upper[:, :2]
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int64])

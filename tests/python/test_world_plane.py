@@ -6,6 +6,7 @@ import pickle
 import allpairs
 import numpy as np
 import pytest
+from conftest import every_pair, plane_boxes
 
 
 def meet(lower, upper, other_lower, other_upper, distance=0.0):
@@ -14,19 +15,6 @@ def meet(lower, upper, other_lower, other_upper, distance=0.0):
     apart = (lower[:, None] > other_upper[None] + distance) | (other_lower[None] > upper[:, None] + distance)
     full = (lower <= upper).all(axis=1)[:, None] & (other_lower <= other_upper).all(axis=1)
     return ~apart.any(axis=2) & full
-
-
-def pairs_of(lower, upper, distance=0.0):
-    return np.argwhere(np.triu(meet(lower, upper, lower, upper, distance), k=1)).tolist()
-
-
-def plane_boxes(n, seed, dtype=np.float64):
-    rng = np.random.default_rng(seed)
-    lower = rng.integers(0, 40, (n, 2)).astype(dtype)
-    upper = lower + rng.integers(0, 5, (n, 2)).astype(dtype)
-    upper[::17, 1] = lower[::17, 1] - 1
-    upper[5::53] = np.inf
-    return lower, upper
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -38,7 +26,7 @@ def test_steps_are_those_of_the_double_loop(dtype, distance):
     ids = world.add(lower, upper)
     before = []
     for step in range(8):
-        found, expected = world.step(), pairs_of(lower, upper, distance)
+        found, expected = world.step(), every_pair(lower, upper, distance).tolist()
         assert found.pairs.tolist() == expected
         assert found.began.tolist() == [pair for pair in expected if pair not in before]
         assert found.ended.tolist() == [pair for pair in before if pair not in expected]
@@ -58,7 +46,7 @@ def test_negative_margins_set_later_ask_for_no_depth():
     world = allpairs.World(distance=0.5)
     ids = world.add(lower, upper)
     world.set_properties(ids, margin=-0.75)
-    assert world.step().pairs.tolist() == pairs_of(lower, upper, -1.0)
+    assert world.step().pairs.tolist() == every_pair(lower, upper, -1.0).tolist()
 
 
 def test_swept_boxes_are_the_union_of_start_and_end():
@@ -68,7 +56,7 @@ def test_swept_boxes_are_the_union_of_start_and_end():
     world = allpairs.World()
     ids = world.add(lower, upper)
     world.move_swept(ids, (lower, upper), np.hstack([lower + [3, 0], upper + [3, 0]]))
-    assert world.step().pairs.tolist() == pairs_of(lower, upper + [3, 0])
+    assert world.step().pairs.tolist() == every_pair(lower, upper + [3, 0]).tolist()
 
 
 def test_overlapping_is_the_double_loop():

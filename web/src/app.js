@@ -98,7 +98,7 @@ export class App extends EventTarget {
     return this.isSelf ? [this.models[0], this.models[0]] : this.models.length === 2 ? this.models : null;
   }
 
-  /** The pair of the model that is chosen and another, or null where none is, or they are no pair. */
+  /** If one model is chosen and is in a pair with this one: that pair. Else null. */
   pairWith(model) {
     const entry = this.models.length === 1 && this.models[0] !== model ? this.table.find(this.models[0], model) : -1;
     return entry < 0 ? null : [this.table.first(entry), this.table.second(entry)];

@@ -78,13 +78,13 @@ class FclBroadPhaseManager : public FclTree<S> {
 
   void registerObject(Object* object) override {
     if (object == nullptr) return;
-    const bool isNew = m_objects.numberOf(object) == kNoBox;
+    const std::size_t before = m_objects.size();
     const BoxId number = m_objects.add(object);
     try {
       m_search.reserve(m_objects.bound());  // so that no change of a row is lost for want of memory
       refresh(number);
     } catch (...) {
-      if (isNew) unregisterObject(object);
+      if (m_objects.size() != before) unregisterObject(object);
       throw;
     }
   }
