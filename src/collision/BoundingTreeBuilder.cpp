@@ -146,6 +146,7 @@ BoundingBoxModel& BoundingTreeBuilder::level(CollisionModel& model, std::size_t 
 void BoundingTreeBuilder::link(CollisionModel& model, std::size_t levels) {
   model.m_levels.resize(levels);
   model.m_hasLevels = levels != 0;
+  model.m_hasRoot = model.m_hasLevels;
   CollisionModel* previous = nullptr;
   for (const std::unique_ptr<BoundingBoxModel>& boxes : model.m_levels) {
     boxes->m_previous = previous;

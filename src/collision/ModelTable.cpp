@@ -49,7 +49,7 @@ void ModelTable::lookUpType(const std::type_info& type) { m_lastType = {&type, i
 
 void ModelTable::add(CollisionModel* model, bool ours, bool selfPair) {
   const CollisionModel& last = *model->m_last;
-  const Box box = last.m_hasLevels ? last.m_rootBox : last.elementBox(0);
+  const Box box = last.m_hasRoot ? last.m_rootBox : last.elementBox(0);
   if (!ours && hasNan(box)) throw InvalidBox(m_size, last.describe() + ": its root box has a NaN");
   const std::uint16_t rootType = ours ? std::uint16_t{0} : rootTypeOf(*model);
   if (m_size == m_rows.size()) grow();

@@ -58,7 +58,7 @@ class ModelTable {
 
   /// Whether a model has no elements; without a virtual call if it is ours and has a root.
   [[nodiscard]] static bool isEmpty(const CollisionModel& last, bool ours) {
-    return ours && last.m_treeIsCurrent ? !last.m_hasLevels : last.empty();
+    return ours && last.m_treeIsCurrent ? !last.m_hasRoot : last.empty();
   }
 
   /// Notes a model; the caller has seen to it that it has a root.

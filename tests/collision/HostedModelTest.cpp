@@ -75,6 +75,24 @@ TEST_F(HostedModels, RememberTheirHost) {
   EXPECT_EQ(model.host(), &body);
 }
 
+TEST_F(HostedModels, AreTheirOwnRootsUntilABoundingTreeIsComputed) {
+  HostedModel& model = addHosted(unitBoxAt(0.0));
+  HostedModel& other = addHosted(unitBoxAt(0.5));
+  EXPECT_EQ(model.getFirst(), &model);
+  EXPECT_EQ(model.typeKey(), model.rootTypeKey());
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
+  model.computeBoundingTree(3);
+  EXPECT_NE(model.getFirst(), &model);
+  EXPECT_EQ(model.getFirst()->elementBox(0), unitBoxAt(0.0));
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
+  model.setBox(unitBoxAt(5.0));
+  EXPECT_EQ(model.getFirst()->elementBox(0), unitBoxAt(5.0));
+  EXPECT_EQ(detect(), Numbers{});
+  other.setContactDistance(4.0);  // which invalidates its box: the broad phase computes the tree
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
+  EXPECT_EQ(other.elementBox(0), unitBoxAt(0.5));
+}
+
 TEST_F(HostedModels, RefuseABoxWithANan) {
   HostedModel model;
   EXPECT_THROW(model.setBox({{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}, {1.0, 1.0, 1.0}}), InvalidBox);

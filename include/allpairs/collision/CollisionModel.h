@@ -140,6 +140,20 @@ class CollisionModel {
   /// Bad input: a box with a NaN throws InvalidBox.
   void setRoot(const Box& box, const NormalCone& cone = {});
 
+  /// For a model that is one box and nothing below it: the model is its own root, with this box, until
+  /// computeBoundingTree() puts a level above it.
+  ///
+  /// Bad input: a box with a NaN throws InvalidBox.
+  void setOwnRoot(const Box& box) {
+    if (m_hasLevels || hasNan(box)) return setRoot(box);
+    m_rootBox = box;
+    m_hasRoot = true;
+    m_treeIsCurrent = true;
+  }
+
+  /// The box at the root, whether it is current or not; empty before there is one.
+  [[nodiscard]] const Box& rootBox() const { return m_last->m_rootBox; }
+
  private:
   friend class BoundingBoxModel;
   friend class BoundingTreeBuilder;
@@ -156,6 +170,7 @@ class CollisionModel {
   bool m_simulated = true;
   bool m_selfCollision = false;
   bool m_treeIsCurrent = false;
+  bool m_hasRoot = false;  // levels, or a root box of its own; false of a model without elements
   bool m_hasLevels = false;
   Box m_rootBox = kEmptyBox;
   CollisionModel* m_next = nullptr;

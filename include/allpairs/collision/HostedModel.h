@@ -5,7 +5,7 @@
 
 namespace allpairs::collision {
 
-/// A proxy for a model of another system: its root box is set from outside, and it keeps a pointer to that model.
+/// A proxy for a model of another system: its box is set from outside, and it keeps a pointer to that model.
 ///
 /// An adapter uses it to pass another system's models to the broad phase: flags, groups, owner and distance with the
 /// setters of CollisionModel, the box with setBox(). A subclass may override canCollideWith() to ask the other system.
@@ -20,17 +20,16 @@ class HostedModel : public CollisionModel {
   void setHost(void* host) { m_host = host; }
 
   /// The root box of a step. Set it after the contact distance, which invalidates the box.
-  void setBox(const Box& box) {
-    setRoot(box);
-    m_box = box;
-  }
+  void setBox(const Box& box) { setOwnRoot(box); }
 
   [[nodiscard]] std::size_t getSize() const override { return 1; }
-  [[nodiscard]] Box elementBox(std::size_t /*index*/) const override { return m_box; }
+  [[nodiscard]] Box elementBox(std::size_t /*index*/) const override { return rootBox(); }
   [[nodiscard]] std::string_view typeName() const override { return "HostedModel"; }
 
+  /// That of a root box, which the model itself is while it has one level.
+  [[nodiscard]] std::type_index typeKey() const override { return rootTypeKey(); }
+
  private:
-  Box m_box = kEmptyBox;
   void* m_host = nullptr;
 };
 
