@@ -132,7 +132,7 @@ TEST_F(SofaBroadPhase, ReversedBoxesAreTestedAsTheMethodTestsThem) {
 
 TEST_F(SofaBroadPhase, AModelWithoutABoxIsOfNoInterestToAMethodThatKnowsBoxes) {
   m_world.addAt(0.0);
-  m_world.addBody(std::make_shared<Triangles>(), std::make_unique<Triangles>()).root->resize(1);
+  m_world.addBody(new Triangles, new Triangles).root->resize(1);
   m_world.addAt(0.0);
   EXPECT_EQ(m_world.runBoth(m_method), (Numbers{{2, 0}}));
 }

@@ -1,30 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Random scenes through many steps: the plugin's list is the double loop's, whatever is in them.
-#include <random>
-
+#include "Dice.h"
 #include "World.h"
 
 namespace allpairs::test {
 namespace {
-
-/// A model with a rule of its own: it collides with what has an odd number of groups.
-class OddGroups : public sofa::core::CollisionModel {
- public:
-  bool canCollideWith(sofa::core::CollisionModel* other) override { return other->getGroups().size() % 2 != 0; }
-};
-
-/// Draws scenes; everything is a small integer or a quarter of one, so that boxes often just touch.
-class Dice {
- public:
-  explicit Dice(unsigned seed) : m_engine(seed) {}
-
-  int upTo(int most) { return std::uniform_int_distribution<int>(0, most)(m_engine); }
-  bool oneIn(int n) { return upTo(n - 1) == 0; }
-  double quarter(int most) { return 0.25 * upTo(most); }
-
- private:
-  std::mt19937 m_engine;
-};
 
 void place(Body& body, Dice& dice, bool withOddBoxes) {
   Vec3 min{};

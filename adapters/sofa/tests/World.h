@@ -12,7 +12,6 @@
 #include <sofa/component/collision/geometry/TriangleCollisionModel.h>
 
 #include <deque>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +28,8 @@ using Numbers = std::vector<std::pair<int, int>>;
 
 /// A model of two levels, a box above elements, as SOFA's models are in the broad phase.
 struct Body {
-  std::shared_ptr<sofa::core::CollisionModel> root;
-  std::unique_ptr<sofa::core::CollisionModel> elements;
+  sofa::core::CollisionModel::SPtr root;
+  sofa::core::CollisionModel::SPtr elements;
 
   [[nodiscard]] CubeCollisionModel& box() const { return static_cast<CubeCollisionModel&>(*root); }
 };
@@ -44,15 +43,14 @@ class World {
     auto root = sofa::core::objectmodel::New<CubeCollisionModel>();
     root->resize(1);
     root->setParentOf(0, min, max);
-    return addBody(root, std::make_unique<Elements>());
+    return addBody(root, new Elements);
   }
 
-  Body& addBody(std::shared_ptr<sofa::core::CollisionModel> root,
-                std::unique_ptr<sofa::core::CollisionModel> elements) {
+  Body& addBody(sofa::core::CollisionModel::SPtr root, sofa::core::CollisionModel::SPtr elements) {
     Body& body = m_bodies.emplace_back(Body{std::move(root), std::move(elements)});
     body.elements->resize(1);
     body.elements->setContext(&m_nodes.emplace_back());
-    body.root->setNext(body.elements.get());
+    body.elements->setPrevious(body.root);
     body.elements->setName(std::to_string(m_bodies.size() - 1));
     m_models.push_back(body.root.get());
     return body;
@@ -62,6 +60,17 @@ class World {
   Body& addAt(double x) { return add({x, 0.0, 0.0}, {x + 1.0, 1.0, 1.0}); }
 
   void addAgain(const Body& body) { m_models.push_back(body.root.get()); }
+
+  /// Lets go of a body.
+  void remove(std::size_t body) {
+    m_bodies.erase(m_bodies.begin() + static_cast<std::ptrdiff_t>(body));
+    setModels({});
+  }
+
+  /// The models of the steps to come, in this order.
+  void setModels(std::vector<sofa::core::CollisionModel*> models) { m_models = std::move(models); }
+
+  sofa::core::objectmodel::BaseContext& newNode() { return m_nodes.emplace_back(); }
 
   /// What a broad phase makes of the models, handed over together or one by one.
   Numbers run(sofa::core::collision::BroadPhaseDetection& phase, sofa::core::collision::Intersection& method,
@@ -105,7 +114,7 @@ class World {
   std::deque<Body> m_bodies;
   std::deque<sofa::core::objectmodel::BaseContext> m_nodes;
   std::vector<sofa::core::CollisionModel*> m_models;
-  std::shared_ptr<plugin::AllpairsBroadPhase> m_ours = sofa::core::objectmodel::New<plugin::AllpairsBroadPhase>();
+  plugin::AllpairsBroadPhase::SPtr m_ours = sofa::core::objectmodel::New<plugin::AllpairsBroadPhase>();
 };
 
 /// A method of the user's own, which finds near what lies within 1 along x, however far apart elsewhere; it wants the

@@ -114,10 +114,21 @@ void AllpairsBroadPhase::beginBroadPhase() {
   readVerify();
   state.phase.beginBroadPhase();
   state.phase.setStrategy(kStrategies[d_strategy.getValue().getSelectedId()]);
-  state.models.clear();
+  state.models.begin();
   state.collected = 0;
   state.differed = false;
   if (state.stock) state.stock->beginBroadPhase();
+}
+
+void AllpairsBroadPhase::endBroadPhase() {
+  Inherit1::endBroadPhase();
+  m_state->models.end();
+}
+
+void AllpairsBroadPhase::cleanup() {
+  m_state->models.begin();
+  m_state->models.end();
+  Inherit1::cleanup();
 }
 
 void AllpairsBroadPhase::addCollisionModel(sofa::core::CollisionModel* cm) { addAll(&cm, 1); }

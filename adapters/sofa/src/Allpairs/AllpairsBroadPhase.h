@@ -42,6 +42,10 @@ class ALLPAIRS_SOFA_API AllpairsBroadPhase : public sofa::core::collision::Broad
   void beginBroadPhase() override;
   void addCollisionModel(sofa::core::CollisionModel* cm) override;
   void addCollisionModels(const sofa::type::vector<sofa::core::CollisionModel*>& models) override;
+  void endBroadPhase() override;
+
+  /// Lets go of SOFA's models, which it holds between steps.
+  void cleanup() override;
 
   /// False: roots are enough.
   [[nodiscard]] bool needsDeepBoundingTree() const override { return false; }

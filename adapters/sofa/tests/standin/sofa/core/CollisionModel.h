@@ -26,39 +26,63 @@ class CollisionElementIterator {
 };
 
 /// One level of a model, from the root, which is one element, to the last.
+///
+/// As in SOFA a level holds the one above it, which knows the one below but does not hold it.
 class CollisionModel : public objectmodel::BaseComponent {
  public:
+  using SPtr = objectmodel::SharedPointer<CollisionModel>;
+
   [[nodiscard]] bool empty() const { return m_size == 0; }
   virtual void resize(Size size) { m_size = size; }
   [[nodiscard]] CollisionElementIterator begin() { return {this, 0}; }
 
   [[nodiscard]] CollisionModel* getLast() { return m_next == nullptr ? this : m_next->getLast(); }
-  void setNext(CollisionModel* next) { m_next = next; }
+  [[nodiscard]] CollisionModel* getNext() { return m_next; }
+  [[nodiscard]] CollisionModel* getPrevious() { return m_previous.get(); }
 
-  [[nodiscard]] virtual bool isSimulated() const { return m_simulated; }
-  virtual void setSimulated(bool simulated) { m_simulated = simulated; }
-  [[nodiscard]] bool getSelfCollision() const { return m_selfCollision; }
-  void setSelfCollision(bool selfCollision) { m_selfCollision = selfCollision; }
-  [[nodiscard]] SReal getContactDistance() const { return m_contactDistance; }
-  void setContactDistance(SReal distance) { m_contactDistance = distance; }
-  [[nodiscard]] const std::set<int>& getGroups() const { return m_groups; }
-  void setGroups(const std::set<int>& groups) { m_groups = groups; }
+  /// Puts a level above this one. What either was linked with before is linked with nothing then.
+  void setPrevious(const SPtr& previous) {
+    if (previous.get() == m_previous.get()) return;
+    const SPtr before = m_previous;
+    if (before) {
+      if (before->m_next != nullptr) before->m_next->m_previous.reset();
+      before->m_next = nullptr;
+    }
+    if (previous && previous->m_next != nullptr) previous->m_next->m_previous.reset();
+    m_previous = previous;
+    if (previous) previous->m_next = this;
+  }
+
+  [[nodiscard]] virtual bool isSimulated() const { return m_simulated.getValue(); }
+  virtual void setSimulated(bool simulated) { m_simulated.setValue(simulated); }
+  [[nodiscard]] bool getSelfCollision() const { return m_selfCollision.getValue(); }
+  void setSelfCollision(bool selfCollision) { m_selfCollision.setValue(selfCollision); }
+  [[nodiscard]] SReal getContactDistance() const { return m_contactDistance.getValue(); }
+  void setContactDistance(SReal distance) { m_contactDistance.setValue(distance); }
+  [[nodiscard]] const std::set<int>& getGroups() const { return m_groups.getValue(); }
+  void setGroups(const std::set<int>& groups) { m_groups.setValue(groups); }
+  void addGroup(int group) {
+    m_groups.beginEdit()->insert(group);
+    m_groups.endEdit();
+  }
 
   virtual bool canCollideWith(CollisionModel* other) {
-    if (getContext() == other->getContext()) return m_selfCollision;
+    if (getContext() == other->getContext()) return getSelfCollision();
+    const std::set<int>& mine = getGroups();
+    const std::set<int>& others = other->getGroups();
     std::vector<int> common;
-    std::set_intersection(m_groups.begin(), m_groups.end(), other->m_groups.begin(), other->m_groups.end(),
-                          std::back_inserter(common));
+    std::set_intersection(mine.begin(), mine.end(), others.begin(), others.end(), std::back_inserter(common));
     return common.empty();
   }
 
  private:
   Size m_size = 0;
   CollisionModel* m_next = nullptr;
-  bool m_simulated = true;
-  bool m_selfCollision = false;
-  SReal m_contactDistance = 0.0;
-  std::set<int> m_groups;
+  SPtr m_previous;
+  objectmodel::Data<bool> m_simulated{initData(&m_simulated, true, "simulated", "")};
+  objectmodel::Data<bool> m_selfCollision{initData(&m_selfCollision, false, "selfCollision", "")};
+  objectmodel::Data<SReal> m_contactDistance{initData(&m_contactDistance, 0.0, "contactDistance", "")};
+  objectmodel::Data<std::set<int>> m_groups{initData(&m_groups, "group", "")};
 };
 
 }  // namespace sofa::core

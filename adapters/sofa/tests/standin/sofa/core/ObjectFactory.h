@@ -4,7 +4,6 @@
 #include <sofa/core/objectmodel/BaseComponent.h>
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,7 @@ class ObjectRegistrationData {
   }
 
   std::string description;
-  std::vector<std::function<std::shared_ptr<objectmodel::BaseComponent>()>> makers;
+  std::vector<std::function<objectmodel::SharedPointer<objectmodel::BaseComponent>()>> makers;
 };
 
 /// Knows how to make components.

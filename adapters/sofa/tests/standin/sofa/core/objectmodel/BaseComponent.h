@@ -2,25 +2,20 @@
 #pragma once
 
 #include <sofa/config.h>
+#include <sofa/core/objectmodel/DDGNode.h>
 #include <sofa/helper/Messages.h>
 
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 
 namespace sofa::core::objectmodel {
 
 /// A setting of a component, whatever its type.
-class BaseData {
+class BaseData : public DDGNode {
  public:
-  BaseData() = default;
-  BaseData(const BaseData&) = delete;
-  BaseData& operator=(const BaseData&) = delete;
-  BaseData(BaseData&&) = delete;
-  BaseData& operator=(BaseData&&) = delete;
-  virtual ~BaseData() = default;
   virtual bool copyValueFrom(const BaseData* other) = 0;
+  void update() override { cleanDirty(); }
 };
 
 template <class T>
@@ -35,9 +30,15 @@ class Data : public BaseData {
 
   [[nodiscard]] const T& getValue() const { return m_value; }
   [[nodiscard]] bool isSet() const { return m_isSet; }
-  void setValue(const T& value) {
-    m_value = value;
+  T* beginEdit() {
     m_isSet = true;
+    setDirtyOutputs();
+    return &m_value;
+  }
+  void endEdit() { notifyEndEdit(); }
+  void setValue(const T& value) {
+    *beginEdit() = value;
+    endEdit();
   }
   bool copyValueFrom(const BaseData* other) override {
     setValue(static_cast<const Data<T>*>(other)->getValue());
@@ -47,6 +48,36 @@ class Data : public BaseData {
  private:
   T m_value;
   bool m_isSet = false;
+};
+
+/// Holds one of those who keep a component alive.
+template <class T>
+class SharedPointer {
+ public:
+  SharedPointer() = default;
+  SharedPointer(T* object) : m_object(object) {  // NOLINT(google-explicit-constructor): SOFA's is not
+    if (m_object != nullptr) m_object->hold();
+  }
+  SharedPointer(const SharedPointer& other) : SharedPointer(other.m_object) {}
+  SharedPointer(SharedPointer&& other) noexcept : m_object(std::exchange(other.m_object, nullptr)) {}
+  template <class U>
+  SharedPointer(const SharedPointer<U>& other) : SharedPointer(other.get()) {}  // NOLINT(google-explicit-constructor)
+  SharedPointer& operator=(SharedPointer other) noexcept {
+    std::swap(m_object, other.m_object);
+    return *this;
+  }
+  ~SharedPointer() {
+    if (m_object != nullptr) m_object->release();
+  }
+
+  [[nodiscard]] T* get() const { return m_object; }
+  T* operator->() const { return m_object; }
+  T& operator*() const { return *m_object; }
+  explicit operator bool() const { return m_object != nullptr; }
+  void reset() { *this = SharedPointer(); }
+
+ private:
+  T* m_object = nullptr;
 };
 
 /// A place in the scene; the components of one node share one.
@@ -72,19 +103,30 @@ class Base {
     return {T{}};
   }
 
-  [[nodiscard]] BaseData* findData(const std::string& name) const { return m_data.at(name); }
+  [[nodiscard]] BaseData* findData(const std::string& name) const {
+    const auto found = m_data.find(name);
+    return found == m_data.end() ? nullptr : found->second;
+  }
   [[nodiscard]] std::string getPathName() const { return "/" + m_name; }
   void setName(const std::string& name) { m_name = name; }
+
+  [[nodiscard]] int holders() const { return m_holders; }
+  void hold() { ++m_holders; }
+  void release() {
+    if (--m_holders == 0) delete this;
+  }
 
  private:
   std::map<std::string, BaseData*> m_data;
   std::string m_name;
+  int m_holders = 0;
 };
 
 class BaseComponent : public virtual Base {
  public:
   virtual void init() {}
   virtual void reinit() {}
+  virtual void cleanup() {}
 
   [[nodiscard]] const BaseContext* getContext() const { return m_context; }
   void setContext(const BaseContext* context) { m_context = context; }
@@ -95,14 +137,14 @@ class BaseComponent : public virtual Base {
 
 /// Makes a component; their constructors are protected.
 template <class T>
-std::shared_ptr<T> New() {
-  return std::shared_ptr<T>(new T);
+SharedPointer<T> New() {
+  return SharedPointer<T>(new T);
 }
 
 }  // namespace sofa::core::objectmodel
 
-#define SOFA_CLASS(T, Parent)      \
-  using SPtr = std::shared_ptr<T>; \
-  using Inherit1 = Parent;         \
-  template <class U>               \
-  friend std::shared_ptr<U> sofa::core::objectmodel::New()
+#define SOFA_CLASS(T, Parent)                             \
+  using SPtr = sofa::core::objectmodel::SharedPointer<T>; \
+  using Inherit1 = Parent;                                \
+  template <class U>                                      \
+  friend sofa::core::objectmodel::SharedPointer<U> sofa::core::objectmodel::New()
