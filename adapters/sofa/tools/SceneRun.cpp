@@ -63,17 +63,21 @@ Settings readSettings(int argc, char** argv) {
   return settings;
 }
 
-SceneRun::SceneRun(const Settings& settings, const std::string& broadPhaseClass) {
+void loadPlugins(const std::vector<std::string>& names) {
   sofa::simulation::common::init();
   sofa::simulation::graph::init();
-  for (const std::string& folder : settings.dataFolders) {
-    sofa::helper::system::DataRepository.addFirstPath(folder);
-  }
   auto& plugins = sofa::helper::system::PluginManager::getInstance();
-  for (const std::string& plugin : settings.plugins) {
+  for (const std::string& plugin : names) {
     if (!isLoaded(plugins.loadPlugin(plugin))) throw std::runtime_error("SOFA can't load the plugin " + plugin);
     sofa::core::ObjectFactory::getInstance()->registerObjectsFromPlugin(plugin);
   }
+}
+
+SceneRun::SceneRun(const Settings& settings, const std::string& broadPhaseClass) {
+  for (const std::string& folder : settings.dataFolders) {
+    sofa::helper::system::DataRepository.addFirstPath(folder);
+  }
+  loadPlugins(settings.plugins);
   m_root = sofa::simulation::node::load(settings.scene);
   if (!m_root) throw std::runtime_error("SOFA can't load " + settings.scene);
   if (!broadPhaseClass.empty()) {

@@ -26,6 +26,11 @@ struct Settings {
 /// Bad input: throws std::invalid_argument that names the argument.
 [[nodiscard]] Settings readSettings(int argc, char** argv);
 
+/// Makes SOFA ready, and loads plugins of it.
+///
+/// Bad input: a plugin that SOFA can't load throws std::runtime_error.
+void loadPlugins(const std::vector<std::string>& names);
+
 /// A scene of SOFA, loaded, with other broad phases than its own, and run step by step.
 class SceneRun {
  public:
