@@ -47,6 +47,7 @@ inline std::string bytesOfFile(const std::filesystem::path& path) {
 /// A join of some files in a folder of its own.
 class JoinCase {
  public:
+  JoinCase() = default;
   explicit JoinCase(const std::vector<Box>& boxes, const NpyStyle& style = {.descr = "<f4"}) { add(boxes, style); }
 
   void add(const std::vector<Box>& boxes, const NpyStyle& style = {.descr = "<f4"}) {
