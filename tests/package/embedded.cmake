@@ -52,6 +52,6 @@ endforeach()
 set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/consumer)
 configure_consumer(
   ${WORK}/build -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D PARTS=engine,collision -D BUILD_SHARED_LIBS=${SHARED})
-expect_steps(${WORK}/build 79 engine collision)
+expect_steps(${WORK}/build 81 engine collision)
 build_and_run(${WORK}/build)
 expect_built(${WORK}/build liballpairs liballpairs_collision)
