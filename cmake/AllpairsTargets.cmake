@@ -87,22 +87,13 @@ function(allpairs_configure target)
   endif()
 endfunction()
 
-# Says which standard the programs of those who link a part need: C++17, or C++20 where its headers are that.
-function(allpairs_require_standard target part)
-  set(standard 17)
-  if(part MATCHES "^(scene|join|mpi)$")
-    set(standard 20)
-  endif()
-  target_compile_features(${target} INTERFACE cxx_std_${standard})
-endfunction()
-
 # Adds a library of ours from the given sources, known to users as allpairs::NAME, in an export set of its own, so that
 # find_package(Allpairs COMPONENTS NAME) asks for nothing that the others need.
 function(allpairs_add_library target export_name)
   add_library(${target} ${ARGN})
   add_library(allpairs::${export_name} ALIAS ${target})
   allpairs_configure(${target})
-  allpairs_require_standard(${target} ${export_name})
+  target_compile_features(${target} INTERFACE cxx_std_17) # which is what our headers need
   set(soversion ${ALLPAIRS_SOVERSION})
   if(export_name STREQUAL "c")
     set(soversion ${ALLPAIRS_C_SOVERSION})
@@ -127,7 +118,7 @@ endfunction()
 function(allpairs_add_interface target export_name)
   add_library(${target} INTERFACE)
   add_library(allpairs::${export_name} ALIAS ${target})
-  allpairs_require_standard(${target} ${export_name})
+  target_compile_features(${target} INTERFACE cxx_std_17)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
   target_include_directories(${target} INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   if(ALLPAIRS_INSTALL)
