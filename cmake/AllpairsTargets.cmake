@@ -44,9 +44,14 @@ function(allpairs_components_of part library_variable development_variable)
 endfunction()
 
 # Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend
-# on the instruction set; and without the path of the source tree in what is built.
+# on the instruction set; and without the path of the source tree in what is built. With AS_CXX17 as C++17, as programs
+# of users may be.
 function(allpairs_configure target)
-  target_compile_features(${target} PUBLIC cxx_std_20)
+  if("AS_CXX17" IN_LIST ARGN)
+    set_target_properties(${target} PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON)
+  else()
+    target_compile_features(${target} PRIVATE cxx_std_20)
+  endif()
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   if(MSVC)
     # Visual C++ fuses no multiply-add unless /fp:contract or /fp:fast asks for it.
@@ -88,6 +93,7 @@ function(allpairs_add_library target export_name)
   add_library(${target} ${ARGN})
   add_library(allpairs::${export_name} ALIAS ${target})
   allpairs_configure(${target})
+  target_compile_features(${target} INTERFACE cxx_std_17) # which is what our headers need
   set(soversion ${ALLPAIRS_SOVERSION})
   if(export_name STREQUAL "c")
     set(soversion ${ALLPAIRS_C_SOVERSION})
@@ -112,7 +118,7 @@ endfunction()
 function(allpairs_add_interface target export_name)
   add_library(${target} INTERFACE)
   add_library(allpairs::${export_name} ALIAS ${target})
-  target_compile_features(${target} INTERFACE cxx_std_20)
+  target_compile_features(${target} INTERFACE cxx_std_17)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
   target_include_directories(${target} INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   if(ALLPAIRS_INSTALL)
@@ -130,14 +136,21 @@ function(allpairs_configure_c target)
   endif()
 endfunction()
 
-# Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest.
+# Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest. With AS_CXX17 it is compiled as
+# that, and the names of its tests begin so.
 function(allpairs_add_test target)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "AS_CXX17" "" "SOURCES;LIBRARIES")
   add_executable(${target} ${ARG_SOURCES})
-  allpairs_configure(${target})
+  set(standard)
+  set(prefix)
+  if(ARG_AS_CXX17)
+    set(standard AS_CXX17)
+    set(prefix TEST_PREFIX cxx17.)
+  endif()
+  allpairs_configure(${target} ${standard})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120)
+  gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120 ${prefix})
 endfunction()
 
 # Adds a program of one page, NAME.cpp or SOURCE, that is run as a test: it must succeed and print exactly what is in

@@ -119,8 +119,8 @@ void findAll(elements::ElementCandidates& candidates, bool wantsLists, ElementFi
   }
   report.findSeconds = timer.seconds();
   for (std::size_t i = 0; i < kKindNames.size(); ++i) files.write(kKindNames[i].key, 2, numbersOf(found[i]));
-  files.write("edges", 2, numbersOf(candidates.topology().edges()));
-  files.write("faces", 3, numbersOf(candidates.topology().triangles()));
+  files.write("edges", 2, numbersOf(std::span(candidates.topology().edges())));
+  files.write("faces", 3, numbersOf(std::span(candidates.topology().triangles())));
 }
 
 void describeMeshes(const elements::MeshTopology& topology, const std::vector<MeshStep>& steps, ElementReport& report) {

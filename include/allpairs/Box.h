@@ -18,7 +18,12 @@ struct BasicBox {
   std::array<T, 3> min{};
   std::array<T, 3> max{};
 
-  friend constexpr bool operator==(const BasicBox&, const BasicBox&) = default;
+  friend constexpr bool operator==(const BasicBox& a, const BasicBox& b) {
+    return a.min[0] == b.min[0] && a.min[1] == b.min[1] &&
+           a.min[2] == b.min[2] &&  // == of arrays is constexpr in C++20 only
+           a.max[0] == b.max[0] && a.max[1] == b.max[1] && a.max[2] == b.max[2];
+  }
+  friend constexpr bool operator!=(const BasicBox& a, const BasicBox& b) { return !(a == b); }
 };
 
 using Box = BasicBox<double>;

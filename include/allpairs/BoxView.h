@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <type_traits>
 
 #include "allpairs/Box.h"
+#include "allpairs/Span.h"
 
 namespace allpairs {
 
@@ -34,29 +34,28 @@ class BoxView {
   BoxView() = default;
 
   /// From any array of boxes: std::vector, std::array, std::span, of Box or BoxF.
-  template <class Boxes>
-    requires std::convertible_to<const Boxes&, std::span<const Box>>
+  template <class Boxes, std::enable_if_t<std::is_convertible_v<const Boxes&, Span<const Box>>, int> = 0>
   BoxView(const Boxes& boxes) : BoxView(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
-  template <class Boxes>
-    requires std::convertible_to<const Boxes&, std::span<const BoxF>>
+  template <class Boxes, std::enable_if_t<std::is_convertible_v<const Boxes&, Span<const BoxF>>, bool> = true>
   BoxView(const Boxes& boxes) : BoxView(fromBoxes(boxes)) {}  // NOLINT(google-explicit-constructor): a view of the same
 
   /// A temporary that owns its boxes would be destroyed before the view is used.
-  template <class Boxes>
-    requires(!std::ranges::enable_borrowed_range<Boxes> && (std::convertible_to<const Boxes&, std::span<const Box>> ||
-                                                            std::convertible_to<const Boxes&, std::span<const BoxF>>))
+  template <class Boxes,
+            std::enable_if_t<!internal::kIsBorrowed<Boxes> && (std::is_convertible_v<const Boxes&, Span<const Box>> ||
+                                                               std::is_convertible_v<const Boxes&, Span<const BoxF>>),
+                             int> = 0>
   BoxView(const Boxes&& boxes) = delete;
 
-  [[nodiscard]] static BoxView fromBoxes(std::span<const Box> boxes);
-  [[nodiscard]] static BoxView fromBoxes(std::span<const BoxF> boxes);
+  [[nodiscard]] static BoxView fromBoxes(Span<const Box> boxes);
+  [[nodiscard]] static BoxView fromBoxes(Span<const BoxF> boxes);
 
   /// From rows of 6: minx miny minz maxx maxy maxz, n rows one after the other.
-  [[nodiscard]] static BoxView fromRows(std::span<const float> rows);
-  [[nodiscard]] static BoxView fromRows(std::span<const double> rows);
+  [[nodiscard]] static BoxView fromRows(Span<const float> rows);
+  [[nodiscard]] static BoxView fromRows(Span<const double> rows);
 
   /// From two arrays of n rows of 3: all min corners, all max corners.
-  [[nodiscard]] static BoxView fromCorners(std::span<const float> min, std::span<const float> max);
-  [[nodiscard]] static BoxView fromCorners(std::span<const double> min, std::span<const double> max);
+  [[nodiscard]] static BoxView fromCorners(Span<const float> min, Span<const float> max);
+  [[nodiscard]] static BoxView fromCorners(Span<const double> min, Span<const double> max);
 
   /// From corners in any strided layout, such as columns of a larger table or six separate arrays one after the other.
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
@@ -70,7 +69,7 @@ class BoxView {
   /// Gives each box its own margin; an empty span removes them. The memory stays the caller's.
   ///
   /// Bad input: a span of the wrong length throws InvalidArgument; a NaN or -infinity throws InvalidBox.
-  void setMargins(std::span<const double> margins);
+  void setMargins(Span<const double> margins);
 
   /// The boxes [begin, end) as a view, with their margins. Constant time: they have been validated.
   ///
@@ -131,7 +130,7 @@ class BoxView {
   Corners<float> m_float32;
   Corners<double> m_float64;
   double m_margin = 0.0;
-  std::span<const double> m_margins;
+  Span<const double> m_margins;
   double m_leastMargin = 0.0;
   double m_greatestMargin = 0.0;
 };

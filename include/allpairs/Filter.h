@@ -2,22 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "allpairs/PairPredicate.h"
+#include "allpairs/Span.h"
 
 namespace allpairs {
 
 /// Filter data of the boxes of one set; each span is empty, or as long as the set.
 struct FilterBits {
   /// The categories of each box, as bits; if empty, every bit is set.
-  std::span<const std::uint32_t> categories{};
+  Span<const std::uint32_t> categories{};
 
   /// The categories that each box accepts as partners; if empty, every bit is set.
-  std::span<const std::uint32_t> masks{};
+  Span<const std::uint32_t> masks{};
 
   /// Boxes of the same non-zero group are never paired.
-  std::span<const std::uint32_t> groups{};
+  Span<const std::uint32_t> groups{};
 };
 
 /// Excludes overlapping boxes from the result.

@@ -15,9 +15,10 @@ class FunctionRef;
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
-  template <class Callable>
-    requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef> &&
-             std::is_invocable_r_v<Result, Callable&, Arguments...>)
+  template <class Callable,
+            std::enable_if_t<std::conjunction_v<std::negation<std::is_same<std::decay_t<Callable>, FunctionRef>>,
+                                                std::is_invocable_r<Result, Callable&, Arguments...>>,
+                             int> = 0>
   FunctionRef(Callable&& callable) noexcept  // NOLINT(google-explicit-constructor): meant to convert
       : m_object(const_cast<void*>(static_cast<const void*>(&callable))),
         m_call([](void* object, Arguments... arguments) -> Result {

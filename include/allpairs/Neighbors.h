@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
+#include "allpairs/Span.h"
 
 namespace allpairs {
 
@@ -24,28 +24,27 @@ struct Neighbors {
 
   /// The number of rows: that of the boxes.
   [[nodiscard]] std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t box) const& noexcept {
-    return std::span(indices).subspan(offsets[box], offsets[box + 1] - offsets[box]);
+  [[nodiscard]] Span<const std::uint32_t> operator[](std::size_t box) const& noexcept {
+    return Span<const std::uint32_t>(indices).subspan(offsets[box], offsets[box + 1] - offsets[box]);
   }
-  std::span<const std::uint32_t> operator[](std::size_t box) const&& =
-      delete;  // of a temporary: its rows are destroyed
+  Span<const std::uint32_t> operator[](std::size_t box) const&& = delete;  // of a temporary: its rows are destroyed
 };
 
 /// The same, in memory of the search that found them.
 struct NeighborsView {
-  std::span<const std::uint64_t> offsets;
-  std::span<const std::uint32_t> indices;
+  Span<const std::uint64_t> offsets;
+  Span<const std::uint32_t> indices;
 
   [[nodiscard]] std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t box) const noexcept {
+  [[nodiscard]] Span<const std::uint32_t> operator[](std::size_t box) const noexcept {
     return indices.subspan(offsets[box], offsets[box + 1] - offsets[box]);
   }
 };
 
 /// Memory of the caller for rows of neighbors.
 struct NeighborsMemory {
-  std::span<std::uint64_t> offsets;  ///< For one more than there are rows.
-  std::span<std::uint32_t> indices;  ///< For the pairs, twice in Full rows.
+  Span<std::uint64_t> offsets;  ///< For one more than there are rows.
+  Span<std::uint32_t> indices;  ///< For the pairs, twice in Full rows.
 };
 
 /// The partners of each box among the boxes of one set: the pairs of overlaps() as rows of a sparse matrix.

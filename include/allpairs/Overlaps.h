@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 
 namespace allpairs {
 
@@ -24,7 +24,7 @@ struct OverlapStatistics {
 };
 
 /// Receives pairs in batches; the span is valid during the call only.
-using PairVisitor = FunctionRef<void(std::span<const Pair>)>;
+using PairVisitor = FunctionRef<void(Span<const Pair>)>;
 
 /// The default maximum number of pairs in a batch.
 inline constexpr std::size_t kBatchSize = 65536;
@@ -59,12 +59,12 @@ class OverlapSearch {
   void setOptions(OverlapOptions options);
 
   /// All overlapping pairs of one set, each once. Valid until the next search or the object's destruction.
-  [[nodiscard]] std::span<const Pair> find(const BoxView& boxes);
+  [[nodiscard]] Span<const Pair> find(const BoxView& boxes);
 
   /// All pairs of a box of `first` and a box of `second` that overlap.
   ///
   /// Bad input: options for two sets, filter.second, throw InvalidArgument with one set.
-  [[nodiscard]] std::span<const Pair> find(const BoxView& first, const BoxView& second);
+  [[nodiscard]] Span<const Pair> find(const BoxView& first, const BoxView& second);
 
   /// The pairs of find() as rows of partners: see neighbors(). Valid until the next search or the object's destruction.
   [[nodiscard]] NeighborsView findNeighbors(const BoxView& boxes, NeighborRows rows = NeighborRows::Full);
@@ -75,8 +75,8 @@ class OverlapSearch {
   /// Bad input: memory for fewer pairs than there are throws LimitExceeded, whose count() is their number. It is then as it was,
   ///            unless the pairs are unordered or tested exhaustively.
   /// Cost:      no second copy of the result, unless several threads find unordered pairs or test exhaustively.
-  std::span<Pair> findInto(const BoxView& boxes, std::span<Pair> memory);
-  std::span<Pair> findInto(const BoxView& first, const BoxView& second, std::span<Pair> memory);
+  Span<Pair> findInto(const BoxView& boxes, Span<Pair> memory);
+  Span<Pair> findInto(const BoxView& first, const BoxView& second, Span<Pair> memory);
 
   /// Writes the rows of findNeighbors() to memory of the caller, and returns the part of it that they take.
   ///
@@ -132,6 +132,6 @@ void streamOverlaps(const BoxView& first, const BoxView& second, PairVisitor vis
                     const OverlapOptions& options = {}, std::size_t batchSize = kBatchSize);
 
 /// The instruction sets that both this processor and this build support, best first; "SCALAR" is always the last.
-[[nodiscard]] std::span<const std::string_view> instructionSets();
+[[nodiscard]] Span<const std::string_view> instructionSets();
 
 }  // namespace allpairs

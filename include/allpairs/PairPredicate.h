@@ -8,6 +8,16 @@
 
 namespace allpairs {
 
+namespace internal {
+
+/// Whether a callable can be compared with null, as pointers to functions and a std::function can.
+template <class Callable, class = void>
+inline constexpr bool kMayBeNull = false;
+template <class Callable>
+inline constexpr bool kMayBeNull<Callable, std::void_t<decltype(std::declval<Callable&>() == nullptr)>> = true;
+
+}  // namespace internal
+
 /// Says of two boxes whether they may be a pair: what std::function<bool(std::uint32_t, std::uint32_t)> is, without the
 /// header of that, which is larger than all that a search needs besides. Copies hold copies of the callable.
 ///
@@ -18,12 +28,13 @@ class PairPredicate {
   PairPredicate(std::nullptr_t) noexcept {}  // NOLINT(google-explicit-constructor): no predicate
 
   /// From a callable; from a null pointer to a function, or an empty std::function, none.
-  template <class Callable>
-    requires(!std::is_same_v<std::remove_cvref_t<Callable>, PairPredicate> &&
-             std::is_invocable_r_v<bool, Callable&, std::uint32_t, std::uint32_t> &&
-             std::is_copy_constructible_v<Callable>)
+  template <class Callable,
+            std::enable_if_t<std::conjunction_v<std::negation<std::is_same<Callable, PairPredicate>>,
+                                                std::is_invocable_r<bool, Callable&, std::uint32_t, std::uint32_t>,
+                                                std::is_copy_constructible<Callable>>,
+                             int> = 0>
   PairPredicate(Callable callable) {  // NOLINT(google-explicit-constructor): meant to convert
-    if constexpr (requires { callable == nullptr; }) {
+    if constexpr (internal::kMayBeNull<Callable>) {
       if (callable == nullptr) return;
     }
     m_held = new Holder<Callable>(std::move(callable));  // NOLINT(*-owning-memory): without <memory>

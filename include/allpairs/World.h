@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 #include "allpairs/WorldTypes.h"
 
 namespace allpairs {
@@ -67,7 +67,7 @@ class World {
   /// Adds boxes and writes their ids.
   ///
   /// Pass one property per box, one for all boxes, or none for the defaults.
-  void add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids);
+  void add(const BoxView& boxes, Span<const BoxProperties> properties, Span<BoxId> ids);
   [[nodiscard]] std::vector<BoxId> add(const BoxView& boxes, const BoxProperties& properties = {});
 
   /// Sets the bounds of a box. Setting equal bounds does not change the box, and nothing is tested again; see
@@ -75,23 +75,22 @@ class World {
   void move(BoxId id, const Box& box);
 
   /// Sets the bounds of box ids[k] to boxes[k]. If an id occurs several times, the last one counts.
-  void move(std::span<const BoxId> ids, const BoxView& boxes);
+  void move(Span<const BoxId> ids, const BoxView& boxes);
 
   /// Sets the bounds of boxes to their swept volume in a step: the union of start and end.
   ///
   /// If one of the two is empty, only the other counts.
-  void moveSwept(std::span<const BoxId> ids, const BoxView& starts, const BoxView& ends);
+  void moveSwept(Span<const BoxId> ids, const BoxView& starts, const BoxView& ends);
 
   /// The same, with the end computed from velocities, in rows of three: start + velocity * duration, in double.
   ///
   /// Bad input: a velocity that is not finite throws InvalidBox, and so does a motion of an infinite box that overflows
   ///            and gives a NaN; a duration that is not finite throws InvalidArgument.
-  void moveSwept(std::span<const BoxId> ids, const BoxView& starts, std::span<const double> velocities,
-                 double duration);
+  void moveSwept(Span<const BoxId> ids, const BoxView& starts, Span<const double> velocities, double duration);
 
   /// Removes boxes; the next step lists their pairs among those that ended.
   void remove(BoxId id);
-  void remove(std::span<const BoxId> ids);
+  void remove(Span<const BoxId> ids);
 
   /// Removes all boxes.
   void clear();
@@ -100,10 +99,10 @@ class World {
   ///
   /// A box may also go to another world: its pairs end, and others begin.
   void setProperties(BoxId id, const BoxProperties& properties);
-  void setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties);
+  void setProperties(Span<const BoxId> ids, Span<const BoxProperties> properties);
 
   /// Makes the next step apply the filter and `accept` again to the pairs of these boxes, although they did not move.
-  void invalidate(std::span<const BoxId> ids);
+  void invalidate(Span<const BoxId> ids);
 
   /// Releases the memory that neither the boxes nor the lists of the last step need. Those lists stay valid; the next
   /// step or query rebuilds the hierarchy. Ids above the highest one in use become free: idBound() may decrease.
@@ -161,21 +160,21 @@ class World {
   ///           in double, at which the ray enters the box's slabs, or 0.
   [[nodiscard]] SweepHit findFirst(const Ray& ray, const QueryFilter& filter = {}) const;
   [[nodiscard]] SweepHit findFirst(const BoxSweep& sweep, const QueryFilter& filter = {}) const;
-  void findFirst(std::span<const Ray> rays, std::span<SweepHit> hits, const QueryFilter& filter = {}) const;
-  void findFirst(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits, const QueryFilter& filter = {}) const;
+  void findFirst(Span<const Ray> rays, Span<SweepHit> hits, const QueryFilter& filter = {}) const;
+  void findFirst(Span<const BoxSweep> sweeps, Span<SweepHit> hits, const QueryFilter& filter = {}) const;
 
   /// All boxes that a ray, or a swept box, hits: by ascending (t, id).
   [[nodiscard]] std::vector<SweepHit> findAll(const Ray& ray, const QueryFilter& filter = {}) const;
   [[nodiscard]] std::vector<SweepHit> findAll(const BoxSweep& sweep, const QueryFilter& filter = {}) const;
-  [[nodiscard]] ResultLists<SweepHit> findAll(std::span<const Ray> rays, const QueryFilter& filter = {}) const;
-  [[nodiscard]] ResultLists<SweepHit> findAll(std::span<const BoxSweep> sweeps, const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<SweepHit> findAll(Span<const Ray> rays, const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<SweepHit> findAll(Span<const BoxSweep> sweeps, const QueryFilter& filter = {}) const;
 
   /// The `count` boxes nearest to a point, or all if there are fewer: by ascending (distance, id).
   ///
   /// Bad input: a point that is not finite throws InvalidArgument.
   [[nodiscard]] std::vector<Neighbor> findNearest(const std::array<double, 3>& point, std::size_t count,
                                                   const QueryFilter& filter = {}) const;
-  [[nodiscard]] ResultLists<Neighbor> findNearest(std::span<const std::array<double, 3>> points, std::size_t count,
+  [[nodiscard]] ResultLists<Neighbor> findNearest(Span<const std::array<double, 3>> points, std::size_t count,
                                                   const QueryFilter& filter = {}) const;
 
  private:

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "allpairs/PairPredicate.h"
+#include "allpairs/Span.h"
 #include "allpairs/StopFlag.h"
 
 namespace allpairs {
@@ -40,7 +40,11 @@ struct BoxProperties {
   bool isStatic = false;                 ///< Static boxes are never tested against each other. They may still be moved.
   std::uint32_t world = 0;               ///< The number of the box's world, any number; or kEveryWorld.
 
-  friend constexpr bool operator==(const BoxProperties&, const BoxProperties&) = default;
+  friend constexpr bool operator==(const BoxProperties& a, const BoxProperties& b) {
+    return a.category == b.category && a.mask == b.mask && a.group == b.group && a.margin == b.margin &&
+           a.isStatic == b.isStatic && a.world == b.world;
+  }
+  friend constexpr bool operator!=(const BoxProperties& a, const BoxProperties& b) { return !(a == b); }
 };
 
 /// Settings of a World; the defaults are right for most uses.
@@ -77,10 +81,10 @@ struct WorldOptions {
 
 /// The pairs of a step, each with first < second, each list in the order of the options; valid until the next step.
 struct StepResult {
-  std::span<const Pair> pairs;      ///< All pairs of this step.
-  std::span<const Pair> began;      ///< Pairs that did not exist in the last step.
-  std::span<const Pair> persisted;  ///< Pairs that did: `pairs` without `began`.
-  std::span<const Pair> ended;      ///< Pairs of the last step that no longer exist; their boxes may have been removed.
+  Span<const Pair> pairs;      ///< All pairs of this step.
+  Span<const Pair> began;      ///< Pairs that did not exist in the last step.
+  Span<const Pair> persisted;  ///< Pairs that did: `pairs` without `began`.
+  Span<const Pair> ended;      ///< Pairs of the last step that no longer exist; their boxes may have been removed.
 };
 
 /// Statistics of the last step of a World, and of all steps.
@@ -119,7 +123,8 @@ struct SweepHit {
   BoxId id = kNoBox;
   double t = std::numeric_limits<double>::infinity();
 
-  friend constexpr bool operator==(const SweepHit&, const SweepHit&) = default;
+  friend constexpr bool operator==(const SweepHit& a, const SweepHit& b) { return a.id == b.id && a.t == b.t; }
+  friend constexpr bool operator!=(const SweepHit& a, const SweepHit& b) { return !(a == b); }
 };
 
 /// A box and its Euclidean distance from a point; 0 if the point is in the box.
@@ -127,7 +132,10 @@ struct Neighbor {
   BoxId id = kNoBox;
   double distance = std::numeric_limits<double>::infinity();
 
-  friend constexpr bool operator==(const Neighbor&, const Neighbor&) = default;
+  friend constexpr bool operator==(const Neighbor& a, const Neighbor& b) {
+    return a.id == b.id && a.distance == b.distance;
+  }
+  friend constexpr bool operator!=(const Neighbor& a, const Neighbor& b) { return !(a == b); }
 };
 
 /// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`, of all
@@ -147,10 +155,10 @@ struct ResultLists {
   std::vector<T> values;
 
   [[nodiscard]] std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }
-  [[nodiscard]] std::span<const T> operator[](std::size_t i) const& noexcept {
-    return std::span(values).subspan(offsets[i], offsets[i + 1] - offsets[i]);
+  [[nodiscard]] Span<const T> operator[](std::size_t i) const& noexcept {
+    return Span<const T>(values).subspan(offsets[i], offsets[i + 1] - offsets[i]);
   }
-  std::span<const T> operator[](std::size_t i) const&& = delete;  // of a temporary: the values would be destroyed
+  Span<const T> operator[](std::size_t i) const&& = delete;  // of a temporary: the values would be destroyed
 };
 
 }  // namespace allpairs

@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 
 namespace allpairs {
 
@@ -28,7 +28,7 @@ class Worlds {
 
   /// World k has the boxes [begin[k], begin[k + 1]): one offset more than there are worlds, the last being the number of
   /// boxes.
-  Worlds(const BoxView& boxes, std::span<const std::uint64_t> begin);
+  Worlds(const BoxView& boxes, Span<const std::uint64_t> begin);
 
   /// Worlds with the same number of boxes each.
   ///
@@ -39,7 +39,7 @@ class Worlds {
   ///
   /// The order of the pairs, and that of a pair's boxes, do not matter. Pairs with shared boxes are not concerned.
   /// Bad input: an index that no world has, or a box with itself, throws InvalidArgument.
-  void setIgnoredPairs(std::span<const Pair> pairs);
+  void setIgnoredPairs(Span<const Pair> pairs);
 
   /// The number of worlds.
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
@@ -62,13 +62,13 @@ class Worlds {
   /// The number of boxes of the largest world.
   [[nodiscard]] std::size_t largestSize() const noexcept { return m_largestSize; }
 
-  [[nodiscard]] std::span<const std::uint64_t> offsets() const noexcept { return m_begin; }
-  [[nodiscard]] std::span<const Pair> ignoredPairs() const noexcept { return m_ignoredPairs; }
+  [[nodiscard]] Span<const std::uint64_t> offsets() const noexcept { return m_begin; }
+  [[nodiscard]] Span<const Pair> ignoredPairs() const noexcept { return m_ignoredPairs; }
 
  private:
   BoxView m_boxes;
-  std::span<const std::uint64_t> m_begin;  ///< Empty if worlds were given by their number.
-  std::span<const Pair> m_ignoredPairs;
+  Span<const std::uint64_t> m_begin;  ///< Empty if worlds were given by their number.
+  Span<const Pair> m_ignoredPairs;
   std::size_t m_size = 0;
   std::size_t m_eachSize = 0;
   std::size_t m_largestSize = 0;
@@ -83,10 +83,10 @@ struct WorldPairs {
 
 /// The same, in memory of the search that found them.
 struct WorldPairsView {
-  std::span<const Pair> pairs;
-  std::span<const std::uint64_t> begin;
+  Span<const Pair> pairs;
+  Span<const std::uint64_t> begin;
 
-  [[nodiscard]] std::span<const Pair> operator[](std::size_t world) const noexcept {
+  [[nodiscard]] Span<const Pair> operator[](std::size_t world) const noexcept {
     return pairs.subspan(begin[world], begin[world + 1] - begin[world]);
   }
 };
@@ -127,15 +127,15 @@ class WorldsSearch {
   [[nodiscard]] WorldPairsView find(const Worlds& worlds, const BoxView& shared);
 
   /// Where each world's pairs begin in the result of find(), without storing the pairs. The last value is their number.
-  [[nodiscard]] std::span<const std::uint64_t> count(const Worlds& worlds);
-  [[nodiscard]] std::span<const std::uint64_t> count(const Worlds& worlds, const BoxView& shared);
+  [[nodiscard]] Span<const std::uint64_t> count(const Worlds& worlds);
+  [[nodiscard]] Span<const std::uint64_t> count(const Worlds& worlds, const BoxView& shared);
 
   /// Writes the pairs of find() to memory of the caller, where count() says.
   ///
   /// Bad input: a `begin` that is not what count() gives for these worlds, or fewer `pairs` than it says, throw
   ///            InvalidArgument; `pairs` may then have been written to.
-  void list(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs);
-  void list(const Worlds& worlds, const BoxView& shared, std::span<const std::uint64_t> begin, std::span<Pair> pairs);
+  void list(const Worlds& worlds, Span<const std::uint64_t> begin, Span<Pair> pairs);
+  void list(const Worlds& worlds, const BoxView& shared, Span<const std::uint64_t> begin, Span<Pair> pairs);
 
   /// Releases the memory kept for the next search, and the last result.
   void shrink();
@@ -163,7 +163,7 @@ class WorldsSearch {
                                                                const OverlapOptions& options = {});
 
 /// Writes the pairs of overlapsInWorlds() to memory of the caller; see WorldsSearch::list().
-void listOverlapsInWorlds(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs,
+void listOverlapsInWorlds(const Worlds& worlds, Span<const std::uint64_t> begin, Span<Pair> pairs,
                           const OverlapOptions& options = {});
 
 }  // namespace allpairs

@@ -40,7 +40,7 @@ class AllpairsConan(ConanFile):
         self.tool_requires("cmake/[>=3.25]")
 
     def validate(self):
-        check_min_cppstd(self, 20)
+        check_min_cppstd(self, 17)
 
     def source(self):
         get(

@@ -136,7 +136,7 @@ void BruteForceBroadPhase::addCollisionModel(core::CollisionModel* cm) {
   if (state.strategy == Strategy::Exhaustive) state.complete();
 }
 
-void BruteForceBroadPhase::addCollisionModels(std::span<core::CollisionModel* const> models) {
+void BruteForceBroadPhase::addCollisionModels(Span<core::CollisionModel* const> models) {
   BroadPhaseDetection::addCollisionModels(models);
   m_state->complete();
 }

@@ -44,7 +44,7 @@ void CollisionPipeline::reset() {
   if (m_narrowPhase != nullptr) m_narrowPhase->beginNarrowPhase();
 }
 
-void CollisionPipeline::computeBoundingTrees(std::span<CollisionModel* const> models, double dt) {
+void CollisionPipeline::computeBoundingTrees(Span<CollisionModel* const> models, double dt) {
   initOnce();
   m_active.clear();
   if (m_narrowPhase != nullptr) m_narrowPhase->setTimeStep(dt);
@@ -76,7 +76,7 @@ void CollisionPipeline::detect() {
   m_narrowPhase->endNarrowPhase();
 }
 
-const std::vector<CollisionModelPair>& CollisionPipeline::step(std::span<CollisionModel* const> models, double dt) {
+const std::vector<CollisionModelPair>& CollisionPipeline::step(Span<CollisionModel* const> models, double dt) {
   initOnce();
   reset();
   computeBoundingTrees(models, dt);

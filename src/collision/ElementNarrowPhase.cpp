@@ -49,7 +49,7 @@ void ElementNarrowPhase::fillBoxes(const CollisionModel& model, std::vector<Box>
   }
 }
 
-void ElementNarrowPhase::report(CollisionModel* first, CollisionModel* second, std::span<const Pair> found,
+void ElementNarrowPhase::report(CollisionModel* first, CollisionModel* second, Span<const Pair> found,
                                 const ElementIntersector* intersector) {
   for (const Pair& pair : found) {
     const CollisionElementPair elements{{first, pair.first}, {second, pair.second}};

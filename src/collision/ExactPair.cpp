@@ -47,7 +47,7 @@ bool isWorse(const ExactPair& a, const ExactPair& b) noexcept {
   return key(a) < key(b);
 }
 
-std::vector<std::size_t> worstFirst(std::span<const ExactPair> pairs) {
+std::vector<std::size_t> worstFirst(Span<const ExactPair> pairs) {
   std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -69,7 +69,7 @@ double ExactCounts::falseShare() const {
   return examined == 0 ? 0.0 : static_cast<double>(apart) / static_cast<double>(examined);
 }
 
-ExactCounts countStates(std::span<const ExactPair> pairs) {
+ExactCounts countStates(Span<const ExactPair> pairs) {
   ExactCounts counts;
   for (const ExactPair& pair : pairs) ++counts.ofState[static_cast<std::size_t>(pair.state)];
   return counts;

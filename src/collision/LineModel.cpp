@@ -8,7 +8,7 @@ LineModel::LineModel(std::string name, std::vector<Vec3> positions, std::vector<
   for (std::size_t i = 0; i < m_lines.size(); ++i) checkVertices(m_lines[i], i);
 }
 
-std::span<const std::uint32_t> LineModel::verticesOf(std::size_t index, std::uint32_t& /*storage*/) const {
+Span<const std::uint32_t> LineModel::verticesOf(std::size_t index, std::uint32_t& /*storage*/) const {
   return m_lines[index];
 }
 

@@ -58,7 +58,7 @@ Box MeshModel::elementSweptBox(std::size_t index, double dt) const {
   return allpairs::merge(elementBox(index), end);
 }
 
-void MeshModel::checkVertices(std::span<const std::uint32_t> vertices, std::size_t element) const {
+void MeshModel::checkVertices(Span<const std::uint32_t> vertices, std::size_t element) const {
   for (const std::uint32_t vertex : vertices) {
     if (vertex >= m_positions.size()) {
       throwBad(*this, "element", element,

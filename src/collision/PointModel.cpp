@@ -6,7 +6,7 @@ namespace allpairs::collision {
 PointModel::PointModel(std::string name, std::vector<Vec3> positions)
     : MeshModel(std::move(name), std::move(positions)) {}
 
-std::span<const std::uint32_t> PointModel::verticesOf(std::size_t index, std::uint32_t& storage) const {
+Span<const std::uint32_t> PointModel::verticesOf(std::size_t index, std::uint32_t& storage) const {
   storage = static_cast<std::uint32_t>(index);
   return {&storage, 1};
 }

@@ -8,7 +8,7 @@ TetrahedronModel::TetrahedronModel(std::string name, std::vector<Vec3> positions
   for (std::size_t i = 0; i < m_tetrahedra.size(); ++i) checkVertices(m_tetrahedra[i], i);
 }
 
-std::span<const std::uint32_t> TetrahedronModel::verticesOf(std::size_t index, std::uint32_t& /*storage*/) const {
+Span<const std::uint32_t> TetrahedronModel::verticesOf(std::size_t index, std::uint32_t& /*storage*/) const {
   return m_tetrahedra[index];
 }
 

@@ -28,7 +28,7 @@ void TriangleModel::setUseCurvature(bool useCurvature) {
   boundsChanged();
 }
 
-std::span<const std::uint32_t> TriangleModel::verticesOf(std::size_t index, std::uint32_t& /*storage*/) const {
+Span<const std::uint32_t> TriangleModel::verticesOf(std::size_t index, std::uint32_t& /*storage*/) const {
   return m_triangles[index];
 }
 

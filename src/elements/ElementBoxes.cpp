@@ -39,7 +39,7 @@ void include(BasicBox<T>& box, const BasicBox<T>& other) {
 
 /// The boxes around the vertices of each element.
 template <class T, class Element>
-void boundElements(std::span<const Element> elements, std::span<const BasicBox<T>> vertices,
+void boundElements(Span<const Element> elements, std::span<const BasicBox<T>> vertices,
                    std::vector<BasicBox<T>>& boxes) {
   boxes.resize(elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i) {

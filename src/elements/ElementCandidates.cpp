@@ -195,17 +195,17 @@ const MeshTopology& ElementCandidates::topology() const noexcept {
   return m_state != nullptr ? m_state->topology : kNone;
 }
 
-void ElementCandidates::setPositions(std::size_t mesh, std::span<const float> start, std::span<const float> end) {
+void ElementCandidates::setPositions(std::size_t mesh, Span<const float> start, Span<const float> end) {
   State& state = this->state();
-  state.boxes.setPositions(state.topology, mesh, start, end);
+  state.boxes.setPositions<float>(state.topology, mesh, start, end);
 }
 
-void ElementCandidates::setPositions(std::size_t mesh, std::span<const double> start, std::span<const double> end) {
+void ElementCandidates::setPositions(std::size_t mesh, Span<const double> start, Span<const double> end) {
   State& state = this->state();
-  state.boxes.setPositions(state.topology, mesh, start, end);
+  state.boxes.setPositions<double>(state.topology, mesh, start, end);
 }
 
-std::span<const Pair> ElementCandidates::find(CandidateKind kind) {
+Span<const Pair> ElementCandidates::find(CandidateKind kind) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   Found& found = state.found[static_cast<std::size_t>(kind)];

@@ -71,7 +71,7 @@ void sortFew(Place begin, Place end) {
 
 MeshTopology::MeshTopology(const MeshView& mesh) : MeshTopology(std::span(&mesh, 1)) {}
 
-MeshTopology::MeshTopology(std::span<const MeshView> meshes) : m_before(1) {
+MeshTopology::MeshTopology(Span<const MeshView> meshes) : m_before(1) {
   for (const MeshView& mesh : meshes) add(mesh);
   extractEdges();
   if (meshes.size() < 2) return;

@@ -48,7 +48,7 @@ struct MotionFrames::State {
   std::vector<float> rows;
 };
 
-std::span<const BoxMotion> boxMotions() noexcept { return kMotions; }
+Span<const BoxMotion> boxMotions() noexcept { return kMotions; }
 
 MotionFrames::MotionFrames(const MotionRequest& request) : m_state(std::make_unique<State>()) {
   m_state->moves = &movesOf(request.motion);
@@ -64,7 +64,7 @@ MotionFrames::~MotionFrames() = default;
 MotionFrames::MotionFrames(MotionFrames&&) noexcept = default;
 MotionFrames& MotionFrames::operator=(MotionFrames&&) noexcept = default;
 
-std::span<const float> MotionFrames::next() {
+Span<const float> MotionFrames::next() {
   Bodies& bodies = m_state->bodies;
   if (bodies.frame != 0) m_state->moves->step(bodies);
   ++bodies.frame;

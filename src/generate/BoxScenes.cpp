@@ -40,7 +40,7 @@ Family familyOf(std::string_view name) {
 
 }  // namespace
 
-std::span<const BoxScene> boxScenes() noexcept { return kScenes; }
+Span<const BoxScene> boxScenes() noexcept { return kScenes; }
 
 std::vector<float> makeBoxes(const SceneRequest& request) {
   const Family family = familyOf(request.scene);

@@ -85,11 +85,11 @@ JoinSummary run(std::span<const fs::path> inputs, const ResultSink* sink, const 
 
 }  // namespace
 
-JoinSummary joinFiles(std::span<const fs::path> inputs, ResultSink sink, const JoinOptions& options) {
+JoinSummary joinFiles(Span<const fs::path> inputs, ResultSink sink, const JoinOptions& options) {
   return run(inputs, &sink, options);
 }
 
-JoinSummary joinFiles(std::span<const fs::path> inputs, const fs::path& output, const JoinOptions& given) {
+JoinSummary joinFiles(Span<const fs::path> inputs, const fs::path& output, const JoinOptions& given) {
   if (output.filename().empty() || fs::is_directory(output)) throw FileError(output, "is no name for a file");
   JoinOptions options = given;
   if (options.work.empty()) options.work = output.string() + ".work";
@@ -98,11 +98,11 @@ JoinSummary joinFiles(std::span<const fs::path> inputs, const fs::path& output, 
   return joinFiles(inputs, ResultSink([&part](std::string_view bytes) { part.write(bytes); }), options);
 }
 
-JoinSummary countFiles(std::span<const fs::path> inputs, const JoinOptions& options) {
+JoinSummary countFiles(Span<const fs::path> inputs, const JoinOptions& options) {
   return run(inputs, nullptr, options);
 }
 
-JoinSummary planFiles(std::span<const fs::path> inputs, const JoinOptions& options) {
+JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
   checkOptions(inputs, options);
   BoxInput input(inputs);
   const Budget budget = budgetOf(options, input);
@@ -116,7 +116,7 @@ JoinSummary planFiles(std::span<const fs::path> inputs, const JoinOptions& optio
           .pairBytes = division.pairs * pairSizeFor(input.size())};
 }
 
-RanksPlan planRanks(std::span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
+RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
   BoxInput input(inputs);

@@ -140,7 +140,7 @@ void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell&
   });
 }
 
-std::vector<IdPair> overlapsInCell(const BoxView& boxes, std::span<const std::uint64_t> ids, const Cell& cell,
+std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,
                                    const OverlapOptions& options) {
   checkIds(boxes, ids);
   std::vector<IdPair> pairs;
@@ -157,8 +157,8 @@ std::vector<IdPair> overlapsInCell(const BoxView& boxes, std::span<const std::ui
 }
 
 // NOLINTNEXTLINE(readability-function-size): two sets, each with its ids
-std::vector<IdPair> overlapsInCell(const BoxView& first, std::span<const std::uint64_t> firstIds, const BoxView& second,
-                                   std::span<const std::uint64_t> secondIds, const Cell& cell,
+std::vector<IdPair> overlapsInCell(const BoxView& first, Span<const std::uint64_t> firstIds, const BoxView& second,
+                                   Span<const std::uint64_t> secondIds, const Cell& cell,
                                    const OverlapOptions& options) {
   checkIds(first, firstIds);
   checkIds(second, secondIds);

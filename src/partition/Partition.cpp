@@ -145,7 +145,7 @@ Partition::Partition(const BoxView& sample, std::size_t cells, double distance) 
   Cutter(m_cuts, 1).cut(reaches, 0, cells);
 }
 
-Partition Partition::fromCuts(std::span<const Cut> cuts) {
+Partition Partition::fromCuts(Span<const Cut> cuts) {
   checkCuts(cuts);
   Partition partition;
   partition.m_cuts.assign(cuts.begin(), cuts.end());

@@ -78,7 +78,7 @@ class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
   void compareOverlapping();
 
   template <class T>
-  static std::vector<T> listOf(std::span<const T> values) {
+  static std::vector<T> listOf(Span<const T> values) {
     return {values.begin(), values.end()};
   }
 

@@ -229,6 +229,6 @@ void FclNarrowPhase::addCollisionPair(const collision::CollisionModelPair& pair)
   m_state->pairs.push_back(std::move(result));
 }
 
-std::span<const ExactPair> FclNarrowPhase::pairs() const { return m_state->pairs; }
+Span<const ExactPair> FclNarrowPhase::pairs() const { return m_state->pairs; }
 
 }  // namespace allpairs

@@ -110,7 +110,7 @@ void RowSearch<T>::beginChange() {
 }
 
 template <class T>
-std::span<const Pair> RowSearch<T>::pairs(std::span<const T> rows) const {
+Span<const Pair> RowSearch<T>::pairs(Span<const T> rows) const {
   if (m_hasPairs.load(std::memory_order_acquire)) return m_pairs;
   const std::lock_guard lock(m_making);
   if (!m_hasPairs.load(std::memory_order_relaxed)) find(rows);
@@ -118,7 +118,7 @@ std::span<const Pair> RowSearch<T>::pairs(std::span<const T> rows) const {
 }
 
 template <class T>
-const World& RowSearch<T>::world(std::span<const T> rows) const {
+const World& RowSearch<T>::world(Span<const T> rows) const {
   if (m_hasWorld.load(std::memory_order_acquire)) return m_world;
   const std::lock_guard lock(m_making);
   if (m_hasWorld.load(std::memory_order_relaxed)) return m_world;
@@ -130,7 +130,7 @@ const World& RowSearch<T>::world(std::span<const T> rows) const {
 }
 
 template <class T>
-const World* RowSearch<T>::worldForMany(std::span<const T> rows) const {
+const World* RowSearch<T>::worldForMany(Span<const T> rows) const {
   if (m_hasWorld.load(std::memory_order_acquire)) return &m_world;
   const std::size_t scanned = m_scanned.load(std::memory_order_relaxed);
   if (scanned > kScansPerChange * m_pending.load(std::memory_order_relaxed)) return &world(rows);
@@ -139,12 +139,12 @@ const World* RowSearch<T>::worldForMany(std::span<const T> rows) const {
 }
 
 template <class T>
-bool RowSearch<T>::isFasterByScans(std::span<const T> rows, std::size_t others) const {
+bool RowSearch<T>::isFasterByScans(Span<const T> rows, std::size_t others) const {
   return !m_hasWorld.load(std::memory_order_acquire) && rows.size() / 6 * others <= kBatch * kBatch;
 }
 
 template <class T>
-std::uint64_t RowSearch<T>::overlapping(std::span<const T> rows, const Row& box) {
+std::uint64_t RowSearch<T>::overlapping(Span<const T> rows, const Row& box) {
   std::uint64_t found = 0;
   const std::size_t count = std::min(rows.size() / 6, kBatch);
   for (std::size_t i = 0; i < count; ++i) {
@@ -156,12 +156,12 @@ std::uint64_t RowSearch<T>::overlapping(std::span<const T> rows, const Row& box)
 /// Few have changed, now as before: the world has to catch up with all that changed in between, which one quiet step is
 /// no reason for.
 template <class T>
-bool RowSearch<T>::isCalmAgain(std::span<const T> rows) const {
+bool RowSearch<T>::isCalmAgain(Span<const T> rows) const {
   return m_isCalm && m_changes * kShareOfChanged <= rows.size() / 6;
 }
 
 template <class T>
-void RowSearch<T>::find(std::span<const T> rows) const {
+void RowSearch<T>::find(Span<const T> rows) const {
   if (rows.size() <= 6 * kFewForPairs) {
     m_pairs = scanAll(rows);
   } else if (isCalmAgain(rows) && !m_hasWorld.load(std::memory_order_relaxed)) {
@@ -176,7 +176,7 @@ void RowSearch<T>::find(std::span<const T> rows) const {
 }
 
 template <class T>
-void RowSearch<T>::step(std::span<const T> rows) const {
+void RowSearch<T>::step(Span<const T> rows) const {
   m_pairs = m_world.step().pairs;
   m_isCalm = m_changes * kShareOfChanged <= rows.size() / 6;
   m_changes = 0;
@@ -184,7 +184,7 @@ void RowSearch<T>::step(std::span<const T> rows) const {
 }
 
 template <class T>
-std::span<const Pair> RowSearch<T>::searchAll(std::span<const T> rows) const {
+Span<const Pair> RowSearch<T>::searchAll(Span<const T> rows) const {
   if constexpr (std::is_same_v<T, float>) {
     return m_search.find(BoxView::fromRows(rows));
   } else {
@@ -195,7 +195,7 @@ std::span<const Pair> RowSearch<T>::searchAll(std::span<const T> rows) const {
 }
 
 template <class T>
-std::span<const Pair> RowSearch<T>::scanAll(std::span<const T> rows) const {
+Span<const Pair> RowSearch<T>::scanAll(Span<const T> rows) const {
   m_exact.clear();
   const auto count = static_cast<BoxId>(rows.size() / 6);
   for (BoxId i = 0; i < count; ++i) {
@@ -213,7 +213,7 @@ std::span<const Pair> RowSearch<T>::scanAll(std::span<const T> rows) const {
 }
 
 template <class T>
-void RowSearch<T>::bringIn(std::span<const T> rows) const {
+void RowSearch<T>::bringIn(Span<const T> rows) const {
   const std::size_t known = m_world.idBound();
   m_ids.clear();
   m_moved.clear();

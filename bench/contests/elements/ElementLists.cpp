@@ -48,7 +48,7 @@ void addRow(const ElementStep& step, std::span<const std::uint32_t> vertices, st
 }
 
 template <class Element>
-std::vector<float> rowsOf(const ElementStep& step, std::span<const Element> elements) {
+std::vector<float> rowsOf(const ElementStep& step, Span<const Element> elements) {
   std::vector<float> rows;
   rows.reserve(6 * elements.size());
   for (const Element& element : elements) addRow(step, element, rows);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/CollisionModel.h"
 
 namespace allpairs::collision {
@@ -32,10 +32,10 @@ class BoundingBoxModel final : public CollisionModel {
   [[nodiscard]] std::string_view typeName() const override { return "BoundingBoxModel"; }
   [[nodiscard]] std::type_index typeKey() const override;
 
-  [[nodiscard]] std::span<const Node> nodes() const { return m_nodes; }
+  [[nodiscard]] Span<const Node> nodes() const { return m_nodes; }
 
   /// The model's elements, ordered so that those of one box are contiguous. Empty means 0, 1, 2, …
-  [[nodiscard]] std::span<const std::uint32_t> elementOrder() const { return m_elementOrder; }
+  [[nodiscard]] Span<const std::uint32_t> elementOrder() const { return m_elementOrder; }
 
  private:
   friend class CollisionModel;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/CollisionModel.h"
 #include "allpairs/collision/Intersection.h"
 
@@ -43,7 +43,7 @@ class BroadPhaseDetection {
   virtual void addCollisionModel(core::CollisionModel* cm) = 0;
 
   /// Adds several models, in order.
-  virtual void addCollisionModels(std::span<core::CollisionModel* const> models) {
+  virtual void addCollisionModels(Span<core::CollisionModel* const> models) {
     for (core::CollisionModel* model : models) addCollisionModel(model);
   }
 

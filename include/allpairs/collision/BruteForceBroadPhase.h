@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "allpairs/Error.h"
 #include "allpairs/Executor.h"
 #include "allpairs/OverlapOptions.h"
+#include "allpairs/Span.h"
 #include "allpairs/StopFlag.h"
 #include "allpairs/collision/BroadPhaseDetection.h"
 
@@ -66,7 +66,7 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
 
   void beginBroadPhase() override;
   void addCollisionModel(core::CollisionModel* cm) override;
-  void addCollisionModels(std::span<core::CollisionModel* const> models) override;
+  void addCollisionModels(Span<core::CollisionModel* const> models) override;
   void endBroadPhase() override;
   [[nodiscard]] const std::vector<CollisionModelPair>& getCollisionModelPairs() override;
 

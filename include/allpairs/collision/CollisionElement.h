@@ -15,7 +15,10 @@ struct CollisionElement {
   [[nodiscard]] Box box() const { return model->elementBox(index); }
   [[nodiscard]] NormalCone cone() const { return model->elementCone(index); }
 
-  friend bool operator==(const CollisionElement&, const CollisionElement&) = default;
+  friend bool operator==(const CollisionElement& a, const CollisionElement& b) {
+    return a.model == b.model && a.index == b.index;
+  }
+  friend bool operator!=(const CollisionElement& a, const CollisionElement& b) { return !(a == b); }
 };
 
 }  // namespace allpairs::collision

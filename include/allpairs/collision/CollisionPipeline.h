@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/BroadPhaseDetection.h"
 #include "allpairs/collision/NarrowPhaseDetection.h"
 
@@ -37,13 +37,13 @@ class CollisionPipeline {
 
   /// Computes the bounding trees of the active models: in each step for those that move, once for the others.
   /// Deep only if the broad or the narrow phase needs it; over a step of length dt if the method is continuous.
-  void computeBoundingTrees(std::span<CollisionModel* const> models, double dt = 0.0);
+  void computeBoundingTrees(Span<CollisionModel* const> models, double dt = 0.0);
 
   /// Runs broad and narrow phase on the models whose bounding trees were made.
   void detect();
 
   /// Runs all stages: reset, bounding trees, both phases. Returns the pairs of the broad phase.
-  const std::vector<CollisionModelPair>& step(std::span<CollisionModel* const> models, double dt = 0.0);
+  const std::vector<CollisionModelPair>& step(Span<CollisionModel* const> models, double dt = 0.0);
 
  private:
   void computeBoundingTree(CollisionModel& model, double dt, int depth) const;

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "allpairs/Box.h"
+#include "allpairs/Span.h"
 #include "allpairs/collision/CollisionModel.h"
 #include "allpairs/collision/Vec3.h"
 
@@ -83,7 +83,7 @@ struct ExactPair {
 [[nodiscard]] bool isWorse(const ExactPair& a, const ExactPair& b) noexcept;
 
 /// The indices of pairs, the worst first, equal ones in their order.
-[[nodiscard]] std::vector<std::size_t> worstFirst(std::span<const ExactPair> pairs);
+[[nodiscard]] std::vector<std::size_t> worstFirst(Span<const ExactPair> pairs);
 
 /// How many pairs came out how.
 struct ExactCounts {
@@ -97,7 +97,7 @@ struct ExactCounts {
   [[nodiscard]] double falseShare() const;
 };
 
-[[nodiscard]] ExactCounts countStates(std::span<const ExactPair> pairs);
+[[nodiscard]] ExactCounts countStates(Span<const ExactPair> pairs);
 
 /// Counts in words, the most serious first: "3 clashes (1 duplicate, 1 contained), 2 touching, 6 apart".
 [[nodiscard]] std::string countText(const ExactCounts& counts);

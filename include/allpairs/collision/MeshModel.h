@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/CollisionModel.h"
 
 namespace allpairs::collision {
@@ -35,13 +35,13 @@ class MeshModel : public CollisionModel {
   MeshModel(std::string name, std::vector<Vec3> positions);
 
   /// The points that an element joins. The span of a point's own index may lie in `storage`.
-  [[nodiscard]] virtual std::span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const = 0;
+  [[nodiscard]] virtual Span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const = 0;
 
   /// How far element boxes extend beyond their points.
   [[nodiscard]] virtual double margin() const { return getContactDistance(); }
 
   /// Throws InvalidArgument, naming model and element, if a vertex is not one of the points.
-  void checkVertices(std::span<const std::uint32_t> vertices, std::size_t element) const;
+  void checkVertices(Span<const std::uint32_t> vertices, std::size_t element) const;
 
  private:
   std::vector<Vec3> m_positions;

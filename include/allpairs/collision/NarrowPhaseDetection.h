@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "allpairs/Executor.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/Span.h"
 #include "allpairs/collision/BroadPhaseDetection.h"
 
 namespace allpairs::collision {
@@ -15,7 +15,10 @@ struct CollisionElementPair {
   CollisionElement first;
   CollisionElement second;
 
-  friend bool operator==(const CollisionElementPair&, const CollisionElementPair&) = default;
+  friend bool operator==(const CollisionElementPair& a, const CollisionElementPair& b) {
+    return a.first == b.first && a.second == b.second;
+  }
+  friend bool operator!=(const CollisionElementPair& a, const CollisionElementPair& b) { return !(a == b); }
 };
 
 /// A narrow phase: tests pairs of models more closely.
@@ -43,7 +46,7 @@ class NarrowPhaseDetection {
 
   virtual void beginNarrowPhase() = 0;
   virtual void addCollisionPair(const CollisionModelPair& pair) = 0;
-  virtual void addCollisionPairs(std::span<const CollisionModelPair> pairs) {
+  virtual void addCollisionPairs(Span<const CollisionModelPair> pairs) {
     for (const CollisionModelPair& pair : pairs) addCollisionPair(pair);
   }
   virtual void endNarrowPhase() {}
@@ -80,7 +83,7 @@ class ElementNarrowPhase : public NarrowPhaseDetection {
 
  private:
   void fillBoxes(const CollisionModel& model, std::vector<Box>& boxes) const;
-  void report(CollisionModel* first, CollisionModel* second, std::span<const Pair> found,
+  void report(CollisionModel* first, CollisionModel* second, Span<const Pair> found,
               const ElementIntersector* intersector);
 
   OverlapSearch m_search;

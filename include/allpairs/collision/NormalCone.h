@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <numbers>
-
 #include "allpairs/collision/Vec3.h"
 
 namespace allpairs::collision {
@@ -12,7 +10,7 @@ namespace allpairs::collision {
 /// A patch whose normals all lie within less than a quarter turn of one axis is too flat to touch itself.
 struct NormalCone {
   Vec3 axis{0.0, 0.0, 0.0};
-  double halfAngle = 2.0 * std::numbers::pi;
+  double halfAngle = 2.0 * 3.141592653589793;
 
   /// The cone of a single direction.
   ///

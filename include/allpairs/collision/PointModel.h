@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/MeshModel.h"
 
 namespace allpairs::collision {
@@ -16,7 +17,7 @@ class PointModel : public MeshModel {
   [[nodiscard]] std::string_view typeName() const override { return "TPointModel"; }
 
  protected:
-  [[nodiscard]] std::span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const override;
+  [[nodiscard]] Span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const override;
 };
 
 }  // namespace allpairs::collision

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/MeshModel.h"
 
 namespace allpairs::collision {
@@ -22,7 +23,7 @@ class TetrahedronModel : public MeshModel {
   [[nodiscard]] std::string_view typeName() const override { return "TetrahedronModel"; }
 
  protected:
-  [[nodiscard]] std::span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const override;
+  [[nodiscard]] Span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const override;
   [[nodiscard]] double margin() const override { return 0.0; }
 
  private:

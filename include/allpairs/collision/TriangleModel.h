@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/MeshModel.h"
 
 namespace allpairs::collision {
@@ -34,7 +35,7 @@ class TriangleModel : public MeshModel {
   [[nodiscard]] std::string_view typeName() const override { return "TTriangleModel"; }
 
  protected:
-  [[nodiscard]] std::span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const override;
+  [[nodiscard]] Span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& storage) const override;
 
  private:
   [[nodiscard]] Vec3 normalAt(std::size_t index, double dt) const;

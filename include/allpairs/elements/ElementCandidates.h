@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "allpairs/Executor.h"
 #include "allpairs/MemoryResource.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 #include "allpairs/elements/MeshTopology.h"
 
 namespace allpairs::elements {
@@ -72,11 +72,11 @@ class ElementCandidates {
 
   /// Sets the positions of the vertices of a mesh at the start and at the end of the step, in rows of 3. Other meshes
   /// keep their positions; until set, all vertices are at the origin.
-  void setPositions(std::size_t mesh, std::span<const float> start, std::span<const float> end);
-  void setPositions(std::size_t mesh, std::span<const double> start, std::span<const double> end);
+  void setPositions(std::size_t mesh, Span<const float> start, Span<const float> end);
+  void setPositions(std::size_t mesh, Span<const double> start, Span<const double> end);
 
   /// All candidates of a kind, each once. Valid until the next search for the same kind.
-  [[nodiscard]] std::span<const Pair> find(CandidateKind kind);
+  [[nodiscard]] Span<const Pair> find(CandidateKind kind);
 
   /// The number of candidates of find(), on the calling thread; uses memory independent of that number.
   [[nodiscard]] std::uint64_t count(CandidateKind kind);

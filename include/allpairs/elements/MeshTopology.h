@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "allpairs/DebugMode.h"
+#include "allpairs/Span.h"
 
 namespace allpairs::elements {
 
@@ -20,7 +20,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// The number of vertices of a mesh, and the vertices of its triangles in rows of 3 indices.
 struct MeshView {
   std::size_t vertexCount = 0;
-  std::span<const std::uint32_t> triangles;
+  Span<const std::uint32_t> triangles;
 };
 
 /// The number of vertices, edges and triangles, in all or before a mesh.
@@ -29,7 +29,10 @@ struct ElementCounts {
   std::size_t edges = 0;
   std::size_t triangles = 0;
 
-  friend constexpr bool operator==(const ElementCounts&, const ElementCounts&) = default;
+  friend constexpr bool operator==(const ElementCounts& a, const ElementCounts& b) {
+    return a.vertices == b.vertices && a.edges == b.edges && a.triangles == b.triangles;
+  }
+  friend constexpr bool operator!=(const ElementCounts& a, const ElementCounts& b) { return !(a == b); }
 };
 
 /// The vertices, edges and triangles of one or more triangle meshes, numbered consecutively: those of the first mesh,
@@ -44,7 +47,7 @@ struct ElementCounts {
 class MeshTopology {
  public:
   explicit MeshTopology(const MeshView& mesh);
-  explicit MeshTopology(std::span<const MeshView> meshes);
+  explicit MeshTopology(Span<const MeshView> meshes);
 
   /// No meshes, like a moved-from topology.
   MeshTopology() = default;
@@ -59,11 +62,11 @@ class MeshTopology {
   /// Bad input: a mesh out of range throws InvalidArgument; meshCount() is allowed, and gives counts().
   [[nodiscard]] const ElementCounts& before(std::size_t mesh) const;
 
-  [[nodiscard]] std::span<const Edge> edges() const noexcept { return m_edges; }
-  [[nodiscard]] std::span<const Triangle> triangles() const noexcept { return m_triangles; }
+  [[nodiscard]] Span<const Edge> edges() const noexcept { return m_edges; }
+  [[nodiscard]] Span<const Triangle> triangles() const noexcept { return m_triangles; }
 
   /// The mesh of each vertex; empty where there is only one mesh.
-  [[nodiscard]] std::span<const std::uint32_t> meshOfVertex() const noexcept { return m_meshOfVertex; }
+  [[nodiscard]] Span<const std::uint32_t> meshOfVertex() const noexcept { return m_meshOfVertex; }
 
  private:
   void add(const MeshView& mesh);

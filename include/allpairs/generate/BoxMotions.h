@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string_view>
+
+#include "allpairs/Span.h"
 
 namespace allpairs::generate {
 
@@ -16,7 +17,7 @@ struct BoxMotion {
 };
 
 /// The motions that MotionFrames knows, in the order in which reports list them.
-[[nodiscard]] std::span<const BoxMotion> boxMotions() noexcept;
+[[nodiscard]] Span<const BoxMotion> boxMotions() noexcept;
 
 /// Which boxes to move, and how.
 struct MotionRequest {
@@ -43,7 +44,7 @@ class MotionFrames {
   MotionFrames& operator=(MotionFrames&&) noexcept;
 
   /// The boxes of the next frame as rows of 6 floats, minx miny minz maxx maxy maxz; valid until the next call.
-  [[nodiscard]] std::span<const float> next();
+  [[nodiscard]] Span<const float> next();
 
  private:
   struct State;

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
+
+#include "allpairs/Span.h"
 
 namespace allpairs::generate {
 
@@ -16,7 +17,7 @@ struct BoxScene {
 };
 
 /// The families that makeBoxes() knows, in the order in which reports list them.
-[[nodiscard]] std::span<const BoxScene> boxScenes() noexcept;
+[[nodiscard]] Span<const BoxScene> boxScenes() noexcept;
 
 /// Which boxes to generate.
 struct SceneRequest {

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "allpairs/Executor.h"
 #include "allpairs/FunctionRef.h"
+#include "allpairs/Span.h"
 #include "allpairs/StopFlag.h"
 
 namespace allpairs::join {
@@ -82,14 +82,14 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 ///            writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again. Inputs that have changed throw FileError. The result's bytes are the same.
-JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
+JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
 
 /// The same into a file, which appears when it is complete, beside which it is written; options.commit is not used. The default work folder is `output` with ".work" behind it.
-JoinSummary joinFiles(std::span<const std::filesystem::path> inputs, const std::filesystem::path& output,
+JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 
 /// Counts the pairs: no pairs are written, so that only the boxes take room on the disk.
-JoinSummary countFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
+JoinSummary countFiles(Span<const std::filesystem::path> inputs, const JoinOptions& options);
 
 /// What a search of the same boxes by as many ranks of MPI would send (see allpairs/mpi/DistributedOverlaps.h).
 struct RanksPlan {
@@ -105,11 +105,11 @@ struct RanksPlan {
 /// Cuts space for `ranks` ranks, and counts. Reads the inputs as planFiles() does; one rank sends nothing.
 ///
 /// Bad input: as joinFiles(); no ranks throw InvalidArgument.
-[[nodiscard]] RanksPlan planRanks(std::span<const std::filesystem::path> inputs, std::size_t ranks,
+[[nodiscard]] RanksPlan planRanks(Span<const std::filesystem::path> inputs, std::size_t ranks,
                                   const JoinOptions& options);
 
 /// What joinFiles() would do: all but the pairs is exact. Reads the inputs once, or more where cells have to
 /// be cut again, and writes nothing.
-[[nodiscard]] JoinSummary planFiles(std::span<const std::filesystem::path> inputs, const JoinOptions& options);
+[[nodiscard]] JoinSummary planFiles(Span<const std::filesystem::path> inputs, const JoinOptions& options);
 
 }  // namespace allpairs::join

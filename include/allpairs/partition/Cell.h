@@ -2,18 +2,20 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
+#ifdef __cpp_impl_three_way_comparison
+#include <compare>
+#endif
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/Span.h"
 
 namespace allpairs::partition {
 
@@ -24,7 +26,20 @@ struct IdPair {
   std::uint64_t first = 0;
   std::uint64_t second = 0;
 
+#ifdef __cpp_impl_three_way_comparison
   friend constexpr auto operator<=>(const IdPair&, const IdPair&) = default;
+#else
+  friend constexpr bool operator==(const IdPair& a, const IdPair& b) {
+    return a.first == b.first && a.second == b.second;
+  }
+  friend constexpr bool operator!=(const IdPair& a, const IdPair& b) { return !(a == b); }
+  friend constexpr bool operator<(const IdPair& a, const IdPair& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  }
+  friend constexpr bool operator>(const IdPair& a, const IdPair& b) { return b < a; }
+  friend constexpr bool operator<=(const IdPair& a, const IdPair& b) { return !(b < a); }
+  friend constexpr bool operator>=(const IdPair& a, const IdPair& b) { return !(a < b); }
+#endif
 };
 
 /// A part of space: the points p with min[a] <= p[a] < max[a] on each axis. A max of infinity includes infinity, so that
@@ -43,7 +58,8 @@ struct Cell {
     return true;
   }
 
-  friend constexpr bool operator==(const Cell&, const Cell&) = default;
+  friend bool operator==(const Cell& a, const Cell& b) { return a.min == b.min && a.max == b.max; }
+  friend bool operator!=(const Cell& a, const Cell& b) { return !(a == b); }
 };
 
 /// The point by which a pair belongs to a cell: on each axis the greater of the two minima. Of cells that tile space
@@ -95,12 +111,12 @@ class CellSearch {
 /// `boxes` are those whose reach touches the cell; more do no harm.
 /// Bad input: as overlaps(); ids of another number than boxes, or one id of two boxes that are a pair, throw
 ///            InvalidArgument.
-[[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& boxes, std::span<const std::uint64_t> ids,
-                                                 const Cell& cell, const OverlapOptions& options = {});
+[[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,
+                                                 const OverlapOptions& options = {});
 
 /// The pairs of a box of `first` and a box of `second` that belong to the cell.
-[[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& first, std::span<const std::uint64_t> firstIds,
-                                                 const BoxView& second, std::span<const std::uint64_t> secondIds,
+[[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& first, Span<const std::uint64_t> firstIds,
+                                                 const BoxView& second, Span<const std::uint64_t> secondIds,
                                                  const Cell& cell, const OverlapOptions& options = {});
 
 /// The number of pairs of overlapsInCell().

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
+#include "allpairs/Span.h"
 #include "allpairs/partition/Cell.h"
 
 namespace allpairs::partition {
@@ -20,7 +20,10 @@ struct Cut {
   std::int32_t low = 0;
   std::int32_t high = 0;
 
-  friend bool operator==(const Cut&, const Cut&) = default;
+  friend bool operator==(const Cut& a, const Cut& b) {
+    return a.at == b.at && a.axis == b.axis && a.low == b.low && a.high == b.high;
+  }
+  friend bool operator!=(const Cut& a, const Cut& b) { return !(a == b); }
 };
 
 /// Cells that tile space, made by cutting it in two again and again where a sample of boxes says so.
@@ -41,9 +44,9 @@ class Partition {
   /// The partition that has these cuts.
   ///
   /// Bad input: cuts that are no tree, or a cut that is not at a number, throw InvalidArgument.
-  [[nodiscard]] static Partition fromCuts(std::span<const Cut> cuts);
+  [[nodiscard]] static Partition fromCuts(Span<const Cut> cuts);
 
-  [[nodiscard]] std::span<const Cut> cuts() const noexcept { return m_cuts; }
+  [[nodiscard]] Span<const Cut> cuts() const noexcept { return m_cuts; }
 
   /// The number of cells, at least 1.
   [[nodiscard]] std::size_t size() const noexcept { return m_cuts.size() + 1; }

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <span>
+
+#include "allpairs/Span.h"
 
 namespace allpairs::scene {
 
@@ -31,8 +32,8 @@ class BoxRows {
   ///
   /// Bad input: a range that is not within the file, or float32 of a float64 file, throws InvalidArgument; a file that
   ///            cannot be read throws FileError.
-  void read(std::uint64_t begin, std::span<float> rows);
-  void read(std::uint64_t begin, std::span<double> rows);
+  void read(std::uint64_t begin, Span<float> rows);
+  void read(std::uint64_t begin, Span<double> rows);
 
  private:
   struct State;

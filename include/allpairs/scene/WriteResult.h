@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "allpairs/Box.h"
 #include "allpairs/FunctionRef.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 #include "allpairs/collision/CollisionModel.h"
 #include "allpairs/scene/Scene.h"
 
@@ -67,11 +67,11 @@ struct PipelineRecord {
 struct ResultView {
   std::size_t modelCount = 0;
   std::function<ModelRecord(std::size_t)> model{};
-  std::span<const Pair> pairs{};
-  std::span<const Remark> ignored{};  ///< The parts of the input that were skipped.
-  std::span<const Remark> warnings{};
-  std::span<const PipelineRecord> pipelines{};  ///< Where the input has several.
-  bool swapped = false;                         ///< Write each pair's second before its first.
+  Span<const Pair> pairs{};
+  Span<const Remark> ignored{};  ///< The parts of the input that were skipped.
+  Span<const Remark> warnings{};
+  Span<const PipelineRecord> pipelines{};  ///< Where the input has several.
+  bool swapped = false;                    ///< Write each pair's second before its first.
   DetectionStatistics statistics{};
 };
 
@@ -94,7 +94,7 @@ void writeCsv(const ResultView& result, ByteSink sink);
 
 /// What stands before the numbers of a .npy file (format 1.0) that holds an array in C order; they begin at a multiple of
 /// 64 bytes. `type` is theirs as NumPy names it: "<u4", "<f8".
-[[nodiscard]] std::string npyHeader(std::string_view type, std::span<const std::uint64_t> shape);
+[[nodiscard]] std::string npyHeader(std::string_view type, Span<const std::uint64_t> shape);
 
 /// Writes the pairs as a NumPy array of shape (m, 2), uint32, little-endian.
 void writeNpy(const ResultView& result, ByteSink sink);

@@ -22,7 +22,7 @@ void checkCount(std::size_t size) {
 }
 
 template <class T>
-std::size_t rowCount(std::span<const T> values, std::size_t width) {
+std::size_t rowCount(Span<const T> values, std::size_t width) {
   if (values.size() % width != 0) {
     throw InvalidArgument(std::to_string(values.size()) + " values are no whole number of rows of " +
                           std::to_string(width));
@@ -86,7 +86,7 @@ void checkNoNan(std::size_t size, const BoxView::Corners<T>& corners, const BoxV
 }
 
 template <class T>
-BoxView setFromBoxes(std::span<const BasicBox<T>> boxes) {
+BoxView setFromBoxes(Span<const BasicBox<T>> boxes) {
   static_assert(sizeof(BasicBox<T>) == 6 * sizeof(T));
   if (boxes.empty()) return {};
   return BoxView::fromStrided(boxes.size(), CornerView<T>{boxes.data()->min.data(), 6, 1},
@@ -94,14 +94,14 @@ BoxView setFromBoxes(std::span<const BasicBox<T>> boxes) {
 }
 
 template <class T>
-BoxView setFromRows(std::span<const T> rows) {
+BoxView setFromRows(Span<const T> rows) {
   const std::size_t size = rowCount(rows, 6);
   if (size == 0) return {};
   return BoxView::fromStrided(size, CornerView<T>{rows.data(), 6, 1}, CornerView<T>{rows.data() + 3, 6, 1});
 }
 
 template <class T>
-BoxView setFromCorners(std::span<const T> min, std::span<const T> max) {
+BoxView setFromCorners(Span<const T> min, Span<const T> max) {
   const std::size_t size = rowCount(min, 3);
   if (rowCount(max, 3) != size) {
     throw InvalidArgument(std::to_string(size) + " min corners, but " + std::to_string(max.size() / 3) +
@@ -123,18 +123,14 @@ bool isMargin(double value) { return !std::isnan(value) && value != -std::numeri
 
 }  // namespace
 
-BoxView BoxView::fromBoxes(std::span<const Box> boxes) { return setFromBoxes(boxes); }
-BoxView BoxView::fromBoxes(std::span<const BoxF> boxes) { return setFromBoxes(boxes); }
+BoxView BoxView::fromBoxes(Span<const Box> boxes) { return setFromBoxes(boxes); }
+BoxView BoxView::fromBoxes(Span<const BoxF> boxes) { return setFromBoxes(boxes); }
 
-BoxView BoxView::fromRows(std::span<const float> rows) { return setFromRows(rows); }
-BoxView BoxView::fromRows(std::span<const double> rows) { return setFromRows(rows); }
+BoxView BoxView::fromRows(Span<const float> rows) { return setFromRows(rows); }
+BoxView BoxView::fromRows(Span<const double> rows) { return setFromRows(rows); }
 
-BoxView BoxView::fromCorners(std::span<const float> min, std::span<const float> max) {
-  return setFromCorners(min, max);
-}
-BoxView BoxView::fromCorners(std::span<const double> min, std::span<const double> max) {
-  return setFromCorners(min, max);
-}
+BoxView BoxView::fromCorners(Span<const float> min, Span<const float> max) { return setFromCorners(min, max); }
+BoxView BoxView::fromCorners(Span<const double> min, Span<const double> max) { return setFromCorners(min, max); }
 
 BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
   checkCount(size);
@@ -161,7 +157,7 @@ void BoxView::setMargin(double margin) {
   m_margins = {};
 }
 
-void BoxView::setMargins(std::span<const double> margins) {
+void BoxView::setMargins(Span<const double> margins) {
   if (!margins.empty() && margins.size() != m_size) {
     throw InvalidArgument(std::to_string(margins.size()) + " margins for " + std::to_string(m_size) + " boxes");
   }

@@ -44,13 +44,13 @@ void OverlapSearch::shrink() {
   if (m_state != nullptr) state().search.shrink();
 }
 
-std::span<const Pair> OverlapSearch::find(const BoxView& boxes) {
+Span<const Pair> OverlapSearch::find(const BoxView& boxes) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.find({boxes, boxes, true}, state.options);
 }
 
-std::span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
+Span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.find({first, second, false}, state.options);
@@ -68,13 +68,13 @@ NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& 
   return state.search.findNeighbors({first, second, false}, state.options, NeighborRows::Half);
 }
 
-std::span<Pair> OverlapSearch::findInto(const BoxView& boxes, std::span<Pair> memory) {
+Span<Pair> OverlapSearch::findInto(const BoxView& boxes, Span<Pair> memory) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.findInto({boxes, boxes, true}, state.options, memory);
 }
 
-std::span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, std::span<Pair> memory) {
+Span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, Span<Pair> memory) {
   State& state = this->state();
   const engine::InUse::Scope scope(state.inUse);
   return state.search.findInto({first, second, false}, state.options, memory);
@@ -183,6 +183,6 @@ void streamOverlaps(const BoxView& first, const BoxView& second, PairVisitor vis
   OverlapSearch(options).stream(first, second, visitor, batchSize);
 }
 
-std::span<const std::string_view> instructionSets() { return engine::kernelNames(); }
+Span<const std::string_view> instructionSets() { return engine::kernelNames(); }
 
 }  // namespace allpairs

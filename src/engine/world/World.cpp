@@ -149,7 +149,7 @@ BoxId World::add(const Box& box, const BoxProperties& properties) {
   return id;
 }
 
-void World::add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
+void World::add(const BoxView& boxes, Span<const BoxProperties> properties, Span<BoxId> ids) {
   refuseMargins(boxes);
   state().store.add(boxes, properties, ids);
 }
@@ -161,12 +161,12 @@ std::vector<BoxId> World::add(const BoxView& boxes, const BoxProperties& propert
 }
 
 void World::move(BoxId id, const Box& box) { state().store.move(id, box); }
-void World::move(std::span<const BoxId> ids, const BoxView& boxes) {
+void World::move(Span<const BoxId> ids, const BoxView& boxes) {
   refuseMargins(boxes);
   state().store.move(ids, boxes);
 }
 
-void World::moveSwept(std::span<const BoxId> ids, const BoxView& starts, const BoxView& ends) {
+void World::moveSwept(Span<const BoxId> ids, const BoxView& starts, const BoxView& ends) {
   refuseMargins(starts);
   refuseMargins(ends);
   if (starts.size() != ids.size() || ends.size() != ids.size()) {
@@ -179,8 +179,7 @@ void World::moveSwept(std::span<const BoxId> ids, const BoxView& starts, const B
   state().store.move(ids, swept);
 }
 
-void World::moveSwept(std::span<const BoxId> ids, const BoxView& starts, std::span<const double> velocities,
-                      double duration) {
+void World::moveSwept(Span<const BoxId> ids, const BoxView& starts, Span<const double> velocities, double duration) {
   refuseMargins(starts);
   if (starts.size() != ids.size() || velocities.size() != 3 * ids.size()) {
     throw InvalidArgument(std::to_string(starts.size()) + " starts and " + std::to_string(velocities.size()) +
@@ -207,14 +206,14 @@ void World::moveSwept(std::span<const BoxId> ids, const BoxView& starts, std::sp
 }
 
 void World::remove(BoxId id) { remove(std::span<const BoxId>(&id, 1)); }
-void World::remove(std::span<const BoxId> ids) { state().store.remove(ids); }
+void World::remove(Span<const BoxId> ids) { state().store.remove(ids); }
 void World::clear() { state().store.clear(); }
 
 void World::setProperties(BoxId id, const BoxProperties& properties) { setProperties({&id, 1}, {&properties, 1}); }
-void World::setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties) {
+void World::setProperties(Span<const BoxId> ids, Span<const BoxProperties> properties) {
   state().store.setProperties(ids, properties);
 }
-void World::invalidate(std::span<const BoxId> ids) { state().store.invalidate(ids); }
+void World::invalidate(Span<const BoxId> ids) { state().store.invalidate(ids); }
 
 void World::shrink() {
   if (m_state != nullptr) state().shrink();
@@ -285,11 +284,11 @@ SweepHit World::findFirst(const BoxSweep& sweep, const QueryFilter& filter) cons
   checkSweep(sweep, false, 0);
   return State::queries(*this, filter).first(sweep);
 }
-void World::findFirst(std::span<const Ray> rays, std::span<SweepHit> hits, const QueryFilter& filter) const {
+void World::findFirst(Span<const Ray> rays, Span<SweepHit> hits, const QueryFilter& filter) const {
   if (hits.size() != rays.size()) throw InvalidArgument("as many hits as rays are needed");
   State::queries(*this, filter).first(sweepsOf(rays), hits);
 }
-void World::findFirst(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits, const QueryFilter& filter) const {
+void World::findFirst(Span<const BoxSweep> sweeps, Span<SweepHit> hits, const QueryFilter& filter) const {
   if (hits.size() != sweeps.size()) throw InvalidArgument("as many hits as sweeps are needed");
   checkSweeps(sweeps);
   State::queries(*this, filter).first(sweeps, hits);
@@ -308,10 +307,10 @@ std::vector<SweepHit> World::findAll(const BoxSweep& sweep, const QueryFilter& f
   State::queries(*this, filter).all(sweep, hits);
   return hits;
 }
-ResultLists<SweepHit> World::findAll(std::span<const Ray> rays, const QueryFilter& filter) const {
+ResultLists<SweepHit> World::findAll(Span<const Ray> rays, const QueryFilter& filter) const {
   return State::queries(*this, filter).all(sweepsOf(rays));
 }
-ResultLists<SweepHit> World::findAll(std::span<const BoxSweep> sweeps, const QueryFilter& filter) const {
+ResultLists<SweepHit> World::findAll(Span<const BoxSweep> sweeps, const QueryFilter& filter) const {
   checkSweeps(sweeps);
   return State::queries(*this, filter).all(sweeps);
 }
@@ -323,7 +322,7 @@ std::vector<Neighbor> World::findNearest(const std::array<double, 3>& point, std
   State::queries(*this, filter).nearest(point, count, neighbors);
   return neighbors;
 }
-ResultLists<Neighbor> World::findNearest(std::span<const std::array<double, 3>> points, std::size_t count,
+ResultLists<Neighbor> World::findNearest(Span<const std::array<double, 3>> points, std::size_t count,
                                          const QueryFilter& filter) const {
   for (std::size_t i = 0; i < points.size(); ++i) checkPoint(points[i], i);
   return State::queries(*this, filter).nearest(points, count);

@@ -31,7 +31,7 @@ void checkWorld(std::size_t k, std::uint64_t begin, std::uint64_t end, std::size
 
 }  // namespace
 
-Worlds::Worlds(const BoxView& boxes, std::span<const std::uint64_t> begin) : m_boxes(boxes), m_begin(begin) {
+Worlds::Worlds(const BoxView& boxes, Span<const std::uint64_t> begin) : m_boxes(boxes), m_begin(begin) {
   if (begin.empty()) throw InvalidArgument("no offsets of worlds: there is one more than there are worlds");
   if (begin[0] != 0) throw InvalidArgument(numbered("world 0 begins at box ", begin[0]) + ", not at box 0");
   m_size = begin.size() - 1;
@@ -62,7 +62,7 @@ Worlds Worlds::ofEqualSize(const BoxView& boxes, std::size_t worlds) {
   return result;
 }
 
-void Worlds::setIgnoredPairs(std::span<const Pair> pairs) {
+void Worlds::setIgnoredPairs(Span<const Pair> pairs) {
   for (const Pair pair : pairs) {
     const std::string name =
         "the ignored pair (" + std::to_string(pair.first) + ", " + std::to_string(pair.second) + ')';
@@ -133,12 +133,12 @@ WorldPairsView WorldsSearch::find(const Worlds& worlds, const BoxView& shared) {
   return state.run(state.shared, [&] { return state.shared.find(worlds, shared, state.options); });
 }
 
-std::span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds) {
+Span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds) {
   State& state = this->state();
   return state.run(state.own, [&] { return state.own.count(worlds, state.options); });
 }
 
-std::span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds, const BoxView& shared) {
+Span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds, const BoxView& shared) {
   State& state = this->state();
   return state.run(state.shared, [&] { return state.shared.count(worlds, shared, state.options); });
 }
@@ -165,14 +165,14 @@ void writeAt(const Worlds& worlds, std::span<const std::uint64_t> begin, std::sp
 
 }  // namespace
 
-void WorldsSearch::list(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs) {
+void WorldsSearch::list(const Worlds& worlds, Span<const std::uint64_t> begin, Span<Pair> pairs) {
   State& state = this->state();
   writeAt(worlds, begin, pairs,
           [&] { return state.run(state.own, [&] { return state.own.list(worlds, state.options, begin, pairs); }); });
 }
 
-void WorldsSearch::list(const Worlds& worlds, const BoxView& shared, std::span<const std::uint64_t> begin,
-                        std::span<Pair> pairs) {
+void WorldsSearch::list(const Worlds& worlds, const BoxView& shared, Span<const std::uint64_t> begin,
+                        Span<Pair> pairs) {
   writeAt(worlds, begin, pairs, [&] {
     const WorldPairsView found = find(worlds, shared);
     std::copy_n(found.pairs.begin(), std::min(found.pairs.size(), pairs.size()), pairs.begin());
@@ -207,7 +207,7 @@ std::vector<std::uint64_t> countOverlapsInWorlds(const Worlds& worlds, const Box
   return copied(WorldsSearch(options).count(worlds, shared));
 }
 
-void listOverlapsInWorlds(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs,
+void listOverlapsInWorlds(const Worlds& worlds, Span<const std::uint64_t> begin, Span<Pair> pairs,
                           const OverlapOptions& options) {
   WorldsSearch(options).list(worlds, begin, pairs);
 }

@@ -81,15 +81,15 @@ const Path& BoxRows::path() const noexcept { return m_state->path; }
 std::uint64_t BoxRows::size() const noexcept { return m_state->header.shape[0]; }
 bool BoxRows::isFloat64() const noexcept { return m_state->isFloat64; }
 
-void BoxRows::read(std::uint64_t begin, std::span<float> rows) {
+void BoxRows::read(std::uint64_t begin, Span<float> rows) {
   if (m_state->isFloat64) throw InvalidArgument("boxes of float64 do not fit in float32");
-  m_state->read(begin, rows);
+  m_state->read<float>(begin, rows);
 }
 
-void BoxRows::read(std::uint64_t begin, std::span<double> rows) {
+void BoxRows::read(std::uint64_t begin, Span<double> rows) {
   State& state = *m_state;
   if (state.isFloat64) {
-    state.read(begin, rows);
+    state.read<double>(begin, rows);
     return;
   }
   state.narrow.resize(rows.size());

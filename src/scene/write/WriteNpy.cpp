@@ -17,7 +17,7 @@ void appendLittleEndian(TextBuffer& out, std::uint32_t value) {
 
 }  // namespace
 
-std::string npyHeader(std::string_view type, std::span<const std::uint64_t> shape) {
+std::string npyHeader(std::string_view type, Span<const std::uint64_t> shape) {
   constexpr std::size_t kBefore = 10;  // magic, version, and the length of the text in 16 bits
   constexpr std::size_t kAlignment = 64;
   std::string text =

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#if __cplusplus < 202002L
-#error "allpairs::BulletBroadphase needs C++20: compile with -std=c++20, or link a CMake target with allpairs::bullet"
-#else
-
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
@@ -16,13 +12,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "allpairs/Error.h"
+#include "allpairs/Span.h"
 #include "allpairs/World.h"
 #include "allpairs/bullet/BulletBroadphaseOptions.h"
 #include "allpairs/bullet/OrderedPairCache.h"
@@ -126,7 +122,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
-    const BoxSweep sweep{.box = toBox(rayFrom + aabbMin, rayFrom + aabbMax), .motion = toArray(rayTo - rayFrom)};
+    const BoxSweep sweep{toBox(rayFrom + aabbMin, rayFrom + aabbMax), toArray(rayTo - rayFrom)};
     for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
   }
 
@@ -251,7 +247,10 @@ class BulletBroadphase : public btBroadphaseInterface {
   /// A filter callback takes the place of groups and masks.
   [[nodiscard]] BoxProperties propertiesOf(int group, int mask) const {
     if (m_filter != nullptr) return {};
-    return {.category = static_cast<std::uint32_t>(group), .mask = static_cast<std::uint32_t>(mask)};
+    BoxProperties properties;
+    properties.category = static_cast<std::uint32_t>(group);
+    properties.mask = static_cast<std::uint32_t>(mask);
+    return properties;
   }
 
   static const btCollisionObject& objectOf(const btBroadphaseProxy& proxy) {
@@ -308,7 +307,7 @@ class BulletBroadphase : public btBroadphaseInterface {
         if (!proxy->isThere) continue;
         const BoxId id = idOf(*proxy);
         m_world.setProperties(id, propertiesOf(proxy->knownGroup, proxy->knownMask));
-        m_world.invalidate(std::span<const BoxId>(&id, 1));
+        m_world.invalidate(Span<const BoxId>(&id, 1));
       }
     } catch (...) {
       m_filter = before;  // the next step begins again
@@ -326,7 +325,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   }
 
   /// Adds those of its pairs that the cache lacks. Those that a proxy no longer has stay until the next step.
-  void addPairs(Proxy& proxy, std::span<const BoxId> near) {
+  void addPairs(Proxy& proxy, Span<const BoxId> near) {
     const BoxId id = idOf(proxy);
     for (const BoxId other : near) {
       if (other == id || m_cache->findPair(&proxy, m_proxies[other].get()) != nullptr) continue;
@@ -345,7 +344,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     if (m_cache->needsBroadphaseCollision(first, second)) {
       m_keepsPairs = m_cache->getNumOverlappingPairs() != 0;
     } else {
-      m_world.invalidate(std::span<const BoxId>(&pair.first, 1));
+      m_world.invalidate(Span<const BoxId>(&pair.first, 1));
     }
   }
 
@@ -388,7 +387,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     pairs.resize(kept);
   }
 
-  static bool contains(std::span<const Pair> sorted, const Pair& pair) {
+  static bool contains(Span<const Pair> sorted, const Pair& pair) {
     return std::binary_search(sorted.begin(), sorted.end(), pair);
   }
 
@@ -411,7 +410,7 @@ class BulletBroadphase : public btBroadphaseInterface {
       --count;
       sum -= valueOf(a, b);
     }
-    friend bool operator==(const Digest&, const Digest&) = default;
+    friend bool operator==(const Digest& a, const Digest& b) { return a.count == b.count && a.sum == b.sum; }
 
    private:
     static std::uint64_t valueOf(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
@@ -438,7 +437,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   }
 
   /// Undoes what others did to the cache: removes pairs that are none, adds missing ones, without contacts.
-  void restorePairs(std::span<const Pair> wanted, btDispatcher* dispatcher) {
+  void restorePairs(Span<const Pair> wanted, btDispatcher* dispatcher) {
     std::vector<std::uint8_t> isHeld(wanted.size(), 0);
     const auto isUnwanted = [&](const btBroadphasePair& pair) {
       const auto at = std::lower_bound(wanted.begin(), wanted.end(), idsOf(pair));
@@ -486,5 +485,3 @@ class BulletBroadphase : public btBroadphaseInterface {
 };
 
 }  // namespace allpairs
-
-#endif

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#if __cplusplus < 202002L
-#error "allpairs::FclBroadPhaseManager needs C++20: compile with -std=c++20, or link a CMake target with allpairs::fcl"
-#else
-
 #include <fcl/broadphase/broadphase_collision_manager.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "allpairs/Error.h"
+#include "allpairs/Span.h"
 #include "allpairs/World.h"
 #include "allpairs/fcl/FclObjects.h"
 #include "allpairs/fcl/FclTree.h"
@@ -219,7 +214,7 @@ class FclBroadPhaseManager : public FclTree<S> {
     this->noteTree();
   }
 
-  [[nodiscard]] std::span<const Pair> pairs() const { return m_search.pairs(m_objects.rows()); }
+  [[nodiscard]] Span<const Pair> pairs() const { return m_search.pairs(m_objects.rows()); }
   [[nodiscard]] const World& world() const { return m_search.world(m_objects.rows()); }
 
   /// Whether a box is one; empty ones have no pairs.
@@ -250,7 +245,7 @@ class FclBroadPhaseManager : public FclTree<S> {
     for (std::size_t begin = 0; begin < m_objects.bound(); begin += kBatch) {
       auto found = RowSearch<S>::overlapping(m_objects.rows().subspan(6 * begin), row);
       for (; found != 0; found &= found - 1) {
-        const BoxId id = static_cast<BoxId>(begin) + static_cast<BoxId>(std::countr_zero(found));
+        const BoxId id = static_cast<BoxId>(begin) + lowestBit(found);
         if (m_objects.hasBox(id) && visit(id)) return true;
       }
     }
@@ -337,10 +332,21 @@ class FclBroadPhaseManager : public FclTree<S> {
     return false;
   }
 
+  /// The index of the lowest bit that is set, of which there is one; std::countr_zero is of C++20.
+  static BoxId lowestBit(std::uint64_t bits) {
+#ifdef __GNUC__
+    return static_cast<BoxId>(__builtin_ctzll(bits));
+#else
+    BoxId index = 0;
+    for (; (bits & 1U) == 0; bits >>= 1U) ++index;
+    return index;
+#endif
+  }
+
   static BoxId nearestOf(const std::array<S, RowSearch<S>::kBatch>& squares, std::uint64_t left) {
-    auto nearest = static_cast<BoxId>(std::countr_zero(left));
+    BoxId nearest = lowestBit(left);
     for (left &= left - 1; left != 0; left &= left - 1) {
-      const auto id = static_cast<BoxId>(std::countr_zero(left));
+      const BoxId id = lowestBit(left);
       if (squares[id] < squares[nearest]) nearest = id;
     }
     return nearest;
@@ -423,5 +429,3 @@ using FclBroadPhaseManagerf = FclBroadPhaseManager<float>;
 using FclBroadPhaseManagerd = FclBroadPhaseManager<double>;
 
 }  // namespace allpairs
-
-#endif

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#if __cplusplus < 202002L
-#error "allpairs::FclNarrowPhase needs C++20: compile with -std=c++20, or link a CMake target with allpairs::fcl"
-#else
-
 #include <cstddef>
 #include <memory>
-#include <span>
 
+#include "allpairs/Span.h"
 #include "allpairs/collision/ExactPair.h"
 #include "allpairs/collision/NarrowPhaseDetection.h"
 
@@ -55,7 +51,7 @@ class FclNarrowPhase : public collision::NarrowPhaseDetection {
   [[nodiscard]] bool needsDeepBoundingTree() const override { return false; }
 
   /// The pairs of this step, as they were added.
-  [[nodiscard]] std::span<const ExactPair> pairs() const;
+  [[nodiscard]] Span<const ExactPair> pairs() const;
 
  private:
   struct State;
@@ -63,5 +59,3 @@ class FclNarrowPhase : public collision::NarrowPhaseDetection {
 };
 
 }  // namespace allpairs
-
-#endif

@@ -7,13 +7,13 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/Error.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 #include "allpairs/fcl/ObjectNumbers.h"
 
 namespace allpairs {
@@ -136,7 +136,7 @@ class FclObjects {
   }
 
   /// All boxes by number: minx miny minz maxx maxy maxz. Where an object has left it is an empty one.
-  [[nodiscard]] std::span<const S> rows() const { return m_rows; }
+  [[nodiscard]] Span<const S> rows() const { return m_rows; }
 
   /// How many objects there are; all their numbers are below bound().
   [[nodiscard]] std::size_t size() const { return m_numbers.size(); }

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
 #include "allpairs/Pair.h"
+#include "allpairs/Span.h"
 #include "allpairs/World.h"
 
 namespace allpairs {
@@ -33,7 +33,7 @@ class RowSearch {
   static constexpr std::size_t kBatch = 64;
 
   /// Whether a scan of all rows is always as fast as a query of a world.
-  [[nodiscard]] static bool areFew(std::span<const T> rows) { return rows.size() <= 6 * kBatch; }
+  [[nodiscard]] static bool areFew(Span<const T> rows) { return rows.size() <= 6 * kBatch; }
 
   /// Pairs come ordered by (first, second) if that is asked for, else in an order that is the same each time.
   explicit RowSearch(Executor* executor, bool isOrdered);
@@ -57,32 +57,32 @@ class RowSearch {
   }
 
   /// All pairs, in which the first is the smaller number; valid until the next note() or clear().
-  [[nodiscard]] std::span<const Pair> pairs(std::span<const T> rows) const;
+  [[nodiscard]] Span<const Pair> pairs(Span<const T> rows) const;
 
   /// The same boxes as a world, for queries; the numbers of rows are its ids.
-  [[nodiscard]] const World& world(std::span<const T> rows) const;
+  [[nodiscard]] const World& world(Span<const T> rows) const;
 
   /// The same for one query, or null where a scan of all rows is the faster: few of them, or few queries since many
   /// have changed.
-  [[nodiscard]] const World* worldForQuery(std::span<const T> rows) const {
+  [[nodiscard]] const World* worldForQuery(Span<const T> rows) const {
     return areFew(rows) ? nullptr : worldForMany(rows);
   }
 
   /// Whether a comparison of each row with each of another search is faster than their worlds.
-  [[nodiscard]] bool isFasterByScans(std::span<const T> rows, std::size_t others) const;
+  [[nodiscard]] bool isFasterByScans(Span<const T> rows, std::size_t others) const;
 
   /// Which of the first kBatch rows, as bits, overlap a box. Empty ones do where the box is infinite on all sides.
-  [[nodiscard]] static std::uint64_t overlapping(std::span<const T> rows, const Row& box);
+  [[nodiscard]] static std::uint64_t overlapping(Span<const T> rows, const Row& box);
 
  private:
-  [[nodiscard]] const World* worldForMany(std::span<const T> rows) const;
+  [[nodiscard]] const World* worldForMany(Span<const T> rows) const;
   void beginChange();
-  void find(std::span<const T> rows) const;
-  void step(std::span<const T> rows) const;
-  [[nodiscard]] std::span<const Pair> searchAll(std::span<const T> rows) const;
-  [[nodiscard]] std::span<const Pair> scanAll(std::span<const T> rows) const;
-  void bringIn(std::span<const T> rows) const;
-  [[nodiscard]] bool isCalmAgain(std::span<const T> rows) const;
+  void find(Span<const T> rows) const;
+  void step(Span<const T> rows) const;
+  [[nodiscard]] Span<const Pair> searchAll(Span<const T> rows) const;
+  [[nodiscard]] Span<const Pair> scanAll(Span<const T> rows) const;
+  void bringIn(Span<const T> rows) const;
+  [[nodiscard]] bool isCalmAgain(Span<const T> rows) const;
 
   Executor* m_executor;
 
@@ -104,7 +104,7 @@ class RowSearch {
   mutable std::vector<BoxId> m_ids;
   mutable std::vector<T> m_moved;
   mutable std::vector<Pair> m_exact;
-  mutable std::span<const Pair> m_pairs;
+  mutable Span<const Pair> m_pairs;
 };
 
 extern template class RowSearch<float>;

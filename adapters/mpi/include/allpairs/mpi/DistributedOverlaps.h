@@ -3,7 +3,6 @@
 
 #include <mpi.h>
 
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -30,12 +29,10 @@ using partition::IdPair;
 /// What it is made from must outlive it, as an argument of a function does.
 class LocalBoxes {
  public:
-  template <class Boxes>
-    requires std::convertible_to<const Boxes&, BoxView>
+  template <class Boxes, std::enable_if_t<std::is_convertible_v<const Boxes&, BoxView>, int> = 0>
   LocalBoxes(const Boxes& boxes)  // NOLINT(google-explicit-constructor): meant to convert
       : m_view([&boxes]() -> BoxView { return boxes; }) {}
-  template <class MakeView>
-    requires std::is_invocable_r_v<BoxView, const MakeView&>
+  template <class MakeView, std::enable_if_t<std::is_invocable_r_v<BoxView, const MakeView&>, bool> = true>
   LocalBoxes(const MakeView& makeView)  // NOLINT(google-explicit-constructor): meant to convert
       : m_view([&makeView]() -> BoxView { return makeView(); }) {}
 
