@@ -11,6 +11,10 @@
 #include <span>
 #endif
 
+#if (defined(_MSVC_LANG) ? _MSVC_LANG : __cplusplus) < 201703L
+#error "Allpairs needs C++17 or later: compile with -std=c++17"
+#endif
+
 #include "allpairs/DebugMode.h"
 
 namespace allpairs {
@@ -20,8 +24,9 @@ class Span;
 
 namespace internal {
 
-/// Whether the elements of a range follow each other in memory. C++17 has no way to ask; there it is the containers of the
-/// standard library, and what names its types as they do, which the rows and columns of a matrix of Eigen don't.
+/// Whether the elements of a range follow each other in memory. C++17 has no way to ask; there it is what has a size_type, as
+/// the containers of the standard library have and the rows of a matrix of Eigen don't, and iterates over what data() points to,
+/// as an array of several dimensions doesn't.
 template <class Range, class = void>
 inline constexpr bool kIsContiguous = std::is_array_v<Range>;
 #ifdef __cpp_lib_span
@@ -29,7 +34,10 @@ template <class Range>
 inline constexpr bool kIsContiguous<Range, std::enable_if_t<std::ranges::contiguous_range<Range>>> = true;
 #else
 template <class Range>
-inline constexpr bool kIsContiguous<Range, std::void_t<typename Range::size_type>> = true;
+inline constexpr bool
+    kIsContiguous<Range, std::void_t<typename Range::size_type, decltype(std::declval<Range&>().begin()),
+                                     decltype(std::data(std::declval<Range&>()))>> =
+        std::is_same_v<decltype(*std::declval<Range&>().begin()), decltype(*std::data(std::declval<Range&>()))>;
 #endif
 
 /// Whether what a range views outlives the range. In C++17 that is known of a Span.
@@ -75,7 +83,9 @@ class Span {
   using const_iterator = const T*;
 
   constexpr Span() noexcept = default;
-  constexpr Span(T* data, std::size_t size) noexcept : m_data(data), m_size(size) {}
+  /// From a pointer to T, not to a class derived from it, and never from a 0 that stands for a null pointer.
+  template <class U, std::enable_if_t<std::is_convertible_v<U (*)[], T (*)[]>, int> = 0>
+  constexpr Span(U* data, std::size_t size) noexcept : m_data(data), m_size(size) {}
 #ifdef __cpp_lib_span
   /// From two iterators, or two pointers, in C++20.
   template <class First, class Last>
@@ -84,7 +94,7 @@ class Span {
 #endif
 
   /// From a std::vector, std::array, std::span, C array or other container with data() and size(). As with std::span, a
-  /// temporary gives elements that are const only.
+  /// temporary gives elements that are const only, unless it is a view.
   // NOLINTBEGIN(google-explicit-constructor): a view of the same
   template <class Range,
             std::enable_if_t<!std::is_const_v<Range> && !std::is_same_v<Range, Span> && internal::kIsRangeOf<Range, T>,
@@ -108,9 +118,11 @@ class Span {
 
   [[nodiscard]] constexpr Span first(std::size_t count) const noexcept { return {m_data, count}; }
   [[nodiscard]] constexpr Span last(std::size_t count) const noexcept { return {m_data + (m_size - count), count}; }
-  [[nodiscard]] constexpr Span subspan(std::size_t begin) const noexcept { return {m_data + begin, m_size - begin}; }
-  [[nodiscard]] constexpr Span subspan(std::size_t begin, std::size_t count) const noexcept {
-    return {m_data + begin, count};
+
+  /// All from `begin` on, or `count` elements; the greatest count, std::dynamic_extent, means all too.
+  [[nodiscard]] constexpr Span subspan(std::size_t begin,
+                                       std::size_t count = static_cast<std::size_t>(-1)) const noexcept {
+    return {m_data + begin, count == static_cast<std::size_t>(-1) ? m_size - begin : count};
   }
 
  private:

@@ -83,6 +83,7 @@ TEST_F(HostedModels, AreTheirOwnRootsUntilABoundingTreeIsComputed) {
   EXPECT_EQ(detect(), (Numbers{{1, 0}}));
   model.computeBoundingTree(3);
   EXPECT_NE(model.getFirst(), &model);
+  EXPECT_EQ(model.typeKey(), std::type_index(typeid(HostedModel)));
   EXPECT_EQ(model.getFirst()->elementBox(0), unitBoxAt(0.0));
   EXPECT_EQ(detect(), (Numbers{{1, 0}}));
   model.setBox(unitBoxAt(5.0));

@@ -62,6 +62,28 @@ struct Derived : Base {
   int more = 0;
 };
 static_assert(!std::is_constructible_v<Span<Base>, std::vector<Derived>&>);
+static_assert(!std::is_constructible_v<Span<Base>, Derived*, std::size_t>);
+static_assert(std::is_constructible_v<Span<const Base>, Base*, std::size_t> &&
+              !std::is_constructible_v<Span<Base>, const Base*, std::size_t>);
+
+// Two numbers are neither a pointer and a size, nor two elements: world.remove({0, 3}) would read from address 0.
+template <class Ids, class = void>
+constexpr bool kRemovesTwoNumbers = false;
+template <class Ids>
+constexpr bool kRemovesTwoNumbers<Ids, std::void_t<decltype(std::declval<World&>().remove(Ids{0, 3}))>> = true;
+static_assert(!kRemovesTwoNumbers<Span<const BoxId>>);
+
+/// An array of arrays: data() points to its numbers, of which size() counts the first dimension only.
+struct Table {
+  using size_type = std::size_t;
+  using Row = std::array<double, 6>;
+  [[nodiscard]] const double* data() const { return rows.front().data(); }
+  [[nodiscard]] std::size_t size() const { return rows.size(); }
+  [[nodiscard]] auto begin() const { return rows.begin(); }
+  [[nodiscard]] auto end() const { return rows.end(); }
+  std::array<Row, 4> rows{};
+};
+static_assert(!std::is_constructible_v<Span<const double>, const Table&>);
 
 /// A column of a matrix: like Eigen's, it has data() and size(), and its elements don't follow each other.
 struct Column {
@@ -126,6 +148,8 @@ TEST(Span, HasParts) {
   EXPECT_THAT(span.subspan(3), ElementsAre(4, 5));
   EXPECT_THAT(span.subspan(1, 2), ElementsAre(2, 3));
   EXPECT_THAT(span.subspan(5), IsEmpty());
+  constexpr std::size_t kDynamicExtent = static_cast<std::size_t>(-1);
+  EXPECT_THAT(span.subspan(3, kDynamicExtent), ElementsAre(4, 5));
   EXPECT_THAT(span.first(0), IsEmpty());
 }
 

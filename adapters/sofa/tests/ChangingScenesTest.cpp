@@ -2,6 +2,9 @@
 // Scenes in which a few models change from step to step, each in one way: what the plugin keeps of a model between steps is
 // never out of date.
 #include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "Dice.h"
 #include "World.h"
@@ -186,6 +189,68 @@ TEST(SofaChangingScenes, GiveTheListOfTheDoubleLoopInEveryStep) {
       ways = scene.change();
     }
   }
+}
+
+TEST(SofaChangingScenes, AnEditThatEndsAfterAStepIsSeenInTheNext) {
+  World world;
+  intersection::MinProximityIntersection method;
+  world.addAt(0.0).elements->setGroups({1});
+  Body& body = world.addAt(0.5);
+  auto& groups = *static_cast<sofa::core::objectmodel::Data<std::set<int>>*>(body.elements->findData("group"));
+  std::set<int>& edited = *groups.beginEdit();
+  EXPECT_EQ(world.runBoth(method), (Numbers{{1, 0}}));
+  edited.insert(1);
+  groups.endEdit();
+  EXPECT_EQ(world.runBoth(method), Numbers{});
+}
+
+TEST(SofaChangingScenes, DataOfTheRootThatFollowThoseOfTheElementsAreSeen) {
+  World world;
+  intersection::MinProximityIntersection method;
+  method.setAlarmDistance(0.0);
+  world.addAt(0.0);
+  Body& body = world.addAt(1.5);
+  body.root->findData("contactDistance")->setParent(body.elements->findData("contactDistance"));
+  EXPECT_EQ(world.runBoth(method), Numbers{});
+  for (const double distance : {0.5, 0.25, 0.75}) {
+    body.elements->setContactDistance(distance);
+    EXPECT_EQ(world.runBoth(method), distance < 0.5 ? Numbers{} : (Numbers{{1, 0}})) << distance;
+  }
+}
+
+/// A method of the user's own to which all models are near.
+class EverythingIsNear : public sofa::core::collision::Intersection {
+ public:
+  sofa::core::collision::ElementIntersector* findIntersector(CollisionModel* /*first*/, CollisionModel* /*second*/,
+                                                             bool& /*swap*/) override {
+    return &m_near;
+  }
+
+ private:
+  class Near : public sofa::core::collision::ElementIntersector {
+   public:
+    bool canIntersect(sofa::core::CollisionElementIterator /*first*/, sofa::core::CollisionElementIterator /*second*/,
+                      const sofa::core::collision::Intersection* /*method*/) override {
+      return true;
+    }
+  };
+  Near m_near;
+};
+
+TEST(SofaChangingScenes, ARootOfTheUsersOwnIsAskedInEachStepWhetherItIsSimulated) {
+  class Root : public CollisionModel {
+   public:
+    [[nodiscard]] bool isSimulated() const override { return isOn; }
+    bool isOn = false;
+  };
+  World world;
+  EverythingIsNear method;
+  Root* const root = new Root;  // held by its body
+  world.addBody(root, new Triangles).root->resize(1);
+  world.addAt(0.0).root->setSimulated(false);
+  EXPECT_EQ(world.runBoth(method), Numbers{});
+  root->isOn = true;
+  EXPECT_EQ(world.runBoth(method), (Numbers{{1, 0}}));
 }
 
 TEST(SofaChangingScenes, AModelThatHasLeftIsHeldUntilTheNextStepOnly) {

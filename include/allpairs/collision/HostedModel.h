@@ -26,8 +26,10 @@ class HostedModel : public CollisionModel {
   [[nodiscard]] Box elementBox(std::size_t /*index*/) const override { return rootBox(); }
   [[nodiscard]] std::string_view typeName() const override { return "HostedModel"; }
 
-  /// That of a root box, which the model itself is while it has one level.
-  [[nodiscard]] std::type_index typeKey() const override { return rootTypeKey(); }
+  /// That of a root box while the model is its own root; its type once computeBoundingTree() has put a level above it.
+  [[nodiscard]] std::type_index typeKey() const override {
+    return getFirst() == this ? rootTypeKey() : CollisionModel::typeKey();
+  }
 
  private:
   void* m_host = nullptr;

@@ -20,7 +20,9 @@ namespace allpairs::plugin {
 ///            are reversed or hold a NaN are tested by SOFA's own intersection method, as without the plugin.
 /// Cost:      one pass over the models and that of allpairs::OverlapSearch on their root boxes. A method that isn't one of
 ///            SOFA's own can't be bounded: each pair of models is asked then, as BruteForceBroadPhase does.
-/// Threads:   the search runs on `threads` threads; SOFA's models and methods are called from the calling thread.
+/// Threads:   the search runs on `threads` threads; SOFA's models and methods are called from the calling thread. Two of
+///            these components that share a model, as two pipelines may, must not run at once: reading links the model's
+///            Data.
 class ALLPAIRS_SOFA_API AllpairsBroadPhase : public sofa::core::collision::BroadPhaseDetection {
  public:
   SOFA_CLASS(AllpairsBroadPhase, sofa::core::collision::BroadPhaseDetection);

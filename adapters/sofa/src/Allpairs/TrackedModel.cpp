@@ -7,6 +7,7 @@
 #include <sofa/component/collision/geometry/TetrahedronCollisionModel.h>
 #include <sofa/component/collision/geometry/TriangleCollisionModel.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -43,6 +44,15 @@ bool isPlainType(const std::type_info& type) {
          type == typeid(geometry::TetrahedronCollisionModel) || type == typeid(geometry::CubeCollisionModel);
 }
 
+/// Names the Data of a model that a broad phase reads, which SOFA shows to subclasses only.
+struct DataOfModel : sofa::core::CollisionModel {
+  static std::array<sofa::core::objectmodel::DDGNode*, 4> of(sofa::core::CollisionModel& root,
+                                                             sofa::core::CollisionModel& last) {
+    return {&(root.*(&DataOfModel::bSimulated)), &(root.*(&DataOfModel::d_contactDistance)),
+            &(last.*(&DataOfModel::bSelfCollision)), &(last.*(&DataOfModel::group))};
+  }
+};
+
 /// Whether the box is one that our layer takes as SOFA does: no NaN, and not reversed.
 bool isProper(const Box& box) {
   return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
@@ -58,7 +68,8 @@ void TrackedModel::read(std::span<TrackedModel* const> models) {
   }
   for (TrackedModel* model : models) model->readNode();
   for (TrackedModel* model : models) {
-    if (model->isDirty()) model->readData();
+    // A root that is no box may be of a user's type, whose isSimulated() need not look at SOFA's Data.
+    if (model->isDirty() || !model->m_hasBox) model->readData();
     model->readBox();
   }
 }
@@ -68,25 +79,22 @@ bool TrackedModel::hasSameLevels() const {
          m_last->getPrevious() == m_aboveLast;
 }
 
-/// Finds the last level, and depends on the Data of both from now on.
+/// Finds the last level, and depends on the Data of both from now on. After an exception the next step does it again.
 void TrackedModel::readLevels() {
-  m_last = m_root->getLast();
+  m_last.reset();
+  const sofa::core::CollisionModel::SPtr last = m_root->getLast();
   m_belowRoot = m_root->getNext();
-  m_aboveLast = m_last->getPrevious();
+  m_aboveLast = last->getPrevious();
   m_hasBox = typeid(*m_root) == typeid(geometry::CubeCollisionModel);
-  if (isPlainType(typeid(*m_last))) {
+  if (isPlainType(typeid(*last))) {
     m_model = std::make_unique<collision::HostedModel>(m_root.get());
   } else {
     m_model = std::make_unique<AskingModel>(m_root.get());
   }
   while (!getInputs().empty()) delInput(getInputs().back());
-  watch(*m_root, "simulated");
-  watch(*m_root, "contactDistance");
-  watch(*m_last, "selfCollision");
-  watch(*m_last, "group");
+  for (sofa::core::objectmodel::DDGNode* data : DataOfModel::of(*m_root, *last)) addInput(data);
+  m_last = last;
 }
-
-void TrackedModel::watch(sofa::core::CollisionModel& level, const char* data) { addInput(level.findData(data)); }
 
 void TrackedModel::readData() {
   m_model->setSimulated(m_root->isSimulated());

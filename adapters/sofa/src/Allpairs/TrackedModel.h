@@ -43,12 +43,15 @@ class TrackedModel final : public sofa::core::objectmodel::DDGNode {
   /// Whether it may collide with itself or with its neighbours in the node.
   [[nodiscard]] bool mayCollideWithItself() const { return m_mayCollideWithItself; }
 
-  void update() override {}  // nothing depends on it
+  /// Nothing depends on it.
+  void update() override {}
+
+  /// Data whose edit ends are read in the next step, whatever was read while they were edited.
+  void notifyEndEdit() override { setDirtyValue(); }
 
  private:
   [[nodiscard]] bool hasSameLevels() const;
   void readLevels();
-  void watch(sofa::core::CollisionModel& level, const char* data);
   void readData();
   void readNode();
   void readBox();

@@ -53,17 +53,17 @@ class CollisionModel : public objectmodel::BaseComponent {
     if (previous) previous->m_next = this;
   }
 
-  [[nodiscard]] virtual bool isSimulated() const { return m_simulated.getValue(); }
-  virtual void setSimulated(bool simulated) { m_simulated.setValue(simulated); }
-  [[nodiscard]] bool getSelfCollision() const { return m_selfCollision.getValue(); }
-  void setSelfCollision(bool selfCollision) { m_selfCollision.setValue(selfCollision); }
-  [[nodiscard]] SReal getContactDistance() const { return m_contactDistance.getValue(); }
-  void setContactDistance(SReal distance) { m_contactDistance.setValue(distance); }
-  [[nodiscard]] const std::set<int>& getGroups() const { return m_groups.getValue(); }
-  void setGroups(const std::set<int>& groups) { m_groups.setValue(groups); }
-  void addGroup(int group) {
-    m_groups.beginEdit()->insert(group);
-    m_groups.endEdit();
+  [[nodiscard]] virtual bool isSimulated() const { return bSimulated.getValue(); }
+  virtual void setSimulated(bool simulated) { bSimulated.setValue(simulated); }
+  [[nodiscard]] bool getSelfCollision() const { return bSelfCollision.getValue(); }
+  void setSelfCollision(bool selfCollision) { bSelfCollision.setValue(selfCollision); }
+  [[nodiscard]] SReal getContactDistance() const { return d_contactDistance.getValue(); }
+  void setContactDistance(SReal distance) { d_contactDistance.setValue(distance); }
+  [[nodiscard]] const std::set<int>& getGroups() const { return group.getValue(); }
+  void setGroups(const std::set<int>& groups) { group.setValue(groups); }
+  void addGroup(int number) {
+    group.beginEdit()->insert(number);
+    group.endEdit();
   }
 
   virtual bool canCollideWith(CollisionModel* other) {
@@ -75,14 +75,16 @@ class CollisionModel : public objectmodel::BaseComponent {
     return common.empty();
   }
 
+ protected:
+  objectmodel::Data<bool> bSimulated{initData(&bSimulated, true, "simulated", "")};
+  objectmodel::Data<bool> bSelfCollision{initData(&bSelfCollision, false, "selfCollision", "")};
+  objectmodel::Data<SReal> d_contactDistance{initData(&d_contactDistance, 0.0, "contactDistance", "")};
+  objectmodel::Data<std::set<int>> group{initData(&group, "group", "")};
+
  private:
   Size m_size = 0;
   CollisionModel* m_next = nullptr;
   SPtr m_previous;
-  objectmodel::Data<bool> m_simulated{initData(&m_simulated, true, "simulated", "")};
-  objectmodel::Data<bool> m_selfCollision{initData(&m_selfCollision, false, "selfCollision", "")};
-  objectmodel::Data<SReal> m_contactDistance{initData(&m_contactDistance, 0.0, "contactDistance", "")};
-  objectmodel::Data<std::set<int>> m_groups{initData(&m_groups, "group", "")};
 };
 
 }  // namespace sofa::core

@@ -15,7 +15,19 @@ namespace sofa::core::objectmodel {
 class BaseData : public DDGNode {
  public:
   virtual bool copyValueFrom(const BaseData* other) = 0;
-  void update() override { cleanDirty(); }
+
+  /// Takes its value from another of the same type from now on.
+  void setParent(BaseData* parent) {
+    m_parent = parent;
+    addInput(parent);
+  }
+  void update() override {
+    if (m_parent != nullptr) copyValueFrom(m_parent);
+    cleanDirty();
+  }
+
+ private:
+  BaseData* m_parent = nullptr;
 };
 
 template <class T>
@@ -28,7 +40,10 @@ class Data : public BaseData {
  public:
   explicit Data(DataDefault<T> initial) : m_value(std::move(initial.value)) {}
 
-  [[nodiscard]] const T& getValue() const { return m_value; }
+  [[nodiscard]] const T& getValue() const {
+    if (isDirty()) const_cast<Data*>(this)->update();  // as in SOFA
+    return m_value;
+  }
   [[nodiscard]] bool isSet() const { return m_isSet; }
   T* beginEdit() {
     m_isSet = true;

@@ -33,7 +33,9 @@ class DDGNode {
   const std::vector<DDGNode*>& getInputs() { return m_inputs; }
 
   virtual void update() = 0;
-  virtual void notifyEndEdit() {}
+  virtual void notifyEndEdit() {
+    for (DDGNode* output : m_outputs) output->notifyEndEdit();
+  }
 
   [[nodiscard]] bool isDirty() const { return m_dirtyValue; }
   virtual void setDirtyValue() {
