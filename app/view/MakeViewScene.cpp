@@ -172,7 +172,8 @@ void addBoxNames(const scene::BoxArray& boxes, view::ViewScene& to) {
   if (areIndices) to.names.clear();
 }
 
-void fill(scene::BoxArray& from, const ViewRequest& request, view::ViewScene& to) {
+void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to) {
+  const scene::BoxArray& from = input.boxes;
   if (request.shapes == ShapeTest::Always) {
     scene::Scene scene = scene::toScene(from);
     fill(scene, request, to);
