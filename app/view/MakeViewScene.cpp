@@ -5,10 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "ClashPicture.h"
 #include "Explain.h"
 #include "ModelMesh.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/ReadInput.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
@@ -209,6 +211,9 @@ view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& req
   std::visit([&](auto& content) { fill(content, request, result); }, inputs);
   result.statistics.readSeconds = readSeconds;
   result.up = request.up.value_or(result.up);
+  constexpr std::size_t kMostSides = 500;  // as many as a report has pictures
+  parallel::TbbExecutor executor;
+  view::chooseSides(result, kMostSides, executor);
   return result;
 }
 
