@@ -119,7 +119,7 @@ async function allPairs(page) {
   return pairs;
 }
 
-inChromium("the margin slider finds the pairs of detect --distance", async () => {
+inBoth("the margin slider finds the pairs of detect --distance", async () => {
   const grid = Array.from({ length: 27 }, (_, i) => [i % 3, Math.floor(i / 3) % 3, Math.floor(i / 9)].map((k) => 1.1 * k)); // gaps of 0.1, more or less
   const boxes = write("grid.npy", npy([27, 6], grid.flatMap((p) => [...p, ...p.map((x) => x + 1)])));
   const scene = write("bodies.scn", `<Node name="root"><CollisionPipeline/><MinProximityIntersection alarmDistance="0.25"/>
