@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import { allpairs, cuboid, detect, folder, hasExact, inBoth, npy, open, root, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
+import { allpairs, cuboid, detect, folder, hasExact, inBoth, inChromium, npy, open, root, screenshot, settled, shapes, startBrowser, stopBrowser, texts, view, write } from "./program.mjs";
 
 before(() => startBrowser());
 after(stopBrowser);
@@ -200,6 +200,40 @@ inBoth("what is listed is saved as in the report, as CSV and as JSON, names are 
     assert.deepEqual(page.problems, []);
     await page.close();
   }
+});
+
+/** How many pixels of a picture have the full red of contacts in light, counted by the page. */
+async function redsOf(png) {
+  const image = new Image();
+  image.src = `data:image/png;base64,${png}`;
+  await image.decode();
+  const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+  canvas.drawImage(image, 0, 0);
+  const { data } = canvas.getImageData(0, 0, image.width, image.height);
+  let reds = 0;
+  for (let i = 0; i < data.length; i += 4) reds += data[i] > 180 && data[i + 1] < 90 && data[i + 2] < 60;
+  return reds;
+}
+
+inChromium("contacts behind a part are faint until they are chosen", { skip }, async () => {
+  const blocks = [cuboid("shell", [0, 0, 0], [9, 9, 9]), cuboid("left", [1, 1, 1], [5, 8, 8]), cuboid("right", [4, 2, 2], [8, 7, 7])];
+  const page = await view("behind", [write("behind.obj", blocks.join(""))], { exact: true });
+  const reds = async (isAwaited) => settled(page, async () => page.evaluate(redsOf, await picture(page)), isAwaited);
+  await page.fill("#pairs-search", "left right");
+  await page.click("#pairs-list .row");
+  assert.ok((await reds((count) => count > 200)) > 200, "the pair that is chosen is in front");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("a");
+  const axis = 50; // pixels at most of the red axis in the corner
+  assert.ok((await reds((count) => count < axis)) < axis, "the shell is in front");
+  await page.click("#tab-models");
+  await page.click('#models-list .row[data-index="0"]');
+  await page.keyboard.press("h");
+  assert.ok((await reds((count) => count > 200)) > 200, "they are there where nothing hides them");
+  await screenshot(page, "behind");
+  assert.deepEqual(page.problems, []);
+  await page.close();
 });
 
 /** A building of two walls that cross. */

@@ -581,7 +581,7 @@ inBoth("what really clashes comes first, what is apart is counted and hidden", {
   const page = await view("shapes", [input], { exact: true });
   assert.equal(await number(page, "#fact-clashes"), statistics.clashes);
   assert.equal(await number(page, "#fact-apart"), statistics.apart);
-  assert.match(await page.textContent("#fact-clashes"), /1 duplicate, 1 contained, deepest 2$/);
+  assert.match(await page.textContent("#fact-clashes"), /1 duplicate, 1 contained, deepest\s2$/);
   const rows = await page.$$eval("#pairs-list .row", (all) => all.sort((a, b) => a.dataset.index - b.dataset.index).map((row) => [...row.querySelectorAll(".name, .value")].map((part) => part.textContent)));
   assert.equal(rows.length, statistics.clashes);
   assert.deepEqual(rows[0].slice(0, 2).sort(), ["copy", "original"]);
