@@ -35,6 +35,8 @@ constexpr const char* kProgramExamples = R"(Examples:
   allpairs detect scene.scn                      pairs of models that may touch
   allpairs detect boxes.npy -o pairs.npy         overlapping boxes, from NumPy to NumPy
   allpairs detect parts/ --distance 0.5          meshes of a folder, up to 0.5 apart
+  allpairs report parts/ -o clashes              a page of clashes with pictures, and BCF
+  allpairs view assembly.glb --open              models and pairs in 3D, in the browser
   allpairs info scene.scn                        its models, and what was ignored
   allpairs track frames.npy                      pairs that begin and end as boxes move
   allpairs elements start.ply end.ply            candidates for contact
@@ -142,7 +144,7 @@ void parse(CLI::App& program, const std::vector<std::string>& given) {
     program.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
     const auto chosen = program.get_subcommands();
-    print(chosen.empty() ? program.help() : chosen.front()->help());
+    print(chosen.empty() ? program.help() : chosen.front()->help(program.get_name()));
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + '\n');
   } catch (const CLI::RequiredError& problem) {

@@ -21,12 +21,15 @@ async function partsOf(path, parts = new Set()) {
   return parts;
 }
 
+/** A shader's part without comments, indents and empty lines, which no browser needs. */
+const terse = (text) => text.replace(/^\s*\/\/.*$|[ \t]+\/\/.*$/gm, "").replace(/\n\s+/g, "\n");
+
 export const onlyWhatIsUsed = {
   name: "three",
   async setup(build) {
     const parts = await partsOf(`${three}/renderers/webgl/WebGLProgram.js`, await partsOf(`${shaders}/ShaderLib/${used}.glsl.js`));
     build.onResolve({ filter: /^three$/ }, () => ({ path: `${three}/Three.js`, sideEffects: false }));
-    build.onLoad({ filter: /shaders\/ShaderChunk\/.*\.glsl\.js$/ }, ({ path }) => (parts.has(basename(path, ".glsl.js")) ? undefined : { contents: 'export default "";' }));
+    build.onLoad({ filter: /shaders\/ShaderChunk\/.*\.glsl\.js$/ }, async ({ path }) => ({ contents: parts.has(basename(path, ".glsl.js")) ? terse(await readFile(path, "utf8")) : 'export default "";' }));
     build.onLoad({ filter: /shaders\/ShaderLib\/.*\.glsl\.js$/ }, ({ path }) => (basename(path, ".glsl.js") === used ? undefined : { contents: 'export const vertex = "", fragment = "";' }));
   },
 };

@@ -133,12 +133,14 @@ Detection withClock(std::size_t count, const Work& work) {
   return work();
 }
 
-Outcome detect(const scene::BoxArray& boxes, const DetectSettings& settings, const DetectionOptions& options) {
+Outcome detect(const BoxInput& input, const DetectSettings& settings, const DetectionOptions& options) {
+  const scene::BoxArray& boxes = input.boxes;
   const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
   Outcome outcome{.detection = withClock(boxes.size(), [&] { return detectBoxes(boxes, order, options); }),
                   .notes = {.method = boxMethod(options), .simulated = boxes.size()}};
   outcome.result.modelCount = boxes.size();
   outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
+  outcome.result.warnings = input.warnings;
   return outcome;
 }
 
@@ -176,7 +178,11 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
 
 /// Boxes become models, which have shapes.
 void makeScene(Inputs& inputs) {
-  if (const auto* boxes = std::get_if<scene::BoxArray>(&inputs)) inputs = scene::toScene(*boxes);
+  auto* input = std::get_if<BoxInput>(&inputs);
+  if (input == nullptr) return;
+  scene::Scene scene = scene::toScene(input->boxes);
+  scene.warnings = std::move(input->warnings);
+  inputs = std::move(scene);
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {

@@ -80,7 +80,14 @@ std::string remarkText(const scene::Remark& remark) {
   return fmt::format("  {}\n", printable(place + subject + remark.reason));
 }
 
-std::string describe(const scene::BoxArray& boxes) {
+std::string warningsText(const std::vector<scene::Remark>& warnings) {
+  std::string text = warnings.empty() ? "" : "\nwarnings\n";
+  for (const scene::Remark& warning : warnings) text += remarkText(warning);
+  return text;
+}
+
+std::string describe(const BoxInput& input) {
+  const scene::BoxArray& boxes = input.boxes;
   Box whole = kEmptyBox;
   std::size_t empty = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -94,7 +101,7 @@ std::string describe(const scene::BoxArray& boxes) {
   const std::size_t shown = std::min(boxes.size(), kBoxesShown);
   text += tableOf(shown, [&boxes](std::size_t i) { return boxRecord(boxes, i); });
   if (shown < boxes.size()) text += fmt::format("... and {} more\n", grouped(boxes.size() - shown));
-  return text;
+  return text + warningsText(input.warnings);
 }
 
 std::string describe(scene::Scene& scene) {
@@ -110,9 +117,7 @@ std::string describe(scene::Scene& scene) {
   text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(scene, i); });
   text += scene.remarks.empty() ? "\nnothing was ignored\n" : "\nignored\n";
   for (const scene::Remark& remark : scene.remarks) text += remarkText(remark);
-  if (!scene.warnings.empty()) text += "\nwarnings\n";
-  for (const scene::Remark& warning : scene.warnings) text += remarkText(warning);
-  return text;
+  return text + warningsText(scene.warnings);
 }
 
 void runInfo(const InputSettings& settings) {

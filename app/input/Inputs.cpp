@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "allpairs/collision/BoxModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "cli/Arguments.h"
@@ -43,37 +44,50 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   return options;
 }
 
-/// Says on standard error where boxes are empty, as a rule by mistake. Infinite bounds are meant.
-void warnOfEmpty(const scene::BoxArray& boxes, const std::string& file) {
-  const auto axisOf = [](const Box& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool isFinite = std::isfinite(box.min[axis]) && std::isfinite(box.max[axis]);
-      if (isFinite && box.min[axis] > box.max[axis]) return axis;
-    }
-    return std::size_t{3};
-  };
-  std::size_t count = 0;
-  std::string first;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::size_t axis = axisOf(boxes.boxes()[i]);
-    if (axis == 3) continue;
-    if (++count > 1) continue;
-    const std::string name = boxes.name(i) == std::to_string(i) ? "" : " '" + boxes.name(i) + "'";
-    first = fmt::format("box {}{} has min above max on {}", i, name, "xyz"[axis]);
+/// The axis on which a box is empty, as a rule by mistake: infinite bounds are meant. 3 if there is none.
+std::size_t emptyAxis(const Box& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool isFinite = std::isfinite(box.min[axis]) && std::isfinite(box.max[axis]);
+    if (isFinite && box.min[axis] > box.max[axis]) return axis;
   }
-  if (count == 0) return;
-  const std::string more = count > 1 ? " (and " + counted(count - 1, "other box", "other boxes") + ")" : "";
-  fmt::print(stderr, "allpairs: warning: {}\n", printable(file + ": " + first + more + ": empty, in no pair"));
+  return 3;
 }
 
-scene::BoxArray readBoxArrays(const InputSettings& settings, const scene::ReadOptions& options, ProgressLine& line) {
+/// Says which box of a file is the first that is empty. `boxOf` and `nameOf` take the row of a box.
+template <class BoxOf, class NameOf>
+void noteEmpty(const std::filesystem::path& file, std::size_t boxes, const BoxOf& boxOf, const NameOf& nameOf,
+               std::vector<scene::Remark>& warnings) {
+  std::size_t count = 0;
+  scene::Remark remark{.file = file};
+  for (std::size_t i = 0; i < boxes; ++i) {
+    const std::size_t axis = emptyAxis(boxOf(i));
+    if (axis == 3 || ++count > 1) continue;
+    const std::string name = nameOf(i);
+    remark.subject = fmt::format("box {}", i) + (name == std::to_string(i) ? "" : " '" + name + "'");
+    remark.reason = fmt::format("min above max on {}", "xyz"[axis]);
+  }
+  if (count == 0) return;
+  if (count > 1) remark.reason += " (and " + counted(count - 1, "other box", "other boxes") + ")";
+  remark.reason += ": empty, in no pair";
+  warnings.push_back(std::move(remark));
+}
+
+std::filesystem::path shownPath(const InputSettings& settings, const std::string& path) {
+  return settings.spooled == nullptr ? std::filesystem::path(path) : settings.spooled->shown(path);
+}
+
+BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& options) {
+  BoxInput input;
   std::vector<scene::BoxArray> arrays;
   for (const std::string& path : settings.paths) {
     arrays.push_back(scene::readBoxArray(path, options));
-    line.clear();
-    warnOfEmpty(arrays.back(), settings.spooled == nullptr ? path : settings.spooled->shown(path).string());
+    const scene::BoxArray& boxes = arrays.back();
+    noteEmpty(
+        shownPath(settings, path), boxes.size(), [&](std::size_t i) { return boxes.boxes()[i]; },
+        [&](std::size_t i) { return boxes.name(i); }, input.warnings);
   }
-  return scene::BoxArray::concatenate(std::move(arrays));
+  input.boxes = scene::BoxArray::concatenate(std::move(arrays));
+  return input;
 }
 
 /// Files by the names that the user gave them.
@@ -83,8 +97,18 @@ void nameAsGiven(const SpooledInputs& spooled, scene::Scene& scene) {
   for (scene::Remark& warning : scene.warnings) warning.file = spooled.shown(warning.file);
 }
 
+/// The box of a model that was made of a row of a file.
+Box boxAsRead(const collision::CollisionModel& model) {
+  return dynamic_cast<const collision::BoxModel&>(model).boxes().front();
+}
+
 scene::Scene readScene(const InputSettings& settings, std::size_t input, const scene::ReadOptions& options) {
-  scene::Scene scene = scene::readInput(settings.paths[input], options);
+  const std::string& path = settings.paths[input];
+  scene::Scene scene = scene::readInput(path, options);
+  if (scene::isBoxArrayFile(path))
+    noteEmpty(
+        path, scene.models.size(), [&](std::size_t i) { return boxAsRead(*scene.models[i]); },
+        [&](std::size_t i) { return scene.models[i]->getName(); }, scene.warnings);
   if (settings.spooled != nullptr)
     nameAsGiven(*settings.spooled, scene);  // models are named by it when others are there
   return scene;
@@ -107,12 +131,13 @@ std::string pipelineText(const scene::ScenePipeline& pipeline) {
 }
 
 /// Says on standard error, a line each, where the result may not be what is expected.
-void warn(const scene::Scene& scene, ProgressLine& line) {
+void warn(const std::vector<scene::Remark>& warnings, ProgressLine& line) {
   line.clear();
-  for (const scene::Remark& warning : scene.warnings) {
+  for (const scene::Remark& warning : warnings) {
+    const std::string place = warning.line == 0 ? "" : fmt::format(":{}", warning.line);
     const std::string subject = warning.subject.empty() ? "" : warning.subject + ": ";
     fmt::print(stderr, "allpairs: warning: {}\n",
-               printable(fmt::format("{}:{}: {}{}", warning.file.string(), warning.line, subject, warning.reason)));
+               printable(fmt::format("{}{}: {}{}", warning.file.string(), place, subject, warning.reason)));
   }
 }
 
@@ -138,9 +163,13 @@ Inputs readInputs(const InputSettings& settings) {
   const scene::ReadOptions options = readOptions(settings, line);
   const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
                                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
-  if (areBoxes) return readBoxArrays(settings, options, line);
+  if (areBoxes) {
+    BoxInput input = readBoxArrays(settings, options);
+    warn(input.warnings, line);
+    return input;
+  }
   scene::Scene scene = readScenes(settings, options);
-  warn(scene, line);
+  warn(scene.warnings, line);
   return scene;
 }
 

@@ -15,8 +15,14 @@
 
 namespace allpairs::app {
 
-/// What the inputs hold together: boxes in one block where all are box arrays, else a scene of models.
-using Inputs = std::variant<scene::BoxArray, scene::Scene>;
+/// Boxes in one block, and what else to know of their files.
+struct BoxInput {
+  scene::BoxArray boxes;
+  std::vector<scene::Remark> warnings;
+};
+
+/// What the inputs hold together: boxes where all are box arrays, else a scene of models.
+using Inputs = std::variant<BoxInput, scene::Scene>;
 
 /// Bad input: throws UsageError.
 [[nodiscard]] scene::ReadOptions readOptions(const ReadLimits& limits);
@@ -24,7 +30,7 @@ using Inputs = std::variant<scene::BoxArray, scene::Scene>;
 /// Does work on inputs of which those that can be read only once, such as standard input, are files meanwhile.
 void withInputs(InputSettings& settings, const std::function<void()>& work);
 
-/// Reads the inputs and puts them together in the order given.
+/// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
 
 /// What a result says about box i.

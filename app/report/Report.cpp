@@ -15,6 +15,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -84,6 +85,35 @@ std::string dateText() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
 }
 
+/// Painters that work at the same time; each picture borrows one.
+class Painters {
+ public:
+  explicit Painters(const view::ViewScene& scene) : m_scene(scene) {}
+
+  std::string picture(const view::Clash& clash, const view::Overview& overview) {
+    std::unique_ptr<view::ClashPainter> painter = borrow();
+    view::Raster& picture = painter->paint(clash, view::cameraOf(m_scene, clash));
+    overview.addTo(picture, view::placeOf(m_scene, clash));
+    std::string bytes = view::encodePng(picture);
+    const std::lock_guard lock(m_mutex);
+    m_free.push_back(std::move(painter));
+    return bytes;
+  }
+
+ private:
+  std::unique_ptr<view::ClashPainter> borrow() {
+    const std::lock_guard lock(m_mutex);
+    if (m_free.empty()) return std::make_unique<view::ClashPainter>(m_scene);
+    std::unique_ptr<view::ClashPainter> painter = std::move(m_free.back());
+    m_free.pop_back();
+    return painter;
+  }
+
+  const view::ViewScene& m_scene;
+  std::mutex m_mutex;
+  std::vector<std::unique_ptr<view::ClashPainter>> m_free;
+};
+
 /// The pictures of the first clashes as PNG files, by number.
 std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<const view::Clash> clashes) {
   constexpr std::size_t kTogether = 16;  // pictures; then the line shows how far it is
@@ -92,14 +122,11 @@ std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<co
   std::vector<std::string> pictures(clashes.size());
   if (clashes.empty()) return pictures;
   const view::Overview overview(scene);
+  Painters painters(scene);
   for (std::size_t begin = 0; begin < clashes.size(); begin += kTogether) {
     line.show(begin, clashes.size(), fmt::format("drawing {} of {}", begin + 1, clashes.size()));
-    executor.run(std::min(kTogether, clashes.size() - begin), [&](std::size_t i) {
-      const view::Clash& clash = clashes[begin + i];
-      view::Raster picture = view::pictureOf(scene, clash, view::cameraOf(scene, clash));
-      overview.addTo(picture, view::placeOf(scene, clash));
-      pictures[begin + i] = view::encodePng(picture);
-    });
+    executor.run(std::min(kTogether, clashes.size() - begin),
+                 [&](std::size_t i) { pictures[begin + i] = painters.picture(clashes[begin + i], overview); });
   }
   return pictures;
 }

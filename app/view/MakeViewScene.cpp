@@ -5,10 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "ClashPicture.h"
 #include "Explain.h"
 #include "ModelMesh.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/ReadInput.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
@@ -172,7 +174,8 @@ void addBoxNames(const scene::BoxArray& boxes, view::ViewScene& to) {
   if (areIndices) to.names.clear();
 }
 
-void fill(scene::BoxArray& from, const ViewRequest& request, view::ViewScene& to) {
+void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to) {
+  const scene::BoxArray& from = input.boxes;
   if (request.shapes == ShapeTest::Always) {
     scene::Scene scene = scene::toScene(from);
     fill(scene, request, to);
@@ -208,6 +211,9 @@ view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& req
   std::visit([&](auto& content) { fill(content, request, result); }, inputs);
   result.statistics.readSeconds = readSeconds;
   result.up = request.up.value_or(result.up);
+  constexpr std::size_t kMostSides = 500;  // as many as a report has pictures
+  parallel::TbbExecutor executor;
+  view::chooseSides(result, kMostSides, executor);
   return result;
 }
 

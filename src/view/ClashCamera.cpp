@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ClashPicture.h"
 #include "MeshPart.h"
@@ -19,6 +20,8 @@ constexpr std::array<Vec3, 9> kDirections{{{-0.48, 0.72, -0.50},
                                            {-0.35, 0.50, -0.80},
                                            {-0.55, 0.80, -0.15},
                                            {-0.48, 0.72, 0.50}}};
+
+constexpr std::uint8_t kNoSide = 255;
 
 ParallelCamera lookAlong(const Vec3& parts, const Upright& upright) {
   ParallelCamera camera;
@@ -77,7 +80,7 @@ class Sighting {
   Sighting(const ViewScene& scene, const ParallelCamera& camera)
       : m_scene(scene), m_raster(kWidth, kHeight, {}), m_projection(camera, m_raster) {}
 
-  /// How good it is: the less visible of both counts, and the contact if nothing hides it.
+  /// How good it is, at most kBest: the less visible of both counts, and the contact if nothing hides it.
   double rate(const Clash& clash) {
     draw(clash.first, kFirst);
     draw(clash.second, kSecond);
@@ -93,10 +96,12 @@ class Sighting {
     return std::min(least, kEnough) + kEnough * seenOfContact(*clash.exact);
   }
 
+  static constexpr double kBest = 0.3;
+
  private:
   static constexpr std::size_t kWidth = 80;
   static constexpr std::size_t kHeight = 60;
-  static constexpr double kEnough = 0.15;              // of the picture: more is not better
+  static constexpr double kEnough = kBest / 2.0;       // of the picture: more is not better
   static constexpr std::size_t kMostTriangles = 3000;  // of more only some are drawn
   static constexpr Colour kFirst{1, 0, 0};
   static constexpr Colour kSecond{2, 0, 0};
@@ -104,13 +109,10 @@ class Sighting {
   [[nodiscard]] RasterPoint project(const Vec3& p) const { return m_projection(p); }
 
   void draw(std::uint32_t model, Colour colour) {
-    const auto indices = partOf(m_scene.mesh.triangles, m_scene.mesh.triangleEnds, model);
-    const std::size_t step = 3 * (indices.size() / 3 / kMostTriangles + 1);
-    for (std::size_t i = 0; i + 2 < indices.size(); i += step) {
-      m_raster.triangle({project(vertexOf(m_scene.mesh, indices[i])), project(vertexOf(m_scene.mesh, indices[i + 1])),
-                         project(vertexOf(m_scene.mesh, indices[i + 2]))},
-                        colour);
-    }
+    const ProjectedTriangles triangles(m_scene.mesh, model, m_projection);
+    const std::size_t count = triangles.indices.size();
+    const std::size_t step = 3 * (count / 3 / kMostTriangles + 1);
+    for (std::size_t i = 0; i + 2 < count; i += step) m_raster.triangle(triangles.at(i), colour);
   }
 
   /// The share of the lines of contact that nothing is in front of.
@@ -129,6 +131,30 @@ class Sighting {
   Projection m_projection;
 };
 
+ParallelCamera cameraFrom(const ViewScene& scene, const Clash& clash, std::size_t side) {
+  ParallelCamera camera = lookAlong(kDirections[side], uprightOf(scene.up));
+  frame(scene, clash, camera);
+  return camera;
+}
+
+/// The side from which most is seen of a contact.
+std::size_t bestSide(const ViewScene& scene, const Clash& clash) {
+  constexpr double kBetter = 1.05;    // the same side as in other pictures, unless another shows more
+  constexpr double kFromBelow = 0.7;  // or along the ground: nobody looks at things so
+  std::size_t best = 0;
+  double most = 0.0;
+  for (std::size_t side = 0; side < kDirections.size(); ++side) {
+    const double weight = kDirections[side][2] > -0.3 ? kFromBelow : 1.0;
+    if (weight * Sighting::kBest <= most * kBetter) continue;
+    const ParallelCamera camera = cameraFrom(scene, clash, side);
+    const double rating = weight * Sighting(scene, camera).rate(clash);
+    if (rating <= most * kBetter) continue;
+    most = rating;
+    best = side;
+  }
+  return best;
+}
+
 }  // namespace
 
 ParallelCamera cameraOfAll(const ViewScene& scene) {
@@ -145,22 +171,27 @@ ParallelCamera cameraOfAll(const ViewScene& scene) {
 }
 
 ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash) {
-  const Upright upright = uprightOf(scene.up);
-  ParallelCamera best = lookAlong(kDirections.front(), upright);
-  frame(scene, clash, best);
-  if (clash.exact == nullptr || !isContact(clash.exact->state)) return best;
-  constexpr double kBetter = 1.05;  // the same side as in other pictures, unless another shows more
-  double most = 0.0;
-  for (const Vec3& parts : kDirections) {
-    ParallelCamera camera = lookAlong(parts, upright);
-    frame(scene, clash, camera);
-    constexpr double kFromBelow = 0.7;  // or along the ground: nobody looks at things so
-    const double rating = Sighting(scene, camera).rate(clash) * (parts[2] > -0.3 ? kFromBelow : 1.0);
-    if (rating <= most * kBetter) continue;
-    most = rating;
-    best = camera;
-  }
-  return best;
+  const bool hasContact = clash.exact != nullptr && isContact(clash.exact->state);
+  const auto pair = static_cast<std::size_t>(hasContact ? clash.exact - scene.exact.data() : 0);
+  if (!hasContact) return cameraFrom(scene, clash, 0);
+  return cameraFrom(scene, clash, hasSide(scene, pair) ? scene.sides[pair] : bestSide(scene, clash));
+}
+
+bool hasSide(const ViewScene& scene, std::size_t pair) {
+  return pair < scene.sides.size() && scene.sides[pair] != kNoSide;
+}
+
+void chooseSides(ViewScene& scene, std::size_t most, Executor& executor) {
+  scene.sides.clear();
+  std::vector<std::size_t> order = worstFirst(scene.exact);
+  order.resize(std::min(order.size(), most));
+  std::vector<std::uint8_t> sides(scene.exact.size(), kNoSide);
+  executor.run(order.size(), [&](std::size_t i) {
+    const std::size_t pair = order[i];
+    if (isContact(scene.exact[pair].state))
+      sides[pair] = static_cast<std::uint8_t>(bestSide(scene, clashOf(scene, pair)));
+  });
+  scene.sides = std::move(sides);
 }
 
 }  // namespace allpairs::view

@@ -52,11 +52,11 @@ Box finite(const Box& box, const ParallelCamera& camera) {
 
 class Drawing {
  public:
-  Drawing(const ViewScene& scene, const ParallelCamera& camera, Size size = kPicture, Colour background = kBackground)
-      : m_scene(scene),
-        m_camera(camera),
-        m_raster(2 * size.width, 2 * size.height, background),
-        m_projection(camera, m_raster) {}
+  Drawing(const ViewScene& scene, const ParallelCamera& camera, Raster& canvas)
+      : m_scene(scene), m_camera(camera), m_raster(canvas), m_projection(camera, canvas) {
+    for (std::size_t i = 0; i < 3; ++i)
+      m_light[i] = 0.30 * m_projection.right()[i] + 0.50 * camera.up[i] - 0.81 * camera.direction[i];
+  }
 
   /// A model by its shape alone, if it has one.
   void shape(std::uint32_t model, Colour colour) {
@@ -67,12 +67,9 @@ class Drawing {
 
   /// A model through which one sees what lies in it.
   void ghost(std::uint32_t model, Colour colour) {
-    const auto indices = partOf(m_scene.mesh.triangles, m_scene.mesh.triangleEnds, model);
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-      m_raster.veil({project(vertex(indices[i])), project(vertex(indices[i + 1])), project(vertex(indices[i + 2]))},
-                    colour, 0.14);
-    }
-    if (indices.empty()) this->model(model, colour);
+    const ProjectedTriangles triangles(m_scene.mesh, model, m_projection);
+    for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3) m_raster.veil(triangles.at(i), colour, 0.14);
+    if (triangles.indices.empty()) this->model(model, colour);
   }
 
   /// The contact, in front of everything: where surfaces cross, and how deep one reaches into the other.
@@ -106,8 +103,6 @@ class Drawing {
     edges(cut, kShared, 3.5, kInFront);
   }
 
-  [[nodiscard]] Raster finish() const { return m_raster.halved(); }
-
  private:
   [[nodiscard]] RasterPoint project(const Vec3& p) const { return m_projection(p); }
 
@@ -120,10 +115,11 @@ class Drawing {
   }
 
   void drawTriangles(std::uint32_t model, Colour colour) {
-    const auto indices = partOf(m_scene.mesh.triangles, m_scene.mesh.triangleEnds, model);
+    const ProjectedTriangles triangles(m_scene.mesh, model, m_projection);
+    const auto indices = triangles.indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
       const std::array<Vec3, 3> corners{vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2])};
-      m_raster.triangle({project(corners[0]), project(corners[1]), project(corners[2])}, lit(corners, colour));
+      m_raster.triangle(triangles.at(i), lit(corners, colour));
     }
   }
 
@@ -141,11 +137,8 @@ class Drawing {
   [[nodiscard]] Colour lit(const std::array<Vec3, 3>& corners, Colour colour) const {
     const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double length = std::sqrt(dot(normal, normal));
-    Vec3 light{};
-    for (std::size_t i = 0; i < 3; ++i)
-      light[i] = 0.30 * m_projection.right()[i] + 0.50 * m_camera.up[i] - 0.81 * m_camera.direction[i];
-    const double brightness = 0.45 + 0.55 * (length > 0.0 ? std::abs(dot(normal, light)) / length : 1.0);
-    for (std::uint8_t& part : colour) part = static_cast<std::uint8_t>(std::lround(part * brightness));
+    const double brightness = 0.45 + 0.55 * (length > 0.0 ? std::abs(dot(normal, m_light)) / length : 1.0);
+    for (std::uint8_t& part : colour) part = static_cast<std::uint8_t>(part * brightness + 0.5);
     return colour;
   }
 
@@ -185,15 +178,17 @@ class Drawing {
 
   const ViewScene& m_scene;
   const ParallelCamera& m_camera;
-  Raster m_raster;
+  Raster& m_raster;
   Projection m_projection;
+  Vec3 m_light{};
 };
 
 /// All models in grey, small.
 Raster smallPictureOfAll(const ViewScene& scene, const ParallelCamera& camera) {
-  Drawing drawing(scene, camera, kOverview, kPaper);
+  Raster canvas(2 * kOverview.width, 2 * kOverview.height, kPaper);
+  Drawing drawing(scene, camera, canvas);
   for (std::uint32_t model = 0; model < scene.modelCount; ++model) drawing.shape(model, kGrey);
-  Raster result = drawing.finish();
+  Raster result = canvas.halved();
   const auto right = static_cast<double>(kOverview.width - 1);
   const auto bottom = static_cast<double>(kOverview.height - 1);
   const std::array<RasterPoint, 5> corners{{{0, 0, -kInFront},
@@ -215,8 +210,7 @@ bool isFirstSmaller(const ViewScene& scene, const Clash& clash) {
 }
 
 /// By their shapes: what contains the other is see-through, and of two that are the same the second is.
-Raster pictureOfShapes(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera) {
-  Drawing drawing(scene, camera);
+void drawShapes(const ViewScene& scene, const Clash& clash, Drawing& drawing) {
   const ExactState state = clash.exact->state;
   const bool isGhost =
       state == ExactState::Contained || state == ExactState::Duplicate || state == ExactState::Undecided;
@@ -231,7 +225,14 @@ Raster pictureOfShapes(const ViewScene& scene, const Clash& clash, const Paralle
     drawing.ghost(clash.first, kFirst);
   }
   drawing.contact(*clash.exact);
-  return drawing.finish();
+}
+
+/// By their boxes, with what they share.
+void drawBoxes(const ViewScene& scene, const Clash& clash, Drawing& drawing) {
+  drawing.model(clash.first, kFirst);
+  if (clash.isSelf()) return;
+  drawing.model(clash.second, kSecond);
+  drawing.shared(placeOf(scene, clash));
 }
 
 }  // namespace
@@ -269,15 +270,20 @@ void Overview::addTo(Raster& picture, const Box& place) const {
   picture.paste(part, picture.width() - part.width() - kMargin, picture.height() - part.height() - kMargin);
 }
 
-Raster pictureOf(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera) {
+ClashPainter::ClashPainter(const ViewScene& scene)
+    : m_scene(&scene),
+      m_canvas(2 * kPicture.width, 2 * kPicture.height, kBackground),
+      m_picture(kPicture.width, kPicture.height, kBackground) {}
+
+Raster& ClashPainter::paint(const Clash& clash, const ParallelCamera& camera) {
+  m_canvas.clear(kBackground);
+  Drawing drawing(*m_scene, camera, m_canvas);
   if (clash.exact != nullptr && clash.exact->state != ExactState::NotExamined)
-    return pictureOfShapes(scene, clash, camera);
-  Drawing drawing(scene, camera);
-  drawing.model(clash.first, kFirst);
-  if (clash.isSelf()) return drawing.finish();
-  drawing.model(clash.second, kSecond);
-  drawing.shared(placeOf(scene, clash));
-  return drawing.finish();
+    drawShapes(*m_scene, clash, drawing);
+  else
+    drawBoxes(*m_scene, clash, drawing);
+  m_canvas.halveInto(m_picture);
+  return m_picture;
 }
 
 }  // namespace allpairs::view

@@ -5,6 +5,7 @@
 
 #include "Clash.h"
 #include "Raster.h"
+#include "allpairs/Executor.h"
 
 namespace allpairs::view {
 
@@ -36,6 +37,13 @@ class Projection {
 /// A camera that shows both boxes of a clash, or, where one is much larger, the smaller one and what is around it.
 [[nodiscard]] ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash);
 
+/// Chooses for at most so many pairs, the worst first, the side from which cameraOf() looks at them, once for the page, the pictures and
+/// the BCF: each takes milliseconds.
+void chooseSides(ViewScene& scene, std::size_t most, Executor& executor);
+
+/// Whether chooseSides() has chosen one for a pair.
+[[nodiscard]] bool hasSide(const ViewScene& scene, std::size_t pair);
+
 /// A camera that shows all models, from the side from which most clashes are seen.
 [[nodiscard]] ParallelCamera cameraOfAll(const ViewScene& scene);
 
@@ -54,7 +62,19 @@ class Overview {
   Raster m_raster;
 };
 
-/// The two models of a clash in two colours with their boxes, and in red what the boxes share.
-[[nodiscard]] Raster pictureOf(const ViewScene& scene, const Clash& clash, const ParallelCamera& camera);
+/// Draws pictures of clashes, one after the other, in the same memory.
+class ClashPainter {
+ public:
+  explicit ClashPainter(const ViewScene& scene);
+
+  /// The two models of a clash in two colours, with their contact, or with their boxes and in red what the boxes share; until the
+  /// next picture is drawn.
+  [[nodiscard]] Raster& paint(const Clash& clash, const ParallelCamera& camera);
+
+ private:
+  const ViewScene* m_scene;
+  Raster m_canvas;
+  Raster m_picture;
+};
 
 }  // namespace allpairs::view

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "ClashPicture.h"
 #include "VectorMath.h"
 #include "ViewScene.h"
 
@@ -23,5 +26,30 @@ namespace allpairs::view {
   const double* p = &mesh.vertices[std::size_t{i} * 3];
   return {p[0], p[1], p[2]};
 }
+
+/// The triangles of a model with their vertices in a picture, each projected once, however many triangles share it.
+struct ProjectedTriangles {
+  ProjectedTriangles(const ViewMesh& mesh, std::uint32_t model, const Projection& projection)
+      : indices(partOf(mesh.triangles, mesh.triangleEnds, model)) {
+    if (indices.empty()) return;
+    const auto [least, most] =
+        std::minmax_element(indices.begin(), indices.end());  // a model's vertices are in one row
+    m_first = *least;
+    m_points.reserve(*most - *least + 1);
+    for (std::uint32_t i = *least; i <= *most; ++i) m_points.push_back(projection(vertexOf(mesh, i)));
+  }
+
+  /// The triangle whose first index has this place.
+  [[nodiscard]] std::array<RasterPoint, 3> at(std::size_t place) const {
+    return {m_points[indices[place] - m_first], m_points[indices[place + 1] - m_first],
+            m_points[indices[place + 2] - m_first]};
+  }
+
+  std::span<const std::uint32_t> indices;
+
+ private:
+  std::uint32_t m_first = 0;
+  std::vector<RasterPoint> m_points;
+};
 
 }  // namespace allpairs::view

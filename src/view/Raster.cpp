@@ -8,36 +8,48 @@
 namespace allpairs::view {
 namespace {
 
-/// A coordinate that is linear along a row of pixels, and not negative in the part of it that a triangle covers.
-struct Slope {
-  explicit Slope(double change) : perPixel(change), inverse(change != 0.0 ? 1.0 / change : 0.0) {}
-
-  /// Keeps of a part of a row that in which the coordinate, given at x = 0, is not negative.
-  void keepWhereNotNegative(double atZero, double& low, double& high) const {
-    if (perPixel > 0.0) {
-      low = std::max(low, -atZero * inverse);
-    } else if (perPixel < 0.0) {
-      high = std::min(high, -atZero * inverse);
-    } else if (!(atZero >= 0.0)) {
-      high = -std::numeric_limits<double>::infinity();
-    }
-  }
-
-  double perPixel;
-  double inverse;
-};
+/// The first whole number that is not below a value, from 0 to `most`.
+std::size_t ceilTo(double value, std::size_t most) {
+  if (!(value > 0.0)) return 0;
+  if (value >= static_cast<double>(most)) return most;
+  const auto whole = static_cast<std::size_t>(value);
+  return whole + (static_cast<double>(whole) < value ? 1U : 0U);
+}
 
 /// The whole numbers in [low, high] that are in [0, count): first and one past the last.
 std::array<std::size_t, 2> cut(double low, double high, std::size_t count) {
-  const auto most = static_cast<double>(count);
-  const double begin = std::clamp(std::ceil(low), 0.0, most);
-  const double end = std::clamp(std::floor(high) + 1.0, begin, most);
-  return {static_cast<std::size_t>(begin), static_cast<std::size_t>(end)};
+  const std::size_t begin = ceilTo(low, count);
+  if (!(high >= 0.0)) return {begin, begin};
+  const std::size_t end = high >= static_cast<double>(count) ? count : static_cast<std::size_t>(high) + 1;
+  return {begin, std::max(begin, end)};
 }
 
 double crossAt(const RasterPoint& a, const RasterPoint& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
+
+/// Where an edge of a triangle crosses rows of pixels: the same numbers for both triangles that share it, without a gap.
+class Edge {
+ public:
+  Edge(const RasterPoint& a, const RasterPoint& b) : m_top(a.y < b.y ? a : b) {
+    const RasterPoint& bottom = a.y < b.y ? b : a;
+    m_bottom = bottom.y;
+    m_perRow = (bottom.x - m_top.x) / (bottom.y - m_top.y);
+  }
+
+  /// Widens a part of a row to where the edge crosses it, if it does.
+  void widen(double y, double& low, double& high) const {
+    if (!(y >= m_top.y && y <= m_bottom)) return;
+    const double x = m_top.x + (y - m_top.y) * m_perRow;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+
+ private:
+  RasterPoint m_top;
+  double m_bottom;
+  double m_perRow;
+};
 
 }  // namespace
 
@@ -50,37 +62,36 @@ Raster::Raster(std::size_t width, std::size_t height, Colour background)
 template <class Paint>
 void Raster::scan(const std::array<RasterPoint, 3>& corners, const Paint& paint) const {
   const auto& [a, b, c] = corners;
-  const double area = crossAt(a, b, c.x, c.y);
-  if (!(std::abs(area) > 1e-12)) return;
+  const auto [top, bottom] = cut(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), m_height);
   const double left = std::min({a.x, b.x, c.x});
   const double right = std::max({a.x, b.x, c.x});
-  const auto [top, bottom] = cut(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), m_height);
-  const Slope uSlope((b.y - c.y) / area);  // of the barycentric coordinates
-  const Slope vSlope((c.y - a.y) / area);
-  const Slope wSlope(-uSlope.perPixel - vSlope.perPixel);
-  for (std::size_t y = top; y < bottom; ++y) {
-    const double u0 = crossAt(b, c, 0.0, static_cast<double>(y)) / area;
-    const double v0 = crossAt(c, a, 0.0, static_cast<double>(y)) / area;
-    double low = left;
-    double high = right;
-    uSlope.keepWhereNotNegative(u0, low, high);
-    vSlope.keepWhereNotNegative(v0, low, high);
-    wSlope.keepWhereNotNegative(1.0 - u0 - v0, low, high);
+  const auto [first, last] = cut(left, right, m_width);
+  if (top >= bottom || first >= last) return;  // most triangles of a fine mesh meet no pixel's middle
+  const double area = crossAt(a, b, c.x, c.y);
+  if (!(std::abs(area) > 1e-12)) return;
+  const double toB = b.depth - a.depth;
+  const double toC = c.depth - a.depth;
+  const double depthPerColumn = ((c.y - a.y) * toB - (b.y - a.y) * toC) / area;
+  const double depthPerRow = ((b.x - a.x) * toC - (c.x - a.x) * toB) / area;
+  const std::array<Edge, 3> edges{Edge(a, b), Edge(b, c), Edge(c, a)};
+  for (std::size_t row = top; row < bottom; ++row) {
+    const auto y = static_cast<double>(row);
+    double low = right;
+    double high = left;
+    for (const Edge& edge : edges) edge.widen(y, low, high);
     const auto [begin, end] = cut(low, high, m_width);
-    for (std::size_t x = begin; x < end; ++x) {
-      const double u = u0 + uSlope.perPixel * static_cast<double>(x);
-      const double v = v0 + vSlope.perPixel * static_cast<double>(x);
-      paint(y * m_width + x, u * a.depth + v * b.depth + (1.0 - u - v) * c.depth);
-    }
+    double depth = a.depth + depthPerColumn * (static_cast<double>(begin) - a.x) + depthPerRow * (y - a.y);
+    for (std::size_t pixel = row * m_width + begin; pixel < row * m_width + end; ++pixel, depth += depthPerColumn)
+      paint(pixel, depth);
   }
 }
 
 void Raster::triangle(const std::array<RasterPoint, 3>& corners, Colour colour) {
-  scan(corners, [&](std::size_t pixel, double depth) {
+  scan(corners, [depths = m_depths.data(), pixels = m_pixels.data(), colour](std::size_t pixel, double depth) {
     const auto nearer = static_cast<float>(depth);
-    if (!(nearer < m_depths[pixel])) return;
-    m_depths[pixel] = nearer;
-    m_pixels[pixel] = colour;
+    if (!(nearer < depths[pixel])) return;
+    depths[pixel] = nearer;
+    pixels[pixel] = colour;
   });
 }
 
@@ -91,7 +102,7 @@ void Raster::veil(const std::array<RasterPoint, 3>& corners, Colour colour, doub
 void Raster::mix(std::size_t pixel, Colour colour, double opacity) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double mixed = m_pixels[pixel][i] + opacity * (colour[i] - m_pixels[pixel][i]);
-    m_pixels[pixel][i] = static_cast<std::uint8_t>(std::lround(mixed));
+    m_pixels[pixel][i] = static_cast<std::uint8_t>(mixed + 0.5);  // none is negative
   }
 }
 
@@ -102,7 +113,10 @@ void Raster::stamp(const RasterPoint& centre, Colour colour, double radius) {
   for (std::size_t y = top; y < bottom; ++y) {
     for (std::size_t x = left; x < right; ++x) {
       const std::size_t pixel = y * m_width + x;
-      mix(pixel, colour, static_cast<double>(m_depths[pixel]) < centre.depth ? kHiddenOpacity : 1.0);
+      if (static_cast<double>(m_depths[pixel]) < centre.depth)
+        mix(pixel, colour, kHiddenOpacity);
+      else
+        m_pixels[pixel] = colour;
     }
   }
 }
@@ -136,18 +150,27 @@ bool Raster::isSeen(const RasterPoint& point) const {
 
 Raster Raster::halved() const {
   Raster result(m_width / 2, m_height / 2, {});
+  halveInto(result);
+  return result;
+}
+
+void Raster::halveInto(Raster& result) const {
+  std::vector<std::uint16_t> sums(3 * m_width);  // of two rows
   for (std::size_t y = 0; y < result.m_height; ++y) {
-    const Colour* above = &m_pixels[2 * y * m_width];
-    const Colour* below = above + m_width;
+    const std::uint8_t* above = m_pixels[2 * y * m_width].data();
+    const std::uint8_t* below = above + sums.size();
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = static_cast<std::uint16_t>(above[i] + below[i]);
     Colour* pixel = &result.m_pixels[y * result.m_width];
-    for (std::size_t x = 0; x < 2 * result.m_width; x += 2, ++pixel) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int sum = above[x][i] + above[x + 1][i] + below[x][i] + below[x + 1][i];
-        (*pixel)[i] = static_cast<std::uint8_t>((sum + 2) / 4);
-      }
+    for (std::size_t i = 0; i + 5 < sums.size(); i += 6, ++pixel) {
+      for (std::size_t part = 0; part < 3; ++part)
+        (*pixel)[part] = static_cast<std::uint8_t>((sums[i + part] + sums[i + 3 + part] + 2U) / 4U);
     }
   }
-  return result;
+}
+
+void Raster::clear(Colour background) {
+  std::fill(m_pixels.begin(), m_pixels.end(), background);
+  std::fill(m_depths.begin(), m_depths.end(), std::numeric_limits<float>::infinity());
 }
 
 }  // namespace allpairs::view

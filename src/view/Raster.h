@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace allpairs::view {
@@ -28,6 +29,9 @@ class Raster {
   [[nodiscard]] std::size_t height() const { return m_height; }
   [[nodiscard]] Colour at(std::size_t x, std::size_t y) const { return m_pixels[y * m_width + x]; }
 
+  /// Row by row.
+  [[nodiscard]] std::span<const Colour> pixels() const { return m_pixels; }
+
   /// Hides what is behind it.
   void triangle(const std::array<RasterPoint, 3>& corners, Colour colour);
 
@@ -45,6 +49,11 @@ class Raster {
 
   /// Half as wide and high, each pixel the mean of four.
   [[nodiscard]] Raster halved() const;
+  /// The same, into a picture of half the width and height.
+  void halveInto(Raster& result) const;
+
+  /// As it was in the beginning.
+  void clear(Colour background);
 
  private:
   template <class Paint>

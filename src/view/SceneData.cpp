@@ -144,14 +144,11 @@ void addPositions(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("corners", scene.corners);
 }
 
-/// From where the worst contacts are seen best: directions, three numbers a pair, all zero for others.
+/// From where the contacts are seen best for which that was chosen: directions, three numbers a pair, all zero for others.
 std::vector<float> viewsOf(const ViewScene& scene) {
-  constexpr std::size_t kMostViews = 500;  // each takes milliseconds to choose
   std::vector<float> views(3 * scene.exact.size(), 0.0F);
-  std::vector<std::size_t> order = worstFirst(scene.exact);
-  order.resize(std::min(order.size(), kMostViews));
-  for (const std::size_t i : order) {
-    if (!isContact(scene.exact[i].state)) break;
+  for (std::size_t i = 0; i < scene.sides.size(); ++i) {
+    if (!hasSide(scene, i)) continue;
     const Vec3 direction = cameraOf(scene, clashOf(scene, i)).direction;
     for (std::size_t axis = 0; axis < 3; ++axis) views[3 * i + axis] = static_cast<float>(direction[axis]);
   }

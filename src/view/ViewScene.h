@@ -71,6 +71,7 @@ struct ViewScene {
   scene::DetectionStatistics statistics;
   std::vector<ExactPair>
       exact{};  ///< What the shapes of the first frame's pairs say, in their order; empty: not asked.
+  std::vector<std::uint8_t> sides{};  ///< From where each of these pairs is seen best, if chooseSides() was called.
   double exactSeconds = 0.0;
   double clearance = 0.0;
   int up = 3;                             ///< The axis that points up, 1 to 3 for x to z; below 0: it points down.

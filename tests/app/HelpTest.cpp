@@ -65,6 +65,7 @@ TEST(Help, OfACommandIsItsOwn) {
     const ProgramRun run = runProgram({"help", command});
     expectSuccess(run);
     EXPECT_EQ(run.out, runProgram({command, "--help"}).out);
+    EXPECT_NE(run.out.find(std::string("\nUsage: allpairs ") + command + " [OPTIONS] "), std::string::npos) << run.out;
   }
   EXPECT_EQ(runProgram({"help"}).out, runProgram({"--help"}).out);
   expectFailure(runProgram({"help", "find"}), kWrongUsage, "unknown command 'find'");

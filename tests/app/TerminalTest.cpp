@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "Expect.h"
+#include "cli/HelpFormatter.h"
 #include "cli/Progress.h"
 #include "support/TempFolder.h"
 
@@ -27,6 +28,30 @@ TEST(Wrapped, TextBreaksAtBlanks) {
   EXPECT_EQ(app::wrapped("one two three", 8), "one two\nthree");
   EXPECT_EQ(app::wrapped("immeasurably long", 4), "immeasurably\nlong");
   EXPECT_EQ(app::wrapped("", 4), "");
+}
+
+TEST(Filled, HelpIsChangedOnlyWhereItIsTooWide) {
+  const std::string text = "Kinds\nof shapes:\n  cube         six faces\n  dodecahedron twelve  of them\n";
+  EXPECT_EQ(app::filled(text, 31), text);
+}
+
+TEST(Filled, ParagraphsColumnsAndCommandsKeepTheirForm) {
+  const std::string text =
+      "The kinds of\nshapes that are known:\n  a cube       six faces, all of them squares of the same size\n"
+      "               and 8 corners\n\nExamples:\n  allpairs info boxes.csv | jq '.pairs | length' > count.txt\n"
+      "  allpairs detect some-long-name.npy -o a.npy --threads 2      as a table of pairs of boxes";
+  EXPECT_EQ(app::filled(text, 44),
+            "The kinds of shapes that are known:\n"
+            "  a cube       six faces, all of them\n"
+            "               squares of the same size\n"
+            "               and 8 corners\n"
+            "\n"
+            "Examples:\n"
+            "  allpairs info boxes.csv | jq \\\n"
+            "      '.pairs | length' > count.txt\n"
+            "  allpairs detect some-long-name.npy \\\n"
+            "      -o a.npy --threads 2\n"
+            "      as a table of pairs of boxes");
 }
 
 TEST(ProgressText, HasABarAndTheTimeLeft) {
@@ -51,10 +76,11 @@ class Terminal : public testing::Test {
     if (runScript("command -v script").status != 0) GTEST_SKIP() << "script, which makes a terminal, is not here";
   }
 
-  [[nodiscard]] std::string shown(const std::string& command, const std::string& environment = {}) const {
+  [[nodiscard]] std::string shown(const std::string& command, const std::string& environment = {},
+                                  const std::string& columns = "60") const {
     const ProgramRun run =
         runScript("cd '" + m_folder.path().string() + "' && unset NO_COLOR && export TERM=xterm && " + environment +
-                  " script -qefc \"stty cols 60; $0 " + command + "\" shown </dev/null");
+                  " script -qefc \"stty cols " + columns + "; $0 " + command + "\" shown </dev/null");
     EXPECT_EQ(run.status, 0) << run.out;
     return std::regex_replace(run.out, std::regex("\r|\033\\[K"), "");
   }
@@ -79,10 +105,19 @@ TEST_F(Terminal, TablesAndOptionsStayWithinItsWidth) {
   const std::string line = table.substr(pair, table.find('\n', pair) - pair);
   EXPECT_LE(app::columnsOf(line), 60U) << line;
   EXPECT_NE(line.find("the second pa…h a long name   the first par…h a long name"), std::string::npos) << line;
-  const std::string help = shown("detect --help");
-  const std::size_t begin = help.find("Options:");
-  EXPECT_LE(widest(help.substr(begin, help.find("INPUT is one") - begin)), 60U) << help;
   EXPECT_NE(runProgram({"detect", "--help"}).out.find("Ignore models outside of this region\n"), std::string::npos);
+}
+
+TEST_F(Terminal, HelpStaysWithinItsWidth) {
+  for (const char* command : {"", "detect", "join", "plan", "info", "elements", "track", "view", "report", "generate",
+                              "bench", "completion"}) {
+    for (const std::string width : {"60", "44"}) {
+      if (command == std::string("completion") && width == "44") continue;  // names a file that cannot be broken
+      const std::string help = shown(std::string(command) + " --help", {}, width);
+      EXPECT_LE(widest(help), std::stoul(width)) << command << '\n' << help;
+      EXPECT_NE(help.find("Examples:\n  allpairs"), std::string::npos) << help;
+    }
+  }
 }
 
 TEST_F(Terminal, LastLineSaysWhatWasWritten) {

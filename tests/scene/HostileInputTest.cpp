@@ -213,6 +213,34 @@ TEST(GltfMesh, SparseAndQuantizedAccessorsStripsFansAndMatricesAreRead) {
   EXPECT_EQ(boxOf(*scene.models[2]), (Box{{5, 6, 7}, {7, 8, 7}}));
 }
 
+TEST(GltfMesh, ExtensionsThatAreNotReadAreNamed) {
+  const TempFolder folder;
+  folder.write("a.bin", std::string(36, '\0'));
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = gltfOf("a.bin");
+    text.replace(text.find(from), from.size(), to);
+    const std::string path = folder.write("a.gltf", text);
+    const std::string problem = complaint(path);
+    return problem.starts_with(path) ? problem.substr(path.size()) : problem;
+  };
+  const std::string required = R"({"extensionsRequired": ["EXT_a", 1, "KHR_b", "no name", "\u001b[2J"], )";
+  const std::string nothing = ": holds no triangles, lines or points";
+  EXPECT_EQ(changed(R"("POSITION": 0}}])", R"("POSITION": 0}, "extensions": {"KHR_draco_mesh_compression": {}}}])"),
+            ": mesh 0 is compressed by KHR_draco_mesh_compression, which is not read");
+  for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    EXPECT_EQ(changed(R"("byteLength": 36}], "buffers")",
+                      R"("byteLength": 36, "extensions": {")" + name + R"(": {}}}], "buffers")"),
+              ": bufferView 0 is compressed by " + name + ", which is not read");
+  }
+  EXPECT_EQ(changed(R"({"mesh": 0})", R"({"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}})"),
+            ": node 0 has copies by EXT_mesh_gpu_instancing, which is not read");
+  EXPECT_EQ(changed(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],)",
+                    required + R"("asset": {"version": "2.0"}, "scenes": [{"nodes": []}],)"),
+            nothing + " that can be read without EXT_a, KHR_b");
+  EXPECT_EQ(changed(R"("scenes": [{"nodes": [0]}])", R"("scenes": [{"nodes": []}])"), nothing);
+  EXPECT_EQ(changed("{\"asset\"", required + "\"asset\""), "") << "what is there is read";
+}
+
 TEST(HostileAssimp, WhatOverflowsItsStackIsAnError) {
   constexpr std::size_t kDepth = 300'000;
   const TempFolder folder;

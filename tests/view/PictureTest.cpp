@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <random>
+#include <vector>
 
 #include "Clash.h"
 #include "ClashPicture.h"
@@ -37,6 +41,72 @@ TEST(Raster, TheNearerTriangleIsSeenInEitherOrder) {
   EXPECT_EQ(raster.at(1, 1), kRed);
   raster.triangle(cornerTriangle(0.5), kBlue);
   EXPECT_EQ(raster.at(1, 1), kBlue);
+}
+
+/// How far inside of a triangle a pixel is, at least; outside it is negative. `depth` is that of the triangle there.
+double insideOf(const std::array<RasterPoint, 3>& corners, double x, double y, double& depth) {
+  const auto areaOf = [](const RasterPoint& a, const RasterPoint& b, double px, double py) {
+    return (b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x);
+  };
+  const auto& [a, b, c] = corners;
+  const double area = areaOf(a, b, c.x, c.y);
+  const double u = areaOf(b, c, x, y) / area;
+  const double v = areaOf(c, a, x, y) / area;
+  depth = u * a.depth + v * b.depth + (1.0 - u - v) * c.depth;
+  return std::min({u, v, 1.0 - u - v});
+}
+
+TEST(Raster, TheNearestOfTrianglesThatCrossIsSeenAtEachPixel) {
+  constexpr std::size_t kSide = 40;
+  constexpr double kDoubt = 1e-6;
+  std::mt19937 random(11);  // of the standard's own form, so the same everywhere
+  const auto anywhere = [&random](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  for (int round = 0; round < 50; ++round) {
+    std::vector<std::array<RasterPoint, 3>> triangles(3);
+    const std::array<Colour, 3> colours{kRed, kBlue, Colour{0, 255, 0}};
+    Raster raster(kSide, kSide, kWhite);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      for (RasterPoint& p : triangles[i]) p = {anywhere(-10, 50), anywhere(-10, 50), anywhere(0, 1)};
+      raster.triangle(triangles[i], colours[i]);
+    }
+    for (std::size_t pixel = 0; pixel < kSide * kSide; ++pixel) {
+      const std::size_t x = pixel % kSide;
+      const std::size_t y = pixel / kSide;
+      Colour expected = kWhite;
+      double nearest = 1e9;
+      bool isSure = true;
+      for (std::size_t i = 0; i < triangles.size(); ++i) {
+        double depth = 0.0;
+        const double inside = insideOf(triangles[i], static_cast<double>(x), static_cast<double>(y), depth);
+        isSure = isSure && std::abs(inside) > kDoubt && (inside < 0.0 || std::abs(depth - nearest) > kDoubt);
+        if (inside < 0.0 || depth > nearest) continue;
+        nearest = depth;
+        expected = colours[i];
+      }
+      ASSERT_TRUE(!isSure || raster.at(x, y) == expected) << "round " << round << ", " << x << ' ' << y;
+    }
+  }
+}
+
+TEST(Raster, TrianglesThatShareEdgesLeaveNoPixelOut) {
+  constexpr std::size_t kSide = 60;
+  std::mt19937 random(12);
+  const auto at = [&random](double middle) { return middle + static_cast<double>(random()) / 4294967296.0 - 0.5; };
+  std::vector<RasterPoint> points;  // a grid that covers all of the picture, each point moved a little
+  constexpr std::size_t kPoints = 16;
+  for (std::size_t i = 0; i < kPoints * kPoints; ++i)
+    points.push_back(
+        {at(4.5 * static_cast<double>(i % kPoints) - 3.0), at(4.5 * static_cast<double>(i / kPoints) - 3.0), 0.0});
+  Raster raster(kSide, kSide, kWhite);
+  for (std::size_t i = 0; i + kPoints + 1 < points.size(); ++i) {
+    if (i % kPoints == kPoints - 1) continue;
+    raster.triangle({points[i], points[i + 1], points[i + kPoints]}, kRed);
+    raster.triangle({points[i + kPoints + 1], points[i + kPoints], points[i + 1]}, kRed);
+  }
+  for (std::size_t pixel = 0; pixel < kSide * kSide; ++pixel)
+    EXPECT_EQ(raster.at(pixel % kSide, pixel / kSide), kRed) << pixel % kSide << ' ' << pixel / kSide;
 }
 
 TEST(Raster, WhatLiesOutsideIsCutOff) {
@@ -75,7 +145,7 @@ view::ViewScene twoBoxes(const Box& a, const Box& b) {
 TEST(Picture, ShowsBothModelsAndWhatTheyShare) {
   const view::ViewScene scene = twoBoxes({{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {3, 3, 3}});
   const auto clashes = view::clashesOf(scene);
-  const Raster picture = pictureOf(scene, clashes[0], cameraOf(scene, clashes[0]));
+  const Raster picture = view::ClashPainter(scene).paint(clashes[0], cameraOf(scene, clashes[0]));
   std::size_t reds = 0;
   std::size_t blues = 0;
   std::size_t oranges = 0;
@@ -107,6 +177,78 @@ std::optional<std::array<double, 2>> markIn(const Raster& picture) {
   }
   if (count == 0.0) return std::nullopt;
   return std::array{sum[0] / count, sum[1] / count};
+}
+
+/// Adds a block as a shape.
+void addBlock(view::ViewScene& scene, const Box& box) {
+  view::ViewMesh& mesh = scene.mesh;
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    for (unsigned axis = 0; axis < 3; ++axis)
+      mesh.vertices.push_back((corner >> axis & 1U) != 0 ? box.max[axis] : box.min[axis]);
+  }
+  for (const std::uint32_t index : {0U, 2U, 1U, 1U, 2U, 3U, 4U, 5U, 6U, 5U, 7U, 6U, 0U, 1U, 4U, 1U, 5U, 4U,
+                                    2U, 6U, 3U, 3U, 6U, 7U, 0U, 4U, 2U, 2U, 4U, 6U, 1U, 3U, 5U, 3U, 7U, 5U})
+    mesh.triangles.push_back(base + index);
+  mesh.triangleEnds.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+  mesh.lineEnds.push_back(0);
+  mesh.pointEnds.push_back(0);
+  scene.frames.front().boxes.push_back(box);
+  scene.frames.front().flags.push_back(7);
+  ++scene.modelCount;
+}
+
+/// A plate that a block hides from some sides, and another; a pair that is apart.
+view::ViewScene threeBlocks() {
+  view::ViewScene scene;
+  scene.frames.emplace_back();
+  scene.isExact = true;
+  addBlock(scene, {{0, 0, 0}, {4, 4, 4}});
+  addBlock(scene, {{3.5, 1, 1}, {4.5, 3, 1.2}});
+  addBlock(scene, {{-0.5, -0.5, 1}, {0.2, 1, 2}});
+  scene.frames.front().pairs = {{1, 0}, {2, 0}, {2, 1}};
+  const auto clashAt = [](const Box& box, double depth) {
+    ExactPair pair;
+    pair.state = ExactState::Clash;
+    pair.depth = depth;
+    pair.pointOnFirst = box.min;
+    pair.pointOnSecond = box.max;
+    pair.contactLines = {{box.min, box.max}};
+    pair.contactBox = box;
+    return pair;
+  };
+  ExactPair apart;
+  apart.state = ExactState::Apart;
+  scene.exact = {clashAt({{4, 1, 1}, {4, 3, 1.2}}, 0.5), clashAt({{0, 0, 1}, {0, 1, 2}}, 0.2), apart};
+  return scene;
+}
+
+using Camera = std::array<std::array<double, 3>, 4>;
+
+std::vector<Camera> camerasOf(const view::ViewScene& scene) {
+  std::vector<Camera> cameras;
+  for (std::size_t pair = 0; pair < scene.exact.size(); ++pair) {
+    const view::ParallelCamera camera = cameraOf(scene, view::clashOf(scene, pair));
+    cameras.push_back({camera.centre, camera.direction, camera.up, {camera.height, 0.0, 0.0}});
+  }
+  return cameras;
+}
+
+TEST(Picture, SidesThatAreChosenAheadAreTheSame) {
+  view::ViewScene scene = threeBlocks();
+  const std::vector<Camera> expected = camerasOf(scene);
+  EXPECT_NE(expected[0][1], expected[1][1]) << "each is hidden from where the other is seen";
+  SerialExecutor executor;
+  const auto chosen = [&scene] { return std::array{hasSide(scene, 0), hasSide(scene, 1), hasSide(scene, 2)}; };
+  EXPECT_EQ(chosen(), (std::array{false, false, false}));
+  view::chooseSides(scene, 1, executor);
+  EXPECT_EQ(chosen(), (std::array{true, false, false})) << "the worst";
+  EXPECT_EQ(camerasOf(scene), expected);
+  view::chooseSides(scene, 9, executor);
+  EXPECT_EQ(chosen(), (std::array{true, true, false}));
+  EXPECT_EQ(camerasOf(scene), expected);
+  scene.sides[0] = scene.sides[1];
+  EXPECT_NE(camerasOf(scene)[0], expected[0]) << "they are used";
 }
 
 TEST(Picture, ACornerShowsWhereInTheWholeAClashIs) {

@@ -5,12 +5,19 @@
 export class Address {
   constructor(app) {
     this.app = app;
-    const { scene } = app;
-    this.models = new Map(); // by name; -1: several
-    for (let i = 0; i < scene.models; ++i) this.models.set(scene.nameOf(i), this.models.has(scene.nameOf(i)) ? -1 : i);
     this.follow();
     app.addEventListener("choice", () => this.write());
     window.addEventListener("hashchange", () => this.follow());
+  }
+
+  /** The models by name, -1 for several; made when it is first asked for, since there may be many. */
+  get models() {
+    if (!this.byName) {
+      const { scene } = this.app;
+      this.byName = new Map();
+      for (let i = 0; i < scene.models; ++i) this.byName.set(scene.nameOf(i), this.byName.has(scene.nameOf(i)) ? -1 : i);
+    }
+    return this.byName;
   }
 
   keyOf(model) {

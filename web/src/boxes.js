@@ -3,7 +3,7 @@
 // and a texture that holds the boxes. Software renderers take an instance as a draw of its own, which would be a
 // hundred thousand of them. Edges are found in the fragment shader, so that a box is twelve triangles and no line.
 
-import { BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, Mesh, NearestFilter, RGBAFormat, ShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, Mesh, NearestFilter, RGBAFormat, ShaderMaterial } from "three";
 import { look, styleLookup } from "./styles.js";
 
 const width = 2048; // texels; a box has two beside each other
@@ -19,12 +19,12 @@ out vec2 face;
 out float light;
 flat out vec3 colour;
 ${styleLookup}
-const vec2 corners[6] = vec2[6](vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 0), vec2(1, 1), vec2(0, 1));
+const vec2 corners[4] = vec2[4](vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1));
 void main() {
-  int perBox = 6 * faces;
+  int perBox = 4 * faces;
   int model = int((uint(gl_VertexID / perBox) * uint(stride)) % uint(count));
-  int corner = gl_VertexID % 6;
-  int side = (gl_VertexID % perBox) / 6;
+  int corner = gl_VertexID % 4;
+  int side = (gl_VertexID % perBox) / 4;
   uvec4 style = styleOf(float(model));
   ivec2 place = ivec2(2 * model % ${width}, 2 * model / ${width});
   vec3 low = texelFetch(boxes, place, 0).xyz;
@@ -73,6 +73,13 @@ function strideOf(count) {
   return stride;
 }
 
+/** The vertices of the two triangles of each face: four a face, so that each corner is computed once. */
+function faceIndices(faces) {
+  const indices = new Uint32Array(6 * faces);
+  for (let face = 0, i = 0; face < faces; ++face) for (const corner of [0, 1, 2, 0, 2, 3]) indices[i++] = 4 * face + corner;
+  return new BufferAttribute(indices, 1);
+}
+
 function textureOf(texels) {
   const texture = new DataTexture(texels, width, texels.length / 4 / width, RGBAFormat, FloatType);
   texture.magFilter = texture.minFilter = NearestFilter;
@@ -90,6 +97,7 @@ export class BoxCloud {
     this.objects[0].renderOrder = 2;
     this.objects[1].renderOrder = 1;
     this.detail = 1;
+    this.faces = 0; // of each box, that there are vertices for
   }
 
   makeObject(uniforms, pass) {
@@ -112,7 +120,17 @@ export class BoxCloud {
     material.needsUpdate = true;
     this.objects[0].visible = mode !== "hidden";
     this.objects[1].visible = mode !== "hidden" && anyFaint && this.count <= fineModels;
+    for (const { visible, material: { uniforms } } of this.objects) if (visible) this.needFaces(uniforms.faces.value);
     this.setDetail(this.detail);
+  }
+
+  /** Makes the vertices for so many faces of each box, or more. */
+  needFaces(faces) {
+    if (this.faces >= faces) return;
+    this.faces = faces;
+    const indices = faceIndices(this.count * faces);
+    for (const { geometry } of this.objects) geometry.dispose();
+    for (const object of this.objects) object.geometry = new BufferGeometry().setIndex(indices);
   }
 
   /** How opaque faces are in outlines, and the edges of what is faint: less where many lie behind each other. */

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Where surfaces meet, in front of everything: lines as thin rods, since browsers draw lines one pixel wide, and the depth or
-// the gap of a pair as a rod with two ends.
+// Where surfaces meet: lines as thin rods, since browsers draw lines one pixel wide, and the depth or the gap of a pair as a rod
+// with two ends. Those of a pair that is chosen are in front of everything; of others, what is hidden is faint.
 
 import { BufferAttribute, BufferGeometry, Color, Mesh, MeshBasicMaterial, Plane, Vector3 } from "three";
 import { contactCorners, state } from "./exact.js";
 import { addBall, addRod } from "./rods.js";
 
-const mostLines = 60_000; // in all: of more, some are left out while no pair is chosen
+const mostLines = 30_000; // in all: of more, some are left out while no pair is chosen
+/** How opaque the lines of so many contacts are where shapes hide them: of many, several lie on each other. */
+const hiddenOpacity = (count) => Math.min(0.3, Math.max(0.08, 5 / count));
 
 export class Contacts {
   /** `whole` is the size of the scene. */
   constructor(scene, whole) {
     this.scene = scene;
     this.whole = whole || 1;
-    // The halo is drawn first, so that the line stands out from any colour.
-    this.objects = [0, 1].map(() => new Mesh(new BufferGeometry(), new MeshBasicMaterial({ depthTest: false, side: 2, transparent: true })));
+    // First the halo of the pair that is chosen, so that its lines stand out from any colour, else the lines that may be hidden.
+    this.objects = [0, 1].map(() => new Mesh(new BufferGeometry(), new MeshBasicMaterial({ depthTest: false, side: 2, transparent: true, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -8 })));
     this.shown = "";
   }
 
@@ -25,21 +27,36 @@ export class Contacts {
   }
 
   paint(colour, background) {
-    this.objects[0].material.color = new Color(background);
-    this.objects[0].material.opacity = 0.65;
-    this.objects[1].material.color = new Color(colour);
+    this.colours = { halo: new Color(background), line: new Color(colour) };
+    this.paintFirst();
+    this.objects[1].material.color = this.colours.line;
+  }
+
+  paintFirst() {
+    const [{ material }] = this.objects;
+    material.color = this.colours[this.isChosen ? "halo" : "line"];
+    material.opacity = this.isChosen ? 0.65 : hiddenOpacity(this.count);
   }
 
   show(entries, isChosen) {
     const key = `${isChosen} ${entries.join()}`;
     if (this.shown === key) return;
     this.shown = key;
+    this.isChosen = isChosen;
+    this.count = entries.length;
+    const lines = this.geometryOf(entries, 1);
     this.objects.forEach((object, pass) => {
-      const points = this.pointsOf(entries, isChosen, pass === 0 ? 2.2 : 1);
       object.geometry.dispose();
-      object.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
-      object.visible = points.length > 0 && (pass === 1 || isChosen);
+      object.geometry = isChosen && pass === 0 ? this.geometryOf(entries, 2.2) : lines;
+      object.visible = lines.getAttribute("position").count > 0;
     });
+    this.objects[1].material.depthTest = !isChosen;
+    if (this.colours) this.paintFirst();
+  }
+
+  geometryOf(entries, thickness) {
+    const points = this.pointsOf(entries, this.isChosen, thickness);
+    return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
   }
 
   pointsOf(entries, isChosen, thickness) {

@@ -20,9 +20,9 @@ import { showSummary } from "./summary.js";
 import { Timeline } from "./timeline.js";
 
 /** The picture, or null with a word on why there is none: lists and details work without it. */
-function makeStage(scene) {
+function makeStage(scene, whole) {
   try {
-    return new Stage(byId("canvas"), scene);
+    return new Stage(byId("canvas"), scene, whole);
   } catch (problem) {
     byId("no-picture").hidden = false;
     byId("no-picture").textContent = `No picture: this browser has no WebGL 2 (${problem.message}).`;
@@ -35,8 +35,8 @@ function note(what) {
   document.documentElement.dataset[what] = Math.round(performance.now());
 }
 
-function showPicture(app, theme) {
-  const stage = makeStage(app.scene);
+function showPicture(app, theme, whole) {
+  const stage = makeStage(app.scene, whole);
   if (stage) {
     theme.apply = (name) => stage.setTheme(name);
     theme.update();
@@ -86,7 +86,7 @@ function start() {
   if (app.models.length === 0 && scene.exact !== null && clashCount(app.table.stateCounts()) > 0) address.without(() => panels.pairs.step(1));
   requestAnimationFrame(() => setTimeout(() => {
     note("loaded");
-    showPicture(app, theme);
+    showPicture(app, theme, whole);
   }));
 }
 

@@ -13,6 +13,7 @@ export class Sharpness {
     this.scale = scale;
     this.cost = 0;
     this.isFinal = isWhole;
+    this.isFirst = !isWhole;
     this.isMoving = false; // while the pointer holds the picture, it does not rest
     this.shadeIsSlow = false;
   }
@@ -48,6 +49,11 @@ export class Sharpness {
     if (hadShade && milliseconds > slow / 2) this.shadeIsSlow = true;
     if (this.wasFinal) return; // that was the whole picture, and says little about a coarse one
     this.cost = milliseconds;
+    if (this.isFirst && !this.isMoving) { // nothing has moved yet: there is no rest to wait for
+      clearTimeout(this.timer);
+      this.finish();
+    }
+    this.isFirst = false;
     const factor = milliseconds > slow ? Math.max(0.5, slow / milliseconds) : milliseconds < slow / 2 ? 1.15 : 1;
     this.scale = Math.min(1, Math.max(coarsest, this.scale * factor));
   }

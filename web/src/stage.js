@@ -9,7 +9,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { BoxCloud } from "./boxes.js";
 import { Contacts } from "./contacts.js";
 import { contactCorners } from "./exact.js";
-import { drawable, spreadBoxes, wholeOf, wideEnough } from "./extent.js";
+import { drawable, spreadBoxes, wideEnough } from "./extent.js";
 import { Ground } from "./ground.js";
 import { paletteOf, tone } from "./palette.js";
 import { pick } from "./pick.js";
@@ -27,7 +27,8 @@ const tooManyModels = 20_000; // of more, some are missing from the first pictur
 const emptyBox = () => new Box3(new Vector3(0, 0, 0), new Vector3(0, 0, 0));
 
 export class Stage extends EventTarget {
-  constructor(canvas, scene) {
+  /** `whole` is what wholeOf() gives of the scene. */
+  constructor(canvas, scene, whole) {
     super();
     this.canvas = canvas;
     this.data = scene;
@@ -42,7 +43,7 @@ export class Stage extends EventTarget {
     this.marks = []; // with their tones: what others add
     const palette = Array.from({ length: 11 }, () => new Color());
     this.shared = { styles: { value: this.styles.texture }, offsets: { value: this.offsets.texture }, exploded: { value: false }, palette: { value: palette }, calm: { value: scene.exact !== null }, cut: { value: new Vector4(0, 0, 0, 1) } };
-    this.whole = wholeOf(scene);
+    this.whole = whole;
     this.build();
     this.setUp(this.data.up);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);

@@ -39,7 +39,7 @@ function exactFacts({ scene, table }) {
   const worst = exact.worstFirst(Array.from({ length: exact.count }, (_, e) => e));
   const deepest = worst.reduce((most, e) => (exact.stateOf(e) <= state.clash ? Math.max(most, exact.of(e).depth ?? 0) : most), 0);
   const notes = kindsOfClashes(counts);
-  if (deepest > 0) notes.push(`deepest ${measure(deepest)}`);
+  if (deepest > 0) notes.push(`deepest\u00a0${measure(deepest)}`);
   const others = [[state.touching, "Touching", "touching"], [state.undecided, "Undecided", "undecided"], [state.clearance, "Near", "clearance"], [state.notExamined, "Not examined", "unknown"]];
   return [
     fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ") || (clashes === 0 ? "no two models share space" : "")),

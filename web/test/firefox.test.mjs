@@ -48,16 +48,6 @@ inBoth("Firefox shows the numbers of detect, draws, and obeys keys", async () =>
   assert.match(await browser.run("return location.hash"), /^#pair=/);
 });
 
-inBoth("Firefox finds the pairs of another margin", async () => {
-  const boxes = write("firefox.csv", "a,0,0,0,1,1,1\nb,1.5,0,0,2,1,1\nc,3,0,0,4,1,1\n");
-  await view("firefox-margin", boxes);
-  assert.equal(await count("#fact-pairs"), 0);
-  for (const margin of [0.5, 0.75, 1, 2]) {
-    await browser.run(`const number = document.getElementById("margin-number"); number.value = ${margin}; number.dispatchEvent(new Event("change"))`);
-    assert.equal(await count("#fact-pairs"), detect(boxes, "--distance", String(margin)).pairs.length, `at ${margin}`);
-  }
-});
-
 inBoth("Firefox plays meshes that move, and shows names as text", async () => {
   const files = clothFrames(5);
   const track = JSON.parse(allpairs("track", ...files, "--format", "json"));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -198,9 +199,28 @@ std::string GltfDocument::text(const GltfItem& item, const char* key) const {
   return found != item.json->end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+bool GltfDocument::hasExtension(const GltfItem& item, const char* name) const {
+  const std::optional<GltfItem> extensions = part(item, "extensions");
+  return extensions && extensions->json->contains(name);
+}
+
+std::vector<std::string> GltfDocument::requiredExtensions() const {
+  std::vector<std::string> names;
+  const auto list = root().find("extensionsRequired");
+  if (list == root().end() || !list->is_array()) return names;
+  constexpr std::size_t kLongest = 64;  // characters; names of extensions have half of that
+  for (const Json& entry : *list) {
+    if (!entry.is_string()) continue;
+    const auto& name = entry.get_ref<const std::string&>();
+    const auto isPart = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    if (name.size() <= kLongest && std::all_of(name.begin(), name.end(), isPart)) names.push_back(name);
+  }
+  return names;
+}
+
 std::string_view GltfDocument::view(const GltfItem& view) {
-  if (view.json->contains("extensions") && (*view.json)["extensions"].contains("EXT_meshopt_compression")) {
-    fail(view.name + " is compressed by EXT_meshopt_compression, which is not read");
+  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (hasExtension(view, extension)) fail(view.name + " is compressed by " + extension + ", which is not read");
   }
   const std::string_view bytes = buffer(needCount(view, "buffer"));
   const std::uint64_t offset = count(view, "byteOffset").value_or(0);

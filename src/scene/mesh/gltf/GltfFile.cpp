@@ -74,6 +74,8 @@ class GltfNodeReader {
       if (m_isSeen[static_cast<std::size_t>(entry.node)]) m_document.fail(node.name + " has more than one parent");
       m_isSeen[static_cast<std::size_t>(entry.node)] = true;
       const Transform world = multiply(entry.parent, transformOf(node));
+      if (m_document.hasExtension(node, "EXT_mesh_gpu_instancing"))
+        m_document.fail(node.name + " has copies by EXT_mesh_gpu_instancing, which is not read");
       const auto mesh = m_document.count(node, "mesh");
       if (mesh) addObject(node, m_document.item("meshes", *mesh), world);
       push(open, m_document.indices(node, "children"), {.parent = world, .parentPlace = m_nodes.size()});
@@ -81,6 +83,7 @@ class GltfNodeReader {
     }
     const std::vector<std::string> assemblies = assembliesOf(m_nodes);
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
+    if (std::all_of(m_objects.begin(), m_objects.end(), isEmpty)) blameExtensions();
     return std::move(m_objects);
   }
 
@@ -90,6 +93,17 @@ class GltfNodeReader {
     Transform parent{};
     std::size_t parentPlace = NestedNode::kNoParent;  ///< In the list of nodes.
   };
+
+  static bool isEmpty(const MeshObject& object) {
+    return object.triangles.empty() && object.lines.empty() && object.points.empty();
+  }
+
+  /// Says what is missing to read a document in which nothing was found.
+  void blameExtensions() const {
+    std::string names;
+    for (const std::string& name : m_document.requiredExtensions()) names += (names.empty() ? "" : ", ") + name;
+    if (!names.empty()) m_document.fail("holds no triangles, lines or points that can be read without " + names);
+  }
 
   /// The last is taken first. They have the parent of `like`.
   void push(std::vector<Entry>& open, const std::vector<std::uint64_t>& nodes, Entry like) const {
@@ -156,10 +170,8 @@ class GltfNodeReader {
   }
 
   void addPrimitive(MeshObject& object, const GltfItem& primitive, const Transform& world) const {
-    const auto extensions = m_document.part(primitive, "extensions");
-    if (extensions && extensions->json->contains("KHR_draco_mesh_compression")) {
+    if (m_document.hasExtension(primitive, "KHR_draco_mesh_compression"))
       m_document.fail(primitive.name + " is compressed by KHR_draco_mesh_compression, which is not read");
-    }
     const std::uint64_t mode = m_document.count(primitive, "mode").value_or(std::uint64_t{4});
     if (mode > static_cast<std::uint64_t>(Mode::TriangleFan)) m_document.fail(primitive.name + " has an unknown mode");
     const auto attributes = m_document.part(primitive, "attributes");
