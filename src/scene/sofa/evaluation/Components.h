@@ -50,6 +50,19 @@ class Evaluation;
 /// The data of an engine that parts a mesh in two: what lies in its boxes or spheres, and the rest.
 [[nodiscard]] std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& engine,
                                                   std::string_view name);
+/// The points and elements that lie in boxes, and those that don't.
+[[nodiscard]] std::optional<Numbers> roiOutput(Evaluation& evaluation, const Component& engine, std::string_view name);
+/// Points of a straight strip, rolled up to a spiral.
+[[nodiscard]] std::optional<Numbers> spiralOutput(Evaluation& evaluation, const Component& engine,
+                                                  std::string_view name);
+/// The mean of the points of all states in a node.
+[[nodiscard]] std::optional<Numbers> meanOutput(Evaluation& evaluation, const Component& engine, std::string_view name);
+/// Rigid frames made of points and quaternions.
+[[nodiscard]] std::optional<Numbers> frameOutput(Evaluation& evaluation, const Component& engine,
+                                                 std::string_view name);
+/// What the driver of a device says of it at the start.
+[[nodiscard]] std::optional<Numbers> deviceOutput(Evaluation& evaluation, const Component& driver,
+                                                  std::string_view name);
 
 /// The state that a mapping reads or null, the state that it writes or null.
 [[nodiscard]] const Component* mappingInput(const Component& mapping);

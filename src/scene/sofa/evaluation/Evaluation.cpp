@@ -80,10 +80,7 @@ std::uint64_t sizeOf(const Mesh& mesh) {
          bytes(mesh.tetrahedra) + bytes(mesh.hexahedra);
 }
 
-bool isEngine(ComponentKind kind) {
-  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints ||
-         kind == ComponentKind::BoxRoi || kind == ComponentKind::SubsetTopology;
-}
+bool isEngine(ComponentKind kind) { return kind >= ComponentKind::TransformEngine && kind <= ComponentKind::Device; }
 
 }  // namespace
 

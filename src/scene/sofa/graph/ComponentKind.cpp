@@ -113,6 +113,10 @@ void addSources(Table& table) {
   table["MergePoints"] = {MergePoints, "MergePoints"};
   table["SubsetTopology"] = {SubsetTopology, "SubsetTopology"};
   table["BoxROI"] = {BoxRoi, "BoxROI"};
+  table["QuatToRigidEngine"] = {QuatToRigid, "QuatToRigidEngine"};
+  table["MeanComputation"] = {MeanComputation, "MeanComputation"};
+  table["Spiral"] = {Spiral, "Spiral"};
+  for (const auto name : {"RazerHydraDriver", "GeomagicDriver"}) table[name] = {Device, name};
 }
 
 const Table& knownClasses() {
