@@ -171,6 +171,20 @@ TEST_F(SofaMapping, ASkinStaysWhereItIsWhileItsBonesRest) {
               HasSubstr("not where they rest"));
 }
 
+TEST_F(SofaMapping, APointIsInTheMiddleOfMasses) {
+  const std::string bodies =
+      "<MechanicalObject template='Rigid3' position='0 0 0 0 0 0 1  1 2 3 0 0 0 1  5 4 3 0 0 0 1'/>";
+  const std::string child = "<MechanicalObject position='9 9 9'/><CenterOfMassMapping/>";
+  const auto middle = IsBox(Corners{2, 2, 2, 2, 2, 2});
+  EXPECT_THAT(box(bodies + "<UniformMass vertexMass='2 1 [1 0 0,0 1 0,0 0 1]'/>", child), middle);
+  EXPECT_THAT(box(bodies + "<UniformMass totalMass='7'/>", child), middle);
+  const auto scene = readIn(bodies + "<Node>" + child + "<PointModel/></Node>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{9, 9, 9, 9, 9, 9}));
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("no mass"));
+  EXPECT_THAT(complaintIn(bodies + "<DiagonalMass/><Node>" + child + "<PointModel/></Node>"),
+              HasSubstr("masses of this kind"));
+}
+
 TEST_F(SofaMapping, MappingsFollowOneAnother) {
   const auto scene = readIn(R"(<MechanicalObject template="Rigid" dx="10"/>
     <Node><MechanicalObject position="0 0 0 1 0 0 0 1 0 0 0 1"/><RigidMapping/><MeshTopology tetrahedra="0 1 2 3"/>
@@ -316,6 +330,14 @@ TEST_F(SofaMapping, ArticulatedBodiesHangOnEachOther) {
   // The whole is where the last frame of another state is, or one that is named.
   EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base'")), is(1, 1, 5));
   EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base' indexInput2='0'")), is(1, 1, 9));
+}
+
+TEST_F(SofaMapping, ArticulatedBodiesWithoutJointsStayWhereTheyAreAndThatIsSaid) {
+  auto text = articulated("0", kAboutZ, "", "", "7 0 0 0 0 0 1");
+  text.replace(text.find("input1"), 6, "input");
+  const auto scene = readIn(text);
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{7, 0, 0, 7, 0, 0}));
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("it names no input1"));
 }
 
 TEST_F(SofaMapping, ArticulatedBodiesThatCannotBePlacedAreAnError) {

@@ -189,6 +189,40 @@ TEST_F(SofaTopology, TheBorderOfASheetOfTrianglesIsItsEdges) {
   EXPECT_EQ(scene.models[0].elementCount(), 4U);
 }
 
+TEST_F(SofaTopology, PointsAreMadeOnPointsEdgesFacesAndCells) {
+  const auto made = [&](const std::string& from, const std::string& data) {
+    return readIn(from +
+                  "<MechanicalObject/><Node><MeshTopology name='c'/><Mesh2PointTopologicalMapping "
+                  "input='@../from' output='@c' " +
+                  data + "/><MechanicalObject/><PointModel/><LineModel/></Node>");
+  };
+  const std::string square =
+      "<MeshTopology name='from' position='0 0 0 2 0 0 2 2 0 0 2 0' triangles='0 1 2' quads='0 1 2 3' edges='0 1'/>";
+  const auto points = [](const SceneDescription& scene) { return scene.models.at(0).positions; };
+  EXPECT_EQ(
+      points(made(square, "pointBaryCoords='0 0 1 0 0 2'")),
+      (std::vector<Vec3>{{0, 0, 1}, {0, 0, 2}, {2, 0, 1}, {2, 0, 2}, {2, 2, 1}, {2, 2, 2}, {0, 2, 1}, {0, 2, 2}}));
+  EXPECT_EQ(points(made(square, "edgeBaryCoords='0.25 0 0'")), (std::vector<Vec3>{{0.5, 0, 0}}));
+  EXPECT_EQ(points(made(square, "triangleBaryCoords='0.5 0.25 0'")), (std::vector<Vec3>{{1.5, 0.5, 0}}));
+  EXPECT_EQ(points(made(square, "quadBaryCoords='0 1 0'")), (std::vector<Vec3>{{2, 2, 0}}))
+      << "of a quad SOFA takes the third corner for the fourth";
+  EXPECT_EQ(points(made("<MeshTopology name='from' position='0 0 0 1 0 0 0 1 0 0 0 1' tetrahedra='0 1 2 3'/>",
+                        "tetraBaryCoords='0.5 0.25 0.125'")),
+            (std::vector<Vec3>{{0.5, 0.25, 0.125}}));
+  EXPECT_EQ(points(made("<RegularGridTopology name='from' n='2 2 2'/>", "hexaBaryCoords='0.5 0.25 0.125'")),
+            (std::vector<Vec3>{{0.5, 0.25, 0.125}}));
+  const auto both = made(square, "pointBaryCoords='0 0 0 0 0 9' edgeBaryCoords='0.5 0 0' copyEdges='1'");
+  EXPECT_EQ(points(both).size(), 9U);
+  EXPECT_EQ(both.models.at(1).lines, (Elements<2>{{0, 2}}));
+}
+
+TEST_F(SofaTopology, ASubsetOfATopologyIsWhatItSaysItself) {
+  const auto scene = readIn(R"(<MeshTopology name="from" position="0 0 0 2 0 0 2 2 0 0 2 0" triangles="0 1 2 0 2 3"/>
+    <MechanicalObject/><Node><TriangleSetTopologyContainer name="c" position="@../from.position" triangles="0 2 3"/>
+    <SubsetTopologicalMapping input="@../from" output="@c" samePoints="1"/><TriangleModel/></Node>)");
+  EXPECT_EQ(scene.models.at(0).triangles, (Elements<3>{{0, 2, 3}}));
+}
+
 TEST_F(SofaTopology, UnknownTopologiesAndMappingsOfThemAreNamed) {
   EXPECT_THAT(complaintIn("<MagicTopology name='t'/><MechanicalObject/><LineModel/>"),
               HasSubstr("MagicTopology 't' (/t): this kind of topology is not known"));

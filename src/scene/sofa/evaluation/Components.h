@@ -32,6 +32,8 @@ class Evaluation;
 [[nodiscard]] State mapOnBeams(Evaluation& evaluation, const Component& mapping, const Component& beams, State child);
 /// A skin on bones that are at rest: it stays where it is.
 [[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
+/// One point, in the middle of the masses of rigid frames.
+[[nodiscard]] State mapCentre(Evaluation& evaluation, const Component& mapping, const Component& bodies, State child);
 /// Rigid frames that hang on each other by joints, at the angles of another state.
 [[nodiscard]] State mapArticulated(Evaluation& evaluation, const Component& mapping, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,

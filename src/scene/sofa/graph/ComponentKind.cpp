@@ -83,6 +83,8 @@ void addMappings(Table& table) {
   table["Hexa2TetraTopologicalMapping"] = {Hexa2Tetra, {}};
   table["Triangle2EdgeTopologicalMapping"] = {Triangle2Edge, {}};
   table["Edge2QuadTopologicalMapping"] = {Edge2Quad, {}};
+  table["Mesh2PointTopologicalMapping"] = {Mesh2Point, {}};
+  table["SubsetTopologicalMapping"] = {Other, {}};  // It relates two topologies that are there, and fills neither.
   for (const auto name : {"RigidMapping", "RigidRigidMapping"}) table[name] = {RigidMapping, name};
   for (const auto name : {"BeamLinearMapping", "BeamLinearMapping_mt"}) table[name] = {BeamLinearMapping, name};
   table["IdentityMapping"] = {IdentityMapping, "IdentityMapping"};
@@ -94,6 +96,7 @@ void addMappings(Table& table) {
   table["DeformableOnRigidFrameMapping"] = {DeformableOnRigidFrameMapping, "DeformableOnRigidFrameMapping"};
   for (const auto name : {"SkinningMapping", "LinearBlendSkinningMapping"})
     table[name] = {SkinningMapping, "SkinningMapping"};
+  table["CenterOfMassMapping"] = {CenterOfMassMapping, {}};
   table["ArticulatedSystemMapping"] = {ArticulatedMapping, {}};
   table["ArticulatedHierarchyContainer"] = {ArticulatedHierarchy, {}};
   table["ArticulationCenter"] = {ArticulationCenter, {}};
