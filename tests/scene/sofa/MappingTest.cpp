@@ -383,10 +383,10 @@ TEST_F(SofaMapping, PointsInASparseGridFollowAFrameThatCarriesIt) {
   write("cube.obj", kCubeObj);
   const std::string grid = "<SparseGridTopology filename='cube.obj' n='3 3 3'/>";
   const auto carried = [&](const std::string& second) {
-    return "<Node name='a'><MechanicalObject name='frame' template='Rigid3' position='1 2 0 0 0 0.70710678118654752 "
-           "0.70710678118654752'/>" +
+    return "<MechanicalObject name='frame' template='Rigid3' position='1 2 0 0 0 0.70710678118654752 "
+           "0.70710678118654752'/><Node name='a'>" +
            grid + "<MechanicalObject name='free' dx='1'/><Node name='b'>" + second +
-           "<MechanicalObject name='m'/><DeformableOnRigidFrameMapping input1='@../free' input2='@../frame' "
+           "<MechanicalObject name='m'/><DeformableOnRigidFrameMapping input1='@../free' input2='@../../frame' "
            "output='@m'/>" +
            kOnSparseGrid + "</Node></Node>";
   };

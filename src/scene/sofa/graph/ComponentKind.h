@@ -73,6 +73,8 @@ enum class ComponentKind {
   CylinderModel,
   OrientedBoxModel,
   TetrahedronModel,
+  RigidDistanceGrid,
+  DeformedDistanceGrid,
   UnknownModel,
 };
 
