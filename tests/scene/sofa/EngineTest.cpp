@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <map>
+
 #include "scene/sofa/SceneText.h"
 
 namespace allpairs::scene::sofa {
@@ -99,6 +101,76 @@ TEST_F(SofaEngine, ALineIsRolledUpToASpiral) {
   EXPECT_EQ(rolled[2][1], -rolled[1][1]);
   const auto across = rolled[3] - rolled[1];
   EXPECT_NEAR(std::sqrt(dot(across, across)), 0.5, 1e-12);
+}
+
+/// A cube from -1 to 1, a little off the middle, of which a face is two triangles that face outward.
+constexpr auto kBox =
+    "<MeshTopology name='box' position='-1 -1 -1 1 -1 -1 1 1 -1 -1 1 -1 -1 -1 1.1 1 -1 1.1 1 1 1.1 -1 1 1.1' "
+    "triangles='0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7'/>";
+
+class SofaStuffing : public SofaEngine {
+ protected:
+  [[nodiscard]] ModelDescription filled(const std::string& data) const {
+    return readIn(std::string{kBox} + "<MeshTetraStuffing name='s' inputPoints='@box.position' " + data +
+                  "/><Node><TetrahedronSetTopologyContainer position='@../s.outputPoints' "
+                  "tetrahedra='@../s.outputTetrahedra'/><MechanicalObject/><TetrahedronModel/></Node>")
+        .models.at(0);
+  }
+
+  /// The volume of all tetrahedra, each of which must be of positive volume and share each face with one other at most.
+  [[nodiscard]] static double volume(const ModelDescription& model) {
+    double sum = 0;
+    std::map<std::array<Index, 3>, int> faces;
+    for (const auto& t : model.tetrahedra) {
+      const auto side = [&](std::size_t i) { return model.positions[t[i]] - model.positions[t[0]]; };
+      const double six = dot(side(1), cross(side(2), side(3)));
+      EXPECT_GT(six, 0);
+      sum += six / 6;
+      for (std::size_t i = 0; i < 4; ++i) ++faces[sorted<3>({t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]})];
+    }
+    for (const auto& [face, count] : faces) EXPECT_LE(count, 2);
+    return sum;
+  }
+};
+
+TEST_F(SofaStuffing, WithoutCuttingTakesTheTetrahedraThatAreNotWhollyOutside) {
+  const auto model = filled("inputTriangles='@box.triangles' size='0.47'");
+  EXPECT_GT(volume(model), 2 * 2 * 2.1);
+  for (const auto& p : model.positions)
+    for (const double x : p) EXPECT_LE(std::abs(x), 1.1 + 0.47);
+}
+
+TEST_F(SofaStuffing, CuttingFillsTheSurface) {
+  for (const auto* data : {"splitTetras='1'", "splitTetrahedra='1' snapPoints='1' alphaLong='0.3' alphaShort='0.4'"}) {
+    const auto model = filled(std::string{"inputTriangles='@box.triangles' size='0.37' "} + data);
+    EXPECT_NEAR(volume(model), 2 * 2 * 2.1, 0.45) << "but for edges and corners that the cells do not resolve";
+    EXPECT_LT(volume(model), 2 * 2 * 2.1 + 1e-9);
+    const auto box = boxOf(model);
+    EXPECT_THAT(box, IsBox(Corners{-1, -1, -1, 1, 1, 1.1}));
+  }
+}
+
+TEST_F(SofaStuffing, QuadsAreTwoTrianglesAndTheBoxMayBeGiven) {
+  const std::string quads = "inputQuads='0 3 2 1 4 5 6 7 0 1 5 4 1 2 6 5 2 3 7 6 3 0 4 7' splitTetras='1' ";
+  const auto triangles = filled("inputTriangles='@box.triangles' splitTetras='1' size='-5'");
+  EXPECT_EQ(filled(quads + "size='-5'").positions, triangles.positions);
+  const auto size = 2.1 * 1.02 / 5;
+  EXPECT_EQ(filled(quads + "size='" + std::to_string(size) + "'").positions.size(), triangles.positions.size());
+  EXPECT_EQ(filled(quads + "size='-5' vbbox='-1.02 -1.02 -1.021 1.02 1.02 1.121'").positions.size(),
+            triangles.positions.size());
+  EXPECT_NE(filled(quads + "size='-5' vbbox='-2 -2 -2 2 2 2'").positions.size(), triangles.positions.size());
+}
+
+TEST_F(SofaStuffing, WhatCannotBeFilledIsNamed) {
+  const auto refusal = [&](const std::string& data) {
+    return complaintIn(std::string{kBox} + "<MeshTetraStuffing name='s' inputPoints='@box.position' " + data +
+                       "/><MechanicalObject position='@s.outputPoints'/><PointModel/>");
+  };
+  EXPECT_THAT(refusal(""), HasSubstr("MeshTetraStuffing 's' (/s): it is given no surface"));
+  EXPECT_THAT(refusal("inputTriangles='0 1 8'"), HasSubstr("points that are not there"));
+  EXPECT_THAT(refusal("inputTriangles='0 1 2' size='0'"), HasSubstr("out of all reason"));
+  EXPECT_THAT(refusal("inputTriangles='0 1 2' size='1e-5'"), HasSubstr("out of all reason"));
+  EXPECT_THAT(refusal("inputTriangles='0 1 2' size='0.01'"), HasSubstr("points it"));
 }
 
 }  // namespace

@@ -62,6 +62,8 @@ class Evaluation;
 /// Rigid frames made of points and quaternions.
 [[nodiscard]] std::optional<Numbers> frameOutput(Evaluation& evaluation, const Component& engine,
                                                  std::string_view name);
+/// The tetrahedra inside of a surface.
+[[nodiscard]] Mesh stuffedMesh(Evaluation& evaluation, const Component& engine);
 /// What the driver of a device says of it at the start.
 [[nodiscard]] std::optional<Numbers> deviceOutput(Evaluation& evaluation, const Component& driver,
                                                   std::string_view name);

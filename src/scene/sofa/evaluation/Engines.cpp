@@ -104,6 +104,10 @@ std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& eng
       return meanOutput(evaluation, engine, name);
     case ComponentKind::Spiral:
       return spiralOutput(evaluation, engine, name);
+    case ComponentKind::MeshTetraStuffing:
+      if (name == "outputPoints") return toNumbers(evaluation.mesh(engine).positions);
+      if (name == "outputTetrahedra" || name == "outputTetras") return toNumbers(evaluation.mesh(engine).tetrahedra);
+      return std::nullopt;
     case ComponentKind::Device:
       return deviceOutput(evaluation, engine, name);
     default:

@@ -123,6 +123,7 @@ void addSources(Table& table) {
   table["QuatToRigidEngine"] = {QuatToRigid, "QuatToRigidEngine"};
   table["MeanComputation"] = {MeanComputation, "MeanComputation"};
   table["Spiral"] = {Spiral, "Spiral"};
+  table["MeshTetraStuffing"] = {MeshTetraStuffing, "MeshTetraStuffing"};
   for (const auto name : {"RazerHydraDriver", "GeomagicDriver"}) table[name] = {Device, name};
 }
 

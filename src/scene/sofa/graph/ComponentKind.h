@@ -61,6 +61,7 @@ enum class ComponentKind {
   QuatToRigid,
   MeanComputation,
   Spiral,
+  MeshTetraStuffing,
   Device,
   ArticulatedHierarchy,
   ArticulationCenter,
