@@ -235,5 +235,14 @@ TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewer
   EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text))[0], "/A/tTriangleModel1");
 }
 
+TEST_F(SofaGraph, NodesWithoutANameHaveNoneInNewerSofa) {
+  m_sofa = SofaVersion::Sofa2612;
+  const auto text = R"(<MechanicalObject/><Node><PointModel name="a"/><Node name="N"><PointModel name="b"/><Node>
+    <PointModel name="c"/></Node></Node></Node>)";
+  EXPECT_THAT(pathsOf(readIn(text)), ElementsAre("/a", "//N/b", "//N//c"));
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_THAT(pathsOf(readIn(text)), ElementsAre("/1/a", "/1/N/b", "/1/N/2/c"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -19,10 +19,10 @@ MODEL = {"name": "/A/model", "type": "TriangleCollisionModel", "elements": 2, "a
 POINTS = {**MODEL, "name": "/B/points", "type": "PointCollisionModel"}
 
 
-def sofa_prints(models, pairs, bounded=True, before="[INFO] hello\n"):
+def sofa_prints(models, pairs, bounded=True):
     found = {"models": [{**model, "bounded": bounded} for model in models], "pipelines": int(bounded),
              "broadPhases": [{"name": "/phase", "pairs": pairs}]}
-    return before + json.dumps(found)
+    return "[INFO] hello\n" + json.dumps(found) + "\n[INFO] goodbye"
 
 
 def reader_prints(models, pairs, **more):
@@ -47,6 +47,10 @@ class CompareReader(unittest.TestCase):
                         "print(out)\nprint(err, file=sys.stderr)\nsys.exit(status)\n")
         os.chmod(file, file.stat().st_mode | stat.S_IXUSR)
         return file
+
+    @staticmethod
+    def parsed(printed):
+        return json.loads(printed.splitlines()[1])
 
     def compare(self, sofa, reader, *options):
         for scene in sofa:
@@ -100,12 +104,12 @@ class CompareReader(unittest.TestCase):
     def test_pairs_without_a_pipeline_and_models_outside_of_all_are_not_compared(self):
         self.assertEqual(self.verdict(sofa_prints([MODEL, POINTS], [], bounded=False),
                                       reader_prints([MODEL, POINTS], [[1, 0]])), (0, "same"))
-        found = json.loads(sofa_prints([MODEL, POINTS], [[1, 1]], before=""))
+        found = self.parsed(sofa_prints([MODEL, POINTS], [[1, 1]]))
         found["models"][0]["bounded"] = False
         self.assertEqual(self.verdict(json.dumps(found), reader_prints([POINTS], [[0, 0]])), (0, "same"))
 
     def test_the_lists_of_several_pipelines_are_compared_one_by_one(self):
-        found = json.loads(sofa_prints([MODEL, POINTS], [[1, 0]], before=""))
+        found = self.parsed(sofa_prints([MODEL, POINTS], [[1, 0]]))
         found["broadPhases"].append({"name": "/other", "pairs": [[1, 1], [0, 0]]})
         pipelines = [{"pairs": 2}, {"pairs": 1}]
         models = [MODEL, POINTS]
@@ -118,10 +122,11 @@ class CompareReader(unittest.TestCase):
         unknown = "[ERROR] Object type {0}<> was not created\nThe component '{0}' cannot be found in the factory."
         sofa = {"drawn.scn": (sofa_prints([MODEL], []), unknown.format("OglModel"), 0),
                 "loader.scn": (sofa_prints([], []), unknown.format("MeshOBJLoader"), 0),
+                "less.scn": (sofa_prints([MODEL], []), unknown.format("MagicEngine"), 0),
                 "none.scn": ("", "list-models: SOFA can't load it", 2),
                 "refused.scn": (sofa_prints([MODEL], []), "", 0)}
         ours = (reader_prints([MODEL], []), "", 0)
-        reader = {"drawn.scn": ours, "loader.scn": ours, "none.scn": ours,
+        reader = {"drawn.scn": ours, "less.scn": ours, "loader.scn": ours, "none.scn": ours,
                   "refused.scn": ("", "allpairs: refused.scn:3: no such mesh", 3)}
         status, text = self.compare(sofa, reader)
         self.assertEqual(status, 0)
@@ -129,11 +134,12 @@ class CompareReader(unittest.TestCase):
         self.assertEqual(text, f"""| scene | models | pairs | SOFA, reader |
 |---|---|---|---|
 | {scenes}/drawn.scn | 1 | 0 | same |
+| {scenes}/less.scn | 1 | 0 | same; without MagicEngine |
 | {scenes}/loader.scn |  |  | cannot load: this SOFA has no MeshOBJLoader |
 | {scenes}/none.scn |  |  | cannot load: list-models: SOFA can't load it |
 | {scenes}/refused.scn | 1 | 0 | refused: allpairs: refused.scn:3: no such mesh |
 
-Of 4 scenes this SOFA loads 2; of these 1 are the same, 0 differ, 1 are refused by the reader.
+Of 5 scenes this SOFA loads 3; of these 2 are the same, 0 differ, 1 are refused by the reader.
 """)
 
     def test_lists_stand_side_by_side(self):

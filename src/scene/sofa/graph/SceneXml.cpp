@@ -264,6 +264,7 @@ void addComponent(Node& node, Element&& element) {
 std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   auto node = std::make_unique<Node>();
   node->name = std::move(element.name);
+  node->isNamed = element.isNamed;
   node->place = element.place;
   node->parent = parent;
   if (const auto* gravity = element.attributes.find("gravity")) node->gravity = *gravity;
