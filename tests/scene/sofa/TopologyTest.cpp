@@ -123,6 +123,20 @@ TEST_F(SofaGrid, HasTheEdgesOfItsTrianglesInNewerSofa) {
   EXPECT_EQ(scene.models[0].lines, (Elements<2>{{1, 3}, {3, 0}, {0, 1}, {3, 2}, {2, 0}}));
 }
 
+TEST_F(SofaGrid, IsEmptyInNewerSofaIfItNamesAFileThatIsNotThere) {
+  m_sofa = SofaVersion::Sofa2612;
+  const auto text = "<RegularGridTopology fileTopology='none.trian' n='1 2 1'/><MechanicalObject/><LineModel/>";
+  const auto scene = readIn(text);
+  EXPECT_EQ(scene.models.at(0).lines.size(), 0U);
+  EXPECT_EQ(scene.models.at(0).positions.size(), 0U);
+  EXPECT_THAT(scene.warnings.back().reason, testing::HasSubstr("it names a file that is not there"));
+  write("there.obj", "v 0 0 0\n");
+  EXPECT_THAT(complaintIn("<RegularGridTopology filename='there.obj'/><MechanicalObject/><LineModel/>"),
+              testing::HasSubstr("a regular grid that is read from a file"));
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_EQ(readIn(text).models.at(0).lines.size(), 1U);
+}
+
 TEST_F(SofaGrid, TakesItsShapeFromAnotherThatIsItsSource) {
   const auto scene = readIn(
       "<Node name='a'><RegularGrid name='g' nx='4' ny='3' nz='1' xmin='0' xmax='3' ymin='0' ymax='2' zmin='0' "

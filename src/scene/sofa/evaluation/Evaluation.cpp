@@ -369,6 +369,13 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
   return std::nullopt;
 }
 
+bool Evaluation::hasFile(const Component& component, Names names) const {
+  return std::ranges::any_of(names, [&](auto name) {
+    const auto* text = component.attributes.find(name);
+    return text != nullptr && !text->empty() && m_scope.find(*text, *component.place.file).problem.empty();
+  });
+}
+
 std::string Evaluation::objFileOf(const Component& topology) const {
   const auto* text = topology.attributes.find(topology.attributes.has("src") ? "src" : "triangles");
   const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
