@@ -110,7 +110,10 @@ int main(int argc, char** argv) {
   try {
     const auto settings = allpairs::tools::readSettings(argc, argv);
     SceneRun run(settings);
-    for (sofa::core::collision::Pipeline* pipeline : run.pipelines()) pipeline->computeCollisionDetection();
+    for (sofa::core::collision::Pipeline* pipeline : run.pipelines()) {
+      pipeline->computeCollisionReset();
+      pipeline->computeCollisionDetection();
+    }
     printBroadPhases(run, printModels(run));
     return 0;
   } catch (const std::exception& problem) {
