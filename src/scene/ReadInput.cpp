@@ -51,8 +51,11 @@ Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
   if (extension == ".scn" || extension == ".xml") return readSofaScene(path, options);
   if (extension == ".obj" || extension == ".ply" || isAssimpFile(path)) return readMesh(path, options);
   if (extension == ".py" || extension == ".pyscn")
+    throw FileError(
+        path, "is a SOFA scene in Python, which only SOFA can run: open it in runSofa, save it as .scn, and read that");
+  if (extension == ".pscn" || extension == ".php")
     throw FileError(path,
-                    "is a SOFA scene in Python, which only SOFA can run; scenes that can be read are .scn and .xml");
+                    "is a SOFA scene in PHP, which is a program: read what it prints, `php -f SCENE.pscn > SCENE.scn`");
   throw FileError(path, "is of no kind that is known: .scn or .xml for scenes, .npy or .csv for boxes, or a mesh");
 }
 

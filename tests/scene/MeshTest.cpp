@@ -134,6 +134,13 @@ TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {
   expectCutsAreHandled("cut.gltf", kGltf);
 }
 
+TEST(Mesh, ScenesThatAreProgramsAreRefusedWithWhatToDo) {
+  for (const auto* name : {"scene.py", "scene.pyscn"})
+    expectProblem(name, "", "is a SOFA scene in Python, which only SOFA can run: open it in runSofa, save it as .scn");
+  for (const auto* name : {"scene.pscn", "scene.php"})
+    expectProblem(name, "", "is a SOFA scene in PHP, which is a program: read what it prints, `php -f");
+}
+
 TEST(Mesh, AnUnknownKindOfFileIsRefused) { expectProblem("notes.txt", "hello", "is of no kind that is known"); }
 
 TEST(MeshFolder, ReadsMeshesByNameAndRemarksOnTheRest) {

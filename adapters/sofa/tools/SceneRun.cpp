@@ -120,10 +120,17 @@ std::vector<sofa::core::behavior::BaseMechanicalState*> SceneRun::states() const
   return m_root->getTreeObjects<sofa::core::behavior::BaseMechanicalState>();
 }
 
-std::size_t SceneRun::countModels() const {
-  const auto levels = m_root->getTreeObjects<sofa::core::CollisionModel>();
-  const auto isLast = [](sofa::core::CollisionModel* level) { return level->getNext() == nullptr; };
-  return static_cast<std::size_t>(std::count_if(levels.begin(), levels.end(), isLast));
+std::vector<sofa::core::collision::Pipeline*> SceneRun::pipelines() const {
+  return m_root->getTreeObjects<sofa::core::collision::Pipeline>();
 }
+
+std::vector<sofa::core::CollisionModel*> SceneRun::models() const {
+  auto levels = m_root->getTreeObjects<sofa::core::CollisionModel>();
+  levels.erase(std::remove_if(levels.begin(), levels.end(), [](auto* level) { return level->getNext() != nullptr; }),
+               levels.end());
+  return levels;
+}
+
+std::size_t SceneRun::countModels() const { return models().size(); }
 
 }  // namespace allpairs::tools

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sofa/core/CollisionModel.h>
 #include <sofa/core/behavior/BaseMechanicalState.h>
 #include <sofa/core/collision/BroadPhaseDetection.h>
+#include <sofa/core/collision/Pipeline.h>
 #include <sofa/simulation/Node.h>
 
 #include <string>
@@ -52,6 +54,11 @@ class SceneRun {
 
   [[nodiscard]] std::vector<BroadPhase*> broadPhases() const;
   [[nodiscard]] std::vector<sofa::core::behavior::BaseMechanicalState*> states() const;
+
+  [[nodiscard]] std::vector<sofa::core::collision::Pipeline*> pipelines() const;
+
+  /// The collision models, each by its level with the elements.
+  [[nodiscard]] std::vector<sofa::core::CollisionModel*> models() const;
 
   /// How many collision models there are, whatever their levels.
   [[nodiscard]] std::size_t countModels() const;

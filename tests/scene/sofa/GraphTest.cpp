@@ -220,6 +220,12 @@ TEST_F(SofaGraph, AttributesNeedNoBlankBetweenThem) {
     EXPECT_THAT(complaint(bad), HasSubstr("XML")) << bad;
 }
 
+TEST_F(SofaGraph, AnAttributeThatIsGivenTwiceIsAnErrorAsInSofa) {
+  EXPECT_THAT(complaint("<Node>\n<MechanicalObject position='1 2 3' position='4 5 6'/><PointModel/></Node>"),
+              HasSubstr("scene.scn:2: not well-formed XML: two attributes of an element have the same name"));
+  EXPECT_THAT(complaint("<Node name='a' name='b'/>"), HasSubstr("scene.scn:1: not well-formed XML"));
+}
+
 TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewerSofa) {
   const std::string models = "<MechanicalObject/><MeshTopology/><Triangle/><TriangleOctreeModel/><Triangle/>";
   const auto text = "<Node name='A'>" + models + "</Node><Node name='B'>" + models + "</Node>";
@@ -233,6 +239,15 @@ TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewer
   EXPECT_EQ(pathsOf(readIn(text)), names);
   m_sofa = SofaVersion::Sofa2006;
   EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text))[0], "/A/tTriangleModel1");
+}
+
+TEST_F(SofaGraph, NodesWithoutANameHaveNoneInNewerSofa) {
+  m_sofa = SofaVersion::Sofa2612;
+  const auto text = R"(<MechanicalObject/><Node><PointModel name="a"/><Node name="N"><PointModel name="b"/><Node>
+    <PointModel name="c"/></Node></Node></Node>)";
+  EXPECT_THAT(pathsOf(readIn(text)), ElementsAre("/a", "//N/b", "//N//c"));
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_THAT(pathsOf(readIn(text)), ElementsAre("/1/a", "/1/N/b", "/1/N/2/c"));
 }
 
 }  // namespace

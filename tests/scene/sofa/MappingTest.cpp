@@ -171,6 +171,20 @@ TEST_F(SofaMapping, ASkinStaysWhereItIsWhileItsBonesRest) {
               HasSubstr("not where they rest"));
 }
 
+TEST_F(SofaMapping, APointIsInTheMiddleOfMasses) {
+  const std::string bodies =
+      "<MechanicalObject template='Rigid3' position='0 0 0 0 0 0 1  1 2 3 0 0 0 1  5 4 3 0 0 0 1'/>";
+  const std::string child = "<MechanicalObject position='9 9 9'/><CenterOfMassMapping/>";
+  const auto middle = IsBox(Corners{2, 2, 2, 2, 2, 2});
+  EXPECT_THAT(box(bodies + "<UniformMass vertexMass='2 1 [1 0 0,0 1 0,0 0 1]'/>", child), middle);
+  EXPECT_THAT(box(bodies + "<UniformMass totalMass='7'/>", child), middle);
+  const auto scene = readIn(bodies + "<Node>" + child + "<PointModel/></Node>");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{9, 9, 9, 9, 9, 9}));
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("no mass"));
+  EXPECT_THAT(complaintIn(bodies + "<DiagonalMass/><Node>" + child + "<PointModel/></Node>"),
+              HasSubstr("masses of this kind"));
+}
+
 TEST_F(SofaMapping, MappingsFollowOneAnother) {
   const auto scene = readIn(R"(<MechanicalObject template="Rigid" dx="10"/>
     <Node><MechanicalObject position="0 0 0 1 0 0 0 1 0 0 0 1"/><RigidMapping/><MeshTopology tetrahedra="0 1 2 3"/>
@@ -318,6 +332,14 @@ TEST_F(SofaMapping, ArticulatedBodiesHangOnEachOther) {
   EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base' indexInput2='0'")), is(1, 1, 9));
 }
 
+TEST_F(SofaMapping, ArticulatedBodiesWithoutJointsStayWhereTheyAreAndThatIsSaid) {
+  auto text = articulated("0", kAboutZ, "", "", "7 0 0 0 0 0 1");
+  text.replace(text.find("input1"), 6, "input");
+  const auto scene = readIn(text);
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{7, 0, 0, 7, 0, 0}));
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("it names no input1"));
+}
+
 TEST_F(SofaMapping, ArticulatedBodiesThatCannotBePlacedAreAnError) {
   EXPECT_THAT(complaintIn(articulated("0", kThenAboutX)), HasSubstr("a value that its input does not have"));
   EXPECT_THAT(complaintIn(articulated("0 0", "<ArticulationCenter childIndex='2'/>")),
@@ -361,10 +383,10 @@ TEST_F(SofaMapping, PointsInASparseGridFollowAFrameThatCarriesIt) {
   write("cube.obj", kCubeObj);
   const std::string grid = "<SparseGridTopology filename='cube.obj' n='3 3 3'/>";
   const auto carried = [&](const std::string& second) {
-    return "<Node name='a'><MechanicalObject name='frame' template='Rigid3' position='1 2 0 0 0 0.70710678118654752 "
-           "0.70710678118654752'/>" +
+    return "<MechanicalObject name='frame' template='Rigid3' position='1 2 0 0 0 0.70710678118654752 "
+           "0.70710678118654752'/><Node name='a'>" +
            grid + "<MechanicalObject name='free' dx='1'/><Node name='b'>" + second +
-           "<MechanicalObject name='m'/><DeformableOnRigidFrameMapping input1='@../free' input2='@../frame' "
+           "<MechanicalObject name='m'/><DeformableOnRigidFrameMapping input1='@../free' input2='@../../frame' "
            "output='@m'/>" +
            kOnSparseGrid + "</Node></Node>";
   };

@@ -98,9 +98,26 @@ TEST_F(SofaMeshFile, GmshPassesOverOtherSectionsAndElements) {
   EXPECT_THAT(m.triangles, SizeIs(1));
 }
 
+TEST_F(SofaMeshFile, GmshFourPointOneIsReadInBlocks) {
+  // Two blocks of nodes, the first with parametric coordinates, then a point, a line, and two triangles of six nodes.
+  const auto m = mesh("a.msh",
+                      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n1 0 0 0\n1 0 0 0 0\n$EndEntities\n"
+                      "$Nodes\n2 6 1 6\n1 1 1 2\n1\n2\n0 0 0 0.5\n1 0 0 0.6\n2 1 0 4\n3\n4\n5\n6\n"
+                      "0 1 0\n1 1 0\n0.5 0 0\n0.5 1 0\n$EndNodes\n"
+                      "$Elements\n3 4 1 4\n0 1 15 1\n1 1\n1 1 1 1\n2 1 2\n2 1 9 2\n3 1 2 3 5 5 5\n4 2 4 3 6 6 6\n"
+                      "$EndElements\n");
+  EXPECT_THAT(m.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{1, 1, 0}, Vec3{0.5, 0, 0},
+                                       Vec3{0.5, 1, 0}));
+  EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{1, 3, 2}));
+  EXPECT_THAT(m.edges, ElementsAre(Line{0, 1}, Line{0, 1}, Line{1, 2}, Line{0, 2}, Line{1, 3}, Line{2, 3}))
+      << "the edges of larger elements each once";
+}
+
 TEST_F(SofaMeshFile, GmshNamesWhatIsWrong) {
   EXPECT_THAT(problem("a.msh", "hello"), HasSubstr("no Gmsh mesh"));
-  EXPECT_THAT(problem("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"), HasSubstr("only the forms 1 and 2"));
+  EXPECT_THAT(problem("a.msh", "$MeshFormat\n4 0 8\n$EndMeshFormat\n"), HasSubstr("only the forms 1, 2 and 4.1"));
+  EXPECT_THAT(problem("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 9000000000 1 1\n2 1 0 9000000000\n"),
+              HasSubstr("missing"));
   EXPECT_THAT(problem("a.msh", "$MeshFormat\n2.1 1 8\n"), HasSubstr("only Gmsh meshes in ASCII"));
   EXPECT_THAT(problem("a.msh", "$NOD\n1000000000\n1 0 0 0\n"), HasSubstr("missing"));
   EXPECT_THAT(problem("a.msh", std::string{"$NOD\n"} + kNodes + "$ENDNOD\n$ELM\n1\n1 2 0 0 3 10 20 99\n$ENDELM"),

@@ -198,8 +198,8 @@ TEST_F(SofaModel, WhatNobodyDependsOnIsSkippedWithoutAWord) {
 }
 
 TEST_F(SofaModel, UnknownCollisionModelsAreNamed) {
-  EXPECT_THAT(complaintIn("<RigidDistanceGridCollisionModel name='d'/>"),
-              HasSubstr("RigidDistanceGridCollisionModel 'd' (/d): this kind of collision model is not known"));
+  EXPECT_THAT(complaintIn("<ImplicitSurfaceCollisionModel name='d'/>"),
+              HasSubstr("ImplicitSurfaceCollisionModel 'd' (/d): this kind of collision model is not known"));
 }
 
 // Methods and region.
@@ -274,7 +274,8 @@ TEST_F(SofaModel, MethodsOfTheSameBoxesAreProximityMethods) {
 }
 
 TEST_F(SofaModel, ModelsOfPluginsAreNotOverlooked) {
-  for (const auto name : {"TBulletSphereModel", "BulletTriangleModel", "TBulletConvexHullModel", "CudaPointModel"})
+  for (const auto name :
+       {"TBulletSphereModel", "BulletOBBModel", "TBulletCylinderModel", "TBulletConvexHullModel", "CudaPointModel"})
     EXPECT_THAT(complaintIn(std::string{"<MechanicalObject/><"} + name + "/>"),
                 HasSubstr("this kind of collision model is not known"))
         << name;

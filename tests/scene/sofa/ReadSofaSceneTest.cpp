@@ -110,6 +110,43 @@ TEST_F(ReadSofaScene, MakesTheMethodThatTheSceneNames) {
   EXPECT_EQ(read("").intersection->typeName(), "DiscreteIntersection");
 }
 
+TEST_F(ReadSofaScene, BulletsDetectionIsReadAsItsModelsBoxesAndThatIsSaid) {
+  const auto scene = read(R"(<BulletCollisionDetection/><CollisionPipeline/><BulletIntersection contactDistance="5"/>
+    <MechanicalObject position="0 0 0 1 0 0 0 1 0"/><MeshTopology triangles="0 1 2"/>
+    <TBulletTriangleModel name="t" contactDistance="0" margin="5"/>)");
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models[0]->typeName(), "TBulletTriangleModel");
+  EXPECT_THAT(rootOf(*scene.models[0]), IsBox(Corners{0, 0, 0, 1, 1, 0}));
+  EXPECT_EQ(scene.intersectionName, "BulletIntersection");
+  EXPECT_EQ(scene.intersection->getContactDistance(), 0);
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_THAT(scene.warnings[0].reason, HasSubstr("Bullet detects in this scene"));
+}
+
+TEST_F(ReadSofaScene, DistanceGridsAreTheBoxOfTheirSurfaceOrTheCellsThatBendIt) {
+  m_folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+  const auto scene = read(R"(
+    <Node><MechanicalObject template="Rigid3" position="10 0 0 0 0 0.70710678118654752 0.70710678118654752  9 9 9 0 0 0 1"/>
+      <RigidDistanceGridCollisionModel filename="a.obj" scale="2" contactDistance="5" translation="1 0 0"/></Node>
+    <Node><MechanicalObject dx="1"/><SparseGridTopology name="grid" n="2 2 3" filename="a.obj" min="0 0 -1" max="2 4 4"/>
+      <FFDDistanceGridCollisionModel filename="a.obj" topology="@grid"/></Node>)");
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_EQ(scene.models[0]->typeName(), "RigidDistanceGridCollisionModel");
+  EXPECT_EQ(scene.models[0]->getSize(), 1U);
+  EXPECT_THAT(rootOf(*scene.models[0]), IsBox(Corners{6, 1, 0, 10, 3, 6}));
+  EXPECT_EQ(scene.models[1]->typeName(), "FFDDistanceGridCollisionModel");
+  EXPECT_EQ(scene.models[1]->getSize(), 2U);
+  EXPECT_THAT(rootOf(*scene.models[1]), IsBox(Corners{1, 0, -1, 3, 4, 4}));
+  const auto refuses = [&](const std::string& data, const std::string& why) {
+    const auto text = "<MechanicalObject template='Rigid3'/><DistanceGridCollisionModel " + data + "/>";
+    EXPECT_THAT([&] { (void)read(text); }, testing::ThrowsMessage<FileError>(HasSubstr(why)));
+  };
+  refuses("filename='a.obj' sampling='1'", "sampled, turned or inside out");
+  refuses("filename='a.obj' flipNormals='1'", "sampled, turned or inside out");
+  refuses("filename='a.obj' rotation='0 0 90'", "sampled, turned or inside out");
+  refuses("", "its surface is no Wavefront file");
+}
+
 TEST_F(ReadSofaScene, MakesTheRegionThatTheBroadPhaseNames) {
   const auto scene = read("<BruteForceDetection box='0 1 2 3 4 5'/>");
   EXPECT_EQ(scene.region, (Box{{0, 1, 2}, {3, 4, 5}}));

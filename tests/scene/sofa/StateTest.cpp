@@ -85,6 +85,8 @@ TEST_F(SofaState, DoesNotTakePointsFromATopologyAbove) {
 TEST_F(SofaState, BeforeItsTopologyTakesNothingFromAMeshAndAllFromAGrid) {
   EXPECT_EQ(count("<MechanicalObject/><MeshTopology position='1 0 0 2 0 0' edges='0 1'/>"), 0U);
   EXPECT_EQ(count("<MechanicalObject/><RegularGridTopology n='2 3 4'/>"), 24U);
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+  EXPECT_EQ(count("<MechanicalObject/><SparseGridTopology n='2 2 2' filename='a.obj'/>"), 8U);
 }
 
 TEST_F(SofaState, ANodeMayOrderTheTopologyFirst) {

@@ -123,6 +123,20 @@ TEST_F(SofaGrid, HasTheEdgesOfItsTrianglesInNewerSofa) {
   EXPECT_EQ(scene.models[0].lines, (Elements<2>{{1, 3}, {3, 0}, {0, 1}, {3, 2}, {2, 0}}));
 }
 
+TEST_F(SofaGrid, IsEmptyInNewerSofaIfItNamesAFileThatIsNotThere) {
+  m_sofa = SofaVersion::Sofa2612;
+  const auto text = "<RegularGridTopology fileTopology='none.trian' n='1 2 1'/><MechanicalObject/><LineModel/>";
+  const auto scene = readIn(text);
+  EXPECT_EQ(scene.models.at(0).lines.size(), 0U);
+  EXPECT_EQ(scene.models.at(0).positions.size(), 0U);
+  EXPECT_THAT(scene.warnings.back().reason, testing::HasSubstr("it names a file that is not there"));
+  write("there.obj", "v 0 0 0\n");
+  EXPECT_THAT(complaintIn("<RegularGridTopology filename='there.obj'/><MechanicalObject/><LineModel/>"),
+              testing::HasSubstr("a regular grid that is read from a file"));
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_EQ(readIn(text).models.at(0).lines.size(), 1U);
+}
+
 TEST_F(SofaGrid, TakesItsShapeFromAnotherThatIsItsSource) {
   const auto scene = readIn(
       "<Node name='a'><RegularGrid name='g' nx='4' ny='3' nz='1' xmin='0' xmax='3' ymin='0' ymax='2' zmin='0' "
@@ -187,6 +201,40 @@ TEST_F(SofaTopology, TheBorderOfASheetOfTrianglesIsItsEdges) {
     <Node><EdgeSetTopologyContainer/><Triangle2EdgeTopologicalMapping/><LineModel/></Node>)");
   ASSERT_EQ(scene.models.size(), 1U);
   EXPECT_EQ(scene.models[0].elementCount(), 4U);
+}
+
+TEST_F(SofaTopology, PointsAreMadeOnPointsEdgesFacesAndCells) {
+  const auto made = [&](const std::string& from, const std::string& data) {
+    return readIn(from +
+                  "<MechanicalObject/><Node><MeshTopology name='c'/><Mesh2PointTopologicalMapping "
+                  "input='@../from' output='@c' " +
+                  data + "/><MechanicalObject/><PointModel/><LineModel/></Node>");
+  };
+  const std::string square =
+      "<MeshTopology name='from' position='0 0 0 2 0 0 2 2 0 0 2 0' triangles='0 1 2' quads='0 1 2 3' edges='0 1'/>";
+  const auto points = [](const SceneDescription& scene) { return scene.models.at(0).positions; };
+  EXPECT_EQ(
+      points(made(square, "pointBaryCoords='0 0 1 0 0 2'")),
+      (std::vector<Vec3>{{0, 0, 1}, {0, 0, 2}, {2, 0, 1}, {2, 0, 2}, {2, 2, 1}, {2, 2, 2}, {0, 2, 1}, {0, 2, 2}}));
+  EXPECT_EQ(points(made(square, "edgeBaryCoords='0.25 0 0'")), (std::vector<Vec3>{{0.5, 0, 0}}));
+  EXPECT_EQ(points(made(square, "triangleBaryCoords='0.5 0.25 0'")), (std::vector<Vec3>{{1.5, 0.5, 0}}));
+  EXPECT_EQ(points(made(square, "quadBaryCoords='0 1 0'")), (std::vector<Vec3>{{2, 2, 0}}))
+      << "of a quad SOFA takes the third corner for the fourth";
+  EXPECT_EQ(points(made("<MeshTopology name='from' position='0 0 0 1 0 0 0 1 0 0 0 1' tetrahedra='0 1 2 3'/>",
+                        "tetraBaryCoords='0.5 0.25 0.125'")),
+            (std::vector<Vec3>{{0.5, 0.25, 0.125}}));
+  EXPECT_EQ(points(made("<RegularGridTopology name='from' n='2 2 2'/>", "hexaBaryCoords='0.5 0.25 0.125'")),
+            (std::vector<Vec3>{{0.5, 0.25, 0.125}}));
+  const auto both = made(square, "pointBaryCoords='0 0 0 0 0 9' edgeBaryCoords='0.5 0 0' copyEdges='1'");
+  EXPECT_EQ(points(both).size(), 9U);
+  EXPECT_EQ(both.models.at(1).lines, (Elements<2>{{0, 2}}));
+}
+
+TEST_F(SofaTopology, ASubsetOfATopologyIsWhatItSaysItself) {
+  const auto scene = readIn(R"(<MeshTopology name="from" position="0 0 0 2 0 0 2 2 0 0 2 0" triangles="0 1 2 0 2 3"/>
+    <MechanicalObject/><Node><TriangleSetTopologyContainer name="c" position="@../from.position" triangles="0 2 3"/>
+    <SubsetTopologicalMapping input="@../from" output="@c" samePoints="1"/><TriangleModel/></Node>)");
+  EXPECT_EQ(scene.models.at(0).triangles, (Elements<3>{{0, 2, 3}}));
 }
 
 TEST_F(SofaTopology, UnknownTopologiesAndMappingsOfThemAreNamed) {

@@ -138,7 +138,10 @@ void placeRoot(Evaluation& evaluation, const Component& mapping, State& bodies) 
 
 State mapArticulated(Evaluation& evaluation, const Component& mapping, State child) {
   const auto* angles = stateNamed(mapping, "input1");
-  if (angles == nullptr) throw Unplaceable(mapping, "it names no input1, the state of its articulations");
+  if (angles == nullptr) {
+    evaluation.warn(mapping, "it names no input1, the state of its articulations, and moves nothing, as in SOFA");
+    return child;
+  }
   if (child.kind != State::Kind::Rigid) throw Unplaceable(mapping, "its output is no state of rigid frames");
   const auto given = evaluation.numbers(*angles, {"position"}, 1);
   const std::vector<double> values = given ? given->values : std::vector<double>{};

@@ -32,6 +32,8 @@ class Evaluation;
 [[nodiscard]] State mapOnBeams(Evaluation& evaluation, const Component& mapping, const Component& beams, State child);
 /// A skin on bones that are at rest: it stays where it is.
 [[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
+/// One point, in the middle of the masses of rigid frames.
+[[nodiscard]] State mapCentre(Evaluation& evaluation, const Component& mapping, const Component& bodies, State child);
 /// Rigid frames that hang on each other by joints, at the angles of another state.
 [[nodiscard]] State mapArticulated(Evaluation& evaluation, const Component& mapping, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
@@ -49,6 +51,21 @@ class Evaluation;
 
 /// The data of an engine that parts a mesh in two: what lies in its boxes or spheres, and the rest.
 [[nodiscard]] std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& engine,
+                                                  std::string_view name);
+/// The points and elements that lie in boxes, and those that don't.
+[[nodiscard]] std::optional<Numbers> roiOutput(Evaluation& evaluation, const Component& engine, std::string_view name);
+/// Points of a straight strip, rolled up to a spiral.
+[[nodiscard]] std::optional<Numbers> spiralOutput(Evaluation& evaluation, const Component& engine,
+                                                  std::string_view name);
+/// The mean of the points of all states in a node.
+[[nodiscard]] std::optional<Numbers> meanOutput(Evaluation& evaluation, const Component& engine, std::string_view name);
+/// Rigid frames made of points and quaternions.
+[[nodiscard]] std::optional<Numbers> frameOutput(Evaluation& evaluation, const Component& engine,
+                                                 std::string_view name);
+/// The tetrahedra inside of a surface.
+[[nodiscard]] Mesh stuffedMesh(Evaluation& evaluation, const Component& engine);
+/// What the driver of a device says of it at the start.
+[[nodiscard]] std::optional<Numbers> deviceOutput(Evaluation& evaluation, const Component& driver,
                                                   std::string_view name);
 
 /// The state that a mapping reads or null, the state that it writes or null.

@@ -55,11 +55,15 @@ AffineMap motionOf(Evaluation& evaluation, const Component& engine) {
 
 std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, std::string_view name) {
   if (name != "points") return std::nullopt;
-  auto points = evaluation.points(engine, {"position1"});
-  const auto others = evaluation.points(engine, {"position2"});
-  evaluation.takePoints(engine, points.size() + others.size());  // a chain of these doubles with each
-  points.insert(points.end(), others.begin(), others.end());
-  return toNumbers(points);
+  const auto* kind = engine.attributes.find("template");
+  const std::size_t width = kind != nullptr && kind->starts_with("Rigid3") ? 7 : 3;
+  auto points = evaluation.numbers(engine, {"position1"}, width);
+  const auto others = evaluation.numbers(engine, {"position2"}, width);
+  if (!points) points = Numbers{.values = {}, .width = width};
+  if (!others) return points;
+  evaluation.takePoints(engine, points->size() + others->size());  // a chain of these doubles with each
+  points->values.insert(points->values.end(), others->values.begin(), others->values.end());
+  return points;
 }
 
 }  // namespace
@@ -92,6 +96,20 @@ std::optional<Numbers> engineOutput(Evaluation& evaluation, const Component& eng
       return merged(evaluation, engine, name);
     case ComponentKind::SubsetTopology:
       return subsetOutput(evaluation, engine, name);
+    case ComponentKind::BoxRoi:
+      return roiOutput(evaluation, engine, name);
+    case ComponentKind::QuatToRigid:
+      return frameOutput(evaluation, engine, name);
+    case ComponentKind::MeanComputation:
+      return meanOutput(evaluation, engine, name);
+    case ComponentKind::Spiral:
+      return spiralOutput(evaluation, engine, name);
+    case ComponentKind::MeshTetraStuffing:
+      if (name == "outputPoints") return toNumbers(evaluation.mesh(engine).positions);
+      if (name == "outputTetrahedra" || name == "outputTetras") return toNumbers(evaluation.mesh(engine).tetrahedra);
+      return std::nullopt;
+    case ComponentKind::Device:
+      return deviceOutput(evaluation, engine, name);
     default:
       return std::nullopt;
   }

@@ -80,10 +80,7 @@ std::uint64_t sizeOf(const Mesh& mesh) {
          bytes(mesh.tetrahedra) + bytes(mesh.hexahedra);
 }
 
-bool isEngine(ComponentKind kind) {
-  return kind == ComponentKind::TransformEngine || kind == ComponentKind::MergePoints ||
-         kind == ComponentKind::BoxRoi || kind == ComponentKind::SubsetTopology;
-}
+bool isEngine(ComponentKind kind) { return kind >= ComponentKind::TransformEngine && kind <= ComponentKind::Device; }
 
 }  // namespace
 
@@ -370,6 +367,13 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
     return std::move(found.path);
   }
   return std::nullopt;
+}
+
+bool Evaluation::hasFile(const Component& component, Names names) const {
+  return std::ranges::any_of(names, [&](auto name) {
+    const auto* text = component.attributes.find(name);
+    return text != nullptr && !text->empty() && m_scope.find(*text, *component.place.file).problem.empty();
+  });
 }
 
 std::string Evaluation::objFileOf(const Component& topology) const {

@@ -61,6 +61,8 @@ class Evaluation {
   std::vector<std::size_t> indices(const Component& component, Names names);
   /// The file that an attribute names; nothing if the component has no such attribute.
   std::optional<std::filesystem::path> file(const Component& component, Names names);
+  /// Whether an attribute names a file that is there and may be read.
+  [[nodiscard]] bool hasFile(const Component& component, Names names) const;
   /// The Wavefront file that a topology takes its triangles from; empty where it takes them from elsewhere.
   [[nodiscard]] std::string objFileOf(const Component& topology) const;
   /// Whether a data's value comes from elsewhere.

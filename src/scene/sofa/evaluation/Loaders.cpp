@@ -4,6 +4,8 @@
 
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
+#include "sofa/mesh/TetraStuffing.h"
+#include "sofa/mesh/Topology.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -177,7 +179,38 @@ Mesh readBy(Evaluation& evaluation, const Component& loader, const std::filesyst
 
 }  // namespace
 
+Mesh stuffedMesh(Evaluation& evaluation, const Component& engine) {
+  Mesh surface;
+  surface.positions = evaluation.points(engine, {"inputPoints"});
+  surface.triangles = evaluation.elements<3>(engine, {"inputTriangles"});
+  for (const auto& q : evaluation.elements<4>(engine, {"inputQuads"})) {
+    surface.triangles.push_back({q[0], q[1], q[2]});
+    surface.triangles.push_back({q[0], q[2], q[3]});
+  }
+  if (surface.positions.empty() || surface.triangles.empty()) throw Unplaceable(engine, "it is given no surface");
+  if (indicesUsed(surface) > surface.positions.size())
+    throw Unplaceable(engine, "its triangles name points that are not there");
+  const auto box = evaluation.numbers(engine, {"vbbox"}, 6);
+  Stuffing how{.size = evaluation.number(engine, {"size"}, -8),
+               .alphaLong = evaluation.number(engine, {"alphaLong"}, Stuffing{}.alphaLong),
+               .alphaShort = evaluation.number(engine, {"alphaShort"}, Stuffing{}.alphaShort),
+               .snap = evaluation.flag(engine, "snapPoints", false),
+               .split = evaluation.flag(
+                   engine, evaluation.isGiven(engine, {"splitTetras"}) ? "splitTetras" : "splitTetrahedra", false)};
+  if (box && box->size() == 1) {
+    how.low = {box->values[0], box->values[1], box->values[2]};
+    how.high = {box->values[3], box->values[4], box->values[5]};
+  }
+  const double points = stuffingPoints(surface, how);
+  constexpr double kMostPoints = 1e8;
+  if (!(points >= 0 && points <= kMostPoints)) throw Unplaceable(engine, "its size is out of all reason");
+  constexpr std::uint64_t kElements = 40;  // cuts and tetrahedra take this many times the memory of the points
+  evaluation.takePoints(engine, kElements * static_cast<std::uint64_t>(points));
+  return stuffed(surface, how);
+}
+
 Mesh loadMesh(Evaluation& evaluation, const Component& loader) {
+  if (loader.kind() == ComponentKind::MeshTetraStuffing) return stuffedMesh(evaluation, loader);
   const bool isMade = loader.type == "GridMeshCreator";
   const auto path = isMade ? std::nullopt : evaluation.file(loader, {"filename"});
   if (!path && !isMade) throw Unplaceable(loader, "it names no file");

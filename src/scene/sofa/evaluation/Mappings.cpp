@@ -185,6 +185,8 @@ State mapState(Evaluation& evaluation, const Component& mapping, State child) {
   switch (mapping.kind()) {
     case SkinningMapping:
       return mapSkin(evaluation, mapping, *input, std::move(child));
+    case CenterOfMassMapping:
+      return mapCentre(evaluation, mapping, *input, std::move(child));
     case BeamLinearMapping:
       return mapOnBeams(evaluation, mapping, *input, std::move(child));
     case RigidMapping:

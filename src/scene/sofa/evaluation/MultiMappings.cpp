@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 #include "sofa/evaluation/Components.h"
@@ -27,6 +29,20 @@ void append(State& to, const State& from, std::size_t index) {
   to.positions.push_back(from.positions[index]);
   if (to.kind == State::Kind::Rigid)
     to.orientations.push_back(from.kind == State::Kind::Rigid ? from.orientations[index] : Quat{});
+}
+
+/// The mass of each body of a state, all of which are equal; nothing where there is no mass.
+std::optional<double> massOf(const Component& bodies, std::size_t count) {
+  const auto& components = bodies.node->components;
+  const auto mass = std::ranges::find_if(components, [](const auto& c) { return c->type.ends_with("Mass"); });
+  if (mass == components.end()) return std::nullopt;
+  const auto& attributes = (*mass)->attributes;
+  const auto* total = attributes.find("totalMass");
+  const auto* each = total != nullptr ? total : attributes.find("vertexMass");
+  if ((*mass)->type != "UniformMass" || each == nullptr || each->starts_with('@') || attributes.has("filename"))
+    throw Unplaceable(**mass, "masses of this kind are not known to this reader");
+  const double value = std::strtod(each->c_str(), nullptr);  // Of a rigid body more numbers follow.
+  return total != nullptr ? value / static_cast<double>(count) : value;
 }
 
 }  // namespace
@@ -72,6 +88,24 @@ State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child) 
   const auto carried = affine(frames.orientations[frame], {1, 1, 1}, frames.positions[frame]);
   for (auto& p : child.positions) p = carried(p);
   if (child.fromTopology) child.fromTopology = compose(carried, *child.fromTopology);
+  return child;
+}
+
+State mapCentre(Evaluation& evaluation, const Component& mapping, const Component& bodies, State child) {
+  const auto& in = evaluation.knownState(bodies);
+  if (in.kind != State::Kind::Rigid) throw Unplaceable(mapping, "the state that it reads is not rigid");
+  const auto mass = massOf(bodies, in.positions.size());
+  child.fromTopology.reset();
+  double total = 0;
+  Vec3 sum{};
+  for (const auto& position : in.positions) {
+    total += mass.value_or(0);
+    sum = sum + position * mass.value_or(0);
+  }
+  if (total == 0)
+    evaluation.warn(mapping, "its input has no mass, and it moves nothing, as in SOFA");
+  else if (!child.positions.empty())
+    child.positions[0] = {sum[0] / total, sum[1] / total, sum[2] / total};
   return child;
 }
 

@@ -84,7 +84,7 @@ void setPositions(State& state, const Numbers& numbers) {
 bool isTooLate(Evaluation& evaluation, const Component& state, const Component& topology) {
   const auto* mapping = evaluation.topologicalMappingOf(topology);
   if (mapping != nullptr) return mapping->node == state.node && mapping->index > state.index;
-  if (topology.kind() == RegularGrid) return false;
+  if (topology.kind() == RegularGrid || topology.kind() == SparseGrid) return false;  // They are made when asked.
   if (std::ranges::find(state.node->order, std::pair{topology.name, state.name}) != state.node->order.end())
     return false;
   return topology.node == state.node && topology.index > state.index;

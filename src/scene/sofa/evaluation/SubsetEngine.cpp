@@ -15,7 +15,8 @@ using Regions = std::vector<std::function<bool(const Vec3&)>>;
 
 Regions boxesOf(Evaluation& evaluation, const Component& engine) {
   Regions regions;
-  const auto given = evaluation.numbers(engine, {"box"}, 6);
+  auto given = evaluation.numbers(engine, {"box"}, 6);
+  if (!given && engine.kind() == ComponentKind::BoxRoi) given = Numbers{{0, 0, 0, 1, 1, 1}, 6};
   for (std::size_t i = 0; given && i < given->size(); ++i) {
     const auto* v = given->values.data() + 6 * i;
     const Vec3 a{v[0], v[1], v[2]}, b{v[3], v[4], v[5]};
@@ -129,6 +130,98 @@ class Parting {
   std::vector<Index> m_numbers;
 };
 
+/// The points that a region chooses from: given, or those at rest of the state or the loader beside it, or of the state
+/// above.
+Numbers candidatesOf(Evaluation& evaluation, const Component& engine, std::size_t width) {
+  if (auto given = evaluation.numbers(engine, {"position"}, width)) return std::move(*given);
+  const auto& local = engine.node->components;
+  const auto isKind = [&](ComponentKind kind) { return [kind](const auto& c) { return c->kind() == kind; }; };
+  const bool hasState = std::ranges::any_of(local, isKind(ComponentKind::MechanicalState));
+  const auto loader = std::ranges::find_if(local, isKind(ComponentKind::MeshLoader));
+  if (!hasState && loader != local.end()) return toNumbers(evaluation.mesh(**loader).positions);
+  const auto* state = inContext(*engine.node, [](const Component& c) { return isState(c.kind()); });
+  if (state == nullptr) throw Unplaceable(engine, "it has no points to choose from");
+  return toNumbers(evaluation.knownState(*state).rest);
+}
+
+/// A list that was given to a region, or else to the topology beside it; nothing where that topology derives it.
+template <std::size_t N>
+std::optional<Elements<N>> choiceOf(Evaluation& evaluation, const Component& engine, std::string_view list,
+                                    Elements<N> Mesh::*member) {
+  if (evaluation.isGiven(engine, {list, "src"})) return evaluation.elementLists(engine).*member;
+  const auto& local = engine.node->components;
+  const auto found = std::ranges::find_if(local, [](const auto& c) { return isTopology(c->kind()); });
+  if (found == local.end()) return Elements<N>{};
+  const auto& topology = evaluation.topology(**found);
+  if (topology.sparse || (topology.given.*member).empty()) return std::nullopt;
+  return topology.given.*member;
+}
+
+/// Points in any of several boxes, and the elements of which all corners are, or else the middle is.
+class Roi {
+ public:
+  Roi(Evaluation& evaluation, const Component& engine, std::size_t width)
+      : m_evaluation(evaluation),
+        m_engine(engine),
+        m_regions(boxesOf(evaluation, engine)),
+        m_candidates(candidatesOf(evaluation, engine, width)),
+        m_strict(evaluation.flag(engine, "strict", true)) {}
+
+  [[nodiscard]] Numbers points(bool inside) const {
+    Numbers result{.values = {}, .width = m_candidates.width};
+    const auto width = static_cast<std::ptrdiff_t>(m_candidates.width);
+    for (std::size_t i = 0; i < m_candidates.size(); ++i) {
+      const auto at = m_candidates.values.begin() + static_cast<std::ptrdiff_t>(i) * width;
+      if (has(position(i)) == inside) result.values.insert(result.values.end(), at, at + width);
+    }
+    return result;
+  }
+
+  [[nodiscard]] Numbers indices(bool inside) const {
+    Numbers result;
+    for (std::size_t i = 0; i < m_candidates.size(); ++i)
+      if (has(position(i)) == inside) result.values.push_back(static_cast<double>(i));
+    return result;
+  }
+
+  template <std::size_t N>
+  [[nodiscard]] std::optional<Numbers> elements(std::string_view list, std::string_view flag, Elements<N> Mesh::*member,
+                                                bool inside) const {
+    if (!m_evaluation.flag(m_engine, flag, true)) return toNumbers(Elements<N>{});
+    const auto all = choiceOf(m_evaluation, m_engine, list, member);
+    if (!all) return std::nullopt;
+    Elements<N> result;
+    for (const auto& element : *all)
+      if (hasElement(element) == inside) result.push_back(element);
+    return toNumbers(result);
+  }
+
+ private:
+  [[nodiscard]] Vec3 position(std::size_t point) const {
+    if (point >= m_candidates.size()) throw Unplaceable(m_engine, "its elements name points that are not there");
+    const auto* v = m_candidates.values.data() + point * m_candidates.width;
+    return {v[0], v[1], v[2]};
+  }
+
+  [[nodiscard]] bool has(const Vec3& p) const {
+    return std::ranges::any_of(m_regions, [&](const auto& region) { return region(p); });
+  }
+
+  template <std::size_t N>
+  [[nodiscard]] bool hasElement(const std::array<Index, N>& corners) const {
+    if (m_strict) return std::ranges::all_of(corners, [&](Index c) { return has(position(c)); });
+    Vec3 sum{};
+    for (const auto corner : corners) sum = sum + position(corner);
+    return has({sum[0] / static_cast<double>(N), sum[1] / static_cast<double>(N), sum[2] / static_cast<double>(N)});
+  }
+
+  Evaluation& m_evaluation;
+  const Component& m_engine;
+  Regions m_regions;
+  Numbers m_candidates;
+  bool m_strict;
+};
+
 std::optional<Numbers> listOf(const Mesh& mesh, std::string_view kind) {
   if (kind == "points") return toNumbers(mesh.positions);
   if (kind == "edges") return toNumbers(mesh.edges);
@@ -140,6 +233,23 @@ std::optional<Numbers> listOf(const Mesh& mesh, std::string_view kind) {
 }
 
 }  // namespace
+
+std::optional<Numbers> roiOutput(Evaluation& evaluation, const Component& engine, std::string_view name) {
+  const bool isOut = name.ends_with("OutROI"), isIndices = name == "indices" || name == "indicesOut";
+  if ((!isOut && !isIndices && !name.ends_with("InROI")) || evaluation.isGiven(engine, {"orientedBox"}))
+    return std::nullopt;
+  const auto* kind = engine.attributes.find("template");
+  const Roi roi(evaluation, engine, kind != nullptr && kind->starts_with("Rigid") ? 7 : 3);
+  if (isIndices) return roi.indices(name == "indices");
+  const auto list = name.substr(0, name.size() - std::string_view{isOut ? "OutROI" : "InROI"}.size());
+  if (list == "points") return roi.points(!isOut);
+  if (list == "edges") return roi.elements(list, "computeEdges", &Mesh::edges, !isOut);
+  if (list == "triangles") return roi.elements(list, "computeTriangles", &Mesh::triangles, !isOut);
+  if (list == "quads" && !isOut) return roi.elements(list, "computeQuads", &Mesh::quads, true);
+  if (list == "tetrahedra") return roi.elements(list, "computeTetrahedra", &Mesh::tetrahedra, !isOut);
+  if (list == "hexahedra" && !isOut) return roi.elements(list, "computeHexahedra", &Mesh::hexahedra, true);
+  return std::nullopt;
+}
 
 std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& engine, std::string_view name) {
   const bool isOut = name.ends_with("OutROI"), isIn = name.ends_with("InROI");

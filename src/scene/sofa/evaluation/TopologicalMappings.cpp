@@ -67,6 +67,84 @@ Elements<3> cutQuads(Topology& from) {
   return triangles;
 }
 
+/// Points at given coordinates of each point, edge, face and cell of a topology.
+class PointMaker {
+ public:
+  PointMaker(Evaluation& evaluation, const Component& mapping, Topology& from, Topology& to)
+      : m_evaluation(evaluation), m_mapping(mapping), m_from(from), m_points(to.given.positions) {}
+
+  void makeAll() {
+    const auto onPoints = coordinates("pointBaryCoords", m_from.pointCount);
+    for (std::size_t i = 0; i < m_from.pointCount; ++i)
+      for (const auto& c : onPoints) m_points.push_back(m_from.position(i) + c);
+    make("edgeBaryCoords", m_from.edges(),
+         [](const auto& p, const Vec3& c) { return p[0] * (1 - c[0]) + p[1] * c[0]; });
+    make("triangleBaryCoords", m_from.triangles(),
+         [](const auto& p, const Vec3& c) { return p[0] * (1 - c[0] - c[1]) + p[1] * c[0] + p[2] * c[1]; });
+    make("quadBaryCoords", m_from.quads(), [](const auto& p, const Vec3& c) {
+      // SOFA takes the corners row by row here, though they go round.
+      return p[0] * ((1 - c[0]) * (1 - c[1])) + p[1] * (c[0] * (1 - c[1])) + p[2] * ((1 - c[0]) * c[1]) +
+             p[3] * (c[0] * c[1]);
+    });
+    make("tetraBaryCoords", m_from.tetrahedra(), [](const auto& p, const Vec3& c) {
+      return p[0] * (1 - c[0] - c[1] - c[2]) + p[1] * c[0] + p[2] * c[1] + p[3] * c[2];
+    });
+    make("hexaBaryCoords", m_from.hexahedra(), inCube);
+  }
+
+ private:
+  static Vec3 inCube(const std::array<Vec3, 8>& p, const Vec3& c) {
+    constexpr std::array<std::size_t, 8> kRowByRow{0, 1, 3, 2, 4, 5, 7, 6};
+    Vec3 sum{};
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double x = i & 1 ? c[0] : 1 - c[0], y = i & 2 ? c[1] : 1 - c[1], z = i & 4 ? c[2] : 1 - c[2];
+      const auto part = p[kRowByRow[i]] * (x * y * z);
+      sum = i == 0 ? part : sum + part;
+    }
+    return sum;
+  }
+
+  [[nodiscard]] std::vector<Vec3> coordinates(std::string_view data, std::size_t elements) {
+    auto result = m_evaluation.points(m_mapping, {data});
+    m_evaluation.takePoints(m_mapping, std::uint64_t{result.size()} * elements);
+    return result;
+  }
+
+  template <std::size_t N, class Place>
+  void make(std::string_view data, const Elements<N>& elements, const Place& place) {
+    const auto all = coordinates(data, elements.size());
+    for (const auto& element : elements) {
+      std::array<Vec3, N> corners{};
+      for (std::size_t i = 0; i < N; ++i) corners[i] = m_from.position(element[i]);
+      for (const auto& c : all) m_points.push_back(place(corners, c));
+    }
+  }
+
+  Evaluation& m_evaluation;
+  const Component& m_mapping;
+  Topology& m_from;
+  std::vector<Vec3>& m_points;
+};
+
+template <std::size_t N>
+void copyRenumbered(const Elements<N>& from, std::size_t step, Elements<N>& to) {
+  for (auto element : from) {
+    for (auto& corner : element) corner = static_cast<Index>(corner * step);
+    to.push_back(element);
+  }
+}
+
+void makePoints(Evaluation& evaluation, const Component& mapping, Topology& from, Topology& to) {
+  PointMaker(evaluation, mapping, from, to).makeAll();
+  to.pointCount = to.given.positions.size();
+  to.hasPositions = to.pointCount > 0;
+  const auto step = evaluation.points(mapping, {"pointBaryCoords"}).size();
+  if (step == 0) return;
+  if (evaluation.flag(mapping, "copyEdges", false)) copyRenumbered(from.edges(), step, to.given.edges);
+  if (evaluation.flag(mapping, "copyTriangles", false)) copyRenumbered(from.triangles(), step, to.given.triangles);
+  if (evaluation.flag(mapping, "copyTetrahedra", false)) copyRenumbered(from.tetrahedra(), step, to.given.tetrahedra);
+}
+
 void fill(Evaluation& evaluation, const Component& mapping, Topology& from, Topology& to) {
   switch (mapping.kind()) {
     case Tetra2Triangle:
@@ -87,6 +165,9 @@ void fill(Evaluation& evaluation, const Component& mapping, Topology& from, Topo
       break;
     case Triangle2Edge:
       to.given.edges = borderOf(from.edges(), from.triangles());
+      break;
+    case Mesh2Point:
+      makePoints(evaluation, mapping, from, to);
       break;
     default:
       throw Unplaceable(mapping, "this kind of topological mapping is not known to this reader");

@@ -149,21 +149,32 @@ GridLists gridLists(Evaluation& evaluation, const Component& component) {
           .diagonals = true};
 }
 
+/// Newer SOFA empties a grid that names a mesh file, and fills it from that file, if it is there.
+bool isEmptied(Evaluation& evaluation, const Component& component) {
+  if (evaluation.generation() == Generation::Sofa20 || !evaluation.isGiven(component, {"filename", "fileTopology"}))
+    return false;
+  if (evaluation.hasFile(component, {"filename", "fileTopology"}))
+    throw Unplaceable(component, "a regular grid that is read from a file is not known to this reader");
+  evaluation.warn(component, "it names a file that is not there, and has no points, as in SOFA");
+  return true;
+}
+
 Topology regularGrid(Evaluation& evaluation, const Component& component) {
+  Topology topology;
+  topology.hasPositions = true;
+  if (isEmptied(evaluation, component)) return topology;
   const auto grid = writtenGrid(evaluation, component);
   auto shape = grid.shape;
   shape.points = toCounts(component, grid.counts);
   constexpr std::uint64_t kElements = 8;  // elements of a grid take this many times the memory of its points
   evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
 
-  Topology topology;
   const auto [nx, ny, nz] = shape.points;
   for (std::size_t z = 0; z < nz; ++z)
     for (std::size_t y = 0; y < ny; ++y)
       for (std::size_t x = 0; x < nx; ++x) topology.given.positions.push_back(shape.point(x, y, z));
   fillGrid(topology, shape.points, gridLists(evaluation, component));
   topology.pointCount = topology.given.positions.size();
-  topology.hasPositions = true;
   topology.cells = {nx - 1, ny - 1, nz - 1};
   topology.grid = shape;
   return topology;

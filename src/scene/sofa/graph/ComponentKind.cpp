@@ -21,6 +21,8 @@ void addModels(Table& table) {
     table[name] = {TriangleModel, "TTriangleModel"};
   for (const auto name : {"TriangleOctreeModel", "TriangleOctree", "TriangleOctreeCollisionModel"})
     table[name] = {TriangleModel, "TriangleOctreeCollisionModel"};
+  for (const auto name : {"BulletTriangleModel", "TBulletTriangleModel"})
+    table[name] = {TriangleModel, "TBulletTriangleModel"};
   for (const auto name :
        {"SphereModel", "SphereCollisionModel", "TSphereModel", "Sphere", "CudaSphereModel", "CudaSphereCollisionModel"})
     table[name] = {SphereModel, "TSphereModel"};
@@ -33,9 +35,11 @@ void addModels(Table& table) {
     table[name] = {OrientedBoxModel, "TOBBModel"};
   for (const auto name : {"Tetrahedron", "TetrahedronModel", "TetrahedronCollisionModel"})
     table[name] = {TetrahedronModel, "TetrahedronModel"};
-  for (const auto name : {"RigidSphere", "RigidSphereModel", "RigidDistanceGridCollisionModel",
-                          "DistanceGridCollisionModel", "FFDDistanceGridCollisionModel", "SpatialGridPointModel",
-                          "RayModel", "RayCollisionModel", "Ray", "ImplicitSurfaceCollisionModel"})
+  for (const auto name : {"RigidDistanceGridCollisionModel", "DistanceGridCollisionModel"})
+    table[name] = {RigidDistanceGrid, "RigidDistanceGridCollisionModel"};
+  table["FFDDistanceGridCollisionModel"] = {DeformedDistanceGrid, "FFDDistanceGridCollisionModel"};
+  for (const auto name : {"RigidSphere", "RigidSphereModel", "SpatialGridPointModel", "RayModel", "RayCollisionModel",
+                          "Ray", "ImplicitSurfaceCollisionModel"})
     table[name] = {UnknownModel, {}};
 }
 
@@ -48,7 +52,7 @@ void addPipeline(Table& table) {
         "BruteForce", "DirectSAP", "IncrSAP", "IncrementalSAP", "RayTraceDetection"})
     table[name] = {BroadPhase, name};
   for (const auto name : {"DirectSAPNarrowPhase", "RayTraceNarrowPhase"}) table[name] = {Other, name};
-  table["DiscreteIntersection"] = {DiscreteMethod, "DiscreteIntersection"};
+  for (const auto name : {"DiscreteIntersection", "BulletIntersection"}) table[name] = {DiscreteMethod, name};
   for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance",
                           "CCDTightInclusionIntersection", "CudaProximityIntersection"})
     table[name] = {ProximityMethod, name};
@@ -83,6 +87,8 @@ void addMappings(Table& table) {
   table["Hexa2TetraTopologicalMapping"] = {Hexa2Tetra, {}};
   table["Triangle2EdgeTopologicalMapping"] = {Triangle2Edge, {}};
   table["Edge2QuadTopologicalMapping"] = {Edge2Quad, {}};
+  table["Mesh2PointTopologicalMapping"] = {Mesh2Point, {}};
+  table["SubsetTopologicalMapping"] = {Other, {}};  // It relates two topologies that are there, and fills neither.
   for (const auto name : {"RigidMapping", "RigidRigidMapping"}) table[name] = {RigidMapping, name};
   for (const auto name : {"BeamLinearMapping", "BeamLinearMapping_mt"}) table[name] = {BeamLinearMapping, name};
   table["IdentityMapping"] = {IdentityMapping, "IdentityMapping"};
@@ -94,6 +100,7 @@ void addMappings(Table& table) {
   table["DeformableOnRigidFrameMapping"] = {DeformableOnRigidFrameMapping, "DeformableOnRigidFrameMapping"};
   for (const auto name : {"SkinningMapping", "LinearBlendSkinningMapping"})
     table[name] = {SkinningMapping, "SkinningMapping"};
+  table["CenterOfMassMapping"] = {CenterOfMassMapping, {}};
   table["ArticulatedSystemMapping"] = {ArticulatedMapping, {}};
   table["ArticulatedHierarchyContainer"] = {ArticulatedHierarchy, {}};
   table["ArticulationCenter"] = {ArticulationCenter, {}};
@@ -113,6 +120,11 @@ void addSources(Table& table) {
   table["MergePoints"] = {MergePoints, "MergePoints"};
   table["SubsetTopology"] = {SubsetTopology, "SubsetTopology"};
   table["BoxROI"] = {BoxRoi, "BoxROI"};
+  table["QuatToRigidEngine"] = {QuatToRigid, "QuatToRigidEngine"};
+  table["MeanComputation"] = {MeanComputation, "MeanComputation"};
+  table["Spiral"] = {Spiral, "Spiral"};
+  table["MeshTetraStuffing"] = {MeshTetraStuffing, "MeshTetraStuffing"};
+  for (const auto name : {"RazerHydraDriver", "GeomagicDriver"}) table[name] = {Device, name};
 }
 
 const Table& knownClasses() {
@@ -132,7 +144,8 @@ const Table& knownClasses() {
 bool isPluginModel(std::string_view type) {
   const auto has = [type](std::string_view part) { return type.find(part) != std::string_view::npos; };
   if (!type.ends_with("Model") || type.starts_with("Ogl") || has("Visual") || has("Splat")) return false;
-  return has("Sphere") || has("Point") || has("Line") || has("Triangle") || has("Capsule") || has("ConvexHull");
+  return has("Sphere") || has("Point") || has("Line") || has("Triangle") || has("Capsule") || has("Cylinder") ||
+         has("OBB") || has("ConvexHull");
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ std::string newClassName(const Component& component) {
 }
 
 void nameByClass(Node& node) {
+  if (!node.isNamed) node.name.clear();
   std::map<std::string, std::size_t> counters;
   for (const auto& component : node.components) {
     if (component->isNamed) continue;

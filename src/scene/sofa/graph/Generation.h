@@ -14,7 +14,8 @@ enum class Generation { Sofa20, Sofa26 };
 /// The generation that was asked for, or else the one that knows all components of a scene; the older if both do.
 [[nodiscard]] Generation generationOf(const Node& root, SofaVersion asked);
 
-/// Names components that have no name as newer SOFA does: by their class and a number of their own in each node.
+/// Names components that have no name as newer SOFA does: by their class and a number of their own in each node; nodes
+/// without a name stay without.
 void nameByClass(Node& node);
 
 /// The class behind a name in a scene, as newer SOFA calls it: "TriangleCollisionModel" for "Triangle".

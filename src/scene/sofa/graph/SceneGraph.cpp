@@ -27,7 +27,10 @@ void Attributes::set(std::string_view name, std::string_view value) {
     m_entries.push_back({std::string{name}, std::string{value}});
 }
 
-std::string Component::path() const { return node->path() + '/' + name; }
+std::string Component::path() const {
+  const auto above = node->path();
+  return above == "/" ? above + name : above + '/' + name;  // SOFA takes a node without a name for the root.
+}
 
 std::string Component::describe() const { return type + " '" + name + "' (" + path() + ')'; }
 

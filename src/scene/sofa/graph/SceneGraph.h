@@ -60,7 +60,8 @@ struct Component {
 
 /// One node of a scene, with what is in it.
 struct Node {
-  std::string name;
+  std::string name;  ///< As given, or as SOFA would number it; newer SOFA leaves it empty.
+  bool isNamed = false;
   bool active = true;
   std::string gravity;  ///< As given; empty where it is not.
   Place place;

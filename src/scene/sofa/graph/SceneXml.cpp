@@ -165,7 +165,15 @@ class ElementReader {
   }
 
  private:
+  /// SOFA's parser refuses an attribute that is given twice; ours would take the last.
+  static void checkAttributes(const SourceFile& file, const pugi::xml_node& xml) {
+    for (const auto& attribute : xml.attributes())
+      if (xml.attribute(attribute.name()) != attribute)
+        throw Unplaceable(file.placeOf(xml), "not well-formed XML: two attributes of an element have the same name");
+  }
+
   std::optional<Element> read(const SourceFile& file, const pugi::xml_node& xml) {
+    checkAttributes(file, xml);
     if (std::string_view{xml.name()} == "include") return readInclude(file, xml, xml.attribute("href").value());
     auto element = makeElement(file, xml);
     if (!element) return element;
@@ -264,6 +272,7 @@ void addComponent(Node& node, Element&& element) {
 std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   auto node = std::make_unique<Node>();
   node->name = std::move(element.name);
+  node->isNamed = element.isNamed;
   node->place = element.place;
   node->parent = parent;
   if (const auto* gravity = element.attributes.find("gravity")) node->gravity = *gravity;

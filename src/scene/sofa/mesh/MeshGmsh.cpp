@@ -8,8 +8,8 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-/// Reads the ASCII forms 1 and 2 of Gmsh's meshes.
-/// Reference: Gmsh reference manual, "Legacy formats".
+/// Reads the ASCII forms 1, 2 and 4.1 of Gmsh's meshes. Of form 4.1 SOFA numbers nodes in the order of the file.
+/// Reference: Gmsh reference manual, "MSH file format" and "Legacy formats".
 class GmshReader {
  public:
   explicit GmshReader(const std::filesystem::path& path) : m_text(path) {}
@@ -20,9 +20,9 @@ class GmshReader {
       if (word == "$MeshFormat")
         readFormat();
       else if (word == "$NOD" || word == "$Nodes")
-        points = true, readPoints();
+        points = true, m_form == 4 ? readPointBlocks() : readPoints();
       else if (word == "$ELM" || word == "$Elements")
-        elements = true, readElements();
+        elements = true, m_form == 4 ? readElementBlocks() : readElements();
     }
     if (!points) m_text.fail("this is no Gmsh mesh: it has no list of nodes");
     if (!elements) m_text.fail("the list of elements is missing");
@@ -32,9 +32,12 @@ class GmshReader {
  private:
   void readFormat() {
     const double version = m_text.number();
-    if (version < 2 || version >= 3) m_text.fail("only the forms 1 and 2 of Gmsh meshes can be read");
+    constexpr double kBlocks = 4.1;  // 4.0 has its numbers in another order, which SOFA does not read either
+    const bool isPlain = version >= 2 && version < 3;
+    if (!isPlain && !(version >= kBlocks && version < 5))
+      m_text.fail("only the forms 1, 2 and 4.1 of Gmsh meshes can be read");
     if (m_text.integer() != 0) m_text.fail("only Gmsh meshes in ASCII can be read");
-    m_form = 2;
+    m_form = isPlain ? 2 : 4;
   }
 
   void readPoints() {
@@ -46,6 +49,40 @@ class GmshReader {
       m_mesh.positions.push_back(position);
     }
     m_text.expect(m_form == 2 ? "$EndNodes" : "$ENDNOD");
+  }
+
+  void readPointBlocks() {
+    const auto blocks = m_text.integer();
+    for (int i = 0; i < 3; ++i) m_text.integer();
+    for (std::int64_t block = 0; block < blocks; ++block) {
+      for (int i = 0; i < 3; ++i) m_text.integer();
+      const auto count = m_text.integer();
+      for (std::int64_t i = 0; i < count; ++i) m_text.integer();
+      for (std::int64_t i = 0; i < count; ++i) {
+        m_indices[static_cast<std::int64_t>(m_mesh.positions.size()) + 1] = static_cast<Index>(m_mesh.positions.size());
+        Vec3 position{};
+        for (auto& coordinate : position) coordinate = m_text.number();
+        m_mesh.positions.push_back(position);
+        m_text.skipLine();  // Parametric coordinates may follow.
+      }
+    }
+    m_text.expect("$EndNodes");
+  }
+
+  void readElementBlocks() {
+    const auto blocks = m_text.integer();
+    for (int i = 0; i < 3; ++i) m_text.integer();
+    for (std::int64_t block = 0; block < blocks; ++block) {
+      for (int i = 0; i < 2; ++i) m_text.integer();
+      const auto type = m_text.integer();
+      for (auto count = m_text.integer(); count > 0; --count) {
+        m_text.integer();
+        m_corners.clear();
+        for (auto corners = cornersOf(type); corners > 0; --corners) m_corners.push_back(pointIndex());
+        if (!addElement(type)) m_text.skipLine();
+      }
+    }
+    m_text.expect("$EndElements");
   }
 
   void readElements() {
@@ -133,12 +170,12 @@ class GmshReader {
     }
   }
 
-  /// Elements of the second order bring their edges along.
+  /// Elements of the second order bring their edges along; those of form 4.1 each edge once in all.
   void addEdges(std::initializer_list<std::array<std::size_t, 2>> edges) {
-    std::set<std::array<Index, 2>> seen;
+    if (m_form != 4) m_seen.clear();
     for (const auto& [a, b] : edges) {
       const std::array<Index, 2> edge{std::min(m_corners[a], m_corners[b]), std::max(m_corners[a], m_corners[b])};
-      if (seen.insert(edge).second) m_mesh.edges.push_back(edge);
+      if (m_seen.insert(edge).second) m_mesh.edges.push_back(edge);
     }
   }
 
@@ -147,6 +184,7 @@ class GmshReader {
   Mesh m_mesh;
   std::unordered_map<std::int64_t, Index> m_indices;
   std::vector<Index> m_corners;
+  std::set<std::array<Index, 2>> m_seen;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace allpairs::scene::sofa {
 
 /// What the elements of a collision model are.
-enum class ModelShape { Points, Lines, Triangles, Tetrahedra, Spheres, Capsules, OrientedBoxes };
+enum class ModelShape { Points, Lines, Triangles, Tetrahedra, Spheres, Capsules, OrientedBoxes, Cells };
 
 /// Everything that a scene says of one collision model, at the start of the simulation.
 struct ModelDescription {
@@ -40,6 +40,7 @@ struct ModelDescription {
   Elements<2> lines;               ///< Of lines; of capsules: the two positions of each.
   Elements<3> triangles;
   Elements<4> tetrahedra;
+  Elements<8> cells;
   std::vector<double> radii;      ///< Of spheres and capsules.
   std::vector<Vec3> halfExtents;  ///< Of oriented boxes.
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "input/FileBytes.h"
 #include "sofa/graph/Links.h"
 
 namespace allpairs::scene::sofa {
@@ -93,6 +94,25 @@ void describeLines(Evaluation& evaluation, const Component& component, ModelDesc
   checkCorners(component, model.lines, model.positions.size());
 }
 
+/// The box around the points of the surface of a distance grid, scaled.
+std::array<Vec3, 2> boundsOfGridSurface(Evaluation& evaluation, const Component& component) {
+  const auto file = evaluation.file(component, {"filename", "fileRigidDistanceGrid"});
+  if (!file || lowerExtension(*file) != ".obj") throw Unplaceable(component, "its surface is no Wavefront file");
+  if (evaluation.number(component, {"sampling"}, 0) != 0 || evaluation.flag(component, "flipNormals", false) ||
+      evaluation.vector(component, {"rotation"}, {}) != Vec3{})
+    throw Unplaceable(component, "a distance grid that is sampled, turned or inside out is not known to this reader");
+  const double scale = std::abs(evaluation.number(component, {"scale"}, 1));
+  const auto surface = readObj(*file);
+  if (surface.positions.empty()) throw Unplaceable(component, "its surface has no points");
+  Vec3 low = surface.positions[0] * scale, high = low;
+  for (const auto& p : surface.positions)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis] * scale);
+      high[axis] = std::max(high[axis], p[axis] * scale);
+    }
+  return {low, high};
+}
+
 void describeTetrahedra(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = pointsOf(evaluation, component).positions;
   model.tetrahedra = topologyOf(evaluation, component).tetrahedra();
@@ -142,6 +162,34 @@ void describeCapsules(Evaluation& evaluation, const Component& component, ModelD
   model.radii = padded(evaluation, component, "listCapsuleRadii", {model.lines.size(), radius});
 }
 
+/// A surface in the frame of a body: SOFA bounds the corners of the box around its points.
+void describeRigidGrid(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  const auto& frames = framesOf(evaluation, component);
+  if (frames.positions.empty()) throw Unplaceable(component, "its state has no frame");
+  const auto [low, high] = boundsOfGridSurface(evaluation, component);
+  const Vec3 shift = evaluation.vector(component, {"translation"}, {});
+  const auto& turn = frames.orientations[0];
+  const Vec3 place = shift == Vec3{} ? frames.positions[0] : frames.positions[0] + rotate(turn, shift);
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3 local{corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]};
+    model.positions.push_back(place + rotate(turn, local));
+  }
+  model.cells.push_back({0, 1, 2, 3, 4, 5, 6, 7});
+}
+
+/// A surface that bends with a grid: SOFA bounds the cells of the grid, whatever the surface is.
+void describeDeformedGrid(Evaluation& evaluation, const Component& component, ModelDescription& model) {
+  model.positions = pointsOf(evaluation, component).positions;
+  const auto isGrid = [](const Component& c) { return c.kind() == RegularGrid || c.kind() == SparseGrid; };
+  const auto* link = component.attributes.find("topology");
+  const auto* grid = link != nullptr ? followTo(component, *link, isGrid) : &topologyComponentOf(component);
+  if (grid == nullptr || !isGrid(*grid)) throw Unplaceable(component, "its topology is no grid");
+  const auto& topology = evaluation.topology(*grid);
+  if (topology.unknown) throw Unplaceable(component, "the cells of its sparse grid are not known to this reader");
+  model.cells = topology.hexahedra();
+  checkCorners(component, model.cells, model.positions.size());
+}
+
 void describeElements(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   switch (component.kind()) {
     case PointModel:
@@ -166,6 +214,12 @@ void describeElements(Evaluation& evaluation, const Component& component, ModelD
     case TetrahedronModel:
       describeTetrahedra(evaluation, component, model);
       break;
+    case RigidDistanceGrid:
+      describeRigidGrid(evaluation, component, model);
+      break;
+    case DeformedDistanceGrid:
+      describeDeformedGrid(evaluation, component, model);
+      break;
     default:
       throw Unplaceable(component, "this kind of collision model is not known to this reader");
   }
@@ -186,6 +240,9 @@ ModelShape shapeOf(ComponentKind kind) {
       return ModelShape::OrientedBoxes;
     case TetrahedronModel:
       return ModelShape::Tetrahedra;
+    case RigidDistanceGrid:
+    case DeformedDistanceGrid:
+      return ModelShape::Cells;
     default:
       return ModelShape::Points;
   }
@@ -217,6 +274,8 @@ std::size_t ModelDescription::elementCount() const {
       return triangles.size();
     case ModelShape::Tetrahedra:
       return tetrahedra.size();
+    case ModelShape::Cells:
+      return cells.size();
     default:
       return positions.size();
   }

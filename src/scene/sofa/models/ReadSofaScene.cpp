@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <span>
 #include <utility>
 
 #include "allpairs/Error.h"
@@ -6,6 +7,7 @@
 #include "allpairs/collision/DiscreteIntersection.h"
 #include "allpairs/collision/LineModel.h"
 #include "allpairs/collision/LocalMinDistance.h"
+#include "allpairs/collision/MeshModel.h"
 #include "allpairs/collision/MinProximityIntersection.h"
 #include "allpairs/collision/NewProximityIntersection.h"
 #include "allpairs/collision/OrientedBoxModel.h"
@@ -31,12 +33,39 @@ class CylinderModel final : public collision::CapsuleModel {
   [[nodiscard]] std::string_view typeName() const override { return "TCylinderModel"; }
 };
 
-/// SOFA's octrees of triangles have the boxes of triangle models, under a name of their own.
-class TriangleOctreeModel final : public collision::TriangleModel {
+/// Some classes of SOFA, such as octrees of triangles, have the boxes of triangle models, under names of their own.
+class NamedTriangleModel final : public collision::TriangleModel {
  public:
-  using TriangleModel::TriangleModel;
+  NamedTriangleModel(sofa::ModelDescription& model)
+      : TriangleModel(model.path, std::move(model.positions), std::move(model.triangles)), m_type(model.type) {}
 
-  [[nodiscard]] std::string_view typeName() const override { return "TriangleOctreeCollisionModel"; }
+  [[nodiscard]] std::string_view typeName() const override { return m_type; }
+
+ private:
+  std::string m_type;
+};
+
+/// Cells of eight points each, bounded without the contact distance; SOFA's distance grids.
+class CellModel final : public collision::MeshModel {
+ public:
+  CellModel(std::string name, std::string type, std::vector<collision::Vec3> positions, sofa::Elements<8> cells)
+      : MeshModel(std::move(name), std::move(positions)), m_type(std::move(type)), m_cells(std::move(cells)) {
+    for (std::size_t i = 0; i < m_cells.size(); ++i) checkVertices(m_cells[i], i);
+  }
+
+  [[nodiscard]] std::size_t getSize() const override { return m_cells.size(); }
+  [[nodiscard]] std::string_view typeName() const override { return m_type; }
+
+ protected:
+  [[nodiscard]] std::span<const std::uint32_t> verticesOf(std::size_t index,
+                                                          std::uint32_t& /*storage*/) const override {
+    return m_cells[index];
+  }
+  [[nodiscard]] double margin() const override { return 0.0; }
+
+ private:
+  std::string m_type;
+  sofa::Elements<8> m_cells;
 };
 
 Model makeOrientedBoxes(sofa::ModelDescription& model) {
@@ -58,11 +87,12 @@ Model makeCapsules(sofa::ModelDescription& model) {
 }
 
 Model makeTriangles(sofa::ModelDescription& model) {
-  auto triangles =
-      model.type == "TriangleOctreeCollisionModel"
-          ? std::make_unique<TriangleOctreeModel>(model.path, std::move(model.positions), std::move(model.triangles))
-          : std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions),
-                                                       std::move(model.triangles));
+  std::unique_ptr<collision::TriangleModel> triangles;
+  if (model.type == "TTriangleModel")
+    triangles =
+        std::make_unique<collision::TriangleModel>(model.path, std::move(model.positions), std::move(model.triangles));
+  else
+    triangles = std::make_unique<NamedTriangleModel>(model);
   triangles->setUseCurvature(model.useCurvature);
   return triangles;
 }
@@ -83,6 +113,8 @@ Model makeElements(sofa::ModelDescription& model) {
       return makeCapsules(model);
     case OrientedBoxes:
       return makeOrientedBoxes(model);
+    case Cells:
+      return std::make_unique<CellModel>(model.path, model.type, std::move(model.positions), std::move(model.cells));
     case Points:
       break;
   }

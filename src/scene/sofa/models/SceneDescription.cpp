@@ -32,6 +32,11 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
   MethodDescription result{.name = method->type, .proximity = method->kind() == ComponentKind::ProximityMethod};
   result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, result.proximity ? 1.0 : 0.0);
   warnOfMotion(evaluation, *method);
+  if (method->type == "BulletIntersection") {
+    evaluation.warn(*method,
+                    "Bullet detects in this scene, with margins of its own; here the models' own boxes are tested");
+    return result;
+  }
   result.contactDistance = evaluation.number(*method, {"contactDistance"}, result.proximity ? 0.5 : 0.0);
   return result;
 }
