@@ -332,6 +332,15 @@ TEST_F(SofaMapping, ArticulatedBodiesHangOnEachOther) {
   EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base' indexInput2='0'")), is(1, 1, 9));
 }
 
+TEST_F(SofaMapping, BeamsOfArticulatedBodiesAreAsLongAsTheirFramesAreWritten) {
+  // The frames are written 3 apart, and the joint puts the second one 2 from the first.
+  auto text = articulated("0", kAboutZ, "", "", "3 0 0 0 0 0 1");
+  const std::string rigid = "<RigidMapping index='1'/>", point = "<MechanicalObject position='0 0 0'/>";
+  text.replace(text.find(rigid), rigid.size(), "<BeamLinearMapping/>");
+  text.replace(text.find(point), point.size(), "<MechanicalObject position='0 0 0  1 0.5 0'/>");
+  EXPECT_THAT(onlyBox(readIn(text)), IsBox(Corners{0, 0, 0, 2, 1.5, 0}));
+}
+
 TEST_F(SofaMapping, ArticulatedBodiesWithoutJointsStayWhereTheyAreAndThatIsSaid) {
   auto text = articulated("0", kAboutZ, "", "", "7 0 0 0 0 0 1");
   text.replace(text.find("input1"), 6, "input");

@@ -136,6 +136,11 @@ void placeRoot(Evaluation& evaluation, const Component& mapping, State& bodies) 
 
 }  // namespace
 
+State articulatedAtStart(Evaluation& evaluation, const Component& mapping, State child) {
+  if (stateNamed(mapping, "input1") != nullptr) placeRoot(evaluation, mapping, child);
+  return child;
+}
+
 State mapArticulated(Evaluation& evaluation, const Component& mapping, State child) {
   const auto* angles = stateNamed(mapping, "input1");
   if (angles == nullptr) {

@@ -53,9 +53,12 @@ State mapOnBeams(Evaluation& evaluation, const Component& mapping, const Compone
   if (frames.kind != State::Kind::Rigid || frames.positions.size() < 2)
     throw Unplaceable(mapping, "it needs beams: a rigid state of two frames or more");
   if (child.kind != State::Kind::Points) throw Unplaceable(mapping, "its output is no state of points");
-  const auto lengths = beamLengths(frames);
+  const auto* joints = evaluation.mappingOf(beams);
+  const bool isJointed = joints != nullptr && joints->kind() == ComponentKind::ArticulatedMapping;
+  const auto bound = isJointed ? articulatedAtStart(evaluation, *joints, initialState(evaluation, beams)) : frames;
+  const auto lengths = beamLengths(bound);
   const bool isLocal = evaluation.flag(mapping, "localCoord", true);
-  for (auto& p : child.positions) p = onBeam(frames, lengths, isLocal ? p : alongBeams(mapping, frames, lengths, p));
+  for (auto& p : child.positions) p = onBeam(frames, lengths, isLocal ? p : alongBeams(mapping, bound, lengths, p));
   child.fromTopology.reset();
   return child;
 }

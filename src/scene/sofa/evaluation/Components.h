@@ -34,6 +34,8 @@ class Evaluation;
 [[nodiscard]] State mapSkin(Evaluation& evaluation, const Component& mapping, const Component& bones, State child);
 /// One point, in the middle of the masses of rigid frames.
 [[nodiscard]] State mapCentre(Evaluation& evaluation, const Component& mapping, const Component& bodies, State child);
+/// The same frames when those that follow them are made: as written, the first one carried, before any joint counts.
+[[nodiscard]] State articulatedAtStart(Evaluation& evaluation, const Component& mapping, State child);
 /// Rigid frames that hang on each other by joints, at the angles of another state.
 [[nodiscard]] State mapArticulated(Evaluation& evaluation, const Component& mapping, State child);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,

@@ -57,8 +57,7 @@ class CellModel final : public collision::MeshModel {
   [[nodiscard]] std::string_view typeName() const override { return m_type; }
 
  protected:
-  [[nodiscard]] std::span<const std::uint32_t> verticesOf(std::size_t index,
-                                                          std::uint32_t& /*storage*/) const override {
+  [[nodiscard]] Span<const std::uint32_t> verticesOf(std::size_t index, std::uint32_t& /*storage*/) const override {
     return m_cells[index];
   }
   [[nodiscard]] double margin() const override { return 0.0; }
