@@ -59,7 +59,7 @@ void ModelPool::bring(sofa::core::CollisionModel& root) {
   const bool isKnown = found != m_places.end() && found->second >= m_used;
   const std::size_t place = isKnown ? found->second : m_models.size();
   if (!isKnown) m_models.push_back(std::make_unique<TrackedModel>(root));
-  if (isKnown) m_places.erase(found);  // of two that are the same root's the other is made anew
+  if (isKnown) m_places.erase(found);  // a root that was added twice gets a second object
   std::swap(m_models[m_used], m_models[place]);
   if (place != m_used) m_places[m_models[place]->root()] = place;
 }
