@@ -64,7 +64,7 @@ class Filler {
     if (indent == text.size()) {
       m_text += '\n';
     } else if (indent > kDeepest) {
-      add(m_column, m_column, text);  // more of the column above
+      add({m_column, m_column}, text);  // more of the column above
     } else {
       entry(text, indent);
     }
@@ -83,12 +83,12 @@ class Filler {
   void entry(std::string_view text, std::size_t indent) {
     const std::size_t end = text.find("  ", indent);
     const std::string_view name = text.substr(0, end);
-    if (end == std::string_view::npos) return add(indent, indent + kIndent, name, endOf(name));
+    if (end == std::string_view::npos) return add({indent, indent + kIndent}, name, endOf(name));
     m_column = text.find_first_not_of(' ', end);
     if (m_column + kLeast <= m_width)
-      return add(indent, m_column, text.substr(m_column), "", text.substr(indent, m_column - indent));
-    add(indent, indent + kIndent, name, endOf(name));
-    add(indent + kIndent, indent + kIndent, text.substr(m_column));
+      return add({indent, m_column}, text.substr(m_column), "", text.substr(indent, m_column - indent));
+    add({indent, indent + kIndent}, name, endOf(name));
+    add({indent + kIndent, indent + kIndent}, text.substr(m_column));
     m_column = indent + kIndent;
   }
 
@@ -97,19 +97,24 @@ class Filler {
   }
 
   void endParagraph() {
-    if (!m_paragraph.empty()) add(0, 0, m_paragraph);
+    if (!m_paragraph.empty()) add({0, 0}, m_paragraph);
     m_paragraph.clear();
   }
 
-  /// A text whose first line begins at `first`, behind `head`, and whose others begin at `rest`; `end` says that more comes.
-  void add(std::size_t first, std::size_t rest, std::string_view text, std::string_view end = "",
-           std::string_view head = "") {
-    std::string line = std::string(first, ' ') + std::string(head);
+  /// Where the first line of a text begins, and where the others do.
+  struct Indents {
+    std::size_t first = 0;
+    std::size_t rest = 0;
+  };
+
+  /// A text whose first line begins behind `head`; `end` says that more comes.
+  void add(Indents indents, std::string_view text, std::string_view end = "", std::string_view head = "") {
+    std::string line = std::string(indents.first, ' ') + std::string(head);
     bool isBegin = true;
     for (const std::string_view word : wordsOf(text)) {
       if (!isBegin && columnsOf(line) + 1 + columnsOf(word) + end.size() > m_width) {
         m_text.append(line).append(end) += '\n';
-        line = std::string(rest, ' ');
+        line = std::string(indents.rest, ' ');
         isBegin = true;
       }
       line.append(isBegin ? "" : " ").append(word);

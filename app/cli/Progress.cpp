@@ -38,10 +38,10 @@ std::size_t lineWidth() {
 
 std::string progressText(const std::string& now, double part, double seconds, std::size_t width) {
   constexpr std::size_t kBar = 20;
-  constexpr double kLeast = 0.02;  // of the work: of less, nothing can be said of the rest
+  constexpr double kLeastPart = 0.02;  // of the work: of less, nothing can be said of the rest
   const auto filled = static_cast<std::size_t>(part * static_cast<double>(kBar));
   std::string text = fmt::format("[{:<{}}] {:3.0f} %", std::string(filled, '#'), kBar, std::floor(100.0 * part));
-  if (part >= kLeast && part < 1.0) text += fmt::format(", {} left", timeText(seconds / part - seconds));
+  if (part >= kLeastPart && part < 1.0) text += fmt::format(", {} left", timeText(seconds / part - seconds));
   const std::size_t left = width > text.size() + 2 ? width - text.size() - 2 : 0;
   return left == 0 ? text : elided(now, left) + "  " + text;
 }

@@ -53,12 +53,12 @@ std::size_t emptyAxis(const Box& box) {
   return 3;
 }
 
-/// Says which box of a file is the first that is empty. `boxOf` and `nameOf` take the row of a box.
+/// What to say of a file's boxes with min above max: which one is the first, and how many others. Its reason is empty if there is
+/// none. `boxOf` and `nameOf` take the row of a box.
 template <class BoxOf, class NameOf>
-void noteEmpty(const std::filesystem::path& file, std::size_t boxes, const BoxOf& boxOf, const NameOf& nameOf,
-               std::vector<scene::Remark>& warnings) {
+scene::Remark remarkOnEmpty(std::filesystem::path file, std::size_t boxes, const BoxOf& boxOf, const NameOf& nameOf) {
   std::size_t count = 0;
-  scene::Remark remark{.file = file};
+  scene::Remark remark{.file = std::move(file)};
   for (std::size_t i = 0; i < boxes; ++i) {
     const std::size_t axis = emptyAxis(boxOf(i));
     if (axis == 3 || ++count > 1) continue;
@@ -66,10 +66,13 @@ void noteEmpty(const std::filesystem::path& file, std::size_t boxes, const BoxOf
     remark.subject = fmt::format("box {}", i) + (name == std::to_string(i) ? "" : " '" + name + "'");
     remark.reason = fmt::format("min above max on {}", "xyz"[axis]);
   }
-  if (count == 0) return;
   if (count > 1) remark.reason += " (and " + counted(count - 1, "other box", "other boxes") + ")";
-  remark.reason += ": empty, in no pair";
-  warnings.push_back(std::move(remark));
+  if (count > 0) remark.reason += ": empty, in no pair";
+  return remark;
+}
+
+void add(scene::Remark remark, std::vector<scene::Remark>& remarks) {
+  if (!remark.reason.empty()) remarks.push_back(std::move(remark));
 }
 
 std::filesystem::path shownPath(const InputSettings& settings, const std::string& path) {
@@ -82,9 +85,9 @@ BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& 
   for (const std::string& path : settings.paths) {
     arrays.push_back(scene::readBoxArray(path, options));
     const scene::BoxArray& boxes = arrays.back();
-    noteEmpty(
-        shownPath(settings, path), boxes.size(), [&](std::size_t i) { return boxes.boxes()[i]; },
-        [&](std::size_t i) { return boxes.name(i); }, input.warnings);
+    const auto boxOf = [&boxes](std::size_t i) { return boxes.boxes()[i]; };
+    const auto nameOf = [&boxes](std::size_t i) { return boxes.name(i); };
+    add(remarkOnEmpty(shownPath(settings, path), boxes.size(), boxOf, nameOf), input.warnings);
   }
   input.boxes = scene::BoxArray::concatenate(std::move(arrays));
   return input;
@@ -105,10 +108,11 @@ Box boxAsRead(const collision::CollisionModel& model) {
 scene::Scene readScene(const InputSettings& settings, std::size_t input, const scene::ReadOptions& options) {
   const std::string& path = settings.paths[input];
   scene::Scene scene = scene::readInput(path, options);
-  if (scene::isBoxArrayFile(path))
-    noteEmpty(
-        path, scene.models.size(), [&](std::size_t i) { return boxAsRead(*scene.models[i]); },
-        [&](std::size_t i) { return scene.models[i]->getName(); }, scene.warnings);
+  if (scene::isBoxArrayFile(path)) {
+    const auto boxOf = [&scene](std::size_t i) { return boxAsRead(*scene.models[i]); };
+    const auto nameOf = [&scene](std::size_t i) { return scene.models[i]->getName(); };
+    add(remarkOnEmpty(path, scene.models.size(), boxOf, nameOf), scene.warnings);
+  }
   if (settings.spooled != nullptr)
     nameAsGiven(*settings.spooled, scene);  // models are named by it when others are there
   return scene;

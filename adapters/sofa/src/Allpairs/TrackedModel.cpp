@@ -85,8 +85,10 @@ void TrackedModel::readLevels() {
   const sofa::core::CollisionModel::SPtr last = m_root->getLast();
   m_belowRoot = m_root->getNext();
   m_aboveLast = last->getPrevious();
-  m_hasBox = typeid(*m_root) == typeid(geometry::CubeCollisionModel);
-  if (isPlainType(typeid(*last))) {
+  const sofa::core::CollisionModel& root = *m_root;
+  const sofa::core::CollisionModel& elements = *last;
+  m_hasBox = typeid(root) == typeid(geometry::CubeCollisionModel);
+  if (isPlainType(typeid(elements))) {
     m_model = std::make_unique<collision::HostedModel>(m_root.get());
   } else {
     m_model = std::make_unique<AskingModel>(m_root.get());
@@ -104,7 +106,8 @@ void TrackedModel::readData() {
   const auto distance = static_cast<double>(m_root->getContactDistance());
   m_hasContactDistance = std::isfinite(distance);
   m_model->setContactDistance(m_hasBox && m_hasContactDistance ? distance : 0.0);
-  m_mayCollideWithItself = m_last->getSelfCollision() || typeid(*m_model) == typeid(AskingModel);
+  const collision::HostedModel& model = *m_model;
+  m_mayCollideWithItself = m_last->getSelfCollision() || typeid(model) == typeid(AskingModel);
   cleanDirty();  // after all has been read: it is what makes SOFA report the next change
 }
 

@@ -29,7 +29,8 @@ double spiralAngle(double length, double curvature) {
 }
 
 Vec3 rolledUp(const Vec3& p, double curvature) {
-  constexpr double kSteepest = double{0.8F};  // y of a normal near the middle, where the spiral's sheets would meet
+  constexpr double kSteepest =
+      static_cast<double>(0.8F);  // y of a normal near the middle, where the spiral's sheets would meet
   const double angle = spiralAngle(p[0] > 0 ? p[0] : -p[0], curvature);
   const double radius = p[0] > 0 ? curvature * angle : -curvature * angle;
   const double sine = std::sin(angle), cosine = std::cos(angle);
