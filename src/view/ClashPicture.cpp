@@ -138,7 +138,7 @@ class Drawing {
     const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double length = std::sqrt(dot(normal, normal));
     const double brightness = 0.45 + 0.55 * (length > 0.0 ? std::abs(dot(normal, m_light)) / length : 1.0);
-    for (std::uint8_t& part : colour) part = static_cast<std::uint8_t>(part * brightness + 0.5);
+    for (std::uint8_t& part : colour) part = shade(part * brightness);
     return colour;
   }
 

@@ -102,7 +102,7 @@ void Raster::veil(const std::array<RasterPoint, 3>& corners, Colour colour, doub
 void Raster::mix(std::size_t pixel, Colour colour, double opacity) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double mixed = m_pixels[pixel][i] + opacity * (colour[i] - m_pixels[pixel][i]);
-    m_pixels[pixel][i] = static_cast<std::uint8_t>(mixed + 0.5);  // none is negative
+    m_pixels[pixel][i] = shade(mixed);
   }
 }
 
