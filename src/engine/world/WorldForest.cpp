@@ -27,6 +27,9 @@ constexpr std::size_t kShareOfRoom = 8;
 /// those at the end are in none.
 constexpr std::size_t kShareOfAppended = 64;
 
+/// If at least one box of a world in this many has changed, all its blocks are read again: most would be anyway.
+constexpr std::size_t kShareOfMoved = 16;
+
 /// No world: there are fewer.
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
@@ -57,7 +60,7 @@ std::uint64_t WorldForest::update(const BoxStore& store, const WorldMembers& mem
   std::atomic<std::uint64_t> orders = 0;
   executor.run(m_runs.size(), [&](std::size_t run) {
     for (std::size_t i = run == 0 ? 0 : m_runs[run - 1]; i < m_runs[run]; ++i) {
-      if (refresh(m_dirty[i], reader)) ++orders;
+      if (refresh(m_dirty[i], store, reader)) ++orders;
     }
   });
   m_isExact = std::none_of(m_trees.begin(), m_trees.end(), [](const Tree& tree) { return tree.isInexact; });
@@ -205,19 +208,22 @@ void WorldForest::renumber(const WorldMembers& members) {
 /// Lists the worlds with boxes that have changed.
 void WorldForest::findDirty(const BoxStore& store) {
   for (const BoxId id : store.stale()) {
-    if (id < m_home.size() && m_home[id] != kNowhere) markDirty(m_home[id]);
+    if (id >= m_home.size() || m_home[id] == kNowhere) continue;
+    markDirty(m_home[id]);
+    ++m_trees[m_home[id]].moved;
   }
 }
 
 /// Reads a world's boxes; returns whether they were put in order.
-bool WorldForest::refresh(std::size_t world, const BoxReader& reader) {
+bool WorldForest::refresh(std::size_t world, const BoxStore& store, const BoxReader& reader) {
   Tree& tree = m_trees[world];
-  tree.isChanged = false;
+  const bool isSame = !std::exchange(tree.isChanged, false);
+  const bool isFew = std::exchange(tree.moved, 0) * kShareOfMoved < tree.size && isSame && tree.isOrdered;
   const bool hasOrder = tree.size > kFewInAnyOrder;
   const bool hasMany = tree.appended * kShareOfAppended > tree.size;
   bool isDue = hasOrder && (!tree.isOrdered || hasMany || tree.rule.isDue(tree.size));
   if (!isDue) {
-    gather(world, reader);
+    isFew ? gatherStale(tree, store, reader) : gather(world, reader);
     isDue = hasOrder && spreadOf(tree) > kMostSpread * tree.spread;
   }
   if (!isDue) return false;
@@ -251,6 +257,28 @@ void WorldForest::gather(std::size_t world, const BoxReader& reader) {
     const std::size_t fill = std::min(kFanOut, tree.size - b * kFanOut);
     exact &= gatherLanes(reader, ids + b * kFanOut, (1U << fill) - 1U, blocks[b]);
   }
+  boundAbove(blocks, count, reader);
+  tree.isInexact = !exact;
+}
+
+/// Reads the blocks again that have boxes which have changed, of a tree that has the same boxes as before.
+void WorldForest::gatherStale(Tree& tree, const BoxStore& store, const BoxReader& reader) {
+  LaneBlock* const blocks = m_blocks.data() + tree.firstBlock;
+  const std::uint32_t* const ids = m_ids.data() + tree.firstLeaf * kFanOut;
+  const std::size_t count = blockCountFor(tree.size);
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::uint32_t* const first = ids + b * kFanOut;
+    const std::size_t fill = std::min(kFanOut, tree.size - b * kFanOut);
+    if (std::none_of(first, first + fill, [&](BoxId id) { return store.isStale(id); })) continue;
+    const bool exact = gatherLanes(reader, first, (1U << fill) - 1U, blocks[b]);
+    tree.isInexact = tree.isInexact || !exact;  // Until all are read again.
+    reader.kernels().boundBlocks(blocks, b, b + 1, blocks + count);
+  }
+  boundAbove(blocks + count, blockCountFor(count), reader);
+}
+
+/// Bounds so many blocks of a level, and all levels above.
+void WorldForest::boundAbove(LaneBlock* blocks, std::size_t count, const BoxReader& reader) const {
   while (count > 1) {
     LaneBlock* const parents = blocks + count;
     emptyBlock(parents[blockCountFor(count) - 1]);
@@ -258,7 +286,6 @@ void WorldForest::gather(std::size_t world, const BoxReader& reader) {
     blocks = parents;
     count = blockCountFor(count);
   }
-  tree.isInexact = !exact;
 }
 
 /// The sum of the sides of a world's blocks of boxes.

@@ -54,10 +54,8 @@ class WorldForest {
   /// Whether the lanes of all boxes are exactly the boxes.
   [[nodiscard]] bool exact() const noexcept { return m_isExact; }
 
-  /// Records a join of a world's dynamic boxes, so many, with its boxes here.
-  void noteJoin(std::size_t world, std::size_t boxes, std::uint64_t tests) noexcept {
-    m_trees[world].rule.note(Joined::All, boxes, tests);
-  }
+  /// The rule of a world.
+  [[nodiscard]] RebuildRule& rule(std::size_t world) noexcept { return m_trees[world].rule; }
 
  private:
   struct Tree {
@@ -67,6 +65,7 @@ class WorldForest {
     std::size_t firstLeaf = 0;   ///< Its ids have places from here on, in blocks.
     std::size_t size = 0;
     std::size_t listed = 0;    ///< Boxes in its list of ids; others than `size` during an update only.
+    std::size_t moved = 0;     ///< During an update: boxes that have changed.
     std::size_t appended = 0;  ///< Boxes since they were put in order.
     bool isChanged = false;    ///< During an update: whether boxes have come or gone.
     bool isInexact = false;    ///< Whether the lanes of some box are not exactly the box.
@@ -85,9 +84,11 @@ class WorldForest {
   void requireRoom(std::size_t largest);
   void markDirty(std::size_t world);
   void findDirty(const BoxStore& store);
-  bool refresh(std::size_t world, const BoxReader& reader);
+  bool refresh(std::size_t world, const BoxStore& store, const BoxReader& reader);
   void orderByCurve(Tree& tree, const BoxReader& reader);
   void gather(std::size_t world, const BoxReader& reader);
+  void gatherStale(Tree& tree, const BoxStore& store, const BoxReader& reader);
+  void boundAbove(LaneBlock* blocks, std::size_t count, const BoxReader& reader) const;
   [[nodiscard]] double spreadOf(const Tree& tree) const noexcept;
 
   bool m_ofStatic;
