@@ -191,12 +191,12 @@ void makeWorlds(World& world) {
 /// Large worlds, of which one loses and gets a few boxes, one gets more than it has room for, one ends and one begins.
 void changeWorlds(World& world) {
   std::vector<std::vector<BoxId>> ids;
-  for (std::uint32_t number = 0; number < 5; ++number) ids.push_back(addRandom(world, 200, number, inWorld(number)));
+  for (std::uint32_t number = 0; number < 5; ++number) ids.push_back(addRandom(world, 600, number, inWorld(number)));
   static_cast<void>(world.step());
   static_cast<void>(world.findOverlapping(cube(0, 0, 0)));
   world.remove(std::span(ids[1]).first(3));
   addRandom(world, 2, 6, inWorld(1));
-  addRandom(world, 70, 7, inWorld(2));
+  addRandom(world, 100, 7, inWorld(2));
   const std::vector<BoxProperties> others(10, inWorld(9));
   world.setProperties(std::span(ids[3]).first(10), others);
 }

@@ -20,8 +20,8 @@ namespace allpairs::engine {
 /// Hierarchies over the static or the dynamic boxes of each world of a numbered store, one after the other in memory.
 ///
 /// A world's boxes keep their order until RebuildRule says that it has become a bad one, or they have gone far, as in the
-/// reset of a simulation, or many have been added. An update reads the boxes of worlds again in which many have changed, else of blocks in which some have. A
-/// world that needs more room moves to the end of the memory.
+/// reset of a simulation, or many have been added. An update reads the boxes of worlds again in
+/// which many have changed, else of blocks in which some have. A world that needs more room moves to the end of the memory.
 class WorldForest {
  public:
   WorldForest(std::pmr::memory_resource* memory, bool ofStatic)
