@@ -28,7 +28,7 @@ constexpr std::size_t kShareOfRoom = 8;
 constexpr std::size_t kShareOfAppended = 64;
 
 /// If at least one box of a world in this many has changed, all its blocks are read again: most would be anyway.
-constexpr std::size_t kShareOfMoved = 16;
+constexpr std::size_t kShareOfStale = 16;
 
 /// No world: there are fewer.
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
@@ -218,7 +218,7 @@ void WorldForest::findDirty(const BoxStore& store) {
 bool WorldForest::refresh(std::size_t world, const BoxStore& store, const BoxReader& reader) {
   Tree& tree = m_trees[world];
   const bool isSame = !std::exchange(tree.isChanged, false);
-  const bool isFew = std::exchange(tree.moved, 0) * kShareOfMoved < tree.size && isSame && tree.isOrdered;
+  const bool isFew = std::exchange(tree.moved, 0) * kShareOfStale < tree.size && isSame && tree.isOrdered;
   const bool hasOrder = tree.size > kFewInAnyOrder;
   const bool hasMany = tree.appended * kShareOfAppended > tree.size;
   bool isDue = hasOrder && (!tree.isOrdered || hasMany || tree.rule.isDue(tree.size));
