@@ -233,4 +233,25 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, cons
   m_levels.boundAll(kernels, executor);
 }
 
+void ChangedBoxes::gather(const BoxStore& store, const BvhView& from, const Kernels& kernels, Executor& executor) {
+  const std::span<const std::uint32_t> ids(from.ids, from.depth == 0 ? 0 : from.level[0].size);
+  const auto isChanged = [&](BoxId id) { return store.isTouched(id); };
+  const auto count = static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), isChanged));
+  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (count + count / 4)));
+  m_levels.resize(0);
+  std::size_t next = 0;
+  std::size_t sourceBlock = ids.size();
+  for (std::size_t place = 0; place < ids.size(); ++place) {
+    if (!isChanged(ids[place])) continue;
+    if (place / kFanOut != std::exchange(sourceBlock, place / kFanOut)) {
+      next = m_levels.blockCount() * kFanOut;
+      m_levels.resize(next + kFanOut);
+    }
+    m_levels.block(next / kFanOut).set(next % kFanOut, from.level[0].blocks[place / kFanOut].get(place % kFanOut));
+    m_levels.id(next++) = ids[place];
+  }
+  m_size = count;
+  m_levels.boundAll(kernels, executor);
+}
+
 }  // namespace allpairs::engine

@@ -117,6 +117,9 @@ class ChangedBoxes {
 
   void gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels, Executor& executor);
 
+  /// The same of a hierarchy all of whose places have boxes.
+  void gather(const BoxStore& store, const BvhView& from, const Kernels& kernels, Executor& executor);
+
   [[nodiscard]] BvhLevels& levels() noexcept { return m_levels; }
 
   /// The number of its boxes.

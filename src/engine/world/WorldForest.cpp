@@ -20,6 +20,19 @@ constexpr std::size_t kFewInAnyOrder = 8 * kFanOut;
 /// joining the blocks takes less time than joining them as they are.
 constexpr double kMostSpread = 2.0;
 
+/// The share of room for boxes added later. If as large a share of all boxes was added or removed, all trees are planted anew.
+constexpr std::size_t kShareOfRoom = 8;
+
+/// If at least one box of a world in this many was added since its boxes were put in order, they are put in order again:
+/// those at the end are in none.
+constexpr std::size_t kShareOfAppended = 64;
+
+/// If at least one box of a world in this many has changed, all its blocks are read again: most would be anyway.
+constexpr std::size_t kShareOfStale = 16;
+
+/// No world: there are fewer.
+constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
+
 /// The blocks of all levels of a hierarchy.
 std::size_t allBlocksFor(std::size_t boxes) {
   std::size_t blocks = 0;
@@ -33,83 +46,184 @@ std::size_t allBlocksFor(std::size_t boxes) {
 
 std::uint64_t WorldForest::update(const BoxStore& store, const WorldMembers& members, const BoxReader& reader,
                                   Executor& executor) {
-  const bool plants = !std::exchange(m_isWhole, false) || m_membership != store.membership();
-  if (plants) {
-    plant(store, members);
+  const bool wasWhole = std::exchange(m_isWhole, false);
+  for (const std::uint32_t world : m_dirty) m_marked[world] = 0;
+  m_dirty.clear();
+  if (wasWhole && (m_membership == store.membership() || follow(store, members))) {
+    findDirty(store);
   } else {
-    findDirty(store, members);
+    plant(store, members);
   }
+  m_membership = store.membership();
   cutIntoRuns(
       m_dirty, [this](std::uint32_t world) { return m_trees[world].size; }, m_runs);
   std::atomic<std::uint64_t> orders = 0;
   executor.run(m_runs.size(), [&](std::size_t run) {
     for (std::size_t i = run == 0 ? 0 : m_runs[run - 1]; i < m_runs[run]; ++i) {
-      if (refresh(m_dirty[i], reader, plants)) ++orders;
+      if (refresh(m_dirty[i], store, reader)) ++orders;
     }
   });
-  m_inexactWorlds = static_cast<std::size_t>(std::count(m_inexact.begin(), m_inexact.end(), std::uint8_t{1}));
+  m_isExact = std::none_of(m_trees.begin(), m_trees.end(), [](const Tree& tree) { return tree.isInexact; });
   m_isWhole = true;
   return orders;
 }
 
-/// Assigns places to all boxes, in the order of their ids.
+/// Gives a tree room at the end; it may have had some.
+void WorldForest::giveRoom(Tree& tree) {
+  m_wasted += tree.room;
+  const bool hasOrder = tree.size > kFewInAnyOrder;
+  tree.room = blockCountFor(tree.size + (hasOrder ? tree.size / kShareOfRoom : 0));
+  tree.firstBlock = m_endBlock;
+  tree.firstLeaf = m_endLeaf;
+  m_endBlock += allBlocksFor(tree.room * kFanOut);
+  m_endLeaf += tree.room;
+}
+
+/// Allocates the room that trees have been given, the largest of which has so many boxes.
+void WorldForest::requireRoom(std::size_t largest) {
+  m_blocks.grow(m_endBlock);
+  m_ids.grow(m_endLeaf * kFanOut);
+  if (largest <= kFewInAnyOrder) return;
+  m_keyed.require(m_ids.capacity());
+  m_spare.require(m_ids.capacity());
+}
+
+void WorldForest::markDirty(std::size_t world) {
+  if (std::exchange(m_marked[world], std::uint8_t{1}) == 0) m_dirty.push_back(static_cast<std::uint32_t>(world));
+}
+
+/// Lists all boxes, in the order of their ids.
 void WorldForest::plant(const BoxStore& store, const WorldMembers& members) {
-  m_membership = store.membership();
   const std::size_t worlds = members.everyWorld() + 1;
   m_trees.assign(worlds, {});
-  m_inexact.assign(worlds, 0);
-  m_marked.assign(worlds, 0);
+  m_marked.assign(worlds, 1);
   m_dirty.resize(worlds);
   std::iota(m_dirty.begin(), m_dirty.end(), 0U);
-  std::size_t blocks = 0;
-  std::size_t leaves = 0;
+  m_home.assign(store.idBound(), kNowhere);
+  m_endBlock = 0;
+  m_endLeaf = 0;
   std::size_t largest = 0;
   for (std::size_t world = 0; world < worlds; ++world) {
+    Tree& tree = m_trees[world];
     const std::span<const BoxId> boxes = members.boxes(world);
     const auto isMine = [&](BoxId id) { return belongs(store, id); };
-    const auto size = static_cast<std::size_t>(std::count_if(boxes.begin(), boxes.end(), isMine));
-    m_trees[world].firstBlock = blocks;
-    m_trees[world].firstLeaf = leaves;
-    m_trees[world].size = size;
-    blocks += allBlocksFor(size);
-    leaves += blockCountFor(size);
-    largest = std::max(largest, size);
+    tree.number = members.numberOf(world);
+    tree.size = static_cast<std::size_t>(std::count_if(boxes.begin(), boxes.end(), isMine));
+    tree.listed = tree.size;
+    giveRoom(tree);
+    largest = std::max(largest, tree.size);
   }
-  m_blocks.require(blocks);
-  m_ids.require(leaves * kFanOut);
-  if (largest > kFewInAnyOrder) {
-    m_keyed.require(leaves * kFanOut);
-    m_spare.require(leaves * kFanOut);
-  }
-  std::fill_n(m_ids.data(), leaves * kFanOut, 0U);
+  m_wasted = 0;
+  requireRoom(largest);
+  std::fill_n(m_ids.data(), m_endLeaf * kFanOut, 0U);
   for (std::size_t world = 0; world < worlds; ++world) {
     std::uint32_t* to = m_ids.data() + m_trees[world].firstLeaf * kFanOut;
     for (const BoxId id : members.boxes(world)) {
-      if (belongs(store, id)) *to++ = id;
+      if (!belongs(store, id)) continue;
+      *to++ = id;
+      m_home[id] = static_cast<std::uint32_t>(world);
     }
   }
 }
 
-/// Lists the worlds with boxes that have changed.
-void WorldForest::findDirty(const BoxStore& store, const WorldMembers& members) {
-  for (const std::uint32_t world : m_dirty) m_marked[world] = 0;
-  m_dirty.clear();
-  for (const BoxId id : store.stale()) {
-    if (!store.contains(id)) continue;  // Removed before the last update, if what came after that update threw.
+/// Removes boxes that have gone from the trees, and appends those that have come. Returns false if all are better planted
+/// anew: because many have, or much of the memory is of no tree.
+bool WorldForest::follow(const BoxStore& store, const WorldMembers& members) {
+  if (store.resettled().size() * kShareOfRoom > store.size()) return false;
+  m_home.resize(std::max(m_home.size(), store.idBound()), kNowhere);
+  for (const BoxId id : store.resettled()) {
+    if (m_home[id] == kNowhere) continue;
+    Tree& tree = m_trees[m_home[id]];
+    if (belongs(store, id) && tree.number == store.worldOf(id)) continue;
+    m_home[id] = kNowhere;
+    tree.isChanged = true;
+    --tree.size;
+  }
+  renumber(members);
+  const auto isNew = [&](BoxId id) { return m_home[id] == kNowhere && belongs(store, id); };
+  for (const BoxId id : store.resettled()) {
+    if (!isNew(id)) continue;
+    Tree& tree = m_trees[members.worldOf(id)];
+    tree.isChanged = true;
+    ++tree.size;
+  }
+  std::size_t largest = 0;
+  for (std::size_t world = 0; world < m_trees.size(); ++world) {
+    Tree& tree = m_trees[world];
+    largest = std::max(largest, tree.size);
+    if (!tree.isChanged) continue;
+    markDirty(world);
+    const std::size_t before = tree.firstLeaf * kFanOut;
+    if (blockCountFor(tree.size) > tree.room) {
+      giveRoom(tree);
+      m_ids.grow(m_endLeaf * kFanOut);
+    }
+    const std::uint32_t* const from = m_ids.data() + before;
+    std::uint32_t* const to = m_ids.data() + tree.firstLeaf * kFanOut;
+    const auto isHere = [&](BoxId id) { return m_home[id] == world; };
+    tree.listed = static_cast<std::size_t>(std::copy_if(from, from + tree.listed, to, isHere) - to);
+    std::fill_n(to + tree.listed, tree.room * kFanOut - tree.listed, 0U);
+  }
+  requireRoom(largest);
+  for (const BoxId id : store.resettled()) {
+    if (!isNew(id)) continue;
     const std::size_t world = members.worldOf(id);
-    if (m_marked[world] != 0 || !belongs(store, id)) continue;
-    m_dirty.push_back(static_cast<std::uint32_t>(world));
-    m_marked[world] = 1;
+    Tree& tree = m_trees[world];
+    m_ids[tree.firstLeaf * kFanOut + tree.listed++] = id;
+    m_home[id] = static_cast<std::uint32_t>(world);
+    ++tree.appended;
+  }
+  return m_wasted <= m_endLeaf / 2;
+}
+
+/// Has the trees follow the worlds, of which some may have come and others, without boxes now, gone.
+void WorldForest::renumber(const WorldMembers& members) {
+  const std::size_t worlds = members.everyWorld() + 1;
+  const auto isSame = [&](const Tree& tree) {
+    return tree.number == members.numberOf(static_cast<std::size_t>(&tree - m_trees.data()));
+  };
+  if (m_trees.size() == worlds && std::all_of(m_trees.begin(), m_trees.end(), isSame)) return;
+  m_nextTrees.assign(worlds, {});
+  std::size_t world = 0;
+  for (std::size_t old = 0; old < m_trees.size(); ++old) {
+    const Tree& tree = m_trees[old];
+    for (; world < worlds && members.numberOf(world) < tree.number; ++world) {
+      m_nextTrees[world].number = members.numberOf(world);
+    }
+    if (world == worlds || members.numberOf(world) != tree.number) {
+      m_wasted += tree.room;
+      continue;
+    }
+    m_nextTrees[world] = tree;
+    const std::span<const std::uint32_t> ids(m_ids.data() + tree.firstLeaf * kFanOut, tree.listed);
+    for (const BoxId id : ids) {
+      if (m_home[id] != kNowhere) m_home[id] = static_cast<std::uint32_t>(world);
+    }
+    ++world;
+  }
+  std::swap(m_trees, m_nextTrees);
+  m_marked.assign(worlds, 0);
+}
+
+/// Lists the worlds with boxes that have changed.
+void WorldForest::findDirty(const BoxStore& store) {
+  for (const BoxId id : store.stale()) {
+    if (id >= m_home.size() || m_home[id] == kNowhere) continue;
+    markDirty(m_home[id]);
+    ++m_trees[m_home[id]].moved;
   }
 }
 
 /// Reads a world's boxes; returns whether they were put in order.
-bool WorldForest::refresh(std::size_t world, const BoxReader& reader, bool planted) {
+bool WorldForest::refresh(std::size_t world, const BoxStore& store, const BoxReader& reader) {
   Tree& tree = m_trees[world];
+  const bool isSame = !std::exchange(tree.isChanged, false);
+  const bool isFew = std::exchange(tree.moved, 0) * kShareOfStale < tree.size && isSame && tree.isOrdered;
   const bool hasOrder = tree.size > kFewInAnyOrder;
-  bool isDue = hasOrder && (planted || tree.rule.isDue(tree.size));
+  const bool hasMany = tree.appended * kShareOfAppended > tree.size;
+  bool isDue = hasOrder && (!tree.isOrdered || hasMany || tree.rule.isDue(tree.size));
   if (!isDue) {
-    gather(world, reader);
+    isFew ? gatherStale(tree, store, reader) : gather(world, reader);
     isDue = hasOrder && spreadOf(tree) > kMostSpread * tree.spread;
   }
   if (!isDue) return false;
@@ -121,6 +235,8 @@ bool WorldForest::refresh(std::size_t world, const BoxReader& reader, bool plant
 
 void WorldForest::orderByCurve(Tree& tree, const BoxReader& reader) {
   tree.rule.start();
+  tree.isOrdered = true;
+  tree.appended = 0;
   const std::size_t first = tree.firstLeaf * kFanOut;
   const std::span<CurveKey> keyed(m_keyed.data() + first, tree.size);
   std::uint32_t* const ids = m_ids.data() + first;
@@ -132,7 +248,7 @@ void WorldForest::orderByCurve(Tree& tree, const BoxReader& reader) {
 
 /// Reads a world's boxes, and bounds them.
 void WorldForest::gather(std::size_t world, const BoxReader& reader) {
-  const Tree& tree = m_trees[world];
+  Tree& tree = m_trees[world];
   LaneBlock* blocks = m_blocks.data() + tree.firstBlock;
   const std::uint32_t* const ids = m_ids.data() + tree.firstLeaf * kFanOut;
   bool exact = true;
@@ -141,6 +257,28 @@ void WorldForest::gather(std::size_t world, const BoxReader& reader) {
     const std::size_t fill = std::min(kFanOut, tree.size - b * kFanOut);
     exact &= gatherLanes(reader, ids + b * kFanOut, (1U << fill) - 1U, blocks[b]);
   }
+  boundAbove(blocks, count, reader);
+  tree.isInexact = !exact;
+}
+
+/// Reads the blocks again that have boxes which have changed, of a tree that has the same boxes as before.
+void WorldForest::gatherStale(Tree& tree, const BoxStore& store, const BoxReader& reader) {
+  LaneBlock* const blocks = m_blocks.data() + tree.firstBlock;
+  const std::uint32_t* const ids = m_ids.data() + tree.firstLeaf * kFanOut;
+  const std::size_t count = blockCountFor(tree.size);
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::uint32_t* const first = ids + b * kFanOut;
+    const std::size_t fill = std::min(kFanOut, tree.size - b * kFanOut);
+    if (std::none_of(first, first + fill, [&](BoxId id) { return store.isStale(id); })) continue;
+    const bool exact = gatherLanes(reader, first, (1U << fill) - 1U, blocks[b]);
+    tree.isInexact = tree.isInexact || !exact;  // Until all are read again.
+    reader.kernels().boundBlocks(blocks, b, b + 1, blocks + count);
+  }
+  boundAbove(blocks + count, blockCountFor(count), reader);
+}
+
+/// Bounds so many blocks of a level, and all levels above.
+void WorldForest::boundAbove(LaneBlock* blocks, std::size_t count, const BoxReader& reader) const {
   while (count > 1) {
     LaneBlock* const parents = blocks + count;
     emptyBlock(parents[blockCountFor(count) - 1]);
@@ -148,7 +286,6 @@ void WorldForest::gather(std::size_t world, const BoxReader& reader) {
     blocks = parents;
     count = blockCountFor(count);
   }
-  m_inexact[world] = exact ? 0 : 1;
 }
 
 /// The sum of the sides of a world's blocks of boxes.

@@ -19,14 +19,16 @@ namespace allpairs::engine {
 
 /// Hierarchies over the static or the dynamic boxes of each world of a numbered store, one after the other in memory.
 ///
-/// A world's boxes keep their places until boxes are added or removed, or RebuildRule says that their order along the
-/// curve has become a bad one, or they have gone far, as in the reset of a simulation. An update reads the boxes of worlds again in which some have changed.
+/// A world's boxes keep their order until RebuildRule says that it has become a bad one, or they have gone far, as in the
+/// reset of a simulation, or many have been added. An update reads the boxes of worlds again in
+/// which many have changed, else of blocks in which some have. A world that needs more room moves to the end of the memory.
 class WorldForest {
  public:
   WorldForest(std::pmr::memory_resource* memory, bool ofStatic)
       : m_ofStatic(ofStatic),
         m_trees(memory),
-        m_inexact(memory),
+        m_nextTrees(memory),
+        m_home(memory),
         m_marked(memory),
         m_dirty(memory),
         m_runs(memory),
@@ -50,38 +52,55 @@ class WorldForest {
   [[nodiscard]] BvhView view(std::size_t world) const noexcept;
 
   /// Whether the lanes of all boxes are exactly the boxes.
-  [[nodiscard]] bool exact() const noexcept { return m_inexactWorlds == 0; }
+  [[nodiscard]] bool exact() const noexcept { return m_isExact; }
 
-  /// Records a join of a world's dynamic boxes, so many, with its boxes here.
-  void noteJoin(std::size_t world, std::size_t boxes, std::uint64_t tests) noexcept {
-    m_trees[world].rule.note(Joined::All, boxes, tests);
-  }
+  /// The rule of a world.
+  [[nodiscard]] RebuildRule& rule(std::size_t world) noexcept { return m_trees[world].rule; }
 
  private:
   struct Tree {
+    std::uint32_t number = 0;
+    std::size_t room = 0;        ///< For so many blocks of boxes, with the levels above them.
     std::size_t firstBlock = 0;  ///< Of all levels, the lowest one first.
     std::size_t firstLeaf = 0;   ///< Its ids have places from here on, in blocks.
     std::size_t size = 0;
-    double spread = 0.0;  ///< How wide its blocks of boxes were when they were put in order.
+    std::size_t listed = 0;    ///< Boxes in its list of ids; others than `size` during an update only.
+    std::size_t moved = 0;     ///< During an update: boxes that have changed.
+    std::size_t appended = 0;  ///< Boxes since they were put in order.
+    bool isChanged = false;    ///< During an update: whether boxes have come or gone.
+    bool isInexact = false;    ///< Whether the lanes of some box are not exactly the box.
+    bool isOrdered = false;    ///< Whether they have been put in order.
+    double spread = 0.0;       ///< How wide its blocks of boxes were when they were put in order.
     RebuildRule rule;
   };
 
   [[nodiscard]] bool belongs(const BoxStore& store, BoxId id) const noexcept {
-    return store.isStatic(id) == m_ofStatic;
+    return store.contains(id) && store.isStatic(id) == m_ofStatic;
   }
   void plant(const BoxStore& store, const WorldMembers& members);
-  void findDirty(const BoxStore& store, const WorldMembers& members);
-  bool refresh(std::size_t world, const BoxReader& reader, bool planted);
+  bool follow(const BoxStore& store, const WorldMembers& members);
+  void renumber(const WorldMembers& members);
+  void giveRoom(Tree& tree);
+  void requireRoom(std::size_t largest);
+  void markDirty(std::size_t world);
+  void findDirty(const BoxStore& store);
+  bool refresh(std::size_t world, const BoxStore& store, const BoxReader& reader);
   void orderByCurve(Tree& tree, const BoxReader& reader);
   void gather(std::size_t world, const BoxReader& reader);
+  void gatherStale(Tree& tree, const BoxStore& store, const BoxReader& reader);
+  void boundAbove(LaneBlock* blocks, std::size_t count, const BoxReader& reader) const;
   [[nodiscard]] double spreadOf(const Tree& tree) const noexcept;
 
   bool m_ofStatic;
   bool m_isWhole = false;
-  std::uint64_t m_membership = 0;            ///< That of the store when the trees were planted.
-  std::pmr::vector<Tree> m_trees;            ///< By world.
-  std::pmr::vector<std::uint8_t> m_inexact;  ///< By world: whether the lanes of some box are not exactly the box.
-  std::size_t m_inexactWorlds = 0;
+  std::uint64_t m_membership = 0;          ///< That of the store when the trees were planted.
+  std::pmr::vector<Tree> m_trees;          ///< By world.
+  std::pmr::vector<Tree> m_nextTrees;      ///< Where they are renumbered.
+  std::pmr::vector<std::uint32_t> m_home;  ///< By id: the world whose tree has it.
+  std::size_t m_endBlock = 0;              ///< Where the next tree's blocks have room,
+  std::size_t m_endLeaf = 0;               ///< and its ids.
+  std::size_t m_wasted = 0;                ///< Room for so many blocks of boxes is of no tree.
+  bool m_isExact = true;
   std::pmr::vector<std::uint8_t> m_marked;  ///< By world: whether it is among the dirty ones.
   std::pmr::vector<std::uint32_t> m_dirty;  ///< The worlds whose boxes changed.
   std::pmr::vector<std::size_t> m_runs;

@@ -24,11 +24,15 @@ class WorldMembers {
         m_begin(memory),
         m_boxes(memory),
         m_worldOf(memory),
+        m_nextNumbers(memory),
+        m_nextBegin(memory),
+        m_nextBoxes(memory),
         m_keyed(memory),
         m_spare(memory),
         m_radix(memory) {}
 
-  /// Brings it up to date with the store: a pass over all boxes if some were added or removed.
+  /// Brings it up to date with the store, before each of its steps at least. The lists are copied if boxes were added or
+  /// removed, and made anew if these were many.
   void update(const BoxStore& store, Executor& executor);
 
   /// Releases all memory, until the next update.
@@ -55,13 +59,22 @@ class WorldMembers {
   [[nodiscard]] std::size_t worldOf(BoxId id) const noexcept { return m_worldOf[id]; }
 
  private:
+  /// The world of what is no box of the store: there are fewer.
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+  void list(const BoxStore& store, Executor& executor);
   std::size_t listBoxes(const BoxStore& store);
+  bool follow(const BoxStore& store);
+  void copyWorlds(std::span<const std::uint64_t> gone, std::span<const std::uint64_t> come);
 
   std::pmr::vector<std::uint32_t> m_numbers;
   std::pmr::vector<std::size_t> m_begin;
   std::pmr::vector<BoxId> m_boxes;
-  std::pmr::vector<std::uint32_t> m_worldOf;  ///< By id.
-  Buffer<std::uint64_t> m_keyed;              ///< World numbers above ids.
+  std::pmr::vector<std::uint32_t> m_worldOf;      ///< By id.
+  std::pmr::vector<std::uint32_t> m_nextNumbers;  ///< What the lists are copied to.
+  std::pmr::vector<std::size_t> m_nextBegin;
+  std::pmr::vector<BoxId> m_nextBoxes;
+  Buffer<std::uint64_t> m_keyed;  ///< World numbers above ids.
   Buffer<std::uint64_t> m_spare;
   RadixSort m_radix;
   bool m_isWhole = false;

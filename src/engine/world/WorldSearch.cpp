@@ -59,7 +59,7 @@ void WorldSearch::shrink() noexcept {
   m_history.shrink();
   m_lists.shrink();
   const auto release = [](auto&... lists) { ((lists.clear(), lists.shrink_to_fit()), ...); };
-  release(m_isChosen, m_chosen, m_large, m_runs);
+  release(m_isChosen, m_chosen, m_large, m_partly, m_touchedIn, m_runs);
 }
 
 /// Releases the hierarchies of the other kind when the store becomes numbered, or is no longer.
@@ -118,9 +118,9 @@ std::uint64_t WorldSearch::join(const JoinRunner::Job& job, JoinRunner& runner) 
 
 void WorldSearch::noteTotals() {
   const OverlapStatistics totals = m_runner.totals();
-  m_statistics.boxTests = totals.boxTests;
-  m_statistics.groupTests = totals.groupTests;
-  m_statistics.exactTests = totals.exactTests;
+  m_statistics.boxTests += totals.boxTests;
+  m_statistics.groupTests += totals.groupTests;
+  m_statistics.exactTests += totals.exactTests;
 }
 
 void WorldSearch::joinAll(const BoxStore& store) {
@@ -140,7 +140,9 @@ void WorldSearch::joinAll(const BoxStore& store) {
   m_history.finishAll(executor());
 }
 
-void WorldSearch::joinChanged(const BoxStore& store) {
+/// Starts a join of changed boxes with all and calls use().
+template <class Use>
+void WorldSearch::withTouchedSink(const BoxStore& store, const Use& use) {
   const PairTest test = testOf(store, m_options.distance, isExact());
   const PairTest bounds = test.boundsOfHits();
   const PairTest filter = test.withoutBounds();  // Asked once for each pair.
@@ -152,7 +154,20 @@ void WorldSearch::joinChanged(const BoxStore& store) {
   SinkOptions sink{&m_kernels, &bounds};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
-  m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::Changed);
+  use(m_runner.start(sink, executor()));
+}
+
+void WorldSearch::joinChanged(const BoxStore& store) {
+  withTouchedSink(store, [&](std::size_t workers) {
+    m_history.begin(store.idBound(), workers, Joined::Changed);
+    joinChangedTrees(store);
+  });
+  noteTotals();
+  m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
+                          executor());
+}
+
+void WorldSearch::joinChangedTrees(const BoxStore& store) {
   m_changedDynamic.gather(store.touched(), m_dynamic, m_kernels, executor());
   m_changedStatic.gather(store.touched(), m_static, m_kernels, executor());
   const auto joinWith = [&](ChangedBoxes& changed, DynamicBvh& with) {
@@ -161,9 +176,34 @@ void WorldSearch::joinChanged(const BoxStore& store) {
   joinWith(m_changedDynamic, m_dynamic);
   joinWith(m_changedDynamic, m_static);
   joinWith(m_changedStatic, m_dynamic);
-  noteTotals();
-  m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
-                          executor());
+}
+
+/// Joins the changed boxes of some large worlds with all boxes there, one world after the other.
+void WorldSearch::joinPartly(const BoxStore& store) {
+  withTouchedSink(store, [&](std::size_t) {
+    for (const std::uint32_t world : m_partly) joinTouched(store, world);
+  });
+}
+
+void WorldSearch::joinTouched(const BoxStore& store, std::size_t world) {
+  const std::size_t shared = m_members.everyWorld();
+  m_changedDynamic.gather(store, m_dynamicTrees.view(world), m_kernels, executor());
+  m_changedStatic.gather(store, m_staticTrees.view(world), m_kernels, executor());
+  const auto joinWith = [&](ChangedBoxes& changed, const WorldForest& trees, std::size_t with) -> std::uint64_t {
+    const BvhView view = trees.view(with);
+    if (changed.size() == 0 || view.depth == 0) return 0;
+    const BvhPair both(changed.levels().view(), view);
+    return join(JoinRunner::Job::ofJoin(both.first, both.second), m_runner);
+  };
+  const auto joinHere = [&](ChangedBoxes& changed, WorldForest& trees) {
+    trees.rule(world).note(Joined::Changed, changed.size(), joinWith(changed, trees, world));
+  };
+  joinHere(m_changedDynamic, m_dynamicTrees);
+  joinHere(m_changedDynamic, m_staticTrees);
+  joinHere(m_changedStatic, m_dynamicTrees);
+  joinWith(m_changedDynamic, m_dynamicTrees, shared);
+  joinWith(m_changedDynamic, m_staticTrees, shared);
+  joinWith(m_changedStatic, m_dynamicTrees, shared);
 }
 
 /// Calls visit(number, hierarchy) for all hierarchies that are not empty.

@@ -44,6 +44,8 @@ class WorldSearch {
         m_isChosen(memory),
         m_chosen(memory),
         m_large(memory),
+        m_partly(memory),
+        m_touchedIn(memory),
         m_runs(memory),
         m_runner(memory),
         m_history(memory, options.order, options.stop),
@@ -88,14 +90,20 @@ class WorldSearch {
   [[nodiscard]] PairTest testOf(const BoxStore& store, double distance, bool exact) const;
   void joinAll(const BoxStore& store);
   void joinChanged(const BoxStore& store);
+  void joinChangedTrees(const BoxStore& store);
+  template <class Use>
+  void withTouchedSink(const BoxStore& store, const Use& use);
   void joinWorlds(BoxStore& store);
   void joinTrees();
+  void joinPartly(const BoxStore& store);
+  void joinTouched(const BoxStore& store, std::size_t world);
   template <class JoinOne>
   void joinWorld(std::size_t world, const JoinOne& joinOne);
   void followNumbering(const BoxStore& store) noexcept;
   void releaseTrees() noexcept;
   void updateTrees(const BoxStore& store, const BoxReader& reader);
-  [[nodiscard]] bool chooseWorlds(const BoxStore& store);
+  void countTouched(const BoxStore& store);
+  [[nodiscard]] bool chooseWorlds(const SmallWorlds::Input& small);
   void moveLarge(const SmallWorlds::Input& small);
   [[nodiscard]] bool isLookedFor(const BoxStore& store, Pair pair) const noexcept;
   template <class Visit>
@@ -121,7 +129,9 @@ class WorldSearch {
   SmallWorlds m_small;
   std::pmr::vector<std::uint8_t> m_isChosen;  ///< By world: whether this step searches it.
   std::pmr::vector<std::uint32_t> m_chosen;   ///< Those worlds, by ascending number,
-  std::pmr::vector<std::uint32_t> m_large;  ///< and those of them that have moved here, to be searched in hierarchies.
+  std::pmr::vector<std::uint32_t> m_large;   ///< and those of them that have moved here, to be searched in hierarchies.
+  std::pmr::vector<std::uint32_t> m_partly;  ///< Large worlds in which only the changed boxes are joined with all.
+  std::pmr::vector<std::uint32_t> m_touchedIn;  ///< By world: its boxes that have changed.
   std::pmr::vector<std::size_t> m_runs;
   JoinRunner m_runner;
   PairHistory m_history;

@@ -8,29 +8,46 @@
 
 namespace allpairs::engine {
 
-/// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
-/// among those of the last step would then take longer than comparing the lists. Returns whether they are all.
-bool WorldSearch::chooseWorlds(const BoxStore& store) {
-  m_isChosen.assign(m_members.everyWorld() + 1, 0);
+/// Counts the changed boxes of each world, and lists the worlds that have some.
+void WorldSearch::countTouched(const BoxStore& store) {
+  m_touchedIn.assign(m_members.everyWorld() + 1, 0);
   m_chosen.clear();
-  std::size_t boxes = 0;
   for (const BoxId id : store.touched()) {
     if (!store.contains(id)) continue;
     const std::size_t world = m_members.worldOf(id);
-    if (m_isChosen[world] != 0) continue;
-    m_isChosen[world] = 1;
-    m_chosen.push_back(static_cast<std::uint32_t>(world));
-    boxes += m_members.boxes(world).size();
+    if (m_touchedIn[world]++ == 0) m_chosen.push_back(static_cast<std::uint32_t>(world));
   }
-  const std::size_t most = store.size() / kShareOfChanged;
-  const bool all = std::max(boxes, store.touched().size()) > most || m_isChosen[m_members.everyWorld()] != 0;
-  if (all) {
-    m_chosen.resize(m_isChosen.size());
-    std::iota(m_chosen.begin(), m_chosen.end(), 0U);
-    std::fill(m_isChosen.begin(), m_isChosen.end(), std::uint8_t{1});
+  std::sort(m_chosen.begin(), m_chosen.end());
+}
+
+/// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
+/// among those of the last step would then take longer than comparing the lists. Of large worlds with few changed boxes only
+/// these are joined. Returns whether all worlds are searched, as a whole.
+bool WorldSearch::chooseWorlds(const SmallWorlds::Input& small) {
+  countTouched(small.store);
+  m_isChosen.assign(m_touchedIn.size(), 0);
+  m_partly.clear();
+  std::size_t boxes = 0;
+  std::size_t whole = 0;
+  for (const std::uint32_t world : m_chosen) {
+    const std::size_t size = m_members.boxes(world).size();
+    if (m_touchedIn[world] <= size / kShareOfChanged && !SmallWorlds::takes(small, world)) {
+      m_partly.push_back(world);
+      boxes += m_touchedIn[world];
+    } else {
+      m_chosen[whole++] = world;
+      m_isChosen[world] = 1;
+      boxes += size;
+    }
   }
-  if (!all) std::sort(m_chosen.begin(), m_chosen.end());
-  return all;
+  const std::size_t most = small.store.size() / kShareOfChanged;
+  const bool all = std::max(boxes, small.store.touched().size()) > most || m_touchedIn[m_members.everyWorld()] != 0;
+  m_chosen.resize(all ? m_isChosen.size() : whole);
+  if (!all) return false;
+  m_partly.clear();
+  std::iota(m_chosen.begin(), m_chosen.end(), 0U);
+  std::fill(m_isChosen.begin(), m_isChosen.end(), std::uint8_t{1});
+  return true;
 }
 
 /// Moves the chosen worlds that are too large for an exhaustive search to a list of their own.
@@ -56,10 +73,10 @@ bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
 void WorldSearch::joinWorlds(BoxStore& store) {
   m_members.update(store, executor());
   static_cast<void>(store.set());  // The tests read it.
-  m_statistics.joinedAll = chooseWorlds(store);
   const SmallWorlds::Input small{store, m_members, m_options, m_kernels, testOf(store, 0.0, true)};
+  m_statistics.joinedAll = chooseWorlds(small);
   moveLarge(small);
-  if (!m_large.empty() || m_options.accept) update(store);  // `accept` may ask queries.
+  if (!m_large.empty() || !m_partly.empty() || m_options.accept) update(store);  // `accept` may ask queries.
   const PairTest test = testOf(store, m_options.distance, isExact());
   const auto take = [&](std::span<const Pair> pairs, std::size_t worker) {
     m_history.take(pairs, worker);
@@ -80,6 +97,10 @@ void WorldSearch::joinWorlds(BoxStore& store) {
   });
   joinTrees();
   noteTotals();
+  if (!m_partly.empty()) {
+    joinPartly(store);
+    noteTotals();
+  }
   m_statistics.boxTests += m_small.boxTests();
   if (m_statistics.joinedAll) {
     m_history.finishAll(executor());
@@ -116,8 +137,8 @@ void WorldSearch::joinWorld(std::size_t world, const JoinOne& joinOne) {
     return joinOne(JoinRunner::Job::ofJoin(both.first, both.second));
   };
   const std::size_t size = dynamicBoxes.depth == 0 ? 0 : dynamicBoxes.level[0].size;
-  m_dynamicTrees.noteJoin(world, size, joinOne(JoinRunner::Job::ofJoin(dynamicBoxes, dynamicBoxes)));
-  m_staticTrees.noteJoin(world, size, joinTwo(dynamicBoxes, staticBoxes));
+  m_dynamicTrees.rule(world).note(Joined::All, size, joinOne(JoinRunner::Job::ofJoin(dynamicBoxes, dynamicBoxes)));
+  m_staticTrees.rule(world).note(Joined::All, size, joinTwo(dynamicBoxes, staticBoxes));
   if (world == m_members.everyWorld()) return;
   joinTwo(dynamicBoxes, m_dynamicTrees.view(m_members.everyWorld()));
   joinTwo(dynamicBoxes, m_staticTrees.view(m_members.everyWorld()));
