@@ -24,6 +24,7 @@ class JoinSummary(NamedTuple):
 
     pairs: int
     boxes: int
+    """Of both sets, where there are two."""
     cells: int
     """The parts of space that were searched one by one."""
     copies: int
@@ -37,10 +38,18 @@ class JoinSummary(NamedTuple):
     """Cells whose pairs were found before, by a join that was resumed."""
 
 
+def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:
+    names = [os.fsdecode(path) for path in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)]
+    if not names:
+        raise InvalidArgument(f"{argument} names no file")
+    return names
+
+
 def join(
     inputs: Path | Iterable[Path],
     output: Path | None = None,
     *,
+    second: Path | Iterable[Path] | None = None,
     distance: float = 0.0,
     memory: int = 0,
     work: Path | None = None,
@@ -56,6 +65,9 @@ def join(
     output : path
         A .npy file of shape (m, 2), uint32, or uint64 of more than 2**32 boxes, ordered by (first, second): what
         `overlaps` returns where that fits in memory. Without it the pairs are only counted.
+    second : path, or iterable of paths
+        Files of a second set. The pairs are those of a box of the inputs and a box of these, what `overlaps_between`
+        returns where that fits in memory; both sets are numbered by themselves.
     distance : float
         As in `overlaps`.
     memory : int
@@ -88,15 +100,13 @@ def join(
     """
     from . import _reading
 
-    paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
-    names = [os.fsdecode(path) for path in paths]
-    if not names:
-        raise InvalidArgument("inputs names no file")
+    names = _names_of("inputs", inputs)
     target = None if output is None else os.fsdecode(output)
     options = _reading.JoinOptions()
     options.distance = _arguments.number("distance", distance)
     options.memory = _arguments.whole("memory", memory)
     options.resume = bool(resume)
+    options.second = [] if second is None else _names_of("second", second)
     options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 

@@ -102,6 +102,26 @@ def test_a_join_of_files_is_the_search_in_memory(tmp_path):
     assert allpairs.join(str(tmp_path / "a.npy"), threads=2).pairs == len(double_loop(boxes[:150]))
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("distance", [0.0, 0.125])
+def test_a_join_of_two_sets_is_the_search_in_memory(tmp_path, dtype, distance):
+    first, second = some_boxes(250, 2, dtype), some_boxes(200, 3, dtype)
+    np.save(tmp_path / "a.npy", first)
+    np.save(tmp_path / "b.npy", second[:90])
+    np.save(tmp_path / "c.npy", second[90:])
+    others = [tmp_path / "b.npy", tmp_path / "c.npy"]
+    summary = allpairs.join(tmp_path / "a.npy", tmp_path / "pairs.npy", second=others, distance=distance)
+    pairs = np.load(tmp_path / "pairs.npy")
+    expected = [[i, j - 250] for i, j in double_loop(np.vstack([first, second]), distance) if i < 250 <= j]
+    assert pairs.tolist() == expected
+    assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
+    assert summary.boxes == 450 and summary.pairs == len(expected)
+    assert allpairs.join(tmp_path / "a.npy", second=others, distance=distance).pairs == len(expected)
+    np.save(tmp_path / "none.npy", first[:0])
+    assert allpairs.join(tmp_path / "a.npy", second=tmp_path / "none.npy").pairs == 0
+    assert allpairs.join(tmp_path / "none.npy", second=tmp_path / "a.npy").pairs == 0
+
+
 def test_join_says_what_is_wrong(tmp_path):
     boxes = some_boxes(10)
     boxes[4, 2] = np.nan
@@ -112,4 +132,6 @@ def test_join_says_what_is_wrong(tmp_path):
         allpairs.join(tmp_path / "nan.npy", memory=1)
     with pytest.raises(allpairs.InvalidArgument, match="no file"):
         allpairs.join([])
+    with pytest.raises(allpairs.InvalidArgument, match="second names no file"):
+        allpairs.join(tmp_path / "nan.npy", second=[])
     assert [path.name for path in tmp_path.iterdir()] == ["nan.npy"]
