@@ -42,6 +42,20 @@ def test_cells_have_each_pair_once(distance):
     assert sorted(found) == double_loop(boxes, distance)
 
 
+def test_cells_have_each_pair_of_two_sets_once():
+    first, second = some_boxes(200, 4), some_boxes(150, 5, np.float64)
+    margins = np.linspace(0, 0.25, 200), np.linspace(0, 0.5, 150)
+    partition = allpairs.Partition(np.vstack([first, second]), cells=6, margin=0.5)
+    found = []
+    homes = [partition.cells_of(boxes, margin=m, max_margin=0.5) for boxes, m in zip((first, second), margins)]
+    for number, cell in enumerate(partition.cells):
+        a, b = (rows[rows[:, 1] == number, 0] for rows in homes)
+        here = (margins[0][a], margins[1][b])
+        found += allpairs.overlaps_between_in_cell(first[a], second[b], (a, b), cell, margin=here).tolist()
+    assert sorted(found) == allpairs.overlaps_between(first, second, margin=margins).tolist()
+    assert len(found) > 100
+
+
 def test_margins_widen_and_are_seen():
     boxes = some_boxes(80)
     margins = np.linspace(0, 0.5, 80)
@@ -76,6 +90,10 @@ def test_bad_arguments_are_named():
         allpairs.overlaps_in_cell(boxes, None, [1, 2, 3], [1, 2, 3])
     with pytest.raises(allpairs.InvalidArgument, match="two boxes have the id 7"):
         allpairs.overlaps_in_cell(boxes * 0, None, [7, 7, 3], space)
+    with pytest.raises(allpairs.InvalidArgument, match="second set: ids has shape"):
+        allpairs.overlaps_between_in_cell(boxes, boxes, ([1, 2, 3], [1, 2]), space)
+    with pytest.raises(allpairs.InvalidArgument, match="ids takes a tuple of two"):
+        allpairs.overlaps_between_in_cell(boxes, boxes, [1, 2, 3], space)
     with pytest.raises(allpairs.InvalidArgument, match="cells is 0"):
         allpairs.Partition(boxes, cells=0)
 
