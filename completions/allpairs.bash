@@ -37,26 +37,28 @@ _allpairs() {
       ;;
     join)
       case $previous in
+        --with) files=-f ;;
         --memory) return ;;
         --distance) return ;;
         --work) files=-d ;;
         --threads) return ;;
         -o | --output) files=-f ;;
         *)
-          options='-h --help --memory --distance --work --resume --count --threads -o --output'
+          options='-h --help --with --memory --distance --work --resume --count --threads -o --output'
           files=-f
           ;;
       esac
       ;;
     plan)
       case $previous in
+        --with) files=-f ;;
         --memory) return ;;
         --distance) return ;;
         --work) files=-d ;;
         --ranks) return ;;
         --threads) return ;;
         *)
-          options='-h --help --memory --distance --work --ranks --threads'
+          options='-h --help --with --memory --distance --work --ranks --threads'
           files=-f
           ;;
       esac

@@ -36,6 +36,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from detect' -s o -l output -r -
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l color -x -a 'auto always never' -d 'Colours in the table; auto: on a terminal, unless NO_COLOR is set'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -F
 complete -c allpairs -n '__fish_seen_subcommand_from join' -s h -l help -d 'Print this help message and exit'
+complete -c allpairs -n '__fish_seen_subcommand_from join' -l with -r -F -d 'Files of a second set: pairs of a box of BOXES and a box of these'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -l memory -x -d 'Never take more; by default half of the machine\'s, least 64M'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -l distance -x -d 'Pairs up to D apart on every axis'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -l work -x -a '(__fish_complete_directories)' -d 'The folder of its own files; default: the name of the output, or input, and .work'
@@ -45,6 +46,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from join' -l threads -x -d 'Num
 complete -c allpairs -n '__fish_seen_subcommand_from join' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -F
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -s h -l help -d 'Print this help message and exit'
+complete -c allpairs -n '__fish_seen_subcommand_from plan' -l with -r -F -d 'Files of a second set: pairs of a box of BOXES and a box of these'
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -l memory -x -d 'Never take more; by default half of the machine\'s, least 64M'
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -l distance -x -d 'Pairs up to D apart on every axis'
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -l work -x -a '(__fish_complete_directories)' -d 'The folder that a join would work in; default: this one'

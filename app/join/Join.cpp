@@ -39,10 +39,13 @@ constexpr const char* kJoinExamples =
 Several files are one set, numbered on from file to file. The result is a .npy
 array (m, 2), uint32, or uint64 of more than 2^32 boxes, ordered by (first,
 second): the same bytes as 'allpairs detect -o' where that fits in memory.
+With --with the pairs are those of a box of BOXES, first, and a box of a second
+set of files, second; both sets are numbered by themselves.
 
 Examples:
   allpairs join boxes.npy -o pairs.npy --memory 4G
   allpairs join part0.npy part1.npy -o pairs.npy --work /scratch/join
+  allpairs join parts.npy --with obstacles.npy -o pairs.npy
   allpairs join boxes.npy -o pairs.npy --resume     after a kill or a full disk
   allpairs join boxes.npy --count
 
@@ -70,8 +73,14 @@ class JoinLine {
   Timer m_sinceStep;
 };
 
-std::string summaryText(const join::JoinSummary& summary, const std::string& output) {
-  std::string text = fmt::format("{} among {}", counted(summary.pairs, "pair"), counted(summary.boxes, "box", "boxes"));
+std::string boxesText(const join::JoinSummary& summary, bool isTwoSets) {
+  if (!isTwoSets) return counted(summary.boxes, "box", "boxes");
+  return fmt::format("{} and {}", grouped(summary.boxes - summary.secondBoxes),
+                     counted(summary.secondBoxes, "box", "boxes"));
+}
+
+std::string summaryText(const join::JoinSummary& summary, const std::string& output, bool isTwoSets) {
+  std::string text = fmt::format("{} among {}", counted(summary.pairs, "pair"), boxesText(summary, isTwoSets));
   if (!output.empty()) text += " -> " + printable(output);
   text += fmt::format("\n{}", counted(summary.cells, "cell"));
   if (summary.resumedCells != 0) text += fmt::format(", {} of them from before", grouped(summary.resumedCells));
@@ -111,7 +120,7 @@ void runJoin(const JoinSettings& settings) {
     throw FileError(problem.path(),
                     problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }
-  const std::string text = summaryText(summary, settings.output);
+  const std::string text = summaryText(summary, settings.output, !options.second.empty());
   if (settings.output.empty() || std::filesystem::is_regular_file(settings.output)) {
     Output(std::nullopt).write(text);
   } else {

@@ -13,6 +13,8 @@ namespace allpairs::app {
 
 void addJoinArguments(CLI::App& command, JoinArguments& arguments) {
   command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
+  command.add_option("--with", arguments.with, "Files of a second set: pairs of a box of BOXES and a box of these")
+      ->type_name("FILE");
   command.add_option("--memory", arguments.memory, "Never take more; by default half of the machine's, least 64M")
       ->type_name("SIZE");
   addDistance(command, arguments.distance, "Pairs up to D apart on every axis");
@@ -22,6 +24,7 @@ join::JoinOptions joinOptions(const JoinArguments& arguments) {
   join::JoinOptions options;
   if (!arguments.memory.empty()) options.memory = parseMemory("--memory", arguments.memory);
   if (!arguments.distance.empty()) options.distance = parseDistance(arguments.distance);
+  options.second.assign(arguments.with.begin(), arguments.with.end());
   return options;
 }
 

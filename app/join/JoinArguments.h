@@ -17,11 +17,12 @@ namespace allpairs::app {
 /// What join and plan have in common.
 struct JoinArguments {
   std::vector<std::string> paths;
+  std::vector<std::string> with;  ///< The second set.
   std::string memory;
   std::string distance;
 };
 
-/// Declares BOXES..., --memory and --distance.
+/// Declares BOXES..., --with, --memory and --distance.
 void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 
 /// Bad input: throws UsageError.

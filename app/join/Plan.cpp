@@ -37,7 +37,8 @@ With --ranks it says what 'allpairs-mpi join' would send over the network instea
 Examples:
   allpairs plan boxes.npy
   allpairs plan boxes.npy --ranks 64
-  allpairs plan part*.npy --memory 4G --work /scratch)";
+  allpairs plan part*.npy --memory 4G --work /scratch
+  allpairs plan parts.npy --with obstacles.npy)";
 
 std::string planText(const join::JoinSummary& plan, double seconds) {
   std::string text = fmt::format("boxes    {}\n", grouped(plan.boxes));

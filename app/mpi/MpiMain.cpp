@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -34,14 +35,18 @@ constexpr const char* kExamples =
     R"(Boxes are .npy arrays (n, 6), float32 or float64: minx miny minz maxx maxy maxz.
 Several files are one set, numbered on from file to file; every rank must see
 them. The result is the file that 'allpairs detect -o' and 'allpairs join' write.
+With --with the pairs are those of a box of BOXES, first, and a box of a second
+set of files, second; both sets are numbered by themselves.
 
 Examples:
   mpirun allpairs-mpi join boxes.npy -o pairs.npy
   mpirun -n 64 allpairs-mpi join part*.npy --count
+  mpirun -n 64 allpairs-mpi join part*.npy --with obstacles.npy -o pairs.npy
   mpirun --map-by socket allpairs-mpi join boxes.npy -o pairs.npy --threads 16)";
 
 struct Settings {
   std::vector<std::string> paths;
+  std::vector<std::string> with;  ///< The second set.
   std::string output;
   std::string distance;
   std::string threads = "1";
@@ -52,7 +57,9 @@ struct Settings {
 class Join {
  public:
   explicit Join(const Settings& settings)
-      : m_settings(settings), m_paths(settings.paths.begin(), settings.paths.end()) {
+      : m_settings(settings),
+        m_paths(settings.paths.begin(), settings.paths.end()),
+        m_with(settings.with.begin(), settings.with.end()) {
     MPI_Comm_rank(MPI_COMM_WORLD, &m_rank);
     MPI_Comm_size(MPI_COMM_WORLD, &m_ranks);
   }
@@ -66,13 +73,24 @@ class Join {
     if (threads != 1) options.executor = &executor;
     std::optional<allpairs::app::PairFile> output;  // before all else: a place that cannot be written is an error now
     if (!m_settings.count) output.emplace(MPI_COMM_WORLD, m_settings.output);
-    std::optional<allpairs::app::BoxShare> share;
-    allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] { share.emplace(m_paths, m_rank, m_ranks); });
-    allpairs::mpi::DistributedOverlaps search(MPI_COMM_WORLD, options);
-    const auto boxes = [&share] { return share->view(); };
-    const std::uint64_t pairs = output ? output->write(search.find(boxes), share->allBoxes()) : search.count(boxes);
+    std::optional<allpairs::app::BoxShare> first;
+    std::optional<allpairs::app::BoxShare> second;
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
-      if (m_rank == 0) say(pairs, share->allBoxes());
+      first.emplace(m_paths, m_rank, m_ranks);
+      if (!m_with.empty()) second.emplace(m_with, m_rank, m_ranks);
+    });
+    allpairs::mpi::DistributedOverlaps search(MPI_COMM_WORLD, options);
+    const auto boxes = [&first] { return first->view(); };
+    const auto others = [&second] { return second->view(); };
+    std::uint64_t pairs = 0;
+    if (output) {
+      const std::uint64_t most = std::max(first->allBoxes(), second ? second->allBoxes() : 0);
+      pairs = output->write(second ? search.find(boxes, others) : search.find(boxes), most);
+    } else {
+      pairs = second ? search.count(boxes, others) : search.count(boxes);
+    }
+    allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
+      if (m_rank == 0) say(pairs, boxesText(*first, second));
     });
   }
 
@@ -84,9 +102,16 @@ class Join {
     if (!output.empty() && !output.ends_with(".npy")) throw UsageError("join writes .npy files; name its output so");
   }
 
-  void say(std::uint64_t pairs, std::uint64_t boxes) const {
+  static std::string boxesText(const allpairs::app::BoxShare& first,
+                               const std::optional<allpairs::app::BoxShare>& second) {
+    if (!second) return allpairs::app::counted(first.allBoxes(), "box", "boxes");
+    return allpairs::app::grouped(first.allBoxes()) + " and " +
+           allpairs::app::counted(second->allBoxes(), "box", "boxes");
+  }
+
+  void say(std::uint64_t pairs, const std::string& boxes) const {
     using allpairs::app::counted;
-    fmt::print("{} among {} on {}", counted(pairs, "pair"), counted(boxes, "box", "boxes"),
+    fmt::print("{} among {} on {}", counted(pairs, "pair"), boxes,
                counted(static_cast<std::uint64_t>(m_ranks), "rank"));
     if (!m_settings.output.empty()) fmt::print(" -> {}", allpairs::app::printable(m_settings.output));
     fmt::print("\n");
@@ -95,6 +120,7 @@ class Join {
 
   const Settings& m_settings;
   std::vector<std::filesystem::path> m_paths;
+  std::vector<std::filesystem::path> m_with;
   int m_rank = 0;
   int m_ranks = 1;
 };
@@ -134,6 +160,8 @@ void run(int count, char** arguments) {
   CLI::App* join = program.add_subcommand("join", "Find the pairs, or count them");
   join->footer(kExamples);
   join->add_option("BOXES", settings.paths, "One or more .npy files of boxes")->required();
+  join->add_option("--with", settings.with, "Files of a second set: pairs of a box of BOXES and a box of these")
+      ->type_name("FILE");
   join->add_option("-o,--output", settings.output, "Write the pairs to this .npy file")->type_name("FILE");
   join->add_option("--distance", settings.distance, "Pairs up to D apart on every axis")->type_name("D");
   join->add_option("--threads", settings.threads, "Threads of each rank; 0 means all cores")->type_name("N");

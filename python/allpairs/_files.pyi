@@ -27,5 +27,6 @@ class JoinOptions:
     memory: int
     work: str
     resume: bool
+    second: list[str]
 
 def join_files(inputs: list[str], output: Optional[str], options: JoinOptions, threads: int) -> tuple[int, ...]: ...

@@ -24,6 +24,7 @@ class JoinSummary(NamedTuple):
 
     pairs: int
     boxes: int
+    """Of both sets, where there are two."""
     cells: int
     """The parts of space that were searched one by one."""
     copies: int
@@ -37,10 +38,18 @@ class JoinSummary(NamedTuple):
     """Cells whose pairs were found before, by a join that was resumed."""
 
 
+def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:
+    names = [os.fsdecode(path) for path in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)]
+    if not names:
+        raise InvalidArgument(f"{argument} names no file")
+    return names
+
+
 def join(
     inputs: Path | Iterable[Path],
     output: Path | None = None,
     *,
+    second: Path | Iterable[Path] | None = None,
     distance: float = 0.0,
     memory: int = 0,
     work: Path | None = None,
@@ -56,6 +65,9 @@ def join(
     output : path
         A .npy file of shape (m, 2), uint32, or uint64 of more than 2**32 boxes, ordered by (first, second): what
         `overlaps` returns where that fits in memory. Without it the pairs are only counted.
+    second : path, or iterable of paths
+        Files of a second set. The pairs are those of a box of the inputs and a box of these, what `overlaps_between`
+        returns where that fits in memory; both sets are numbered by themselves.
     distance : float
         As in `overlaps`.
     memory : int
@@ -88,15 +100,13 @@ def join(
     """
     from . import _reading
 
-    paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
-    names = [os.fsdecode(path) for path in paths]
-    if not names:
-        raise InvalidArgument("inputs names no file")
+    names = _names_of("inputs", inputs)
     target = None if output is None else os.fsdecode(output)
     options = _reading.JoinOptions()
     options.distance = _arguments.number("distance", distance)
     options.memory = _arguments.whole("memory", memory)
     options.resume = bool(resume)
+    options.second = [] if second is None else _names_of("second", second)
     options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
@@ -108,13 +118,13 @@ def _cell_of(cell: npt.ArrayLike) -> list[float]:
     return [float(bound) for bound in bounds.ravel()]
 
 
-def _ids_of(value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint64]:
+def _ids_of(value: npt.ArrayLike, length: int, prefix: str = "") -> npt.NDArray[np.uint64]:
     if isinstance(value, (list, tuple)):  # of large integers NumPy would make floats
         numbers = [_arguments.whole("ids", number) for number in value]
         value = np.array(numbers, dtype=np.uint64)
     array = _arguments.array_of("ids", value)
     if array.shape != (length,):
-        raise InvalidArgument(f"ids has shape {array.shape}; for {length} boxes it takes ({length},)")
+        raise InvalidArgument(f"{prefix}ids has shape {array.shape}; for {length} boxes it takes ({length},)")
     if array.size and (array.dtype.kind not in "iu" or (array.dtype.kind == "i" and (array < 0).any())):
         raise InvalidArgument("ids takes integers 0 to 2**64 - 1")
     return _arguments.contiguous(array, dtype=np.uint64)
@@ -166,6 +176,56 @@ def overlaps_in_cell(
     values: dict[str, Any] = {"distance": distance, "strategy": "auto", "threads": threads, "region": None, "ignore": None}
     options = _search._settings(values, 3, one_set=True)
     return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(ids, len(boxes)), _cell_of(cell), options))
+
+
+def overlaps_between_in_cell(
+    first: Any,
+    second: Any,
+    ids: tuple[npt.ArrayLike, npt.ArrayLike],
+    cell: npt.ArrayLike,
+    *,
+    distance: float = 0.0,
+    margin: _search.Both = None,
+    threads: int = 1,
+) -> IdPairs:
+    """The pairs of a box of the first set and a box of the second that belong to one cell of space, by their ids.
+
+    Parameters
+    ----------
+    first, second
+        As in `overlaps_between`.
+    ids : tuple of two array_like
+        Those of the boxes of the first set, and those of the second: each as in `overlaps_in_cell`.
+    cell
+        As in `overlaps_in_cell`.
+    distance, margin
+        As in `overlaps_between`.
+
+    Returns
+    -------
+    ndarray, shape (m, 2), uint64
+        Ordered by (first, second).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> first = np.array([[0, 0, 0, 2, 2, 2], [8, 8, 8, 9, 9, 9]], dtype=np.float32)
+    >>> second = np.array([[1, 1, 1, 3, 3, 3]], dtype=np.float32)
+    >>> space = np.array([[-np.inf] * 3, [np.inf] * 3])
+    >>> allpairs.overlaps_between_in_cell(first, second, ([70, 50], [60]), space)
+    array([[70, 60]], dtype=uint64)
+    """
+    if not isinstance(ids, tuple) or len(ids) != 2:
+        raise InvalidArgument("ids takes a tuple of two here: those of each set")
+    sets = []
+    for boxes, numbers, apart, name in zip((first, second), ids, _arguments.both("margin", margin), ("first", "second")):
+        prefix = f"{name} set: "
+        view = _arguments.boxes_of(*_arguments.two_corners(boxes, prefix), prefix)
+        sets.append((_arguments.with_margins(view, apart, prefix), _ids_of(numbers, len(view), prefix)))
+    values: dict[str, Any] = {"distance": distance, "strategy": "auto", "threads": threads, "region": None, "ignore": None}
+    options = _search._settings(values, 3, one_set=False)
+    return np.asarray(_core.overlaps_between_in_cell(sets[0], sets[1], _cell_of(cell), options))
 
 
 class Partition:

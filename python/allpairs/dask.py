@@ -11,7 +11,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +22,7 @@ from dask.delayed import delayed
 
 from . import _arguments
 from ._errors import InvalidArgument, InvalidBox
-from ._partition import Partition, overlaps_in_cell
+from ._partition import Partition, overlaps_between_in_cell, overlaps_in_cell
 
 __all__ = ["overlaps"]
 
@@ -38,17 +38,19 @@ def _read(path: str) -> Array:
     return boxes
 
 
-def _parts_of(boxes: Any) -> tuple[list[Any], list[int]]:
+def _parts_of(argument: str, boxes: Any) -> tuple[list[Any], list[int]]:
     """The boxes as parts that tasks read, and the number of boxes in each."""
     if isinstance(boxes, DaskArray):
         if boxes.ndim != 2 or boxes.shape[1] != 6:
-            raise InvalidArgument(f"boxes has shape {boxes.shape}; it takes (n, 6)")
+            raise InvalidArgument(f"{argument} has shape {boxes.shape}; it takes (n, 6)")
         if np.isnan(boxes.shape[0]):
-            raise InvalidArgument("boxes has chunks of unknown sizes; call compute_chunk_sizes() before")
+            raise InvalidArgument(f"{argument} has chunks of unknown sizes; call compute_chunk_sizes() before")
         rows = boxes.rechunk({1: 6})
         return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]]
     paths = [boxes] if isinstance(boxes, (str, os.PathLike)) else list(boxes)
     names = [os.path.abspath(os.fsdecode(path)) for path in paths]
+    if not names:
+        raise InvalidArgument(f"{argument} names no file")
     shapes = [_read(name).shape for name in names]
     for name, shape in zip(names, shapes):
         if len(shape) != 2 or shape[1] != 6:
@@ -60,13 +62,15 @@ def _sample(part: Array, step: int) -> Array:
     return np.asarray(part[::step])
 
 
-def _divide(part: Array, begin: int, partition: Partition, distance: float) -> list[tuple[npt.NDArray[np.uint64], Array]]:
+def _divide(
+    part: Array, begin: int, partition: Partition, distance: float, whose: str
+) -> list[tuple[npt.NDArray[np.uint64], Array]]:
     """The boxes of a part by cell, with their numbers."""
     boxes = _arguments.floats("boxes", _arguments.contiguous(part))
     try:
         homes = partition.cells_of(boxes, distance=distance)
     except InvalidBox as problem:
-        raise InvalidArgument(f"box {begin + problem.index} of all: {problem}") from None
+        raise InvalidArgument(f"box {begin + problem.index} of {whose}: {problem}") from None
     order = np.argsort(homes[:, 1], kind="stable")
     bounds = np.searchsorted(homes[order, 1], np.arange(len(partition) + 1))
     rows = homes[order, 0]
@@ -75,11 +79,20 @@ def _divide(part: Array, begin: int, partition: Partition, distance: float) -> l
     ]
 
 
-def _search(divided: list[tuple[Array, Array]], cell: Array, distance: float, begins: Sequence[int], dtype: str) -> list[Array]:
-    """The pairs of a cell, by the range that their first box is in."""
-    ids = np.concatenate([ids for ids, _ in divided])
-    boxes = np.concatenate([boxes for _, boxes in divided])
-    pairs = overlaps_in_cell(boxes, None, ids, cell, distance=distance)
+def _gathered(divided: list[tuple[Array, Array]]) -> tuple[Array, Array]:
+    return np.concatenate([ids for ids, _ in divided]), np.concatenate([boxes for _, boxes in divided])
+
+
+def _search(
+    sets: list[list[tuple[Array, Array]]], cell: Array, distance: float, begins: Sequence[int], dtype: str
+) -> list[Array]:
+    """The pairs of a cell, of one set or of two, by the range that their first box is in."""
+    ids, boxes = _gathered(sets[0])
+    if len(sets) == 1:
+        pairs = overlaps_in_cell(boxes, None, ids, cell, distance=distance)
+    else:
+        other_ids, others = _gathered(sets[1])
+        pairs = overlaps_between_in_cell(boxes, others, (ids, other_ids), cell, distance=distance)
     bounds = np.searchsorted(pairs[:, 0], np.asarray(begins[1:-1], dtype=np.uint64))
     return list(np.split(pairs.astype(dtype), bounds))
 
@@ -103,29 +116,48 @@ def _picked(items: Any, index: int) -> Any:
     return items[index]
 
 
-def _pairs_by_range(parts: list[Any], sizes: list[int], distance: float, cells: int, dtype: str) -> list[Any]:
+class _Set(NamedTuple):
+    """A set of boxes as parts that tasks read."""
+
+    parts: list[Any]
+    sizes: list[int]
+    whose: str
+    """What errors call it."""
+
+    @property
+    def begins(self) -> list[int]:
+        """The number of the first box of each part, and that of all boxes."""
+        return [0, *np.cumsum(self.sizes).tolist()]
+
+
+def _pairs_by_range(sets: list[_Set], distance: float, cells: int, dtype: str) -> list[Any]:
     """A task for the pairs of each range of first boxes: those of one part."""
-    begins = [0, *np.cumsum(sizes).tolist()]
-    step = max(1, begins[-1] // (cells * _SAMPLE_OF_A_CELL))
-    samples = compute(*[delayed(_sample)(part, step) for part in parts])
+    step = max(1, sum(boxes.begins[-1] for boxes in sets) // (cells * _SAMPLE_OF_A_CELL))
+    samples = compute(*[delayed(_sample)(part, step) for boxes in sets for part in boxes.parts])
     sample = np.concatenate(samples)
     partition = Partition(sample[~np.isnan(sample).any(axis=1)], cells=cells, distance=distance)  # NaNs are for _divide
     pick = delayed(_picked)
     shared = delayed(partition)
     divided = [
-        delayed(_divide)(part, begin, shared, distance) for part, begin in zip(parts, begins)
+        [
+            delayed(_divide)(part, begin, shared, distance, boxes.whose)
+            for part, begin in zip(boxes.parts, boxes.begins)
+        ]
+        for boxes in sets
     ]
+    begins = sets[0].begins
     found = [
-        delayed(_search)([pick(part, number) for part in divided], cell, distance, begins, dtype)
+        delayed(_search)([[pick(part, number) for part in parts] for parts in divided], cell, distance, begins, dtype)
         for number, cell in enumerate(partition.cells)
     ]
-    return [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(parts))]
+    return [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(sets[0].parts))]
 
 
 def overlaps(
     boxes: Any,
     output: Optional[PathLike] = None,
     *,
+    second: Any = None,
     distance: float = 0.0,
     cells: Optional[int] = None,
 ) -> Any:
@@ -138,12 +170,15 @@ def overlaps(
     boxes : dask array, shape (n, 6), or path, or iterable of paths
         A row is minx miny minz maxx maxy maxz. Or .npy files of such arrays, numbered on from file to file, that every
         worker can read.
+    second : like boxes
+        A second set: the pairs are those of a box of the first and a box of this, as in `allpairs.overlaps_between`. Both
+        sets are numbered by themselves.
     output : path of a folder
         Write the pairs there, as part-00000.npy and so on, and return their number.
     distance : float
         As in `allpairs.overlaps`.
     cells : int
-        About how many tasks search; by default four for each chunk or file.
+        About how many tasks search; by default four for each chunk or file of all sets.
 
     Returns
     -------
@@ -159,12 +194,13 @@ def overlaps(
     array([[0, 1]], dtype=uint32)
     """
     apart = _arguments.number("distance", distance)
-    parts, sizes = _parts_of(boxes)
-    if not parts:
-        raise InvalidArgument("boxes names no file")
-    count = _arguments.whole("cells", 4 * len(parts) if cells is None else cells, least=1)
-    dtype = "uint32" if sum(sizes) <= 2**32 else "uint64"
-    merged = _pairs_by_range(parts, sizes, apart, count, dtype)
+    sets = [_Set(*_parts_of("boxes", boxes), "all" if second is None else "the first set")]
+    if second is not None:
+        sets.append(_Set(*_parts_of("second", second), "the second set"))
+    parts = sum(len(each.parts) for each in sets)
+    count = _arguments.whole("cells", 4 * parts if cells is None else cells, least=1)
+    dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
+    merged = _pairs_by_range(sets, apart, count, dtype)
     if output is not None:
         folder = Path(os.path.abspath(os.fsdecode(output)))
         folder.mkdir(parents=True, exist_ok=True)

@@ -44,7 +44,8 @@ void bindJoin(py::module_& module) {
       .def_readwrite("distance", &join::JoinOptions::distance)
       .def_readwrite("memory", &join::JoinOptions::memory)
       .def_readwrite("work", &join::JoinOptions::work)
-      .def_readwrite("resume", &join::JoinOptions::resume);
+      .def_readwrite("resume", &join::JoinOptions::resume)
+      .def_readwrite("second", &join::JoinOptions::second);
   module.def("join_files", &joinFiles);
 }
 

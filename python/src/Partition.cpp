@@ -35,12 +35,33 @@ using RealArray = NumberArray<double>;
 
 Cell cellOf(const Bounds& bounds) { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
 
+py::buffer_info idsOf(const py::buffer& ids) {
+  py::buffer_info held = ids.request();
+  if (held.ndim != 1 || held.itemsize != 8) throw InvalidArgument("ids of another kind than the module takes");
+  return held;
+}
+
 std::unique_ptr<OffsetArray> overlapsInCell(const Boxes& boxes, const py::buffer& ids, const Bounds& cell,
                                             Options& options) {
-  const py::buffer_info held = ids.request();
-  if (held.ndim != 1 || held.itemsize != 8) throw InvalidArgument("ids of another kind than the module takes");
+  const py::buffer_info held = idsOf(ids);
   const std::vector<IdPair> pairs = options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
     return partition::overlapsInCell(boxes.set(), valuesOf<std::uint64_t>(held), cellOf(cell), settings);
+  });
+  return arrayOf(pairs);
+}
+
+/// Boxes and their ids.
+using Identified = std::pair<const Boxes*, py::buffer>;
+
+std::unique_ptr<OffsetArray> overlapsBetweenInCell(const Identified& first, const Identified& second,
+                                                   const Bounds& cell, Options& options) {
+  const py::buffer_info firstIds = idsOf(first.second);
+  const py::buffer_info secondIds = idsOf(second.second);
+  const BoxView& a = first.first->set();
+  const BoxView& b = second.first->set();
+  const std::vector<IdPair> pairs = options.run(a.size() + b.size(), [&](const OverlapOptions& settings) {
+    return partition::overlapsInCell(a, valuesOf<std::uint64_t>(firstIds), b, valuesOf<std::uint64_t>(secondIds),
+                                     cellOf(cell), settings);
   });
   return arrayOf(pairs);
 }
@@ -109,6 +130,7 @@ void bindPartition(py::module_& module) {
       .def("cells_of", &cellsOfBoxes)
       .def("__len__", &Partition::size);
   module.def("overlaps_in_cell", &overlapsInCell);
+  module.def("overlaps_between_in_cell", &overlapsBetweenInCell);
 }
 
 }  // namespace allpairs::python

@@ -26,11 +26,13 @@ BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const 
 
 }  // namespace
 
-BoxInput::BoxInput(std::span<const std::filesystem::path> paths) : m_paths(paths.begin(), paths.end()) {
-  for (const auto& path : paths) {
-    const scene::BoxRows file(path);
+BoxInput::BoxInput(std::span<const std::filesystem::path> first, std::span<const std::filesystem::path> second)
+    : m_paths(first.begin(), first.end()), m_firstFiles(first.size()) {
+  m_paths.insert(m_paths.end(), second.begin(), second.end());
+  for (std::size_t k = 0; k < m_paths.size(); ++k) {
+    const scene::BoxRows file(m_paths[k]);
     m_sizes.push_back(file.size());
-    m_size += file.size();
+    m_setSizes[setOf(k)] += file.size();
     m_isFloat64 = m_isFloat64 || file.isFloat64();
   }
 }
@@ -55,15 +57,16 @@ void BoxInput::forEachBlock(Visitor visit) {
 
 template <class Number>
 void BoxInput::readBlocks(std::vector<Number>& rows, Visitor visit) {
-  std::uint64_t before = 0;
+  std::array<std::uint64_t, 2> read{};  // boxes of each set in the files before
   for (std::size_t k = 0; k < m_paths.size(); ++k) {
     scene::BoxRows file = open(k);
+    const std::size_t set = setOf(k);
     for (std::uint64_t begin = 0; begin < file.size(); begin += kBlock) {
       rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, file.size() - begin)));
       file.read(begin, std::span(rows));
-      visit(before + begin, viewOf(file, begin, std::span<const Number>(rows)));
+      visit({set, read[set] + begin, read[0] + read[1] + begin, viewOf(file, begin, std::span<const Number>(rows))});
     }
-    before += file.size();
+    read[set] += file.size();
   }
 }
 
@@ -75,7 +78,7 @@ template <class Number>
 std::vector<Box> BoxInput::sampleAs(std::size_t count) {
   std::vector<Box> boxes;
   std::vector<Number> rows;
-  const std::uint64_t step = m_size <= count ? kNeighbors : m_size / std::max<std::size_t>(count / kNeighbors, 1);
+  const std::uint64_t step = size() <= count ? kNeighbors : size() / std::max<std::size_t>(count / kNeighbors, 1);
   for (std::size_t k = 0; k < m_paths.size(); ++k) {
     scene::BoxRows file = open(k);
     for (std::uint64_t begin = 0; begin < file.size(); begin += step) {

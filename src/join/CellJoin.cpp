@@ -4,12 +4,18 @@
 #include <algorithm>
 
 namespace allpairs::join {
+
 CellJoin::CellJoin(const BoxSpill& spill, const partition::Partition& cells, std::size_t most,
                    const OverlapOptions& options)
     : m_spill(spill), m_cells(cells), m_type(spill.type()), m_most(std::max<std::size_t>(most, 2)), m_search(options) {
+  const std::size_t tasks = cells.size() + 1;
+  m_sets = spill.extents().size() / tasks;
   std::uint64_t needed = 0;
-  const std::uint64_t wide = spill.extents().back().count;
-  for (const Extent& extent : spill.extents()) needed = std::max(needed, extent.count + wide);
+  for (std::size_t task = 0; task < tasks; ++task) {
+    std::uint64_t boxes = 0;
+    for (std::size_t set = 0; set < m_sets; ++set) boxes += countOf(partOf(cells, set, task)) + countOf(wide(set));
+    needed = std::max(needed, boxes);
+  }
   m_capacity = static_cast<std::size_t>(std::min<std::uint64_t>(needed, m_most));
   m_words = std::make_unique_for_overwrite<std::uint64_t[]>(m_capacity * m_type.words());
 }
@@ -21,12 +27,20 @@ Records CellJoin::room(std::size_t begin, std::uint64_t count) {
 void CellJoin::search(std::size_t task, Receiver receive) {
   const bool isWide = task == m_cells.size();
   const partition::Cell cell = isWide ? partition::Cell() : m_cells.cell(task);
-  searchWithin(task, cell, receive);
-  if (!isWide) searchBetween(task, cell, receive);
+  if (m_sets == 1) {
+    searchWithin(task, cell, receive);
+    if (!isWide) searchBetween({task, wide(0)}, cell, receive);
+    return;
+  }
+  const std::size_t second = partOf(m_cells, 1, task);
+  searchBetween({task, second}, cell, receive);
+  if (isWide) return;
+  searchBetween({task, wide(1)}, cell, receive);
+  searchBetween({wide(0), second}, cell, receive);
 }
 
 void CellJoin::searchWithin(std::size_t part, const partition::Cell& cell, Receiver receive) {
-  const std::uint64_t count = m_spill.extents()[part].count;
+  const std::uint64_t count = countOf(part);
   const std::uint64_t step = count <= m_most ? count : m_most / 2;
   for (std::uint64_t begin = 0; begin < count; begin += step) {
     const Records own = room(0, std::min(step, count - begin));
@@ -41,25 +55,25 @@ void CellJoin::searchWithin(std::size_t part, const partition::Cell& cell, Recei
   }
 }
 
-/// Own boxes take at most half of the room.
-void CellJoin::searchBetween(std::size_t part, const partition::Cell& cell, Receiver receive) {
-  const std::uint64_t count = m_spill.extents()[part].count;
-  const std::uint64_t wide = m_spill.extents().back().count;
-  if (wide == 0) return;
-  const std::uint64_t step = count + wide <= m_most ? count : m_most / 2;
+/// Boxes of the first part take half of the room, or what the second leaves where that is more.
+void CellJoin::searchBetween(Parts parts, const partition::Cell& cell, Receiver receive) {
+  const std::uint64_t count = countOf(parts.first);
+  const std::uint64_t others = countOf(parts.second);
+  if (others == 0) return;
+  const std::uint64_t step = std::max<std::uint64_t>(m_most / 2, others < m_most ? m_most - others : 0);
   for (std::uint64_t begin = 0; begin < count; begin += step) {
     const Records own = room(0, std::min(step, count - begin));
-    m_spill.read(part, begin, own);
-    searchWithWide(own, m_most - own.size(), cell, receive);
+    m_spill.read(parts.first, begin, own);
+    searchWithPart(own, parts.second, cell, receive);
   }
 }
 
-void CellJoin::searchWithWide(const Records& own, std::size_t room, const partition::Cell& cell, Receiver receive) {
-  const std::size_t wide = m_spill.extents().size() - 1;
-  const std::uint64_t count = m_spill.extents()[wide].count;
-  for (std::uint64_t begin = 0; begin < count; begin += room) {
-    const Records others = this->room(own.size(), std::min<std::uint64_t>(room, count - begin));
-    m_spill.read(wide, begin, others);
+void CellJoin::searchWithPart(const Records& own, std::size_t part, const partition::Cell& cell, Receiver receive) {
+  const std::uint64_t count = countOf(part);
+  const std::uint64_t step = m_most - own.size();
+  for (std::uint64_t begin = 0; begin < count; begin += step) {
+    const Records others = room(own.size(), std::min(step, count - begin));
+    m_spill.read(part, begin, others);
     m_search.stream(own.boxes(), others.boxes(), cell,
                     [&](std::span<const Pair> pairs) { receive(pairs, own, others); });
   }

@@ -51,8 +51,9 @@ DiskJoin::DiskJoin(BoxInput& input, const JoinOptions& options, const Budget& bu
     : m_input(input),
       m_options(options),
       m_budget(budget),
-      m_ranges(KeyRanges::of(0, input.size(), false, kMostRanges)) {
+      m_ranges(KeyRanges::of(0, input.size(0), false, kMostRanges)) {
   m_manifest.inputs = statesOf(input.paths());
+  m_manifest.secondFiles = input.secondFiles();
   m_manifest.distance = options.distance;
   m_manifest.isCount = isCount;
 }
@@ -109,7 +110,9 @@ void DiskJoin::readManifest() {
   if (!m_options.resume) {
     throw FileError(m_options.work, "has a join that did not end: resume it, or remove the folder");
   }
-  if (found->inputs != m_manifest.inputs) throw FileError(m_options.work, "has a join of other files, or they changed");
+  if (found->inputs != m_manifest.inputs || found->secondFiles != m_manifest.secondFiles) {
+    throw FileError(m_options.work, "has a join of other files, or they changed");
+  }
   if (found->distance != m_manifest.distance || found->isCount != m_manifest.isCount) {
     throw FileError(m_options.work, "has a join with other options");
   }
@@ -177,12 +180,14 @@ void DiskJoin::distribute() {
   m_cells = division.cells;
   m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
   CellFinder finder(m_cells, m_options.distance);
-  m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
+  m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      for (const std::uint32_t cell : finder.cellsOf(boxes[i])) m_spill->add(cell, begin + i, boxes, i);
+    for (std::size_t i = 0; i < block.boxes.size(); ++i) {
+      for (const std::uint32_t cell : finder.cellsOf(block.boxes[i])) {
+        m_spill->add(partOf(m_cells, block.set, cell), block.begin + i, block.boxes, i);
+      }
     }
-    report("distributing", begin + boxes.size(), m_input.size());
+    report("distributing", block.before + block.boxes.size(), m_input.size());
   });
   m_spill->finish();
   const std::vector<InputState> now = statesOf(m_input.paths());
@@ -207,7 +212,7 @@ template <class Id>
 void DiskJoin::searchCells() {
   if (!m_manifest.isCount && m_runs.end == 0) m_runs.file = WorkFile(file("pairs"), WorkFile::Mode::Create);
   std::vector<std::size_t> left;
-  for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
+  for (std::size_t cell = 0; cell < tasks(); ++cell) {
     if (!m_manifest.cells.contains(cell)) left.push_back(cell);
   }
   std::atomic<std::size_t> next = 0;
@@ -240,13 +245,14 @@ void DiskJoin::searchCells() {
 template <class Id>
 void DiskJoin::searchCell(std::size_t cell, CellJoin& join, RunWriter<Id>* writer) {
   CellResult result;
+  const bool isOneSet = m_input.sets() == 1;
   join.search(cell, [&](std::span<const Pair> pairs, const Records& first, const Records& second) {
     result.pairs += pairs.size();
     if (writer == nullptr) return;
     for (const Pair pair : pairs) {
       const std::uint64_t a = first.id(pair.first);
       const std::uint64_t b = second.id(pair.second);
-      writer->add(std::min(a, b), std::max(a, b));
+      writer->add(isOneSet ? std::min(a, b) : a, isOneSet ? std::max(a, b) : b);
     }
   });
   if (writer != nullptr) result.runs = writer->finish();
@@ -260,7 +266,7 @@ void DiskJoin::keep(std::size_t cell, CellResult result) {
     m_manifest.write(file("manifest"));
     m_lastSaved = now();
   }
-  report("searching", m_manifest.cells.size(), m_manifest.extents.size());
+  report("searching", m_manifest.cells.size(), tasks());
 }
 
 template <class Id>
@@ -273,7 +279,8 @@ void DiskJoin::writePairs(ResultSink sink) {
   }
   sink(headerFor<Id>(pairs));
   std::uint64_t written = 0;
-  PairMerge<Id> merge(m_ranges, m_input.size(), m_budget.mergeBytes, m_runs.file, file("divided"), m_options.stop);
+  const std::uint64_t seconds = m_input.size(m_input.sets() - 1);
+  PairMerge<Id> merge(m_ranges, seconds, m_budget.mergeBytes, m_runs.file, file("divided"), m_options.stop);
   merge.merge(runs, [&](std::span<const StoredPair<Id>> batch) {
     checkStop(m_options.stop);
     sink({reinterpret_cast<const char*>(batch.data()), batch.size_bytes()});
@@ -288,7 +295,10 @@ JoinSummary DiskJoin::summary() const {
   for (const Extent& extent : m_manifest.extents) records += extent.count;
   for (const auto& [number, result] : m_manifest.cells) summary.pairs += result.pairs;
   summary.copies = records > summary.boxes ? records - summary.boxes : 0;
-  summary.wideBoxes = m_manifest.extents.back().count;
+  for (std::size_t set = 0; set < m_input.sets(); ++set) {
+    summary.wideBoxes += m_manifest.extents[partOf(m_cells, set, m_cells.size())].count;
+  }
+  summary.secondBoxes = m_input.size(1);
   summary.boxBytes = records * recordType().size();
   summary.pairBytes = m_manifest.isCount ? 0 : summary.pairs * pairSize();
   summary.resumedCells = m_resumed;

@@ -49,7 +49,8 @@ class DiskJoin {
   void finish(const ResultSink* sink);
   [[nodiscard]] JoinSummary summary() const;
   [[nodiscard]] RecordType recordType() const { return {m_input.isFloat64()}; }
-  [[nodiscard]] std::size_t pairSize() const { return pairSizeFor(m_input.size()); }
+  [[nodiscard]] std::size_t pairSize() const { return pairSizeFor(m_input.largestSize()); }
+  [[nodiscard]] std::size_t tasks() const { return m_cells.size() + 1; }  ///< Of searching: cells, and the wide boxes.
   [[nodiscard]] std::filesystem::path file(const char* name) const { return m_options.work / name; }
   void report(std::string_view step, std::uint64_t done, std::uint64_t total);
 

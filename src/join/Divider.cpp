@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "allpairs/Overlaps.h"
 #include "allpairs/StopFlag.h"
@@ -38,6 +39,12 @@ std::uint64_t Division::copies(std::uint64_t boxes) const {
   return records() > boxes ? records() - boxes : 0;  // empty boxes go nowhere
 }
 
+std::uint64_t Division::countOf(std::size_t cell) const {
+  std::uint64_t count = 0;
+  for (std::size_t part = cell; part < counts.size(); part += cells.size() + 1) count += counts[part];
+  return count;
+}
+
 CellFinder::CellFinder(const partition::Partition& cells, double distance) : m_cells(cells), m_distance(distance) {}
 
 std::span<const std::uint32_t> CellFinder::cellsOf(const Box& box) {
@@ -62,28 +69,32 @@ Division Divider::divide() {
 }
 
 void Divider::count(Division& division) {
-  division.counts.assign(division.cells.size() + 1, 0);
-  const std::uint64_t step = m_input.size() / std::max<std::size_t>(m_budget.sampleBoxes, 1) + 1;
-  m_evenSample.clear();
+  division.counts.assign(m_input.sets() * (division.cells.size() + 1), 0);
+  const std::uint64_t most = std::max<std::uint64_t>(m_budget.sampleBoxes / m_input.sets(), 1);
+  for (std::vector<Box>& sample : m_evenSamples) sample.clear();
   CellFinder finder(division.cells, m_options.distance);
-  m_input.forEachBlock([&](std::uint64_t begin, const BoxView& boxes) {
+  m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const Box box = boxes[i];
-      for (const std::uint32_t cell : finder.cellsOf(box)) ++division.counts[cell];
-      if ((begin + i) % step == 0) m_evenSample.push_back(box);
+    const std::uint64_t step = m_input.size(block.set) / most + 1;
+    for (std::size_t i = 0; i < block.boxes.size(); ++i) {
+      const Box box = block.boxes[i];
+      for (const std::uint32_t cell : finder.cellsOf(box)) ++division.counts[partOf(division.cells, block.set, cell)];
+      if ((block.begin + i) % step == 0) m_evenSamples[block.set].push_back(box);
     }
-    if (m_options.progress) m_options.progress({"counting", begin + boxes.size(), m_input.size()});
+    if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
 }
 
 /// Returns whether anything was cut.
 bool Divider::cutFullCells(Division& division, const std::vector<Box>& sample) const {
   bool isCut = false;
-  const std::size_t before = division.cells.size();
-  for (std::size_t cell = 0; cell < before; ++cell) {
-    if (division.counts[cell] <= m_budget.cellBoxes) continue;
-    isCut |= division.cells.cutAgain(cell, sample, 2 * cellsFor(division.counts[cell], m_budget), m_options.distance);
+  std::vector<std::pair<std::size_t, std::uint64_t>> full;
+  for (std::size_t cell = 0; cell < division.cells.size(); ++cell) {
+    const std::uint64_t boxes = division.countOf(cell);  // before a cut: then parts have other numbers
+    if (boxes > m_budget.cellBoxes) full.emplace_back(cell, boxes);
+  }
+  for (const auto& [cell, boxes] : full) {
+    isCut |= division.cells.cutAgain(cell, sample, 2 * cellsFor(boxes, m_budget), m_options.distance);
   }
   return isCut;
 }
@@ -91,18 +102,27 @@ bool Divider::cutFullCells(Division& division, const std::vector<Box>& sample) c
 /// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long.
 std::uint64_t Divider::estimatePairs() const {
   std::uint64_t pairs = 0;
-  std::size_t size = 0;
+  std::array<std::vector<Box>, 2> parts;
   for (std::size_t step = 256; step > 0 && pairs < kEnoughPairs; step /= 4) {
-    std::vector<Box> part;
-    for (std::size_t i = 0; i < m_evenSample.size(); i += step) part.push_back(m_evenSample[i]);
-    if (part.size() < 2) continue;
-    size = part.size();
-    pairs = countOverlaps(part, {.distance = m_options.distance, .stop = m_options.stop});
+    for (std::size_t set = 0; set < m_input.sets(); ++set) {
+      parts[set].clear();
+      for (std::size_t i = 0; i < m_evenSamples[set].size(); i += step) parts[set].push_back(m_evenSamples[set][i]);
+    }
+    pairs = pairsOf(std::span(parts).first(m_input.sets()));
   }
-  if (size < 2) return 0;
-  const double share = static_cast<double>(m_input.size()) / static_cast<double>(size);
-  const double shareOfOthers = static_cast<double>(m_input.size() - 1) / static_cast<double>(size - 1);
-  return static_cast<std::uint64_t>(static_cast<double>(pairs) * share * shareOfOthers);
+  const bool isOneSet = m_input.sets() == 1;
+  const auto shareOf = [&](std::size_t set, std::size_t less) {  // of how many boxes one of the sample stands for
+    const auto all = static_cast<double>(m_input.size(set) - less);
+    return all / static_cast<double>(parts[set].size() - less);
+  };
+  if (pairs == 0) return 0;
+  const double share = shareOf(0, 0) * (isOneSet ? shareOf(0, 1) : shareOf(1, 0));
+  return static_cast<std::uint64_t>(static_cast<double>(pairs) * share);
+}
+
+std::uint64_t Divider::pairsOf(std::span<const std::vector<Box>> parts) const {
+  const OverlapOptions options{.distance = m_options.distance, .stop = m_options.stop};
+  return parts.size() == 1 ? countOverlaps(parts[0], options) : countOverlaps(parts[0], parts[1], options);
 }
 
 }  // namespace allpairs::join

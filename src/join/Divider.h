@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,18 +15,28 @@
 
 namespace allpairs::join {
 
-/// How space is cut for a set of boxes, and how many go where.
+/// The boxes of a cell are one part for each set, and so are the wide ones, which have the number after the last cell's.
+/// Parts of the second set follow all of the first.
+[[nodiscard]] inline std::size_t partOf(const partition::Partition& cells, std::size_t set, std::size_t cell) noexcept {
+  return set * (cells.size() + 1) + cell;
+}
+
+/// How space is cut for one or two sets of boxes, and how many go where.
 struct Division {
   partition::Partition cells{};
-  std::vector<std::uint64_t> counts{};  ///< Of each cell, and of the wide boxes.
+  std::vector<std::uint64_t> counts{};  ///< Of each part.
   std::uint64_t pairs = 0;              ///< Estimated.
 
   /// Boxes and their copies: what is written.
   [[nodiscard]] std::uint64_t records() const;
   [[nodiscard]] std::uint64_t copies(std::uint64_t boxes) const;
+
+  /// The boxes of all sets in a cell, or those that are wide.
+  [[nodiscard]] std::uint64_t countOf(std::size_t cell) const;
+  [[nodiscard]] std::uint64_t wideBoxes() const { return countOf(cells.size()); }
 };
 
-/// Cuts space so that the boxes of a cell fit in memory where cuts can do that, and counts what each cell gets.
+/// Cuts space so that the boxes of a cell, of all sets, fit in memory where cuts can do that, and counts what each cell gets.
 ///
 /// Bad input: a NaN throws FileError.
 class Divider {
@@ -38,11 +49,12 @@ class Divider {
   void count(Division& division);
   [[nodiscard]] bool cutFullCells(Division& division, const std::vector<Box>& sample) const;
   [[nodiscard]] std::uint64_t estimatePairs() const;
+  [[nodiscard]] std::uint64_t pairsOf(std::span<const std::vector<Box>> parts) const;
 
   BoxInput& m_input;
   const JoinOptions& m_options;
   const Budget& m_budget;
-  std::vector<Box> m_evenSample;  ///< Boxes at equal distances in the input, taken while counting.
+  std::array<std::vector<Box>, 2> m_evenSamples;  ///< Boxes at equal distances in each set, taken while counting.
 };
 
 /// Finds the cells that a box goes to.

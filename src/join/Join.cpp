@@ -30,7 +30,7 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
   const std::size_t threads = options.executor != nullptr ? options.executor->concurrency() : 1;
   const std::uint64_t workers = std::min<std::uint64_t>(threads, 1 + (memory - kLeastMemory) / kMemoryPerThread);
   const std::size_t recordSize = RecordType{input.isFloat64()}.size();
-  return Budget::of(memory, static_cast<std::size_t>(workers), recordSize, pairSizeFor(input.size()));
+  return Budget::of(memory, static_cast<std::size_t>(workers), recordSize, pairSizeFor(input.largestSize()));
 }
 
 /// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it is
@@ -78,7 +78,7 @@ void checkOptions(std::span<const fs::path> inputs, const JoinOptions& options) 
 JoinSummary run(std::span<const fs::path> inputs, const ResultSink* sink, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (options.work.empty()) throw InvalidArgument("a join needs a folder to work in");
-  BoxInput input(inputs);
+  BoxInput input(inputs, options.second);
   const Budget budget = budgetOf(options, input);
   return DiskJoin(input, options, budget, sink == nullptr).run(sink);
 }
@@ -104,22 +104,23 @@ JoinSummary countFiles(Span<const fs::path> inputs, const JoinOptions& options) 
 
 JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
   checkOptions(inputs, options);
-  BoxInput input(inputs);
+  BoxInput input(inputs, options.second);
   const Budget budget = budgetOf(options, input);
   const Division division = Divider(input, options, budget).divide();
   return {.boxes = input.size(),
           .pairs = division.pairs,
           .cells = division.cells.size(),
           .copies = division.copies(input.size()),
-          .wideBoxes = division.counts.back(),
+          .wideBoxes = division.wideBoxes(),
           .boxBytes = division.records() * RecordType{input.isFloat64()}.size(),
-          .pairBytes = division.pairs * pairSizeFor(input.size())};
+          .pairBytes = division.pairs * pairSizeFor(input.largestSize()),
+          .secondBoxes = input.size(1)};
 }
 
 RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
-  BoxInput input(inputs);
+  BoxInput input(inputs, options.second);
   Budget budget = budgetOf(options, input);
   const std::uint64_t cells =
       ranks == 1 ? 1
@@ -129,7 +130,7 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
       static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);  // Divider fills cells to seven tenths
   const Division division = Divider(input, options, budget).divide();
   const std::uint64_t recordSize = RecordType{input.isFloat64()}.size();
-  const std::uint64_t wide = division.counts.back();
+  const std::uint64_t wide = division.wideBoxes();
   const auto leaving = [ranks](std::uint64_t bytes) { return bytes / ranks * (ranks - 1); };  // for another rank
   return {.boxes = input.size(),
           .pairs = division.pairs,
@@ -137,7 +138,7 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
           .copies = division.copies(input.size()),
           .wideBoxes = wide,
           .boxBytes = leaving((division.records() - wide) * recordSize) + (ranks - 1) * wide * recordSize,
-          .pairBytes = leaving(division.pairs * pairSizeFor(input.size()))};
+          .pairBytes = leaving(division.pairs * pairSizeFor(input.largestSize()))};
 }
 
 }  // namespace allpairs::join

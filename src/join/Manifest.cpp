@@ -41,6 +41,7 @@ std::string textOf(const Manifest& manifest) {
   text += '\n';
   for (const InputState& input : manifest.inputs) addLine(text, "input", input.path, input.bytes, input.changed);
   addLine(text, "options", std::bit_cast<std::uint64_t>(manifest.distance), manifest.isCount);
+  if (manifest.secondFiles != 0) addLine(text, "second", manifest.secondFiles);
   for (const partition::Cut& cut : manifest.cuts) {
     addLine(text, "cut", std::bit_cast<std::uint64_t>(cut.at), cut.axis, cut.low, cut.high);
   }
@@ -92,6 +93,8 @@ void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
   } else if (line.word() == "options") {
     manifest.distance = std::bit_cast<double>(line.number());
     manifest.isCount = line.number() != 0;
+  } else if (line.word() == "second") {
+    manifest.secondFiles = static_cast<std::size_t>(line.number());
   } else if (line.word() == "cut") {
     manifest.cuts.push_back({std::bit_cast<double>(line.number()), static_cast<std::uint32_t>(line.number()),
                              static_cast<std::int32_t>(line.number()), static_cast<std::int32_t>(line.number())});
@@ -133,7 +136,10 @@ void Manifest::write(const fs::path& path) const {
 void Manifest::check() const {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 48;
   (void)partition::Partition::fromCuts(cuts);
-  if (extents.size() != cuts.size() + 2) throw InvalidArgument("another number of cells than its cuts make");
+  if (secondFiles > inputs.size()) throw InvalidArgument("a second set of other files");
+  const std::size_t tasks = cuts.size() + 2;  // cells, and the wide boxes
+  if (extents.size() != (secondFiles == 0 ? tasks : 2 * tasks))
+    throw InvalidArgument("another number of cells than its cuts make");
   std::uint64_t boxes = 0;
   for (const Extent& extent : extents) {
     if (extent.begin != boxes || extent.count > kMost - boxes) throw InvalidArgument("cells that overlap");
@@ -145,7 +151,7 @@ void Manifest::check() const {
       if (run.position > kMost || run.pairs > kMost - pairs) throw InvalidArgument("runs that end nowhere");
       pairs += run.pairs;
     }
-    if (number >= extents.size() || (!isCount && pairs != result.pairs)) throw InvalidArgument("pairs of no cell");
+    if (number >= tasks || (!isCount && pairs != result.pairs)) throw InvalidArgument("pairs of no cell");
   }
 }
 

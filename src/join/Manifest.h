@@ -32,10 +32,11 @@ struct CellResult {
 /// What is complete of a join: enough to go on with it.
 struct Manifest {
   std::vector<InputState> inputs{};
+  std::size_t secondFiles = 0;  ///< How many of them, the last ones, are the second of two sets.
   double distance = 0.0;
   bool isCount = false;
   std::vector<partition::Cut> cuts{};
-  std::vector<Extent> extents{};              ///< Of the boxes of each cell, and of the wide ones.
+  std::vector<Extent> extents{};              ///< Of each part of the boxes; see partOf().
   std::map<std::size_t, CellResult> cells{};  ///< Those that were searched.
 
   /// Replaces the file: whoever reads it finds the one before or this one, whole.

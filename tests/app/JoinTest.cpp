@@ -63,6 +63,39 @@ TEST_F(JoinCommand, TakesADistanceAndCounts) {
   EXPECT_EQ(pairsOfNpy(bytes("both.npy")), oracle(both, 0.5));
 }
 
+TEST_F(JoinCommand, TakesASecondSet) {
+  const std::vector<Box> others = toDouble(randomBoxes(300, 32));
+  const std::string second = folder.write("others.npy", npyBytes(others, {.descr = "<f8"})).string();
+  const ProgramRun run = runProgram({"join", few, "--with", second, "-o", in("pairs.npy"), "--distance", "0.25"});
+  expectSuccess(run);
+  const std::vector<Pair> expected = oracleBetween(boxes, others, 0.25);
+  EXPECT_EQ(pairsOfNpy(bytes("pairs.npy")), expected);
+  EXPECT_TRUE(run.out.find(" among 400 and 300 boxes -> ") != std::string::npos) << run.out;
+  const ProgramRun twice = runProgram({"join", second, few, "--count", "--with", few, second});
+  expectSuccess(twice);
+  EXPECT_NE(twice.out.find(" among 700 and 700 boxes\n"), std::string::npos) << twice.out;
+  const ProgramRun plan = runProgram({"plan", few, "--with", second, "--ranks", "2"});
+  expectSuccess(plan);
+  EXPECT_TRUE(plan.out.starts_with("boxes    700, ")) << plan.out;
+  expectFailure(runProgram({"join", few, "--with", in("gone.npy"), "--count"}), kBadInput, "gone.npy: no such file");
+}
+
+TEST_F(JoinCommand, ASecondSetKilledAtAnyMomentGoesOnToTheSameBytes) {
+  writeMany();
+  expectSuccess(runProgram({"generate", "uniform", "-n", "100000", "-o", in("others.npy")}));
+  const std::string join = "\"$0\" join many.npy --with others.npy -o join.npy --memory 64M --threads 1";
+  const std::string enter = "cd '" + folder.path().string() + "' && ";
+  ASSERT_EQ(runScript(enter + join + " && mv join.npy whole.npy").status, 0);
+  const ProgramRun run = runScript(enter + "for delay in 0.02 0.05 0.09 0.13 0.2; do " + join +
+                                   " --resume >/dev/null 2>&1 & sleep $delay; kill -9 $! 2>/dev/null; wait $! "
+                                   "2>/dev/null; done; " +
+                                   join + " --resume");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(bytes("join.npy") == bytes("whole.npy"));
+  EXPECT_GT(bytes("whole.npy").size(), 1'000U);
+  EXPECT_FALSE(fs::exists(in("join.npy.work")));
+}
+
 TEST_F(JoinCommand, KilledAtAnyMomentItGoesOnToTheSameBytes) {
   writeMany();
   expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));

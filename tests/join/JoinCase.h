@@ -27,9 +27,8 @@ inline join::Budget tinyBudget() {
   return {.workers = 1, .cellBoxes = 60, .bufferPairs = 50, .bufferBytes = 1, .sampleBoxes = 300, .mergeBytes = 40'000};
 }
 
-/// The pairs of the double loop as the bytes of the file that they must be.
-inline std::string expectedBytes(const std::vector<Box>& boxes, double distance = 0.0) {
-  const std::vector<Pair> pairs = oracle(boxes, distance);
+/// Pairs as the bytes of the file that they must be.
+inline std::string bytesOfPairs(const std::vector<Pair>& pairs) {
   std::string bytes =
       npyHeaderBytes("{'descr': '<u4', 'fortran_order': False, 'shape': (" + std::to_string(pairs.size()) + ", 2), }");
   for (const Pair pair : pairs) {
@@ -37,6 +36,11 @@ inline std::string expectedBytes(const std::vector<Box>& boxes, double distance 
     appendNumber(bytes, pair.second, false);
   }
   return bytes;
+}
+
+/// Those of the double loop.
+inline std::string expectedBytes(const std::vector<Box>& boxes, double distance = 0.0) {
+  return bytesOfPairs(oracle(boxes, distance));
 }
 
 inline std::string bytesOfFile(const std::filesystem::path& path) {
@@ -55,15 +59,21 @@ class JoinCase {
     paths.push_back(folder.write(name, npyBytes(boxes, style)));
   }
 
+  void addSecond(const std::vector<Box>& boxes, const NpyStyle& style = {.descr = "<f4"}) {
+    const std::string name = "second" + std::to_string(second.size()) + ".npy";
+    second.push_back(folder.write(name, npyBytes(boxes, style)));
+  }
+
   [[nodiscard]] join::JoinOptions options() const {
     join::JoinOptions options;
     options.work = folder.path() / "work";
+    options.second = second;
     return options;
   }
 
   /// The result's bytes, in the budget.
   std::string run(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
-    join::BoxInput input(paths);
+    join::BoxInput input(paths, options.second);
     std::string bytes;
     const auto append = [&bytes](std::string_view part) { bytes += part; };
     const join::ResultSink sink(append);
@@ -72,13 +82,14 @@ class JoinCase {
   }
 
   std::uint64_t count(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
-    join::BoxInput input(paths);
+    join::BoxInput input(paths, options.second);
     summary = join::DiskJoin(input, options, budget, true).run(nullptr);
     return summary.pairs;
   }
 
   TempFolder folder;
   std::vector<std::filesystem::path> paths;
+  std::vector<std::filesystem::path> second;
   join::JoinSummary summary{};
 };
 

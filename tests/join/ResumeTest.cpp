@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joins that end in the middle, and go on.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstddef>
@@ -12,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "JoinCase.h"
+#include "ResumeCase.h"
 #include "WorkFile.h"
 #include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
@@ -26,40 +24,6 @@ std::vector<Box> someBoxes() {
   std::vector<Box> boxes = toDouble(randomBoxes(500, 21));
   for (std::size_t i = 0; i < 20; ++i) boxes.push_back(cube(-1, -1, -1, 30));
   return boxes;
-}
-
-/// Counts the steps of a join and calls `end` at one of them.
-template <class End>
-join::JoinOptions endingAt(const JoinCase& with, std::size_t step, const End& end) {
-  join::JoinOptions options = with.options();
-  options.resume = true;
-  options.progress = [step, end, calls = std::size_t{0}](const join::JoinProgress&) mutable {
-    if (calls++ == step) end();
-  };
-  return options;
-}
-
-/// Runs in a process of its own, which is gone at that step without a word; whether it came that far.
-bool runKilledAt(JoinCase& with, std::size_t step) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    try {
-      (void)with.run(endingAt(with, step, [] { ::_exit(9); }));
-    } catch (...) {
-      ::_exit(1);
-    }
-    ::_exit(0);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) != 1);
-  return WEXITSTATUS(status) == 9;
-}
-
-join::JoinOptions resuming(const JoinCase& with) {
-  join::JoinOptions options = with.options();
-  options.resume = true;
-  return options;
 }
 
 TEST(Resume, AfterAKillAtAnyStepTheBytesAreTheSame) {
@@ -98,15 +62,6 @@ TEST(Resume, AfterAnErrorAtAnyStepTheBytesAreTheSame) {
     }
   }
   EXPECT_GT(resumed, 5U) << "cells that were not searched again";
-}
-
-/// Leaves a join that has found the pairs of all cells.
-JoinCase& stoppedWhileWriting(JoinCase& with) {
-  const auto failing = [](std::string_view) { throw std::runtime_error("no room"); };
-  const join::ResultSink sink(failing);
-  join::BoxInput input(with.paths);
-  EXPECT_THROW(join::DiskJoin(input, with.options(), tinyBudget(), false).run(&sink), std::runtime_error);
-  return with;
 }
 
 void flipByte(const fs::path& path, std::streamoff at) {

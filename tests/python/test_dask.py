@@ -49,6 +49,48 @@ def test_a_distance_is_that_of_one_search(distance):
     assert found.compute().tobytes() == allpairs.overlaps(boxes, distance=distance).tobytes()
 
 
+def double_loop(first, second, distance):
+    a, b = first.astype(np.float64), second.astype(np.float64)
+    rows = [
+        np.flatnonzero((box[:3] <= b[:, 3:] + distance).all(axis=1) & (b[:, :3] <= box[3:] + distance).all(axis=1))
+        for box in a
+    ]
+    return [[i, int(j)] for i, row in enumerate(rows) for j in row]
+
+
+@pytest.mark.parametrize("distance", [0.0, 0.25])
+@pytest.mark.parametrize(
+    "scenes", [("uniform", "clusters"), ("giant", "needles"), ("uniform", "giant"), ("far", "far"), ("lattice", "lattice")]
+)
+def test_two_sets_are_those_of_one_search(scenes, distance):
+    dtype = np.float64 if "far" in scenes else np.float32
+    first, second = boxes_of(scenes[0], dtype)[1::2], boxes_of(scenes[1], np.float64)[2::3]
+    found = allpairs.dask.overlaps(
+        dask.array.from_array(first, chunks=(400, 6)),
+        second=dask.array.from_array(second, chunks=(300, 3)),
+        distance=distance,
+    )
+    pairs = found.compute(scheduler="threads")
+    assert pairs.dtype == np.uint32
+    assert pairs.tolist() == double_loop(first, second, distance)
+    assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
+
+
+def test_two_sets_of_files_and_sets_without_boxes(tmp_path):
+    boxes = boxes_of("uniform", np.float32)
+    sets = {"a.npy": boxes[:500], "b.npy": boxes[400:700], "c.npy": boxes[700:1000], "none.npy": boxes[:0]}
+    for name, part in sets.items():
+        np.save(tmp_path / name, part)
+    count = allpairs.dask.overlaps(
+        [tmp_path / "a.npy", tmp_path / "none.npy"], tmp_path / "pairs", second=[tmp_path / "b.npy", tmp_path / "c.npy"]
+    )
+    found = np.concatenate([np.load(part) for part in sorted((tmp_path / "pairs").iterdir())])
+    assert count == len(found) and len(list((tmp_path / "pairs").iterdir())) == 2
+    assert found.tolist() == double_loop(boxes[:500], boxes[400:1000], 0)
+    for first, second in (("a.npy", "none.npy"), ("none.npy", "a.npy"), ("none.npy", "none.npy")):
+        assert len(allpairs.dask.overlaps(tmp_path / first, second=tmp_path / second).compute()) == 0
+
+
 def test_no_boxes_and_few():
     for count in (0, 1, 2):
         boxes = boxes_of("uniform", np.float32)[:count]
@@ -77,6 +119,13 @@ def test_what_is_wrong_is_named(tmp_path):
         allpairs.dask.overlaps(dask.array.from_array(boxes[:, :5]))
     with pytest.raises(allpairs.InvalidArgument, match="no file"):
         allpairs.dask.overlaps([])
+    good = dask.array.from_array(boxes[:1000], chunks=(1000, 6))
+    with pytest.raises(allpairs.InvalidArgument, match="box 1234 of the second set"):
+        allpairs.dask.overlaps(good, second=dask.array.from_array(boxes, chunks=(1000, 6))).compute()
+    with pytest.raises(allpairs.InvalidArgument, match=r"second has shape \(3000, 5\)"):
+        allpairs.dask.overlaps(good, second=dask.array.from_array(boxes[:, :5]))
+    with pytest.raises(allpairs.InvalidArgument, match="second names no file"):
+        allpairs.dask.overlaps(good, second=[])
     np.save(tmp_path / "flat.npy", boxes.ravel())
     with pytest.raises(allpairs.InvalidArgument, match="flat.npy has shape"):
         allpairs.dask.overlaps(tmp_path / "flat.npy")

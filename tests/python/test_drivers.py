@@ -119,6 +119,48 @@ def test_distance_count_and_several_files(tmp_path):
     assert f"{count:,} pairs" in mpirun(2, "join", *parts, "--distance=0.4", "--count").stdout
 
 
+SETS = [
+    ("uniform", "clusters"),
+    ("needles", "uniform"),
+    ("giant", "two"),
+    ("two", "giant"),
+    ("one place", "one place"),
+    ("far", "far"),
+    ("none", "uniform"),
+    ("uniform", "none"),
+    ("none", "none"),
+]
+
+
+def pairs_between(first, second, distance):
+    """The double loop, a row of it at a time."""
+    a, b = first.astype(np.float64), second.astype(np.float64)
+    rows = [
+        np.flatnonzero((box[:3] <= b[:, 3:] + distance).all(axis=1) & (b[:, :3] <= box[3:] + distance).all(axis=1))
+        for box in a
+    ]
+    return [[i, int(j)] for i, row in enumerate(rows) for j in row]
+
+
+@pytest.mark.parametrize("first, second", SETS)
+def test_two_sets_have_one_list_in_all_drivers(tmp_path, first, second):
+    a, b = boxes_of(first)[1::2], boxes_of(second)[1::3]
+    np.save(tmp_path / "a.npy", a)
+    np.save(tmp_path / "b.npy", b[:100].astype(np.float64))
+    np.save(tmp_path / "c.npy", b[100:])
+    expected = allpairs.overlaps_between(a, b, distance=0.25)
+    assert expected.tolist() == pairs_between(a, b, 0.25)
+    arguments = ["join", tmp_path / "a.npy", "--with", tmp_path / "b.npy", tmp_path / "c.npy", "--distance", "0.25"]
+    for memory in ("4G", "64M"):
+        run(PROGRAM, *arguments, "-o", tmp_path / "join.npy", "--memory", memory)
+        assert np.load(tmp_path / "join.npy").tobytes() == expected.tobytes()
+    for ranks in (1, 3) if MPI_PROGRAM else ():
+        done = mpirun(ranks, *arguments, "-o", tmp_path / "mpi.npy")
+        assert digest(tmp_path / "mpi.npy") == digest(tmp_path / "join.npy"), ranks
+        assert f" among {len(a):,} and {len(b):,} box" in done.stdout
+        assert mpirun(ranks, *arguments, "--count").stdout.startswith(f"{len(expected):,} pair")
+
+
 @needs_mpi
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_what_is_wrong_ends_all_ranks_with_one_line(tmp_path, ranks):
@@ -138,6 +180,9 @@ def test_what_is_wrong_ends_all_ranks_with_one_line(tmp_path, ranks):
     said = complaint(tmp_path / "good.npy", tmp_path / "bad.npy", "-o", out, status=3)
     assert said.endswith("bad.npy: box 299 has a NaN")
     assert "absent.npy" in complaint(tmp_path / "absent.npy", "--count", status=3)
+    assert "absent.npy" in complaint(tmp_path / "good.npy", "--count", "--with", tmp_path / "absent.npy", status=3)
+    said = complaint(tmp_path / "good.npy", "--count", "--with", tmp_path / "good.npy", tmp_path / "bad.npy", status=3)
+    assert said.endswith("bad.npy: box 299 has a NaN")
     nowhere = tmp_path / "nowhere" / "pairs.npy"
     assert "nowhere/pairs.npy: cannot be created" in complaint(tmp_path / "good.npy", "-o", nowhere, status=3)
     assert "takes -o FILE" in complaint(tmp_path / "good.npy", status=2)

@@ -42,6 +42,20 @@ def test_cells_have_each_pair_once(distance):
     assert sorted(found) == double_loop(boxes, distance)
 
 
+def test_cells_have_each_pair_of_two_sets_once():
+    first, second = some_boxes(200, 4), some_boxes(150, 5, np.float64)
+    margins = np.linspace(0, 0.25, 200), np.linspace(0, 0.5, 150)
+    partition = allpairs.Partition(np.vstack([first, second]), cells=6, margin=0.5)
+    found = []
+    homes = [partition.cells_of(boxes, margin=m, max_margin=0.5) for boxes, m in zip((first, second), margins)]
+    for number, cell in enumerate(partition.cells):
+        a, b = (rows[rows[:, 1] == number, 0] for rows in homes)
+        here = (margins[0][a], margins[1][b])
+        found += allpairs.overlaps_between_in_cell(first[a], second[b], (a, b), cell, margin=here).tolist()
+    assert sorted(found) == allpairs.overlaps_between(first, second, margin=margins).tolist()
+    assert len(found) > 100
+
+
 def test_margins_widen_and_are_seen():
     boxes = some_boxes(80)
     margins = np.linspace(0, 0.5, 80)
@@ -76,6 +90,10 @@ def test_bad_arguments_are_named():
         allpairs.overlaps_in_cell(boxes, None, [1, 2, 3], [1, 2, 3])
     with pytest.raises(allpairs.InvalidArgument, match="two boxes have the id 7"):
         allpairs.overlaps_in_cell(boxes * 0, None, [7, 7, 3], space)
+    with pytest.raises(allpairs.InvalidArgument, match="second set: ids has shape"):
+        allpairs.overlaps_between_in_cell(boxes, boxes, ([1, 2, 3], [1, 2]), space)
+    with pytest.raises(allpairs.InvalidArgument, match="ids takes a tuple of two"):
+        allpairs.overlaps_between_in_cell(boxes, boxes, [1, 2, 3], space)
     with pytest.raises(allpairs.InvalidArgument, match="cells is 0"):
         allpairs.Partition(boxes, cells=0)
 
@@ -102,6 +120,26 @@ def test_a_join_of_files_is_the_search_in_memory(tmp_path):
     assert allpairs.join(str(tmp_path / "a.npy"), threads=2).pairs == len(double_loop(boxes[:150]))
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("distance", [0.0, 0.125])
+def test_a_join_of_two_sets_is_the_search_in_memory(tmp_path, dtype, distance):
+    first, second = some_boxes(250, 2, dtype), some_boxes(200, 3, dtype)
+    np.save(tmp_path / "a.npy", first)
+    np.save(tmp_path / "b.npy", second[:90])
+    np.save(tmp_path / "c.npy", second[90:])
+    others = [tmp_path / "b.npy", tmp_path / "c.npy"]
+    summary = allpairs.join(tmp_path / "a.npy", tmp_path / "pairs.npy", second=others, distance=distance)
+    pairs = np.load(tmp_path / "pairs.npy")
+    expected = [[i, j - 250] for i, j in double_loop(np.vstack([first, second]), distance) if i < 250 <= j]
+    assert pairs.tolist() == expected
+    assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
+    assert summary.boxes == 450 and summary.pairs == len(expected)
+    assert allpairs.join(tmp_path / "a.npy", second=others, distance=distance).pairs == len(expected)
+    np.save(tmp_path / "none.npy", first[:0])
+    assert allpairs.join(tmp_path / "a.npy", second=tmp_path / "none.npy").pairs == 0
+    assert allpairs.join(tmp_path / "none.npy", second=tmp_path / "a.npy").pairs == 0
+
+
 def test_join_says_what_is_wrong(tmp_path):
     boxes = some_boxes(10)
     boxes[4, 2] = np.nan
@@ -112,4 +150,6 @@ def test_join_says_what_is_wrong(tmp_path):
         allpairs.join(tmp_path / "nan.npy", memory=1)
     with pytest.raises(allpairs.InvalidArgument, match="no file"):
         allpairs.join([])
+    with pytest.raises(allpairs.InvalidArgument, match="second names no file"):
+        allpairs.join(tmp_path / "nan.npy", second=[])
     assert [path.name for path in tmp_path.iterdir()] == ["nan.npy"]

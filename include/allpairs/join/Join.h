@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "allpairs/Executor.h"
 #include "allpairs/FunctionRef.h"
@@ -52,11 +53,15 @@ struct JoinOptions {
   /// Called when the sink has received all bytes, and before the work folder is removed: puts the result in its place,
   /// so that a join which is killed then can still be resumed. May be empty.
   std::function<void()> commit{};
+
+  /// Files of a second set: the pairs are those of a box of the inputs and a box of these, and both sets are numbered by
+  /// themselves. None means pairs within the inputs.
+  std::vector<std::filesystem::path> second{};
 };
 
 /// What a join did, or is expected to do.
 struct JoinSummary {
-  std::uint64_t boxes = 0;
+  std::uint64_t boxes = 0;      ///< Of both sets, where there are two.
   std::uint64_t pairs = 0;      ///< Estimated from a sample in a plan.
   std::uint64_t cells = 0;      ///< The parts of space that are searched one by one.
   std::uint64_t copies = 0;     ///< Boxes that are written to more than one cell, counted once for each cell but one.
@@ -64,16 +69,18 @@ struct JoinSummary {
   std::uint64_t boxBytes = 0;   ///< Written to the work folder, and read again.
   std::uint64_t pairBytes = 0;  ///< Likewise; and as many once more for the result.
   std::uint64_t resumedCells = 0;  ///< Cells whose pairs were found before, of a join that was resumed.
+  std::uint64_t secondBoxes = 0;   ///< How many of the boxes are those of the second set.
 };
 
 /// Receives the bytes of a result, in order.
 using ResultSink = FunctionRef<void(std::string_view)>;
 
 /// Finds the overlapping pairs of boxes that do not fit in memory, and writes a .npy array of shape (m, 2) to the sink:
-/// uint32, of more than 2^32 boxes uint64, ordered by (first, second). These are the bytes that a search in memory
+/// uint32, of more than 2^32 boxes in a set uint64, ordered by (first, second). These are the bytes that a search in memory
 /// gives.
 ///
-/// Inputs:    .npy files of shape (n, 6), numbered as one set in the order given; see scene::BoxRows.
+/// Inputs:    .npy files of shape (n, 6), numbered as one set in the order given; see scene::BoxRows. Of two sets,
+///            options.second has the files of the other.
 /// Bad input: a file that is none, or a box with a NaN, throws FileError, which names it; so does a work folder that is
 ///            full, in use, or another join's. Too little memory, or a distance that is none, throws InvalidArgument.
 ///            What was complete stays in the work folder.
