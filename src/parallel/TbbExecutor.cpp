@@ -44,6 +44,11 @@ std::size_t TbbExecutor::concurrency() const noexcept {
 }
 
 void TbbExecutor::run(std::size_t count, FunctionRef<void(std::size_t)> task) {
+  // A single task needs no other thread: entering the arena would take longer than most such tasks.
+  if (count == 1) {
+    task(0);
+    return;
+  }
   TaskFence fence;
   const auto runOne = [&](std::size_t i) {
     const TaskFence::Task mark(fence);

@@ -124,7 +124,7 @@ TEST_P(CallbackOfSearch, AVisitorThatThrowsLeavesTheSearchUsable) {
 TEST_P(CallbackOfSearch, AnExecutorThatThrowsLeavesTheSearchUsable) {
   Thrower thrower;
   ThrowingExecutor executor(thrower);
-  const std::vector<Box> more = test::toDouble(test::randomBoxes(700, 82));
+  const std::vector<Box> more = test::toDouble(test::randomBoxes(2100, 82));
   const std::vector<Pair> wantedOfMore = overlaps(more);
   options.executor = &executor;
   OverlapSearch search(options);

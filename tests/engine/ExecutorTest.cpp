@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -23,6 +24,18 @@ class BackwardExecutor final : public Executor {
   }
 };
 
+/// Claims two threads and counts what it is asked to run.
+class CountingExecutor final : public Executor {
+ public:
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return 2; }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    ++runs;
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  }
+
+  std::size_t runs = 0;
+};
+
 TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
   const std::vector<BoxF> boxes = test::randomBoxes(60000, 31);
   parallel::TbbExecutor two(2);
@@ -42,6 +55,49 @@ TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
       }
     }
   }
+}
+
+TEST(Executor, GivesTheSameBytesWhereFewBoxesTakeOneThread) {
+  const std::vector<BoxF> boxes = test::randomBoxes(4097, 37);
+  for (std::size_t threads = 2; threads <= 8; ++threads) {
+    parallel::TbbExecutor executor(threads);
+    OverlapSearch kept;
+    for (const std::size_t size : {900U, 2047U, 2048U, 2049U, 4095U, 4097U, 2048U}) {
+      const std::span<const BoxF> part(boxes.data(), size);
+      for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+        OverlapOptions options;
+        options.strategy = Strategy::Bvh;
+        options.order = order;
+        const std::vector<Pair> serial = overlaps(part, options);
+        const Neighbors rows = neighbors(part, NeighborRows::Full, options);
+        options.executor = &executor;
+        ASSERT_EQ(overlaps(part, options), serial);
+        ASSERT_EQ(countOverlaps(part, options), serial.size());
+        kept.setOptions(options);
+        ASSERT_TRUE(std::ranges::equal(kept.find(part), serial));
+        ASSERT_EQ(neighbors(part, NeighborRows::Full, options).indices, rows.indices);
+      }
+    }
+  }
+}
+
+TEST(Executor, SearchesFewBoxesOnTheCallingThreadUnlessTheyAreFiltered) {
+  const std::vector<BoxF> boxes = test::randomBoxes(2049, 38);
+  CountingExecutor counting;
+  OverlapOptions options;
+  options.strategy = Strategy::Bvh;
+  options.executor = &counting;
+  const std::span<const BoxF> all(boxes);
+  static_cast<void>(overlaps(all.first(2048), options));
+  EXPECT_EQ(counting.runs, 0U);
+  static_cast<void>(overlaps(all.first(1024), all.subspan(1024, 1024), options));
+  EXPECT_EQ(counting.runs, 0U);
+  static_cast<void>(overlaps(all, options));
+  EXPECT_GT(counting.runs, 0U);
+  counting.runs = 0;
+  options.filter.accept = [](std::uint32_t, std::uint32_t) { return true; };
+  static_cast<void>(overlaps(all.first(2048), options));
+  EXPECT_GT(counting.runs, 0U);
 }
 
 TEST(Executor, GivesTheSameBytesBetweenTwoSets) {

@@ -77,9 +77,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(SearchCase{"exhaustive", 300, 1.0F, Strategy::Exhaustive, Order::ByFirst},
                       SearchCase{"exhaustive by second", 300, 1.0F, Strategy::Exhaustive, Order::BySecond},
                       SearchCase{"many pairs, exhaustive", 500, 50.0F, Strategy::Exhaustive, Order::ByFirst},
-                      SearchCase{"bvh", 900, 1.0F, Strategy::Bvh, Order::ByFirst},
-                      SearchCase{"bvh by second", 900, 1.0F, Strategy::Bvh, Order::BySecond},
-                      SearchCase{"bvh, unordered", 900, 1.0F, Strategy::Bvh, Order::Unordered},
+                      SearchCase{"bvh", 2100, 1.0F, Strategy::Bvh, Order::ByFirst},
+                      SearchCase{"bvh by second", 2100, 1.0F, Strategy::Bvh, Order::BySecond},
+                      SearchCase{"bvh, unordered", 2100, 1.0F, Strategy::Bvh, Order::Unordered},
                       SearchCase{"many pairs", 500, 50.0F, Strategy::Bvh, Order::ByFirst},
                       SearchCase{"in buckets", 17000, 1.0F, Strategy::Bvh, Order::ByFirst, 7}));
 

@@ -31,6 +31,10 @@ constexpr double kMuchOrdered = 0.1;
 constexpr double kDense = 9.0;
 constexpr double kDenseBothWays = 26.0;
 
+/// Up to so many boxes, a join is done on one thread before a second one has woken up, or soon after
+/// (allpairs bench uniform -n 2000 --threads 2).
+constexpr std::size_t kFewForThreads = 2048;
+
 /// Lists take memory and time for each box of a set, those included that the other set cannot reach: not for so many
 /// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
@@ -180,8 +184,8 @@ void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& pla
   if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;
   const bool flat = choosesFlat(readers, options, likelyPairs);
-  plan.sink.likelyPairs = std::min(likelyPairs / m_executor->concurrency(), options.maxPairs);
   flat ? planFlat(readers, plan) : planJoin(readers, plan);
+  plan.sink.likelyPairs = std::min(likelyPairs / m_executor->concurrency(), options.maxPairs);
 }
 
 void Search::planFlat(const Readers& readers, Plan& plan) {
@@ -203,6 +207,9 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
 }
 
 void Search::planJoin(const Readers& readers, Plan& plan) {
+  const std::size_t boxes = readers.first.size() + (readers.one ? 0 : readers.second.size());
+  // A filter may take any time for a pair.
+  if (boxes <= kFewForThreads && !plan.test.isFiltered()) m_executor = &m_stoppable.over(nullptr, plan.sink.stop);
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
   const BvhBuilder& second = readers.one ? m_first : m_second;
