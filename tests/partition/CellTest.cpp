@@ -46,6 +46,35 @@ TEST(Cell, ReachIsWidenedAboveOnlyAndByTheGreatestMargin) {
   EXPECT_EQ(reachOf({{-kInfinity, 0, 0}, {-kInfinity, 1, 1}}, 0.0, kInfinity).max[0], kInfinity);
 }
 
+TEST(Cell, ReachIsThatOfTheGreaterOfBothRoundings) {
+  constexpr double kHuge = 0x1p53;  // (1 + kHuge) + 1 is rounded down twice, (1 + 1) + kHuge is exact.
+  const Box point{{0, 0, 0}, {0, 0, 0}};
+  EXPECT_EQ(reachOf(point, kHuge, 1.0, 1.0).max[0], kHuge + 2.0);
+  EXPECT_EQ(reachOf(point, 1.0, 1.0, kHuge).max[0], kHuge + 2.0);
+}
+
+TEST(Cell, PairsOfIdsAreInLexicographicOrder) {
+  const std::vector<IdPair> pairs = {{1, 1}, {1, 2}, {2, 0}, {2, 1}, {3, 0}};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      EXPECT_EQ(pairs[i] < pairs[k], i < k);
+      EXPECT_EQ(pairs[i] <= pairs[k], i <= k);
+      EXPECT_EQ(pairs[i] > pairs[k], i > k);
+      EXPECT_EQ(pairs[i] >= pairs[k], i >= k);
+      EXPECT_EQ(pairs[i] == pairs[k], i == k);
+      EXPECT_EQ(pairs[i] != pairs[k], i != k);
+    }
+  }
+}
+
+TEST(Cell, CellsAreEqualWhereBothCornersAre) {
+  const Cell cell{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_TRUE(cell == (Cell{{0, 0, 0}, {1, 1, 1}}));
+  EXPECT_FALSE(cell != (Cell{{0, 0, 0}, {1, 1, 1}}));
+  EXPECT_TRUE(cell != (Cell{{0, 0, 0}, {1, 2, 1}}));
+  EXPECT_TRUE(cell != (Cell{{0, 0, -1}, {1, 1, 1}}));
+}
+
 TEST(Cell, EachPairIsFoundInItsOwnCellOnly) {
   const Cell left{{-kInfinity, -kInfinity, -kInfinity}, {1.5, kInfinity, kInfinity}};
   const Cell right{{1.5, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};

@@ -61,6 +61,20 @@ TEST(Partition, ACellIsCutAgainAndTheOthersStay) {
   EXPECT_FALSE(partition.cutAgain(2, BoxView(), 4)) << "nothing to go by";
 }
 
+TEST(Partition, CountsByTheGreatestMarginOfEither) {
+  const Partition partition = Partition::fromCuts(std::vector<Cut>{{10.0, 0, ~0, ~1}});
+  const std::vector<Box> boxes = {cube(0, 0, 0), cube(5, 0, 0), cube(20, 0, 0)};
+  const std::vector<double> margins = {0.0, -1.0, 4.0};
+  BoxView view(boxes);
+  EXPECT_EQ(boxesPerCell(partition, view), (std::vector<std::uint64_t>{2, 1}));
+  view.setMargins(margins);
+  EXPECT_EQ(greatestMargin(view), 4.0);
+  EXPECT_EQ(boxesPerCell(partition, view), (std::vector<std::uint64_t>{2, 1})) << "5 + 1 + 4 - 1 is below the cut";
+  EXPECT_EQ(boxesPerCell(partition, view, 1.0), (std::vector<std::uint64_t>{2, 2})) << "and with 1 on it";
+  EXPECT_EQ(boxesPerCell(partition, view, 0.0, 5.0), (std::vector<std::uint64_t>{2, 2}));
+  EXPECT_EQ(boxesPerCell(partition, view, 0.0, 9.0), (std::vector<std::uint64_t>{2, 3}));
+}
+
 TEST(Partition, ComesBackFromItsCuts) {
   const std::vector<Box> boxes = test::toDouble(test::randomBoxes(1'000, 6));
   const Partition partition(boxes, 9);
