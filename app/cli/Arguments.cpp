@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/Arguments.h"
 
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -96,6 +99,16 @@ std::uint64_t parseMemory(const std::string& option, const std::string& text) {
     throw UsageError(option + ": '" + text + "' is not a size, such as 512M or 8G");
   }
   return value << shift;
+}
+
+void requireBoxesBeforeWith(const CLI::App& command) {
+  bool hasSecond = false;
+  for (const CLI::Option* option : command.parse_order()) {
+    if (option->get_name() == "--with") hasSecond = true;
+    if (hasSecond && option->get_positional()) {
+      throw UsageError("BOXES come before --with, which takes all files that follow it");
+    }
+  }
 }
 
 Box parseRegion(const std::string& text) {

@@ -9,6 +9,10 @@
 
 #include "allpairs/Box.h"
 
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
+class App;
+}
+
 namespace allpairs::app {
 
 /// The arguments as the parser needs them: an option that takes numbers is joined with its value, which may begin with
@@ -34,6 +38,12 @@ namespace allpairs::app {
 ///
 /// Bad input: throws UsageError.
 [[nodiscard]] std::uint64_t parseMemory(const std::string& option, const std::string& text);
+
+/// Checks, after parsing, that BOXES come before --with: it takes all files that follow it, which would else be of the
+/// other set than meant.
+///
+/// Bad input: throws UsageError.
+void requireBoxesBeforeWith(const CLI::App& command);
 
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///

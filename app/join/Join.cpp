@@ -14,6 +14,7 @@
 #include "Commands.h"
 #include "allpairs/join/Join.h"
 #include "allpairs/scene/FileError.h"
+#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -40,7 +41,8 @@ Several files are one set, numbered on from file to file. The result is a .npy
 array (m, 2), uint32, or uint64 of more than 2^32 boxes, ordered by (first,
 second): the same bytes as 'allpairs detect -o' where that fits in memory.
 With --with the pairs are those of a box of BOXES, first, and a box of a second
-set of files, second; both sets are numbered by themselves.
+set of files, second; both sets are numbered by themselves. --with comes after
+BOXES: it takes all files up to the next option.
 
 Examples:
   allpairs join boxes.npy -o pairs.npy --memory 4G
@@ -143,7 +145,10 @@ void addJoin(CLI::App& program) {
   command->add_flag("--count", settings->count, "Only count the pairs");
   addThreads(*command, settings->threads);
   addOutput(*command, settings->output);
-  command->callback([settings] { runJoin(*settings); });
+  command->callback([settings, command] {
+    requireBoxesBeforeWith(*command);
+    runJoin(*settings);
+  });
 }
 
 }  // namespace allpairs::app

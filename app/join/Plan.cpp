@@ -10,6 +10,7 @@
 
 #include "Commands.h"
 #include "allpairs/join/Join.h"
+#include "cli/Arguments.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
@@ -95,7 +96,10 @@ void addPlan(CLI::App& program) {
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   addThreads(*command, settings->threads);
-  command->callback([settings] { runPlan(*settings); });
+  command->callback([settings, command] {
+    requireBoxesBeforeWith(*command);
+    runPlan(*settings);
+  });
 }
 
 }  // namespace allpairs::app

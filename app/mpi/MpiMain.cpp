@@ -36,7 +36,8 @@ constexpr const char* kExamples =
 Several files are one set, numbered on from file to file; every rank must see
 them. The result is the file that 'allpairs detect -o' and 'allpairs join' write.
 With --with the pairs are those of a box of BOXES, first, and a box of a second
-set of files, second; both sets are numbered by themselves.
+set of files, second; both sets are numbered by themselves. --with comes after
+BOXES: it takes all files up to the next option.
 
 Examples:
   mpirun allpairs-mpi join boxes.npy -o pairs.npy
@@ -166,7 +167,10 @@ void run(int count, char** arguments) {
   join->add_option("--distance", settings.distance, "Pairs up to D apart on every axis")->type_name("D");
   join->add_option("--threads", settings.threads, "Threads of each rank; 0 means all cores")->type_name("N");
   join->add_flag("--count", settings.count, "Only count the pairs");
-  join->callback([&settings] { Join(settings).run(); });
+  join->callback([&settings, join] {
+    allpairs::app::requireBoxesBeforeWith(*join);
+    Join(settings).run();
+  });
   parse(program, count, arguments);
 }
 

@@ -74,6 +74,11 @@ TEST_F(JoinCommand, TakesASecondSet) {
   const ProgramRun twice = runProgram({"join", second, few, "--count", "--with", few, second});
   expectSuccess(twice);
   EXPECT_NE(twice.out.find(" among 700 and 700 boxes\n"), std::string::npos) << twice.out;
+  constexpr const char* kOrder = "BOXES come before --with";
+  expectFailure(runProgram({"join", "--count", "--with", second, few, few}), kWrongUsage, kOrder);
+  expectFailure(runProgram({"join", "--count", "--with", second, "--", few, few}), kWrongUsage, kOrder);
+  expectFailure(runProgram({"join", few, "--with", second, "--count", few}), kWrongUsage, kOrder);
+  expectFailure(runProgram({"plan", "--threads", "1", "--with", second, few, few}), kWrongUsage, kOrder);
   const ProgramRun plan = runProgram({"plan", few, "--with", second, "--ranks", "2"});
   expectSuccess(plan);
   EXPECT_TRUE(plan.out.starts_with("boxes    700, ")) << plan.out;
