@@ -20,7 +20,8 @@ constexpr std::size_t kFewInAnyOrder = 8 * kFanOut;
 /// joining the blocks takes less time than joining them as they are.
 constexpr double kMostSpread = 2.0;
 
-/// The share of room for boxes added later. If as large a share of all boxes was added or removed, all trees are planted anew.
+/// A tree has room for one more box in this many. If more than one box in this many was added or removed, all trees are built
+/// again.
 constexpr std::size_t kShareOfRoom = 8;
 
 /// If at least one box of a world in this many was added since its boxes were put in order, they are put in order again:
@@ -29,9 +30,6 @@ constexpr std::size_t kShareOfAppended = 64;
 
 /// If at least one box of a world in this many has changed, all its blocks are read again: most would be anyway.
 constexpr std::size_t kShareOfStale = 16;
-
-/// No world: there are fewer.
-constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
 /// The blocks of all levels of a hierarchy.
 std::size_t allBlocksFor(std::size_t boxes) {
@@ -99,7 +97,7 @@ void WorldForest::plant(const BoxStore& store, const WorldMembers& members) {
   m_marked.assign(worlds, 1);
   m_dirty.resize(worlds);
   std::iota(m_dirty.begin(), m_dirty.end(), 0U);
-  m_home.assign(store.idBound(), kNowhere);
+  m_home.assign(store.idBound(), WorldMembers::kNoWorld);
   m_endBlock = 0;
   m_endLeaf = 0;
   std::size_t largest = 0;
@@ -126,21 +124,21 @@ void WorldForest::plant(const BoxStore& store, const WorldMembers& members) {
   }
 }
 
-/// Removes boxes that have gone from the trees, and appends those that have come. Returns false if all are better planted
-/// anew: because many have, or much of the memory is of no tree.
+/// Removes boxes that have gone from the trees, and appends those that have come. Returns false if it is better to build all
+/// trees again: because many boxes came or went, or because trees that moved have left much memory unused.
 bool WorldForest::follow(const BoxStore& store, const WorldMembers& members) {
   if (store.resettled().size() * kShareOfRoom > store.size()) return false;
-  m_home.resize(std::max(m_home.size(), store.idBound()), kNowhere);
+  m_home.resize(std::max(m_home.size(), store.idBound()), WorldMembers::kNoWorld);
   for (const BoxId id : store.resettled()) {
-    if (m_home[id] == kNowhere) continue;
+    if (m_home[id] == WorldMembers::kNoWorld) continue;
     Tree& tree = m_trees[m_home[id]];
     if (belongs(store, id) && tree.number == store.worldOf(id)) continue;
-    m_home[id] = kNowhere;
+    m_home[id] = WorldMembers::kNoWorld;
     tree.isChanged = true;
     --tree.size;
   }
   renumber(members);
-  const auto isNew = [&](BoxId id) { return m_home[id] == kNowhere && belongs(store, id); };
+  const auto isNew = [&](BoxId id) { return m_home[id] == WorldMembers::kNoWorld && belongs(store, id); };
   for (const BoxId id : store.resettled()) {
     if (!isNew(id)) continue;
     Tree& tree = m_trees[members.worldOf(id)];
@@ -158,10 +156,12 @@ bool WorldForest::follow(const BoxStore& store, const WorldMembers& members) {
       giveRoom(tree);
       m_ids.grow(m_endLeaf * kFanOut);
     }
-    const std::uint32_t* const from = m_ids.data() + before;
+    const std::span<const std::uint32_t> ids(m_ids.data() + before, tree.listed);
     std::uint32_t* const to = m_ids.data() + tree.firstLeaf * kFanOut;
-    const auto isHere = [&](BoxId id) { return m_home[id] == world; };
-    tree.listed = static_cast<std::size_t>(std::copy_if(from, from + tree.listed, to, isHere) - to);
+    tree.listed = 0;
+    for (const BoxId id : ids) {  // which may be where they go
+      if (m_home[id] == world) to[tree.listed++] = id;
+    }
     std::fill_n(to + tree.listed, tree.room * kFanOut - tree.listed, 0U);
   }
   requireRoom(largest);
@@ -197,7 +197,7 @@ void WorldForest::renumber(const WorldMembers& members) {
     m_nextTrees[world] = tree;
     const std::span<const std::uint32_t> ids(m_ids.data() + tree.firstLeaf * kFanOut, tree.listed);
     for (const BoxId id : ids) {
-      if (m_home[id] != kNowhere) m_home[id] = static_cast<std::uint32_t>(world);
+      if (m_home[id] != WorldMembers::kNoWorld) m_home[id] = static_cast<std::uint32_t>(world);
     }
     ++world;
   }
@@ -208,7 +208,7 @@ void WorldForest::renumber(const WorldMembers& members) {
 /// Lists the worlds with boxes that have changed.
 void WorldForest::findDirty(const BoxStore& store) {
   for (const BoxId id : store.stale()) {
-    if (id >= m_home.size() || m_home[id] == kNowhere) continue;
+    if (id >= m_home.size() || m_home[id] == WorldMembers::kNoWorld) continue;
     markDirty(m_home[id]);
     ++m_trees[m_home[id]].moved;
   }

@@ -10,7 +10,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// If at least one box in this many was added, removed or renumbered, the lists are made anew.
+/// If more than one box in this many was added, removed or renumbered, all boxes are listed again.
 constexpr std::size_t kShareOfOthers = 16;
 
 /// The part of an ordered list of world numbers above ids that is of one world; removes it from the list.
@@ -34,7 +34,7 @@ void WorldMembers::update(const BoxStore& store, Executor& executor) {
 /// Lists all boxes.
 void WorldMembers::list(const BoxStore& store, Executor& executor) {
   m_boxes.resize(store.size());
-  m_worldOf.assign(store.idBound(), kNone);
+  m_worldOf.assign(store.idBound(), kNoWorld);
   m_keyed.require(store.size());
   m_spare.require(store.size());
   const std::size_t own = listBoxes(store);
@@ -61,13 +61,13 @@ void WorldMembers::list(const BoxStore& store, Executor& executor) {
 /// Copies the lists without boxes that have gone and with those that have come, all of which have been touched since the
 /// last step. Does nothing, and returns false, if they are many.
 bool WorldMembers::follow(const BoxStore& store) {
-  m_worldOf.resize(std::max(m_worldOf.size(), store.idBound()), kNone);
+  m_worldOf.resize(std::max(m_worldOf.size(), store.idBound()), kNoWorld);
   m_keyed.require(store.touched().size());
   m_spare.require(store.touched().size());
   std::size_t gone = 0;
   std::size_t come = 0;
   for (const BoxId id : store.touched()) {
-    const bool was = m_worldOf[id] != kNone;
+    const bool was = m_worldOf[id] != kNoWorld;
     const std::uint32_t before = was ? numberOf(m_worldOf[id]) : 0;
     const std::uint32_t now = store.worldOf(id);
     const bool is = store.contains(id);
@@ -86,7 +86,7 @@ bool WorldMembers::follow(const BoxStore& store) {
 void WorldMembers::copyWorlds(std::span<const std::uint64_t> gone, std::span<const std::uint64_t> come) {
   m_nextNumbers.clear();
   m_nextBegin.clear();
-  for (const std::uint64_t key : gone) m_worldOf[indexOf(key)] = kNone;
+  for (const std::uint64_t key : gone) m_worldOf[indexOf(key)] = kNoWorld;
   BoxId* to = m_nextBoxes.data();
   for (std::size_t old = 0; old <= everyWorld();) {
     const std::uint32_t next = numberOf(old);

@@ -31,8 +31,11 @@ class WorldMembers {
         m_spare(memory),
         m_radix(memory) {}
 
-  /// Brings it up to date with the store, before each of its steps at least. The lists are copied if boxes were added or
-  /// removed, and made anew if these were many.
+  /// Stands for no world: there are always fewer worlds.
+  static constexpr std::uint32_t kNoWorld = 0xFFFFFFFFU;
+
+  /// Brings it up to date with the store. Must be called before each step of the store ends. If few boxes were added or
+  /// removed, the lists are copied with these changes; if many, all boxes are listed again.
   void update(const BoxStore& store, Executor& executor);
 
   /// Releases all memory, until the next update.
@@ -59,9 +62,6 @@ class WorldMembers {
   [[nodiscard]] std::size_t worldOf(BoxId id) const noexcept { return m_worldOf[id]; }
 
  private:
-  /// The world of what is no box of the store: there are fewer.
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   void list(const BoxStore& store, Executor& executor);
   std::size_t listBoxes(const BoxStore& store);
   bool follow(const BoxStore& store);
