@@ -101,14 +101,17 @@ std::uint64_t parseMemory(const std::string& option, const std::string& text) {
   return value << shift;
 }
 
-void requireBoxesBeforeWith(const CLI::App& command) {
-  bool hasSecond = false;
-  for (const CLI::Option* option : command.parse_order()) {
-    if (option->get_name() == "--with") hasSecond = true;
-    if (hasSecond && option->get_positional()) {
+void addBoxSets(CLI::App& command, std::vector<std::string>& boxes, std::vector<std::string>& with) {
+  const CLI::Option* first = command.add_option("BOXES", boxes, "One or more .npy files of boxes")->required();
+  const CLI::Option* second =
+      command.add_option("--with", with, "Files of a second set: pairs of a box of BOXES and a box of these")
+          ->type_name("FILE");
+  command.parse_complete_callback([&command, first, second] {
+    const std::vector<CLI::Option*>& order = command.parse_order();
+    if (std::find(std::find(order.begin(), order.end(), second), order.end(), first) != order.end()) {
       throw UsageError("BOXES come before --with, which takes all files that follow it");
     }
-  }
+  });
 }
 
 Box parseRegion(const std::string& text) {

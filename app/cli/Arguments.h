@@ -39,11 +39,10 @@ namespace allpairs::app {
 /// Bad input: throws UsageError.
 [[nodiscard]] std::uint64_t parseMemory(const std::string& option, const std::string& text);
 
-/// Checks, after parsing, that BOXES come before --with: it takes all files that follow it, which would else be of the
-/// other set than meant.
+/// Declares BOXES... and --with FILE..., the files of one or two sets of boxes.
 ///
-/// Bad input: throws UsageError.
-void requireBoxesBeforeWith(const CLI::App& command);
+/// Bad input: BOXES after --with, which takes all files that follow it, throw UsageError when the command is parsed.
+void addBoxSets(CLI::App& command, std::vector<std::string>& boxes, std::vector<std::string>& with);
 
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///

@@ -19,6 +19,10 @@ std::string counted(std::uint64_t count, const std::string& noun, const std::str
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
+std::string countedBoxes(std::uint64_t first, std::uint64_t second) {
+  return fmt::format("{} and {}", grouped(first), counted(second, "box", "boxes"));
+}
+
 std::string printable(const std::string& text) {
   std::string result;
   for (const char c : text) {

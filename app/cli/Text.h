@@ -14,6 +14,9 @@ namespace allpairs::app {
 /// `count` and the noun, in the plural unless it is 1: "3 boxes".
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});
 
+/// The boxes of two sets: "400 and 300 boxes".
+[[nodiscard]] std::string countedBoxes(std::uint64_t first, std::uint64_t second);
+
 /// The text with its control characters written as \x1b, so that a terminal shows them and does not obey them.
 [[nodiscard]] std::string printable(const std::string& text);
 

@@ -14,7 +14,6 @@
 #include "Commands.h"
 #include "allpairs/join/Join.h"
 #include "allpairs/scene/FileError.h"
-#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -38,8 +37,8 @@ struct JoinSettings {
 constexpr const char* kJoinExamples =
     R"(Boxes are .npy arrays (n, 6), float32 or float64: minx miny minz maxx maxy maxz.
 Several files are one set, numbered on from file to file. The result is a .npy
-array (m, 2), uint32, or uint64 of more than 2^32 boxes, ordered by (first,
-second): the same bytes as 'allpairs detect -o' where that fits in memory.
+array (m, 2), uint32, or uint64 of more than 2^32 boxes in a set, ordered by
+(first, second): the same bytes as 'allpairs detect -o' where that fits in memory.
 With --with the pairs are those of a box of BOXES, first, and a box of a second
 set of files, second; both sets are numbered by themselves. --with comes after
 BOXES: it takes all files up to the next option.
@@ -77,8 +76,7 @@ class JoinLine {
 
 std::string boxesText(const join::JoinSummary& summary, bool isTwoSets) {
   if (!isTwoSets) return counted(summary.boxes, "box", "boxes");
-  return fmt::format("{} and {}", grouped(summary.boxes - summary.secondBoxes),
-                     counted(summary.secondBoxes, "box", "boxes"));
+  return countedBoxes(summary.boxes - summary.secondBoxes, summary.secondBoxes);
 }
 
 std::string summaryText(const join::JoinSummary& summary, const std::string& output, bool isTwoSets) {
@@ -145,10 +143,7 @@ void addJoin(CLI::App& program) {
   command->add_flag("--count", settings->count, "Only count the pairs");
   addThreads(*command, settings->threads);
   addOutput(*command, settings->output);
-  command->callback([settings, command] {
-    requireBoxesBeforeWith(*command);
-    runJoin(*settings);
-  });
+  command->callback([settings] { runJoin(*settings); });
 }
 
 }  // namespace allpairs::app

@@ -12,9 +12,7 @@
 namespace allpairs::app {
 
 void addJoinArguments(CLI::App& command, JoinArguments& arguments) {
-  command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
-  command.add_option("--with", arguments.with, "Files of a second set: pairs of a box of BOXES and a box of these")
-      ->type_name("FILE");
+  addBoxSets(command, arguments.paths, arguments.with);
   command.add_option("--memory", arguments.memory, "Never take more; by default half of the machine's, least 64M")
       ->type_name("SIZE");
   addDistance(command, arguments.distance, "Pairs up to D apart on every axis");

@@ -10,7 +10,6 @@
 
 #include "Commands.h"
 #include "allpairs/join/Join.h"
-#include "cli/Arguments.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
@@ -96,10 +95,7 @@ void addPlan(CLI::App& program) {
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   addThreads(*command, settings->threads);
-  command->callback([settings, command] {
-    requireBoxesBeforeWith(*command);
-    runPlan(*settings);
-  });
+  command->callback([settings] { runPlan(*settings); });
 }
 
 }  // namespace allpairs::app

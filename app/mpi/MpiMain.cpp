@@ -90,8 +90,10 @@ class Join {
     } else {
       pairs = second ? search.count(boxes, others) : search.count(boxes);
     }
+    const std::string all = second ? allpairs::app::countedBoxes(first->allBoxes(), second->allBoxes())
+                                   : allpairs::app::counted(first->allBoxes(), "box", "boxes");
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
-      if (m_rank == 0) say(pairs, boxesText(*first, second));
+      if (m_rank == 0) say(pairs, all);
     });
   }
 
@@ -101,13 +103,6 @@ class Join {
     if (output.empty() && !m_settings.count) throw UsageError("join takes -o FILE, or --count");
     if (!output.empty() && m_settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
     if (!output.empty() && !output.ends_with(".npy")) throw UsageError("join writes .npy files; name its output so");
-  }
-
-  static std::string boxesText(const allpairs::app::BoxShare& first,
-                               const std::optional<allpairs::app::BoxShare>& second) {
-    if (!second) return allpairs::app::counted(first.allBoxes(), "box", "boxes");
-    return allpairs::app::grouped(first.allBoxes()) + " and " +
-           allpairs::app::counted(second->allBoxes(), "box", "boxes");
   }
 
   void say(std::uint64_t pairs, const std::string& boxes) const {
@@ -160,17 +155,12 @@ void run(int count, char** arguments) {
   Settings settings;
   CLI::App* join = program.add_subcommand("join", "Find the pairs, or count them");
   join->footer(kExamples);
-  join->add_option("BOXES", settings.paths, "One or more .npy files of boxes")->required();
-  join->add_option("--with", settings.with, "Files of a second set: pairs of a box of BOXES and a box of these")
-      ->type_name("FILE");
+  allpairs::app::addBoxSets(*join, settings.paths, settings.with);
   join->add_option("-o,--output", settings.output, "Write the pairs to this .npy file")->type_name("FILE");
   join->add_option("--distance", settings.distance, "Pairs up to D apart on every axis")->type_name("D");
   join->add_option("--threads", settings.threads, "Threads of each rank; 0 means all cores")->type_name("N");
   join->add_flag("--count", settings.count, "Only count the pairs");
-  join->callback([&settings, join] {
-    allpairs::app::requireBoxesBeforeWith(*join);
-    Join(settings).run();
-  });
+  join->callback([&settings] { Join(settings).run(); });
   parse(program, count, arguments);
 }
 
