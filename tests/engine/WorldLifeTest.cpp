@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "CompareStep.h"
@@ -129,6 +130,30 @@ TEST(WorldLife, LargeWorldsFollowTheBoxesThatComeAndGo) {
       }
       if (worlds.below(15) == 0) worlds.world.shrink();
     }
+  }
+}
+
+/// Worlds of ten boxes, so few that the lists are copied, end in the first, a middle and the last place, and others begin.
+TEST(WorldLife, FewBoxesEndAWorldWhileAnotherBegins) {
+  LargeWorlds worlds(7);
+  for (std::size_t i = 0; i < 900; ++i) worlds.add(worlds.properties());
+  for (const std::uint32_t number : {1U, 5U, 77U}) {
+    for (std::size_t i = 0; i < 10; ++i) {
+      BoxProperties properties = LargeWorlds::inWorld(number);
+      properties.isStatic = i % 4 == 0;
+      worlds.add(properties);
+    }
+  }
+  worlds.removeWorld(0);
+  ASSERT_NO_FATAL_FAILURE(worlds.compareStep());
+  for (const auto& [ending, beginning] :
+       {std::pair{1U, 3U}, std::pair{5U, 0U}, std::pair{77U, 78U}, std::pair{0U, 7U}}) {
+    SCOPED_TRACE("world " + std::to_string(ending));
+    ASSERT_NO_FATAL_FAILURE(worlds.compareQueries());
+    worlds.removeWorld(ending);
+    for (std::size_t i = 0; i < 10; ++i) worlds.add(LargeWorlds::inWorld(beginning));
+    ASSERT_NO_FATAL_FAILURE(worlds.compareQueries());
+    ASSERT_NO_FATAL_FAILURE(worlds.compareStep());
   }
 }
 

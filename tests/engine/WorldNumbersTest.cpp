@@ -189,8 +189,17 @@ void makeWorlds(World& world) {
 void changeWorlds(World& world) {
   std::vector<std::vector<BoxId>> ids;
   for (std::uint32_t number = 0; number < 5; ++number) ids.push_back(addRandom(world, 600, number, inWorld(number)));
+  const std::vector<BoxId> ending = addRandom(world, 20, 8, inWorld(5));
+  BoxProperties fixed = inWorld(5);
+  fixed.isStatic = true;
+  const std::vector<BoxId> endingToo = addRandom(world, 5, 9, fixed);
+  fixed.world = 0;
+  addRandom(world, 30, 10, fixed);
+  addRandom(world, 3, 11, inWorld(kEveryWorld));
   static_cast<void>(world.step());
   static_cast<void>(world.findOverlapping(cube(0, 0, 0)));
+  world.remove(ending);
+  world.remove(endingToo);
   world.remove(std::span(ids[1]).first(3));
   addRandom(world, 2, 6, inWorld(1));
   addRandom(world, 100, 7, inWorld(2));
