@@ -145,13 +145,7 @@ TEST(DiskJoin, SeveralFilesAreOneSetInAnyOfTheirForms) {
 }
 
 TEST(DiskJoin, Float64FarFromTheOriginIsExact) {
-  std::vector<Box> boxes = uniform(500);
-  for (Box& box : boxes) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.min[axis] = box.min[axis] / 3.0 + 1e9;
-      box.max[axis] = box.max[axis] / 3.0 + 1e9;
-    }
-  }
+  const std::vector<Box> boxes = farFromTheOrigin(uniform(500));
   JoinCase with(boxes, {.descr = "<f8"});
   EXPECT_TRUE(with.run(with.options()) == expectedBytes(boxes));
 }

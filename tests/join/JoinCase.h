@@ -48,6 +48,17 @@ inline std::string bytesOfFile(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The boxes a third as large and moved, so that only float64 holds them.
+inline std::vector<Box> farFromTheOrigin(std::vector<Box> boxes) {
+  for (Box& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = box.min[axis] / 3.0 + 1e9;
+      box.max[axis] = box.max[axis] / 3.0 + 1e9;
+    }
+  }
+  return boxes;
+}
+
 /// A join of some files in a folder of its own.
 class JoinCase {
  public:

@@ -47,6 +47,15 @@ inline join::JoinOptions resuming(const JoinCase& with) {
   return options;
 }
 
+/// Kills a join at each of its steps, and resumes it.
+inline void expectSameBytesAfterEachKill(JoinCase& with, const std::string& expected) {
+  std::size_t kills = 0;
+  for (std::size_t step = 0; runKilledAt(with, step); ++step, ++kills) {
+    ASSERT_TRUE(with.run(resuming(with)) == expected) << step;
+  }
+  EXPECT_GT(kills, 20U) << "steps";
+}
+
 /// Leaves a join that has found the pairs of all cells.
 inline JoinCase& stoppedWhileWriting(JoinCase& with) {
   const auto failing = [](std::string_view) { throw std::runtime_error("no room"); };

@@ -14,6 +14,19 @@ def every_pair(lower, upper, distance=0.0):
     return np.argwhere(np.triu(meet, k=1)).astype(np.uint32)
 
 
+def every_pair_between(first, second, distance=0.0):
+    """Those of a box of the first set and a box of the second, each numbered in its own; both (lower, upper)."""
+    lower, upper = np.vstack([first[0], second[0]]), np.vstack([first[1], second[1]])
+    pairs = every_pair(lower, upper, distance)
+    n = len(first[0])
+    return pairs[(pairs[:, 0] < n) & (pairs[:, 1] >= n)] - np.array([0, n], dtype=np.uint32)
+
+
+def corners(rows):
+    """Rows of six numbers as (lower, upper)."""
+    return rows[:, :3], rows[:, 3:]
+
+
 def random_boxes(n, seed=1, dtype=np.float64):
     """Boxes on a coarse grid, so that many touch exactly, a few of them empty or without end."""
     rng = np.random.default_rng(seed)

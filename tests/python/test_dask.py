@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import allpairs
+from conftest import corners, every_pair_between
 
 dask = pytest.importorskip("dask")
 import dask.array  # noqa: E402
@@ -49,15 +50,6 @@ def test_a_distance_is_that_of_one_search(distance):
     assert found.compute().tobytes() == allpairs.overlaps(boxes, distance=distance).tobytes()
 
 
-def double_loop(first, second, distance):
-    a, b = first.astype(np.float64), second.astype(np.float64)
-    rows = [
-        np.flatnonzero((box[:3] <= b[:, 3:] + distance).all(axis=1) & (b[:, :3] <= box[3:] + distance).all(axis=1))
-        for box in a
-    ]
-    return [[i, int(j)] for i, row in enumerate(rows) for j in row]
-
-
 @pytest.mark.parametrize("distance", [0.0, 0.25])
 @pytest.mark.parametrize(
     "scenes", [("uniform", "clusters"), ("giant", "needles"), ("uniform", "giant"), ("far", "far"), ("lattice", "lattice")]
@@ -72,7 +64,7 @@ def test_two_sets_are_those_of_one_search(scenes, distance):
     )
     pairs = found.compute(scheduler="threads")
     assert pairs.dtype == np.uint32
-    assert pairs.tolist() == double_loop(first, second, distance)
+    assert pairs.tolist() == every_pair_between(corners(first), corners(second), distance).tolist()
     assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
 
 
@@ -86,7 +78,7 @@ def test_two_sets_of_files_and_sets_without_boxes(tmp_path):
     )
     found = np.concatenate([np.load(part) for part in sorted((tmp_path / "pairs").iterdir())])
     assert count == len(found) and len(list((tmp_path / "pairs").iterdir())) == 2
-    assert found.tolist() == double_loop(boxes[:500], boxes[400:1000], 0)
+    assert found.tolist() == every_pair_between(corners(boxes[:500]), corners(boxes[400:1000])).tolist()
     for first, second in (("a.npy", "none.npy"), ("none.npy", "a.npy"), ("none.npy", "none.npy")):
         assert len(allpairs.dask.overlaps(tmp_path / first, second=tmp_path / second).compute()) == 0
 

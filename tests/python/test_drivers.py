@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import allpairs
+from conftest import corners, every_pair_between
 
 PROGRAM = os.environ.get("ALLPAIRS_PROGRAM", "")
 MPI_PROGRAM = os.environ.get("ALLPAIRS_MPI_PROGRAM", "")
@@ -132,16 +133,6 @@ SETS = [
 ]
 
 
-def pairs_between(first, second, distance):
-    """The double loop, a row of it at a time."""
-    a, b = first.astype(np.float64), second.astype(np.float64)
-    rows = [
-        np.flatnonzero((box[:3] <= b[:, 3:] + distance).all(axis=1) & (b[:, :3] <= box[3:] + distance).all(axis=1))
-        for box in a
-    ]
-    return [[i, int(j)] for i, row in enumerate(rows) for j in row]
-
-
 @pytest.mark.parametrize("first, second", SETS)
 def test_two_sets_have_one_list_in_all_drivers(tmp_path, first, second):
     a, b = boxes_of(first)[1::2], boxes_of(second)[1::3]
@@ -149,7 +140,7 @@ def test_two_sets_have_one_list_in_all_drivers(tmp_path, first, second):
     np.save(tmp_path / "b.npy", b[:100].astype(np.float64))
     np.save(tmp_path / "c.npy", b[100:])
     expected = allpairs.overlaps_between(a, b, distance=0.25)
-    assert expected.tolist() == pairs_between(a, b, 0.25)
+    assert expected.tolist() == every_pair_between(corners(a), corners(b), 0.25).tolist()
     arguments = ["join", tmp_path / "a.npy", "--with", tmp_path / "b.npy", tmp_path / "c.npy", "--distance", "0.25"]
     for memory in ("4G", "64M"):
         run(PROGRAM, *arguments, "-o", tmp_path / "join.npy", "--memory", memory)

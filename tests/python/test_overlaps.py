@@ -7,7 +7,7 @@ import allpairs
 import numpy as np
 import pytest
 from allpairs import _arguments, _core
-from conftest import every_pair, random_boxes
+from conftest import every_pair, every_pair_between, random_boxes
 
 
 def assert_pairs(found, expected):
@@ -129,17 +129,10 @@ def test_counts_are_the_number_of_pairs(boxes):
     assert allpairs.count(*boxes, distance=1, threads=2) == len(every_pair(*boxes, distance=1))
 
 
-def between(first, second):
-    lower, upper = np.vstack([first[0], second[0]]), np.vstack([first[1], second[1]])
-    pairs = every_pair(lower, upper)
-    n = len(first[0])
-    return pairs[(pairs[:, 0] < n) & (pairs[:, 1] >= n)] - np.array([0, n], dtype=np.uint32)
-
-
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_pairs_between_two_sets_are_those_of_the_double_loop_in_order(dtype):
     first, second = random_boxes(300, seed=8), random_boxes(70, seed=9, dtype=dtype)
-    expected = between(first, second)
+    expected = every_pair_between(first, second)
     assert_pairs(allpairs.overlaps_between(first, second), expected)
     assert_pairs(allpairs.overlaps_between(np.hstack(first), np.hstack(second)), expected)
     assert allpairs.count_between(first, np.hstack(second)) == len(expected)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import allpairs
+from conftest import corners, every_pair_between
 
 
 def some_boxes(count=300, seed=1, dtype=np.float32):
@@ -130,8 +131,8 @@ def test_a_join_of_two_sets_is_the_search_in_memory(tmp_path, dtype, distance):
     others = [tmp_path / "b.npy", tmp_path / "c.npy"]
     summary = allpairs.join(tmp_path / "a.npy", tmp_path / "pairs.npy", second=others, distance=distance)
     pairs = np.load(tmp_path / "pairs.npy")
-    expected = [[i, j - 250] for i, j in double_loop(np.vstack([first, second]), distance) if i < 250 <= j]
-    assert pairs.tolist() == expected
+    expected = every_pair_between(corners(first), corners(second), distance)
+    assert pairs.tolist() == expected.tolist()
     assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
     assert summary.boxes == 450 and summary.pairs == len(expected)
     assert allpairs.join(tmp_path / "a.npy", second=others, distance=distance).pairs == len(expected)
