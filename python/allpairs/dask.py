@@ -182,7 +182,7 @@ def overlaps(
 
     Returns
     -------
-    dask array, shape (m, 2), uint32, or uint64 of more than 2**32 boxes
+    dask array, shape (m, 2), uint32, or uint64 of more than 2**32 boxes in a set
         A chunk for each chunk of the boxes, of unknown size until it is computed. With ``output``: int.
 
     Examples

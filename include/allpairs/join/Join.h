@@ -85,7 +85,7 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 ///            full, in use, or another join's. Too little memory, or a distance that is none, throws InvalidArgument.
 ///            What was complete stays in the work folder.
 /// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes per box and copy (56 in float64) and 8
-///            per pair (16 of more than 2^32 boxes). Where the disk is estimated to be too small it throws before it
+///            per pair (16 of more than 2^32 boxes in a set). Where the disk is estimated to be too small it throws before it
 ///            writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again. Inputs that have changed throw FileError. The result's bytes are the same.
