@@ -24,6 +24,7 @@ namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
 using DoubleTag = hn::CappedTag<double, kFanOut>;
+using DoubleVector = hn::Vec<DoubleTag>;
 using HalfFloatTag = hn::Rebind<float, DoubleTag>;
 
 /// Keeps values within the finite ones; `same` stays true if that changed nothing.
@@ -152,10 +153,15 @@ HWY_INLINE void loadCorners(const BoxPlaces<float>& places, std::size_t at, Floa
   }
 }
 
+/// Whether three values of a box follow each other.
+template <class T>
+HWY_INLINE bool isCorner(const T* const* axis) {
+  return axis[1] == axis[0] + 1 && axis[2] == axis[0] + 2;
+}
+
 /// As many boxes as a vector has lanes, from anywhere in memory.
 HWY_INLINE void loadBoxes(const BoxPlaces<float>& places, std::size_t at, FloatVector* bound) {
   const auto& from = places.bound;
-  const auto isCorner = [](const float* const* axis) { return axis[1] == axis[0] + 1 && axis[2] == axis[0] + 2; };
   if (!isCorner(from.data()) || !isCorner(from.data() + 3)) {
     const FloatTag d;
     const auto offsets = hn::LoadU(hn::RebindToSigned<FloatTag>(), &places.offset[at]);
@@ -256,7 +262,58 @@ struct Widener {
   }
 };
 
-/// Sixteen boxes whose bounds are read as doubles: load(k, i) has bound k of the boxes from i on.
+#if HWY_TARGET == HWY_SCALAR
+
+/// One box from anywhere in memory.
+HWY_INLINE void loadBoxes(const BoxPlaces<double>& places, std::size_t at, DoubleVector* bound) {
+  for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::LoadU(DoubleTag(), places.bound[k] + places.offset[at]);
+}
+
+#else
+
+/// Two values that follow each other, of every second box: those of box 2k are in block k of 128 bits.
+template <class D>
+HWY_INLINE hn::Vec<D> everySecond(D d, const double* values, const std::int32_t* offsets) {
+  if constexpr (hn::MaxLanes(D()) > 2) {
+    const hn::Half<D> half;
+    return hn::Combine(d, everySecond(half, values, offsets + hn::MaxLanes(D()) / 2),
+                       everySecond(half, values, offsets));
+  } else {
+    return hn::LoadU(d, values + offsets[0]);
+  }
+}
+
+/// Two values that follow each other, of as many boxes as a vector has lanes.
+HWY_INLINE void loadTwo(const double* values, const std::int32_t* offsets, DoubleVector& first, DoubleVector& second) {
+  const DoubleTag d;
+  const auto even = everySecond(d, values, offsets);
+  const auto odd = everySecond(d, values, offsets + 1);
+  first = hn::InterleaveLower(d, even, odd);
+  second = hn::InterleaveUpper(d, even, odd);
+}
+
+/// As many boxes as a vector has lanes, from anywhere in memory. Rows and corners are loaded two values at a time and
+/// transposed, which takes less than gathering each bound, on AMD's processors a third of it.
+HWY_INLINE void loadBoxes(const BoxPlaces<double>& places, std::size_t at, DoubleVector* bound) {
+  const auto& from = places.bound;
+  const std::int32_t* const offsets = &places.offset[at];
+  if (!isCorner(from.data()) || !isCorner(from.data() + 3)) {
+    const hn::Rebind<std::int32_t, DoubleTag> places32;
+    const auto places64 = hn::PromoteTo(hn::RebindToSigned<DoubleTag>(), hn::LoadU(places32, offsets));
+    for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::GatherIndex(DoubleTag(), from[k], places64);
+  } else if (from[3] == from[0] + 3) {
+    for (std::size_t k = 0; k < 6; k += 2) loadTwo(from[k], offsets, bound[k], bound[k + 1]);
+  } else {
+    for (std::size_t k = 0; k < 6; k += 3) {
+      loadTwo(from[k], offsets, bound[k], bound[k + 1]);
+      loadTwo(from[k + 1], offsets, bound[k + 1], bound[k + 2]);
+    }
+  }
+}
+
+#endif
+
+/// Sixteen boxes whose bounds are read as doubles: load(i, bound) reads those of the boxes from i on.
 ///
 /// Emptiness is tested before anything is added: rounded outward, an empty box may no longer be empty. A negative margin
 /// may invert a box, which can still overlap a larger one; with its bounds swapped it is no smaller.
@@ -267,10 +324,12 @@ HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, Lan
   BlockRead result{.exact = !kWidens};
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
     const Widener widener(widening, i);
+    DoubleVector bound[6];
+    load(i, bound);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto from = hn::Set(d, widening.origin[axis]);
-      auto min = load(axis, i);
-      auto max = hn::Neg(load(axis + 3, i));
+      auto min = bound[axis];
+      auto max = hn::Neg(bound[axis + 3]);
       result.emptyLanes |= bitsOf(d, hn::Gt(min, hn::Neg(max))) << i;
       if constexpr (kWidens) {
         min = widener.below(min);
@@ -302,18 +361,16 @@ BlockRead readWide32(const BoxPlaces<float>& places, const Widening& widening, L
     loadBoxes(places, i, bound);
     for (std::size_t k = 0; k < 6; ++k) hn::Store(bound[k], FloatTag(), &bounds.bound[k][i]);
   }
-  const auto load = [&bounds](std::size_t k, std::size_t i)
-                        HWY_ATTR { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfFloatTag(), &bounds.bound[k][i])); };
+  const auto load = [&bounds](std::size_t i, DoubleVector* bound) HWY_ATTR {
+    for (std::size_t k = 0; k < 6; ++k) {
+      bound[k] = hn::PromoteTo(DoubleTag(), hn::LoadU(HalfFloatTag(), &bounds.bound[k][i]));
+    }
+  };
   return readDoubles(load, widening, block);
 }
 
 BlockRead readWide64(const BoxPlaces<double>& places, const Widening& widening, LaneBlock& block) {
-  const auto load = [&places](std::size_t k, std::size_t i) HWY_ATTR {
-    const hn::RebindToSigned<DoubleTag> places64;
-    const hn::Rebind<std::int32_t, DoubleTag> places32;
-    const auto offsets = hn::PromoteTo(places64, hn::LoadU(places32, &places.offset[i]));
-    return hn::GatherIndex(DoubleTag(), places.bound[k], offsets);
-  };
+  const auto load = [&places](std::size_t i, DoubleVector* bound) HWY_ATTR { loadBoxes(places, i, bound); };
   return readDoubles(load, widening, block);
 }
 
