@@ -29,7 +29,7 @@ foreach(folder engine collision elements partition generate parallel scene join 
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src/${folder}")
 endforeach()
 list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/adapters/fcl"
-     "${PROJECT_BINARY_DIR}/adapters/mpi")
+     "${PROJECT_BINARY_DIR}/adapters/mpi" "${PROJECT_BINARY_DIR}/adapters/objects")
 # The loader's cache learns of libraries by a trigger. CPack would write scripts that do it once more, unless the package has
 # some of these names; files that don't exist it leaves out.
 file(WRITE "${PROJECT_BINARY_DIR}/triggers" "activate-noawait ldconfig\n")

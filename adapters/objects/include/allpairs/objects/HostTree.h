@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -10,20 +8,23 @@
 #include <vector>
 
 #include "allpairs/Pair.h"
-#include "allpairs/fcl/FclObjects.h"
+#include "allpairs/objects/ObjectRows.h"
 
 namespace allpairs {
 
-/// What FclBroadPhaseManager is to FCL's trees. A DynamicAABBTreeCollisionManager takes the other manager of a query for
-/// one of its own kind without asking, calls its size(), and reads its tree. So here is such a tree, which is empty and
-/// costs nothing until somebody calls size().
+/// What a manager of ours is to its host's own trees. The host's DynamicAABBTreeCollisionManager takes the other manager
+/// of a query for one of its own kind without asking, calls its size(), and reads its tree. So here is such a tree, which
+/// is empty and costs nothing until somebody calls size().
+///
+/// Host says what these are: Object, Tree, and update(tree, objects), which has the tree read the boxes of those objects,
+/// which are all that it has.
 ///
 /// Threads: bringTree() may be called concurrently while no other member runs.
-template <class S>
-class FclTree : public ::fcl::DynamicAABBTreeCollisionManager<S> {
+template <class Host>
+class HostTree : public Host::Tree {
  protected:
-  using Tree = ::fcl::DynamicAABBTreeCollisionManager<S>;
-  using Object = ::fcl::CollisionObject<S>;
+  using Tree = typename Host::Tree;
+  using Object = typename Host::Object;
 
   /// An object has come or moved.
   void noteTree() { m_isCurrent.store(false, std::memory_order_relaxed); }
@@ -41,21 +42,25 @@ class FclTree : public ::fcl::DynamicAABBTreeCollisionManager<S> {
     noteTree();
   }
 
-  /// Brings the tree up to date with the boxes that the objects have now. FCL calls size(), which is const.
-  void bringTree(const FclObjects<S>& objects) const {
+  /// Brings the tree up to date with the boxes that the objects have now. The host calls size(), which is const.
+  void bringTree(const ObjectRows<Object>& objects) const {
     if (m_isCurrent.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(m_bringing);
     if (m_isCurrent.load(std::memory_order_relaxed)) return;
     if (objects.size() != 0)
-      const_cast<FclTree*>(this)->bringIn(objects);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+      const_cast<HostTree*>(this)->bringIn(objects);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     m_isCurrent.store(true, std::memory_order_release);
   }
 
  private:
-  void bringIn(const FclObjects<S>& objects) {
+  void bringIn(const ObjectRows<Object>& objects) {
     m_isInTree.resize(objects.bound(), 0);
-    Tree::update();
-    Tree::setup();  // balances it; update() has called that of the manager, which does nothing
+    std::vector<Object*> known;
+    for (BoxId number = 0; number < objects.bound(); ++number) {
+      if (m_isInTree[number] != 0) known.push_back(objects[number]);
+    }
+    Host::update(*this, known);
+    Tree::setup();  // balances it; the tree has called that of the manager, which does nothing
     for (BoxId number = 0; number < objects.bound(); ++number) {
       if (objects[number] == nullptr || m_isInTree[number] != 0) continue;
       Tree::registerObject(objects[number]);

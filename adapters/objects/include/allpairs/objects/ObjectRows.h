@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <fcl/narrowphase/collision_object.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/Error.h"
 #include "allpairs/Pair.h"
 #include "allpairs/Span.h"
-#include "allpairs/fcl/ObjectNumbers.h"
+#include "allpairs/objects/ObjectNumbers.h"
 
 namespace allpairs {
 
-/// The objects of an FclBroadPhaseManager by number, and their boxes as they were last read, one after the other in
-/// memory: objects lie wherever their owner put them.
-template <class S>
-class FclObjects {
+/// Objects of a host by number, and their boxes as they were last read, one after the other in memory: objects lie
+/// wherever their owner put them. Object has getAABB(), a box with min_ and max_, as FCL and Coal have it.
+template <class HostObject>
+class ObjectRows {
  public:
-  using Object = ::fcl::CollisionObject<S>;
-  using Bounds = ::fcl::AABB<S>;
+  using Object = HostObject;
+  using Bounds = std::decay_t<decltype(std::declval<const Object&>().getAABB())>;
+  using S = std::decay_t<decltype(std::declval<const Bounds&>().min_[0])>;
 
   /// The number of an object; kNoBox if it has none.
   [[nodiscard]] BoxId numberOf(Object* object) const { return m_numbers.find(object); }
@@ -96,6 +97,15 @@ class FclObjects {
 
   /// The object with this number; null where it has left.
   [[nodiscard]] Object* operator[](BoxId number) const { return m_objects[number]; }
+
+  /// The objects, in the order of their numbers.
+  void copyTo(std::vector<Object*>& objects) const {
+    objects.clear();
+    objects.reserve(size());
+    for (Object* object : m_objects) {
+      if (object != nullptr) objects.push_back(object);
+    }
+  }
 
   /// The box of an object as it was last read.
   [[nodiscard]] Bounds bounds(BoxId number) const {

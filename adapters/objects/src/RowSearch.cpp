@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "allpairs/fcl/RowSearch.h"
+#include "allpairs/objects/RowSearch.h"
 
 #include <algorithm>
 #include <bit>

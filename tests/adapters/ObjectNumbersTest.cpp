@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "allpairs/World.h"
-#include "allpairs/fcl/ObjectNumbers.h"
+#include "allpairs/objects/ObjectNumbers.h"
 
 namespace allpairs::test {
 namespace {
 
-TEST(FclObjectNumbers, AreThoseOfAMapAfterAnyCalls) {
+TEST(ObjectNumbers, AreThoseOfAMapAfterAnyCalls) {
   std::vector<std::array<double, 10>> memory(400);  // objects lie at even distances, as in the arrays of programs
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -38,7 +38,7 @@ TEST(FclObjectNumbers, AreThoseOfAMapAfterAnyCalls) {
   }
 }
 
-TEST(FclObjectNumbers, NothingHasNone) {
+TEST(ObjectNumbers, NothingHasNone) {
   ObjectNumbers numbers;
   EXPECT_EQ(numbers.find(nullptr), kNoBox);
   numbers.insert(nullptr, 3);

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/Span.h"
+#include "allpairs/World.h"
+#include "allpairs/objects/ObjectRows.h"
+#include "allpairs/objects/RowSearch.h"
+
+namespace allpairs {
+
+/// Settings of a broad phase of a host's objects; the defaults are right for most programs.
+struct ObjectBroadPhaseOptions {
+  /// Runs parallel work; null means on the calling thread. Not owned.
+  Executor* executor = nullptr;
+
+  /// Orders the pairs within a manager by the registration of their first object, and then of their second. It takes time.
+  bool isOrdered = false;
+};
+
+/// The broad phase of a host's objects: what our managers for FCL and Coal have in common. It has no idea of their
+/// callbacks: a visitor gets objects, and returns true to end the query, which then returns true.
+///
+/// Object has getAABB(), a box with min_ and max_, overlap() and distance(). Objects stay the caller's; their boxes are
+/// read by add() and update().
+/// Geometry:  boxes are closed, in their own precision. An empty box has no pairs and no distance.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not added, one that is there keeps the
+///            box that it had. No object, a null pointer, is none.
+/// Threads:   const members may be called concurrently while no other member runs; a visitor may call them too.
+template <class HostObject>
+class ObjectBroadPhase {
+ public:
+  using Object = HostObject;
+  using Bounds = typename ObjectRows<Object>::Bounds;
+  using S = typename ObjectRows<Object>::S;
+
+  explicit ObjectBroadPhase(const ObjectBroadPhaseOptions& options) : m_search(options.executor, options.isOrdered) {}
+
+  void reserve(std::size_t more) { m_rows.reserve(m_rows.size() + more); }
+
+  /// Adds an object, or reads again where one that is there is now.
+  void add(Object* object) {
+    if (object == nullptr) return;
+    const std::size_t before = m_rows.size();
+    const BoxId number = m_rows.add(object);
+    try {
+      m_search.reserve(m_rows.bound());  // so that no change of a row is lost for want of memory
+      refresh(number);
+    } catch (...) {
+      if (m_rows.size() != before) remove(object);
+      throw;
+    }
+  }
+
+  /// Removes an object, and returns the number that it had; kNoBox if it was not there.
+  BoxId remove(Object* object) {
+    const BoxId number = m_rows.remove(object);
+    if (number != kNoBox) m_search.note(number);
+    return number;
+  }
+
+  /// Reads where all objects are now.
+  void update() {
+    for (BoxId number = 0; number < m_rows.bound(); ++number) refresh(number);
+  }
+
+  /// The same for one object.
+  void update(Object* object) {
+    const BoxId number = m_rows.numberOf(object);
+    if (number != kNoBox) refresh(number);
+  }
+
+  void clear() {
+    m_rows.clear();
+    m_search.clear();
+  }
+
+  [[nodiscard]] const ObjectRows<Object>& rows() const { return m_rows; }
+
+  /// Visits the objects whose boxes overlap that of an object.
+  template <class Visit>
+  bool eachOverlapping(const Object& object, const Visit& visit) const {
+    return eachOverlapping(object.getAABB(), [&](BoxId id) { return visit(m_rows[id]); });
+  }
+
+  /// Visits the pairs of objects whose boxes overlap.
+  template <class Visit>
+  bool eachPair(const Visit& visit) const {
+    for (const Pair& pair : pairs()) {
+      if (visit(m_rows[pair.first], m_rows[pair.second])) return true;
+    }
+    return false;
+  }
+
+  /// Visits the pairs of an object here and one of others, whose boxes overlap.
+  template <class Visit>
+  bool eachPairWith(const ObjectBroadPhase& others, const Visit& visit) const {
+    if (m_search.isFasterByScans(m_rows.rows(), others.m_rows.bound())) return scanEachOf(others, visit);
+    for (const Pair& pair : world().findBetween(others.world())) {
+      if (visit(m_rows[pair.first], others.m_rows[pair.second])) return true;
+    }
+    return false;
+  }
+
+  /// The same with a host's objects as they lie, those of a manager of another kind.
+  template <class Visit>
+  bool eachPairWith(const std::vector<Object*>& others, const Visit& visit) const {
+    return std::any_of(others.begin(), others.end(), [&](Object* other) {
+      return eachOverlapping(*other, [&](Object* own) { return visit(own, other); });
+    });
+  }
+
+  /// Asks about the objects that are no farther from one than the least distance, near ones early; ask(object, least) may
+  /// make that smaller. Objects whose boxes overlap its box are asked about however small it is.
+  template <class Ask>
+  bool eachNear(const Object& object, const Ask& ask, S& least) const {
+    const Bounds& bounds = object.getAABB();
+    const auto askAbout = [&](BoxId id) { return ask(m_rows[id], least); };
+    const auto isWanted = [](BoxId) { return true; };
+    return isBox(bounds) &&
+           askNear(Question<decltype(isWanted), decltype(askAbout)>{bounds, isWanted, askAbout}, least);
+  }
+
+  /// The same for the pairs of objects here: ask(first, second, least).
+  template <class Ask>
+  bool eachNearPair(const Ask& ask, S& least) const {
+    for (const Pair& pair : pairs()) {
+      if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
+    }
+    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+      if (m_rows.hasBox(id) && eachNearApart(id, ask, least)) return true;
+    }
+    return false;
+  }
+
+  /// The same for the pairs of an object here and one of others: ask(own, other, least).
+  template <class Ask>
+  bool eachNearPairWith(const std::vector<Object*>& others, const Ask& ask, S& least) const {
+    return std::any_of(others.begin(), others.end(), [&](Object* other) {
+      return eachNear(
+          *other, [&](Object* own, S& now) { return ask(own, other, now); }, least);
+    });
+  }
+
+ private:
+  struct Candidate {
+    S distance = S(0);
+    BoxId id = kNoBox;
+
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+      return std::pair(a.distance, a.id) < std::pair(b.distance, b.id);
+    }
+  };
+
+  /// Up to so many objects, comparing batches of them costs more than it saves.
+  static constexpr BoxId kOneByOne = 8;
+
+  static Box toBox(const Bounds& bounds) {
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      box.min[a] = static_cast<double>(bounds.min_[axis]);
+      box.max[a] = static_cast<double>(bounds.max_[axis]);
+    }
+    return box;
+  }
+
+  /// Reads where the object with this number is now.
+  void refresh(BoxId number) {
+    if (m_rows.read(number)) m_search.note(number);
+  }
+
+  [[nodiscard]] Span<const Pair> pairs() const { return m_search.pairs(m_rows.rows()); }
+  [[nodiscard]] const World& world() const { return m_search.world(m_rows.rows()); }
+
+  /// Whether a box is one; empty ones have no pairs.
+  static bool isBox(const Bounds& bounds) {
+    const auto& min = bounds.min_;
+    const auto& max = bounds.max_;
+    if (min[0] <= max[0] && min[1] <= max[1] && min[2] <= max[2]) return true;
+    if (hasNan(toBox(bounds))) throw InvalidBox(0, "the box of the query has a NaN");
+    return false;
+  }
+
+  /// Calls visit(id) for the objects whose boxes overlap a box until it returns true, and says whether it did.
+  template <class Visit>
+  bool eachOverlapping(const Bounds& bounds, const Visit& visit) const {
+    if (!isBox(bounds) || !m_rows.mayOverlap(bounds)) return false;
+    const World* const world = m_search.worldForQuery(m_rows.rows());
+    if (world == nullptr) return scan(bounds, visit);
+    const std::vector<BoxId> found = world->findOverlapping(toBox(bounds));
+    return std::any_of(found.begin(), found.end(), visit);
+  }
+
+  template <class Visit>
+  bool scan(const Bounds& bounds, const Visit& visit) const {
+    if (m_rows.bound() <= kOneByOne) return scanOneByOne(bounds, visit);
+    constexpr std::size_t kBatch = RowSearch<S>::kBatch;
+    const typename RowSearch<S>::Row row{bounds.min_[0], bounds.min_[1], bounds.min_[2],
+                                         bounds.max_[0], bounds.max_[1], bounds.max_[2]};
+    for (std::size_t begin = 0; begin < m_rows.bound(); begin += kBatch) {
+      auto found = RowSearch<S>::overlapping(m_rows.rows().subspan(6 * begin), row);
+      for (; found != 0; found &= found - 1) {
+        const BoxId id = static_cast<BoxId>(begin) + lowestBit(found);
+        if (m_rows.hasBox(id) && visit(id)) return true;
+      }
+    }
+    return false;
+  }
+
+  template <class Visit>
+  bool scanOneByOne(const Bounds& bounds, const Visit& visit) const {
+    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+      if (m_rows.overlaps(id, bounds) && visit(id)) return true;
+    }
+    return false;
+  }
+
+  template <class Visit>
+  bool scanEachOf(const ObjectBroadPhase& others, const Visit& visit) const {
+    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+      const auto visitBoth = [&](BoxId found) { return visit(m_rows[id], others.m_rows[found]); };
+      if (!m_rows.hasBox(id) || !others.m_rows.mayOverlap(m_rows.bounds(id))) continue;
+      if (others.scan(m_rows.bounds(id), visitBoth)) return true;
+    }
+    return false;
+  }
+
+  /// Asks about the objects behind one that are apart from it and near.
+  template <class Ask>
+  bool eachNearApart(BoxId id, const Ask& ask, S& least) const {
+    const Bounds bounds = m_rows.bounds(id);
+    const auto askBoth = [&](BoxId other) { return ask(m_rows[id], m_rows[other], least); };
+    const auto isWanted = [&](BoxId other) { return other > id && !bounds.overlap(m_rows.bounds(other)); };
+    return askNear(Question<decltype(isWanted), decltype(askBoth)>{bounds, isWanted, askBoth}, least);
+  }
+
+  /// Which objects to ask about that are near a box, and how.
+  template <class IsWanted, class Ask>
+  struct Question {
+    const Bounds& bounds;
+    const IsWanted& isWanted;
+    const Ask& ask;
+  };
+
+  /// Boxes that overlap are asked about however small the least distance is.
+  static S limitOf(S least) { return std::max(least, S(0)); }
+
+  template <class AnyQuestion>
+  bool askNear(const AnyQuestion& question, S& least) const {
+    if (RowSearch<S>::areFew(m_rows.rows())) return askFew(question, least);
+    const World* const world = m_search.worldForQuery(m_rows.rows());
+    return world != nullptr ? askByWorld(*world, question, least) : askByScan(question, least);
+  }
+
+  /// Asks about objects from the nearest on, as long as they are near enough.
+  template <class AnyQuestion>
+  bool askFew(const AnyQuestion& question, S& least) const {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): read only where it has been written
+    std::array<S, RowSearch<S>::kBatch> squares;
+    std::uint64_t left = 0;
+    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+      squares[id] = m_rows.squaredDistance(id, question.bounds);
+      left |= std::uint64_t{m_rows.hasBox(id)} << id;
+    }
+    while (left != 0) {
+      const BoxId id = nearestOf(squares, left);
+      if (squares[id] > squaredLimit(least)) return false;
+      if (question.isWanted(id) && question.ask(id)) return true;
+      left &= ~(std::uint64_t{1} << id);
+    }
+    return false;
+  }
+
+  /// The index of the lowest bit that is set, of which there is one; std::countr_zero is of C++20.
+  static BoxId lowestBit(std::uint64_t bits) {
+#ifdef __GNUC__
+    return static_cast<BoxId>(__builtin_ctzll(bits));
+#else
+    BoxId index = 0;
+    for (; (bits & 1U) == 0; bits >>= 1U) ++index;
+    return index;
+#endif
+  }
+
+  static BoxId nearestOf(const std::array<S, RowSearch<S>::kBatch>& squares, std::uint64_t left) {
+    BoxId nearest = lowestBit(left);
+    for (left &= left - 1; left != 0; left &= left - 1) {
+      const BoxId id = lowestBit(left);
+      if (squares[id] < squares[nearest]) nearest = id;
+    }
+    return nearest;
+  }
+
+  /// The square of the distance up to which objects are asked about, and more than squares are off by rounding.
+  static S squaredLimit(S least) {
+    const S limit = limitOf(least);
+    return limit * limit * (1 + 16 * std::numeric_limits<S>::epsilon());
+  }
+
+  /// The same for more objects.
+  template <class AnyQuestion>
+  bool askByScan(const AnyQuestion& question, S& least) const {
+    const auto isFarther = [](const Candidate& a, const Candidate& b) { return b < a; };
+    std::vector<Candidate> left;
+    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+      if (m_rows.hasBox(id) && question.isWanted(id)) addCandidate(question.bounds, id, least, left);
+    }
+    std::make_heap(left.begin(), left.end(), isFarther);
+    while (!left.empty() && left.front().distance <= limitOf(least)) {
+      if (question.ask(left.front().id)) return true;
+      std::pop_heap(left.begin(), left.end(), isFarther);
+      left.pop_back();
+    }
+    return false;
+  }
+
+  /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
+  template <class AnyQuestion>
+  bool askByWorld(const World& world, const AnyQuestion& question, S& least) const {
+    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question.bounds) : kNoBox;
+    if (first != kNoBox && question.isWanted(first) && question.ask(first)) return true;
+    std::vector<Candidate> found;
+    for (const BoxId id : world.findOverlapping(widened(question.bounds, limitOf(least)))) {
+      if (id != first && question.isWanted(id)) addCandidate(question.bounds, id, least, found);
+    }
+    std::sort(found.begin(), found.end());
+    for (const Candidate& candidate : found) {
+      if (candidate.distance > limitOf(least)) return false;
+      if (question.ask(candidate.id)) return true;
+    }
+    return false;
+  }
+
+  void addCandidate(const Bounds& bounds, BoxId id, S least, std::vector<Candidate>& candidates) const {
+    const S distance = bounds.distance(m_rows.bounds(id));
+    if (distance <= limitOf(least)) candidates.push_back({distance, id});
+  }
+
+  /// An object near the middle of a box; kNoBox if there is none, or if the box has no middle.
+  [[nodiscard]] static BoxId nearest(const World& world, const Bounds& bounds) {
+    std::array<double, 3> middle{};
+    const Box box = toBox(bounds);
+    for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = (box.min[axis] + box.max[axis]) / 2.0;
+    if (!std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); })) return kNoBox;
+    const std::vector<Neighbor> found = world.findNearest(middle, 1);
+    return found.empty() ? kNoBox : found.front().id;
+  }
+
+  /// Holds all boxes that the host finds within a distance, however it rounds.
+  [[nodiscard]] static Box widened(const Bounds& bounds, S distance) {
+    Box box = toBox(bounds);
+    const auto by = static_cast<double>(distance);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double most = std::max({std::abs(box.min[axis]), std::abs(box.max[axis]), by});
+      const double slack =
+          std::isfinite(most) ? 8.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most : 0;
+      box.min[axis] -= by + slack;
+      box.max[axis] += by + slack;
+    }
+    return box;
+  }
+
+  ObjectRows<Object> m_rows;
+  mutable RowSearch<S> m_search;  // queries are const; these find what they need when it is asked for
+};
+
+}  // namespace allpairs
