@@ -181,7 +181,7 @@ struct Kernels {
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
   void (*searchWorlds)(WorldsRun& run);
-  void (*searchWideWorld)(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place);
+  void (*searchWideWorld)(const WideWorld& world, WorldSink& sink);
 
   /// Joins part of one hierarchy with another, or with itself.
   void (*join)(const JoinTask& task, Hits& hits);

@@ -40,7 +40,7 @@ class WorldSearch {
         m_members(memory),
         m_dynamicTrees(memory, false),
         m_staticTrees(memory, true),
-        m_small(memory),
+        m_small(memory, options, kernels, m_members),
         m_isChosen(memory),
         m_chosen(memory),
         m_large(memory),
@@ -103,8 +103,8 @@ class WorldSearch {
   void releaseTrees() noexcept;
   void updateTrees(const BoxStore& store, const BoxReader& reader);
   void countTouched(const BoxStore& store);
-  [[nodiscard]] bool chooseWorlds(const SmallWorlds::Input& small);
-  void moveLarge(const SmallWorlds::Input& small);
+  [[nodiscard]] bool chooseWorlds(const BoxStore& store);
+  void moveLarge();
   [[nodiscard]] bool isLookedFor(const BoxStore& store, Pair pair) const noexcept;
   template <class Visit>
   void eachTree(const BoxStore& store, const Visit& visit) const;
