@@ -22,19 +22,16 @@ constexpr std::size_t kPairsAtOnce = 8192;
 void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size_t threads) {
   m_store = &store;
   m_filter = &filter;
+  m_boxes = store.tested().boxes;
+  m_isPlain = !m_boxes->isFloat64() && !m_boxes->hasMargins() && m_options.distance == 0.0;
+  m_mostBoxes = std::min({kMostInWorld, m_kernels.flatOrdered, m_isPlain ? kMostInWorld : kMostInDouble});
   m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }
 
-/// Whether the kernel for boxes of float32 takes the rows as they are.
-bool SmallWorlds::isPlain() const noexcept {
-  return !boxes().isFloat64() && !boxes().hasMargins() && m_options.distance == 0.0;
-}
-
 bool SmallWorlds::takes(std::size_t world) const noexcept {
   const std::size_t shared = world == m_members.everyWorld() ? 0 : m_members.shared().size();
-  const std::size_t most = std::min({kMostInWorld, m_kernels.flatOrdered, isPlain() ? kMostInWorld : kMostInDouble});
-  return shared <= kMostShared && m_members.boxes(world).size() + shared <= most;
+  return shared <= kMostShared && m_members.boxes(world).size() + shared <= m_mostBoxes;
 }
 
 std::uint64_t SmallWorlds::boxTests() const noexcept {
@@ -56,7 +53,7 @@ std::span<const BoxId> SmallWorlds::idsOf(std::size_t world, Worker& worker) con
 /// Lists the worlds, from the first on, whose boxes follow each other in the store, so that the kernel takes them in one call;
 /// returns their number.
 std::size_t SmallWorlds::listRow(std::span<const std::uint32_t> worlds, Worker& worker) const {
-  if (!isPlain() || !m_members.shared().empty()) return 0;
+  if (!m_isPlain || !m_members.shared().empty()) return 0;
   worker.begin.require(worlds.size() + 2);
   worker.pairEnd.require(worlds.size() + 2);
   std::size_t row = 0;
@@ -74,11 +71,11 @@ std::size_t SmallWorlds::listRow(std::span<const std::uint32_t> worlds, Worker& 
 /// The pairs of worlds of a row, after those that are done, as many worlds as there is room for.
 std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done, Worker& worker) const {
   const std::span<const std::uint64_t> begin(worker.begin.data(), row + 2);
-  const Worlds worlds(boxes().slice(0, begin.back()), begin);
+  const Worlds worlds(m_boxes->slice(0, begin.back()), begin);
   worker.pairs.require(std::max(kPairsAtOnce, WorldSink::roomFor(begin[done + 2] - begin[done + 1])));
   WorldsRun run;
   run.sink = sinkOf(worker);
-  run.min = boxes().float32().min.data;
+  run.min = m_boxes->float32().min.data;
   run.max = run.min + 3;
   run.worlds = &worlds;
   run.world = done + 1;
@@ -100,7 +97,7 @@ std::span<const Pair> SmallWorlds::find(std::size_t world, Worker& worker) const
   if (m_members.boxes(world).empty()) return {};
   const std::span<const BoxId> ids = idsOf(world, worker);
   worker.pairs.require(WorldSink::roomFor(ids.size()));
-  const std::uint64_t size = isPlain() ? runPlain(ids, worker) : runWide(ids, worker);
+  const std::uint64_t size = m_isPlain ? runPlain(ids, worker) : runWide(ids, worker);
   worker.boxTests += WorldSink::pairsOf(ids.size());
   const std::span<Pair> pairs(worker.pairs.data(), size);
   for (Pair& pair : pairs) pair = {ids[pair.first], ids[pair.second]};
@@ -117,10 +114,10 @@ WorldSink SmallWorlds::sinkOf(const Worker& worker) const noexcept {
 std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) const {
   worker.rows.require(6 * ids.size());
   float* to = worker.rows.data();
-  for (const BoxId id : ids) to = std::copy_n(boxes().float32().min.data + std::size_t{6} * id, 6, to);
+  for (const BoxId id : ids) to = std::copy_n(m_boxes->float32().min.data + std::size_t{6} * id, 6, to);
   // The kernel asks only where worlds begin.
   const std::array<std::uint64_t, 2> begin{0, ids.size()};
-  const Worlds worlds(boxes().slice(0, ids.size()), begin);
+  const Worlds worlds(m_boxes->slice(0, ids.size()), begin);
   std::uint64_t pairEnd = 0;
   WorldsRun run;
   run.sink = sinkOf(worker);
@@ -138,9 +135,9 @@ std::uint64_t SmallWorlds::runWide(std::span<const BoxId> ids, Worker& worker) c
   worker.wide.require(1);
   WideWorld& wide = worker.wide[0];
   const WorldPlaces places = WorldPlaces::of(ids.size());
-  wide.start(ids.size(), boxes(), m_options.distance);
+  wide.start(ids.size(), *m_boxes, m_options.distance);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    wide.set(places.first + i, boxes()[ids[i]], boxes().margin(ids[i]), true);
+    wide.set(places.first + i, (*m_boxes)[ids[i]], m_boxes->margin(ids[i]), true);
   }
   WorldSink sink = sinkOf(worker);
   m_kernels.searchWideWorld(wide, sink);

@@ -67,8 +67,6 @@ class SmallWorlds {
     std::uint64_t boxTests = 0;
   };
 
-  [[nodiscard]] const BoxView& boxes() const noexcept { return *m_store->tested().boxes; }
-  [[nodiscard]] bool isPlain() const noexcept;
   std::size_t listRow(std::span<const std::uint32_t> worlds, Worker& worker) const;
   std::span<const Pair> findInRow(std::size_t row, std::size_t& done, Worker& worker) const;
   std::span<const Pair> find(std::size_t world, Worker& worker) const;
@@ -81,8 +79,11 @@ class SmallWorlds {
   const WorldOptions& m_options;
   const Kernels& m_kernels;
   const WorldMembers& m_members;
-  const BoxStore* m_store = nullptr;  ///< Those of the searches since the start.
+  const BoxStore* m_store = nullptr;  ///< From here on: of the searches since the start.
   const PairTest* m_filter = nullptr;
+  const BoxView* m_boxes = nullptr;
+  std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
+  bool m_isPlain = false;       ///< Rows of float32 that the kernel takes as they are.
   Workers<Worker> m_workers;
 };
 
