@@ -313,7 +313,7 @@ bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
     m_runner.withScratch(0, [&](std::span<std::uint32_t> scratch) {
-      sortBucket({rule, b, m_buckets}, place, scratch, *m_kernels);
+      sortBucket({rule, b, m_buckets, *m_kernels}, place, scratch);
     });
   });
   return true;
@@ -333,7 +333,9 @@ bool Search::fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::
   run(plan, *m_executor);
   m_places.resize(rule.buckets + 1);
   m_places[0] = 0;
-  for (std::size_t b = 0; b < rule.buckets; ++b) m_places[b + 1] = m_places[b] + Bucket{rule, b, m_buckets}.size();
+  for (std::size_t b = 0; b < rule.buckets; ++b) {
+    m_places[b + 1] = m_places[b] + Bucket{rule, b, m_buckets, *m_kernels}.size();
+  }
   return true;
 }
 
