@@ -12,13 +12,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// The share of places reserved for boxes added later, and of places that may become vacant before a rebuild: more
-/// reserves memory, less rebuilds more often.
-constexpr std::size_t kShareOfChange = 8;
-
-/// If at least one box in this many has moved, all blocks are read again: most would be anyway (moving_benchmark).
-constexpr std::size_t kShareOfMoved = 8;
-
 /// Some more than the share, for worlds of few boxes.
 std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + 64; }
 

@@ -83,7 +83,7 @@ void WorldsSearcher::cutParts() {
   std::uint64_t all = 0;
   for (std::size_t world = 0; world < worlds; ++world) all += workOf(sizeOf(world), m_mostBoxes);
   std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kTasksPerThread * threads));
-  if (mayStop) most = std::min(most, kTestsBetweenLooks);
+  if (mayStop) most = std::min<std::uint64_t>(most, kWorkBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
     const bool takesAllThreads = sizeOf(world) > kHugeWorld;
