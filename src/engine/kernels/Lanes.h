@@ -46,9 +46,9 @@ inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLan
 
 /// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN. No branches.
 [[nodiscard]] inline float roundDown(double value) noexcept {
-  constexpr auto kMax = static_cast<double>(kLaneMax);
-  const double above = value > -kMax ? value : -kMax;
-  const double inside = above < kMax ? above : kMax;
+  const auto most = static_cast<double>(kLaneMax);
+  const double above = value > -most ? value : -most;
+  const double inside = above < most ? above : most;
   const auto nearest = static_cast<float>(inside);
   // One float32 further down is one less for a positive number's bits and one more for a negative one's. Zero never has
   // to go down: a negative value that is rounded to zero becomes -0.

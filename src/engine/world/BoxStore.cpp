@@ -13,7 +13,7 @@ namespace allpairs::engine {
 namespace {
 
 /// If at least one id in this many is in a list, iterating over all ids is faster than over the list
-/// (moving_benchmark).
+/// (moving_benchmark --setting world).
 constexpr std::size_t kShareOfIds = 16;
 
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {

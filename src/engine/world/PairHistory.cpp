@@ -11,10 +11,11 @@
 namespace allpairs::engine {
 namespace {
 
-/// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark).
+/// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark --scene
+/// one-percent).
 constexpr std::size_t kShortRow = 16;
 
-/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark).
+/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark --scene one-percent).
 constexpr std::size_t kPrefetchPairs = 16;
 
 }  // namespace

@@ -22,7 +22,7 @@
 namespace allpairs::engine {
 
 /// If at least one box in this many has changed, all boxes are joined: the join of changed boxes finds pairs from both
-/// sides (moving_benchmark).
+/// sides (moving_benchmark --scene one-percent, and the others, in which all move).
 inline constexpr std::size_t kShareOfChanged = 4;
 
 /// The pairs of a world: hierarchies over its dynamic and its static boxes, and what was found in them. If boxes have world
