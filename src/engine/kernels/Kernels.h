@@ -61,11 +61,7 @@ class NeighborScratch {
     size = boxes;
   }
 
-  [[nodiscard]] LaneBox get(std::size_t i) const noexcept {
-    LaneBox box;
-    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][i];
-    return box;
-  }
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 
   Buffer<std::uint64_t> keys;  ///< An id above a position, twice.
 

@@ -46,7 +46,8 @@ template <class T, std::size_t kSize>
 [[nodiscard]] std::array<T, kSize> makeArray(std::pmr::memory_resource* memory) {
   return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
     return std::array<T, kSize>{(static_cast<void>(kIndex), T(memory))...};
-  }(std::make_index_sequence<kSize>());
+  }
+  (std::make_index_sequence<kSize>());
 }
 
 /// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.
@@ -78,6 +79,11 @@ class Buffer {
     release();
     m_data = allocate(size);
     m_capacity = size;
+  }
+
+  /// The same with room for some more, so that a fluctuating size soon allocates nothing.
+  void requireAmply(std::size_t size) {
+    if (size > m_capacity) require(size + size / 4 + 64);
   }
 
   /// Allocates `size` values and keeps the contents; at least doubles, so that appending is linear. If memory is
