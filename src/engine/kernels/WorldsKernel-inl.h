@@ -166,8 +166,8 @@ HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uin
     std::atomic_signal_fence(std::memory_order_acq_rel);
     bits &= bits - 1;
   };
-  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) HWY_ATTR { (writeNext(kIndex), ...); }
-  (std::make_index_sequence<kUnasked>());
+  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>)
+      HWY_ATTR { (writeNext(kIndex), ...); }(std::make_index_sequence<kUnasked>());
   for (std::size_t i = kUnasked; i < count; ++i) writeNext(i);
   return count;
 }
