@@ -14,7 +14,8 @@ namespace {
 /// Boxes that a grid is fitted to at most: quantiles of more differ little.
 constexpr std::size_t kMostSamples = 256;
 
-/// A box is large if it is this many times as long as the median one (docs/decisions/0005, allpairs bench).
+/// A box is large if it is this many times as long as the median one (docs/decisions/0005, allpairs bench
+/// power-law -n 100000).
 constexpr float kLargeFactor = 6.0F;
 
 /// Values farther out than this many times the width of the middle four fifths are outliers.

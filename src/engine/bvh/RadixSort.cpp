@@ -13,14 +13,15 @@ namespace allpairs::engine {
 namespace {
 
 /// Up to this size one thread sorts numbers as one run: there and back they fill a second-level cache
-/// (allpairs bench).
+/// (allpairs bench uniform -n 100000, and -n 200000).
 constexpr std::size_t kMostInOneRun = std::size_t{1} << 17;
 
 /// A first pass leaves buckets of about 2^kRunBits numbers, 64 KiB there and back, in no more than 2^kMaxDigitBits
 /// buckets.
 constexpr unsigned kRunBits = 12;
 
-/// Runs up to this length are sorted by insertion (docs/decisions/0019, allpairs bench).
+/// Runs up to this length are sorted by insertion (docs/decisions/0019, allpairs bench clusters -n
+/// 100000).
 constexpr std::size_t kShortRun = 24;
 
 /// The most bits of a digit: its counters then stay in the first-level cache beside the numbers.

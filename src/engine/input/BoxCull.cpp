@@ -10,7 +10,7 @@
 namespace allpairs::engine {
 namespace {
 
-/// Fewer boxes are not worth a pass that leaves some out (docs/decisions/0022, allpairs bench).
+/// Fewer boxes are not worth a pass that leaves some out (docs/decisions/0022).
 constexpr std::size_t kLeastBoxes = 1024;
 
 /// A set is restricted if at most half of this many sampled boxes touch the other set's bounds.

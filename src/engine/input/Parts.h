@@ -11,6 +11,9 @@ namespace allpairs::engine {
 /// Boxes, rows or pairs of a task: some ten microseconds of work, beside which starting it takes little time.
 inline constexpr std::size_t kPartSize = 4096;
 
+/// Tests of boxes, or partners that are copied, between two looks at a flag that stops them: some milliseconds of work.
+inline constexpr std::size_t kWorkBetweenLooks = std::size_t{1} << 21;
+
 /// Calls use(begin, end) for parts of [0, size), each of which is a task and, but for the last, of the same size.
 template <class Use>
 void runInParts(std::size_t size, std::size_t partSize, Executor& executor, const Use& use) {

@@ -22,7 +22,8 @@ namespace {  // Each file that compiles the kernels has its own.
 /// Up to this many columns a branch around vectors without hits costs more than it saves (few_benchmark).
 constexpr std::size_t kDenseColumns = 512;
 
-/// A row is dense if at least one in this many columns is a hit: its pairs are written at once (dense_benchmark).
+/// A row is dense if at least one in this many columns is a hit: its pairs are written at once (allpairs bench
+/// all-overlap, in which all are; uniform, in which few are).
 constexpr std::size_t kDenseRow = 3;
 
 /// The columns that a row is tested against.
@@ -121,7 +122,8 @@ std::size_t countRows(const FlatSearch& search, Hits& hits) {
   return row;
 }
 
-/// From this many pairs, 2 MiB, on a result exceeds the caches near a core (docs/decisions/0014, dense_benchmark).
+/// From this many pairs, 2 MiB, on a result exceeds the caches near a core (docs/decisions/0014, allpairs bench
+/// all-overlap).
 constexpr std::size_t kCachedPairs = std::size_t{1} << 18;
 
 /// Gathers pairs into whole cache lines and writes them with streaming stores, which bypass the caches: a normal store

@@ -61,11 +61,7 @@ class NeighborScratch {
     size = boxes;
   }
 
-  [[nodiscard]] LaneBox get(std::size_t i) const noexcept {
-    LaneBox box;
-    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][i];
-    return box;
-  }
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 
   Buffer<std::uint64_t> keys;  ///< An id above a position, twice.
 
@@ -181,7 +177,7 @@ struct Kernels {
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
   void (*searchWorlds)(WorldsRun& run);
-  void (*searchWideWorld)(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place);
+  void (*searchWideWorld)(const WideWorld& world, WorldSink& sink);
 
   /// Joins part of one hierarchy with another, or with itself.
   void (*join)(const JoinTask& task, Hits& hits);

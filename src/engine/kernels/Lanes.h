@@ -46,9 +46,9 @@ inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLan
 
 /// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN. No branches.
 [[nodiscard]] inline float roundDown(double value) noexcept {
-  constexpr auto kMax = static_cast<double>(kLaneMax);
-  const double above = value > -kMax ? value : -kMax;
-  const double inside = above < kMax ? above : kMax;
+  const auto most = static_cast<double>(kLaneMax);
+  const double above = value > -most ? value : -most;
+  const double inside = above < most ? above : most;
   const auto nearest = static_cast<float>(inside);
   // One float32 further down is one less for a positive number's bits and one more for a negative one's. Zero never has
   // to go down: a negative value that is rounded to zero becomes -0.
@@ -61,6 +61,12 @@ inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLan
 /// The least float32 that is not below the value, kept within the finite ones; the greatest for a NaN.
 [[nodiscard]] inline float roundUp(double value) noexcept { return -roundDown(-value); }
 
+/// Box i of a row for each bound.
+template <class Rows>
+[[nodiscard]] LaneBox boxAt(const Rows& rows, std::size_t i) noexcept {
+  return {{rows[0][i], rows[1][i], rows[2][i], rows[3][i], rows[4][i], rows[5][i]}};
+}
+
 /// Sixteen boxes, a row for each bound: what one vector, or a few, can test at once.
 struct alignas(64) LaneBlock {
   std::array<std::array<float, kFanOut>, 6> bound;
@@ -68,11 +74,7 @@ struct alignas(64) LaneBlock {
   void set(std::size_t lane, const LaneBox& box) noexcept {
     for (std::size_t row = 0; row < 6; ++row) bound[row][lane] = box.bound[row];
   }
-  [[nodiscard]] LaneBox get(std::size_t lane) const noexcept {
-    LaneBox box;
-    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][lane];
-    return box;
-  }
+  [[nodiscard]] LaneBox get(std::size_t lane) const noexcept { return boxAt(bound, lane); }
 };
 
 /// Up to a fixed number of boxes with their ids, one array per bound, small enough to stay in the first-level cache.
@@ -89,11 +91,7 @@ struct alignas(64) LaneTileOf {
     for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
     id[i] = boxId;
   }
-  [[nodiscard]] LaneBox get(std::size_t i) const noexcept {
-    LaneBox box;
-    for (std::size_t row = 0; row < 6; ++row) box.bound[row] = bound[row][i];
-    return box;
-  }
+  [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 };
 
 /// A tile of an exhaustive search, a smaller one for the candidates of a join, which are seldom many, and one that is

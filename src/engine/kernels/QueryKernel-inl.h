@@ -34,47 +34,27 @@ std::uint32_t touchingLanes(const LaneBlock& block, const LaneBox& box) {
   return bitsOfBlock([&](std::size_t i) HWY_ATTR { return overlapping(query, block.bound, i); });
 }
 
-/// The bounds of boxes on an axis; the largest float32 stands for infinity as well.
-struct AxisBounds {
-  FloatVector min, max;
-};
-
-HWY_INLINE AxisBounds boundsOn(const LaneBlock& block, std::size_t axis, std::size_t i) {
-  const FloatTag d;
-  const auto most = hn::Set(d, kLaneMax);
-  const auto least = hn::Set(d, -kLaneMax);
-  const auto min = hn::Load(d, &block.bound[axis][i]);
-  const auto max = hn::Load(d, &block.bound[axis + 3][i]);
-  return {hn::IfThenElse(hn::Le(min, least), hn::Set(d, -kNever), min),
-          hn::IfThenElse(hn::Ge(max, most), hn::Set(d, kNever), max)};
-}
-
 /// The interval of times at which a query can be within boxes.
 struct SlabInterval {
   FloatVector enter, leave;
   FloatMask possible;
-};
 
-/// The interval on one axis. Overflow and NaN are resolved conservatively, so that no hit is lost.
-HWY_INLINE void clipToSlab(const SweepLanes& sweep, std::size_t axis, AxisBounds box, SlabInterval& stay) {
-  const FloatTag d;
-  const auto queryMin = hn::Set(d, sweep.min[axis]);
-  const auto queryMax = hn::Set(d, sweep.max[axis]);
-  const bool forward = sweep.axis[axis] == SweepLanes::Axis::Forward;
-  const auto near = forward ? hn::Sub(box.min, queryMax) : hn::Sub(queryMin, box.max);
-  const auto far = forward ? hn::Sub(box.max, queryMin) : hn::Sub(queryMax, box.min);
-  const auto most = hn::Set(d, kLaneMax);
-  const auto least = hn::Set(d, -kLaneMax);
-  const auto inverse = hn::Set(d, sweep.inverse[axis]);
-  const auto slack = hn::Set(d, kQuerySlack);
-  const auto tiny = hn::Set(d, kQueryTiny);
-  const auto in = hn::Min(hn::Mul(hn::Min(near, most), inverse), most);
-  const auto out = hn::Max(hn::Mul(hn::Max(far, least), inverse), least);
-  const auto enter = hn::Sub(hn::Sub(in, hn::Mul(hn::Abs(in), slack)), tiny);
-  const auto leave = hn::Add(hn::Add(out, hn::Mul(hn::Abs(out), slack)), tiny);
-  stay.enter = hn::IfThenElse(hn::Gt(enter, stay.enter), enter, stay.enter);
-  stay.leave = hn::IfThenElse(hn::Lt(leave, stay.leave), leave, stay.leave);
-}
+  /// Clips it to the times of one axis, from how far the query is from where it meets boxes and leaves them, by the inverse of
+  /// its speed. Overflow and NaN are resolved conservatively, so that no hit is lost.
+  HWY_INLINE void clip(FloatVector near, FloatVector far, FloatVector inverse) {
+    const FloatTag d;
+    const auto most = hn::Set(d, kLaneMax);
+    const auto least = hn::Set(d, -kLaneMax);
+    const auto slack = hn::Set(d, kQuerySlack);
+    const auto tiny = hn::Set(d, kQueryTiny);
+    const auto in = hn::Min(hn::Mul(hn::Min(near, most), inverse), most);
+    const auto out = hn::Max(hn::Mul(hn::Max(far, least), inverse), least);
+    const auto from = hn::Sub(hn::Sub(in, hn::Mul(hn::Abs(in), slack)), tiny);
+    const auto to = hn::Add(hn::Add(out, hn::Mul(hn::Abs(out), slack)), tiny);
+    enter = hn::IfThenElse(hn::Gt(from, enter), from, enter);
+    leave = hn::IfThenElse(hn::Lt(to, leave), to, leave);
+  }
+};
 
 HWY_INLINE SlabInterval slabIntervalIn(const LaneBlock& block, const SweepLanes& sweep, float limit, std::size_t i) {
   const FloatTag d;
@@ -82,14 +62,21 @@ HWY_INLINE SlabInterval slabIntervalIn(const LaneBlock& block, const SweepLanes&
   SlabInterval stay{hn::Zero(d), hn::Set(d, limit), hn::Lt(hn::Load(d, &block.bound[0][i]), hn::Set(d, kNever))};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sweep.axis[axis] == SweepLanes::Axis::Unbounded) continue;
-    const AxisBounds box = boundsOn(block, axis, i);
+    auto min = hn::Load(d, &block.bound[axis][i]);
+    auto max = hn::Load(d, &block.bound[axis + 3][i]);
+    // The largest float32 stands for infinity as well.
+    min = hn::IfThenElse(hn::Le(min, hn::Set(d, -kLaneMax)), hn::Set(d, -kNever), min);
+    max = hn::IfThenElse(hn::Ge(max, hn::Set(d, kLaneMax)), hn::Set(d, kNever), max);
+    const auto queryMin = hn::Set(d, sweep.min[axis]);
+    const auto queryMax = hn::Set(d, sweep.max[axis]);
     if (sweep.axis[axis] == SweepLanes::Axis::Rests) {
-      const auto meets =
-          hn::And(hn::Le(box.min, hn::Set(d, sweep.max[axis])), hn::Le(hn::Set(d, sweep.min[axis]), box.max));
-      stay.possible = hn::And(stay.possible, meets);
-    } else {
-      clipToSlab(sweep, axis, box, stay);
+      stay.possible = hn::And(stay.possible, hn::And(hn::Le(min, queryMax), hn::Le(queryMin, max)));
+      continue;
     }
+    const bool forward = sweep.axis[axis] == SweepLanes::Axis::Forward;
+    const auto near = forward ? hn::Sub(min, queryMax) : hn::Sub(queryMin, max);
+    const auto far = forward ? hn::Sub(max, queryMin) : hn::Sub(queryMax, min);
+    stay.clip(near, far, hn::Set(d, sweep.inverse[axis]));
   }
   return stay;
 }

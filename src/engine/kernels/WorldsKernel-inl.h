@@ -31,55 +31,28 @@ namespace {  // Each file that compiles the kernels has its own.
 /// The hits of up to a word of rows, in words by row. Masks may be stored as whole words.
 using WorldHits = std::array<std::uint64_t, kMostInWorld + 1>;
 
-/// Boxes of float32 against each other: exact, and empty boxes hit nothing.
-class FloatTest {
+/// Boxes of float32, or of float64, against each other: exact, and empty boxes hit nothing.
+template <class T>
+class BoundsTest {
  public:
-  using D = FloatTag;
+  using D = hn::CappedTag<T, kFanOut>;
 
-  HWY_INLINE explicit FloatTest(const WorldTile<float>& tile) : m_tile(tile), m_columns(broadcast(kNeverLanes)) {}
+  HWY_INLINE explicit BoundsTest(const WorldTile<T>& tile) : m_tile(tile) {}
 
   /// The boxes that rows are tested against.
   HWY_INLINE void setColumns(std::size_t place) {
-    const D d;
-    const auto at = [&](std::size_t bound) HWY_ATTR { return hn::LoadU(d, &m_tile.bound[bound][place]); };
-    m_columns = {at(0), at(1), at(2), at(3), at(4), at(5)};
-  }
-
-  [[nodiscard]] HWY_INLINE FloatMask hits(std::size_t row) const {
-    const D d;
-    const auto at = [&](std::size_t bound) HWY_ATTR { return hn::Set(d, m_tile.bound[bound][row]); };
-    const FloatMask x = hn::Le(hn::Max(m_columns.minX, at(0)), hn::Min(m_columns.maxX, at(3)));
-    const FloatMask xy = meetsAlso(x, m_columns.minY, m_columns.maxY, at(1), at(4));
-    return meetsAlso(xy, m_columns.minZ, m_columns.maxZ, at(2), at(5));
-  }
-
- private:
-  const WorldTile<float>& m_tile;
-  Query m_columns;
-};
-
-/// The same of float64.
-class DoubleTest {
- public:
-  using D = DoubleTag;
-
-  HWY_INLINE explicit DoubleTest(const WorldTile<double>& tile) : m_tile(tile) {}
-
-  HWY_INLINE void setColumns(std::size_t place) {
-    for (std::size_t bound = 0; bound < 6; ++bound) m_columns[bound] = hn::LoadU(D(), &m_tile.bound[bound][place]);
+    for (std::size_t bound = 0; bound < 6; ++bound) m_columns[bound] = hn::LoadU(D(), &m_tile[bound][place]);
   }
 
   [[nodiscard]] HWY_INLINE hn::Mask<D> hits(std::size_t row) const {
-    const D d;
-    const auto meetsOn = [&](std::size_t axis) HWY_ATTR {
-      const auto least = hn::Max(m_columns[axis], hn::Set(d, m_tile.bound[axis][row]));
-      return hn::Le(least, hn::Min(m_columns[axis + 3], hn::Set(d, m_tile.bound[axis + 3][row])));
-    };
-    return hn::And(hn::And(meetsOn(0), meetsOn(1)), meetsOn(2));
+    const auto at = [&](std::size_t bound) HWY_ATTR { return hn::Set(D(), m_tile[bound][row]); };
+    const auto x = hn::Le(hn::Max(m_columns[0], at(0)), hn::Min(m_columns[3], at(3)));
+    const auto xy = meetsAlso(x, m_columns[1], m_columns[4], at(1), at(4));
+    return meetsAlso(xy, m_columns[2], m_columns[5], at(2), at(5));
   }
 
  private:
-  const WorldTile<double>& m_tile;
+  const WorldTile<T>& m_tile;
   hn::Vec<D> m_columns[6];
 };
 
@@ -98,7 +71,7 @@ class WideTest {
     const D d;
     const auto far = distance(row);
     const auto apartOn = [&](std::size_t axis) HWY_ATTR {
-      const auto& bound = m_world.tile.bound;
+      const WorldTile<double>& bound = m_world.tile;
       const auto min = hn::LoadU(d, &bound[axis][m_place]);
       const auto max = hn::LoadU(d, &bound[axis + 3][m_place]);
       return hn::Or(hn::Gt(hn::Set(d, bound[axis][row]), hn::Add(max, far)),
@@ -183,7 +156,7 @@ HWY_INLINE std::uint32_t lowestBit(std::uint64_t bits) {
 /// mispredicted too often. Returns how many there are.
 template <bool kPreceding, std::size_t kUnasked>
 HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* pairs) {
-  static_assert(kUnasked <= WorldPairsPlace::kSlack && sizeof(Pair) == sizeof(std::uint64_t));
+  static_assert(kUnasked <= WorldSink::kSlack && sizeof(Pair) == sizeof(std::uint64_t));
   const auto count = static_cast<std::size_t>(std::popcount(bits));
   const auto writeNext = [&](std::size_t i) HWY_ATTR {
     const std::uint32_t other = firstOfWord + lowestBit(bits);
@@ -211,16 +184,11 @@ HWY_INLINE std::uint64_t bitsOfRow(std::uint64_t bits, std::size_t word, std::si
   return bits;
 }
 
-/// The bits of boxes that may be paired with each of a world, or all.
-struct EveryPartner {
-  [[nodiscard]] HWY_INLINE std::uint64_t of(std::size_t /*row*/, std::size_t /*word*/) const {
-    return ~std::uint64_t{0};
-  }
-};
-struct SomePartners {
+/// Which boxes may be paired with each of a world.
+struct Partners {
   WorldPlaces places;
-  const std::uint64_t* allowed;  ///< Rows of words, or null.
-  const std::uint64_t* alive;    ///< A bit for each place, or null.
+  const std::uint64_t* allowed = nullptr;  ///< Rows of words; null means all.
+  const std::uint64_t* alive = nullptr;    ///< A bit for each place; null means all.
 
   [[nodiscard]] HWY_INLINE std::uint64_t of(std::size_t row, std::size_t word) const {
     std::uint64_t bits = ~std::uint64_t{0};
@@ -231,11 +199,11 @@ struct SomePartners {
 };
 
 /// The hits of rows in [begin, end) as pairs. With kUnasked pairs of a word that are written unasked; 0 counts pairs only.
-template <bool kPreceding, std::size_t kUnasked, class Partners>
+template <bool kPreceding, std::size_t kUnasked>
 HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
-                         const Partners partners, WorldPairsPlace& place) {
+                         const Partners partners, WorldSink& sink) {
   const std::uint64_t* words = hits.data() + begin % kWordBoxes * places.words;
-  std::uint64_t size = place.size;
+  std::uint64_t size = sink.size;
   for (std::size_t row = begin; row < end; ++row, words += places.words) {
     const auto box = static_cast<std::uint32_t>(row - places.first);
     const std::size_t firstWord = kPreceding ? 0 : row / kWordBoxes;
@@ -246,38 +214,35 @@ HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::s
         size += static_cast<std::size_t>(std::popcount(bits));
       } else {
         const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes - places.first);
-        size += writeBits<kPreceding, kUnasked>(bits, box, firstOfWord, place.pairs + size);
+        size += writeBits<kPreceding, kUnasked>(bits, box, firstOfWord, sink.pairs + size);
       }
     }
   }
-  place.size = size;
+  sink.size = size;
 }
 
 /// All pairs of one world. Of worlds of one word most rows have hits in it; of larger ones few words have more than two.
-template <bool kPreceding, bool kCount, class Test, class Partners>
-HWY_INLINE void searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners,
-                            WorldPairsPlace& place) {
+template <bool kPreceding, bool kCount, class Test>
+HWY_INLINE void searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
   WorldHits hits;
   if (places.words == 1) {
     testRows<kPreceding>(test, {places.first, kWordBoxes, 1}, places.first, hits);
-    takeRows<kPreceding, kCount ? 0 : 4>(hits, {places.first, kWordBoxes, 1}, places.first, kWordBoxes, partners,
-                                         place);
+    takeRows<kPreceding, kCount ? 0 : 4>(hits, {places.first, kWordBoxes, 1}, places.first, kWordBoxes, partners, sink);
     return;
   }
   for (std::size_t begin = places.first; begin < places.end;) {
     const std::size_t end = begin / kWordBoxes * kWordBoxes + kWordBoxes;
     testRows<kPreceding>(test, places, begin, hits);
-    takeRows<kPreceding, kCount ? 0 : 2>(hits, places, begin, end, partners, place);
+    takeRows<kPreceding, kCount ? 0 : 2>(hits, places, begin, end, partners, sink);
     begin = end;
   }
 }
 
 /// The same, for what is known of all worlds only now.
 template <bool kPreceding, class Test>
-HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, const SomePartners& partners,
-                           WorldPairsPlace& place) {
-  place.countOnly ? searchWorld<kPreceding, true>(test, places, partners, place)
-                  : searchWorld<kPreceding, false>(test, places, partners, place);
+HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+  sink.countOnly ? searchWorld<kPreceding, true>(test, places, partners, sink)
+                 : searchWorld<kPreceding, false>(test, places, partners, sink);
 }
 
 /// As many boxes as a vector has lanes, from corners that follow each other, as they are, to places from `at` on.
@@ -309,8 +274,8 @@ HWY_INLINE void readCorners(const float* min, const float* max, std::size_t stri
   }
 #endif
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::StoreU(lower[axis], d, &tile.bound[axis][at]);
-    hn::StoreU(upper[axis], d, &tile.bound[axis + 3][at]);
+    hn::StoreU(lower[axis], d, &tile[axis][at]);
+    hn::StoreU(upper[axis], d, &tile[axis + 3][at]);
   }
 }
 
@@ -357,31 +322,31 @@ HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t
 /// Worlds without a filter whose pairs are wanted by their first boxes have a loop of their own.
 template <bool kPreceding, bool kPlain>
 HWY_INLINE void searchRun(WorldsRun& run) {
-  WorldTile<float> tile;
-  const FloatTest test(tile);
-  WorldPairsPlace place = run.place;
+  alignas(64) WorldTile<float> tile;
+  const BoundsTest<float> test(tile);
+  WorldSink sink = run.sink;
   for (; run.world < run.end; ++run.world) {
     const std::size_t first = run.worlds->begin(run.world);
     const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
-    if (boxes > run.mostBoxes || !place.takes(boxes)) break;
+    if (boxes > run.mostBoxes || !sink.takes(boxes)) break;
     const WorldPlaces places = WorldPlaces::of(boxes);
     prefetchAfter(run, first + boxes, boxes);
     readWorld(run, first, places, tile);
     if constexpr (kPlain) {
-      searchWorld<kPreceding, false>(test, places, EveryPartner(), place);
+      searchWorld<kPreceding, false>(test, places, {places}, sink);
     } else {
-      searchSome<kPreceding>(test, places, {places, run.rule.allowed, nullptr}, place);
+      searchSome<kPreceding>(test, places, {places, run.sink.allowed, nullptr}, sink);
     }
-    run.pairEnd[run.world] = place.size;
-    run.boxTests += WorldPairsPlace::roomFor(boxes) - WorldPairsPlace::kSlack;
+    run.pairEnd[run.world] = sink.size;
+    run.boxTests += WorldSink::pairsOf(boxes);
   }
-  run.place = place;
+  run.sink = sink;
 }
 
 void searchWorlds(WorldsRun& run) {
-  if (run.rule.bySecond) {
+  if (run.sink.bySecond) {
     searchRun<true, false>(run);
-  } else if (run.rule.allowed != nullptr || run.place.countOnly) {
+  } else if (run.sink.allowed != nullptr || run.sink.countOnly) {
     searchRun<false, false>(run);
   } else {
     searchRun<false, true>(run);
@@ -389,18 +354,18 @@ void searchWorlds(WorldsRun& run) {
 }
 
 template <bool kPreceding>
-HWY_INLINE void searchWide(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
+HWY_INLINE void searchWide(const WideWorld& world, WorldSink& sink) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
-  const SomePartners partners{places, rule.allowed, world.alive.data()};
+  const Partners partners{places, sink.allowed, world.alive.data()};
   if (!world.hasMargins && world.distance == 0.0) {
-    searchSome<kPreceding>(DoubleTest(world.tile), places, partners, place);
+    searchSome<kPreceding>(BoundsTest<double>(world.tile), places, partners, sink);
   } else {
-    searchSome<kPreceding>(WideTest<kPreceding>(world), places, partners, place);
+    searchSome<kPreceding>(WideTest<kPreceding>(world), places, partners, sink);
   }
 }
 
-void searchWideWorld(const WideWorld& world, const WorldRule& rule, WorldPairsPlace& place) {
-  rule.bySecond ? searchWide<true>(world, rule, place) : searchWide<false>(world, rule, place);
+void searchWideWorld(const WideWorld& world, WorldSink& sink) {
+  sink.bySecond ? searchWide<true>(world, sink) : searchWide<false>(world, sink);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "allpairs/Pair.h"
 #include "allpairs/Worlds.h"
+#include "memory/Memory.h"
 
 namespace allpairs::engine {
 
@@ -41,19 +42,20 @@ struct WorldPlaces {
 
 /// The boxes of a world, a row for each bound, by place.
 template <class T>
-struct alignas(64) WorldTile {
-  std::array<std::array<T, kMostInWorld>, 6> bound;
-};
+using WorldTile = std::array<std::array<T, kMostInWorld>, 6>;
 
-/// Where the pairs of worlds go, one world's after the other's.
-struct WorldPairsPlace {
+/// What becomes of the hits of worlds: which of them are pairs, and where these go, one world's after the other's.
+struct WorldSink {
   /// Pairs that may be written past the last one: kernels write the first few of a word whether they are there or not.
   static constexpr std::size_t kSlack = 8;
 
-  /// The pairs that there must be room for to search a world.
-  [[nodiscard]] static std::size_t roomFor(std::size_t boxes) noexcept {
-    return boxes * (boxes - (boxes == 0 ? 0 : 1)) / 2 + kSlack;
+  /// All pairs of so many boxes.
+  [[nodiscard]] static std::size_t pairsOf(std::size_t boxes) noexcept {
+    return boxes * (boxes - (boxes == 0 ? 0 : 1)) / 2;
   }
+
+  /// The pairs that there must be room for to search a world.
+  [[nodiscard]] static std::size_t roomFor(std::size_t boxes) noexcept { return pairsOf(boxes) + kSlack; }
 
   Pair* pairs = nullptr;
   std::size_t capacity = 0;  ///< With the slack.
@@ -62,17 +64,27 @@ struct WorldPairsPlace {
   /// If set, pairs are counted in `size` and not stored.
   bool countOnly = false;
 
-  [[nodiscard]] bool takes(std::size_t boxes) const noexcept { return countOnly || size + roomFor(boxes) <= capacity; }
-};
-
-/// How the hits of a world become pairs.
-struct WorldRule {
   /// Whether pairs are ordered by their second box.
   bool bySecond = false;
 
   /// Which pairs are not filtered out: for each box, as a row, the bits of its partners; the same for all worlds. Null
   /// means all.
   const std::uint64_t* allowed = nullptr;
+
+  /// If set, the memory of `pairs`, which grows as needed.
+  Buffer<Pair>* growing = nullptr;
+
+  [[nodiscard]] bool takes(std::size_t boxes) const noexcept { return countOnly || size + roomFor(boxes) <= capacity; }
+
+  /// Makes room for so many more pairs; returns whether there is.
+  bool makeRoom(std::size_t more) {
+    if (size + more <= capacity) return true;
+    if (growing == nullptr) return false;
+    growing->grow(size + more);
+    pairs = growing->data();
+    capacity = growing->capacity();
+    return true;
+  }
 };
 
 /// Worlds of float32 boxes, one after the other, all pairs of each tested, up to a world that is too large or that there
@@ -88,22 +100,38 @@ struct WorldsRun {
   std::size_t world = 0;  ///< The next one; the one that it stopped at.
   std::size_t end = 0;
   std::size_t mostBoxes = kMostInWorld;
-  WorldRule rule;
-  WorldPairsPlace place;
+  WorldSink sink;
 
-  /// pairEnd[k] receives the place's size after world k.
+  /// pairEnd[k] receives the sink's size after world k.
   std::uint64_t* pairEnd = nullptr;
   std::uint64_t boxTests = 0;
 };
 
 /// One world in double, the exact test of boxes with margins and a distance.
 struct WideWorld {
-  WorldTile<double> tile;
+  alignas(64) WorldTile<double> tile;
   std::size_t boxes;
   double distance;
   bool hasMargins;
   std::array<double, kMostInWorld> margins;                    ///< By place.
   std::array<std::uint64_t, kMostInWorld / kWordBoxes> alive;  ///< A bit for each place whose box can overlap others.
+
+  /// Empties it, for so many boxes of a set, whose margins it has.
+  void start(std::size_t size, const BoxView& set, double between) noexcept {
+    boxes = size;
+    distance = between;
+    hasMargins = set.hasMargins();
+    alive.fill(0);
+  }
+
+  void set(std::size_t place, const Box& box, double margin, bool isAlive) noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      tile[axis][place] = box.min[axis];
+      tile[axis + 3][place] = box.max[axis];
+    }
+    margins[place] = margin;
+    if (isAlive && !isEmpty(box)) alive[place / kWordBoxes] |= std::uint64_t{1} << (place % kWordBoxes);
+  }
 };
 
 }  // namespace allpairs::engine

@@ -80,6 +80,11 @@ class Buffer {
     m_capacity = size;
   }
 
+  /// The same with room for some more, so that a fluctuating size soon allocates nothing.
+  void requireAmply(std::size_t size) {
+    if (size > m_capacity) require(size + size / 4 + 64);
+  }
+
   /// Allocates `size` values and keeps the contents; at least doubles, so that appending is linear. If memory is
   /// exhausted, the buffer is unchanged.
   void grow(std::size_t size) {

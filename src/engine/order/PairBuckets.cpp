@@ -75,18 +75,17 @@ std::uint32_t* radixSortBucket(const Bucket& bucket, std::size_t size, std::uint
   return radixSort(from, to, size, 0, bucket.rule.keyBits + bucket.rule.otherBits);
 }
 
-/// Scratch memory of a bucket: where the row of each key begins and where its next number goes, and the rows. While they are
-/// filled, what is next of one key becomes where the row of the following one begins.
-struct RowMemory {
-  RowMemory(const Bucket& bucket, std::span<std::uint32_t> scratch) noexcept
-      : begin(scratch.data()), next(begin + 1), rows(next + bucket.keys() + 1) {
-    *begin = 0;
-  }
-
-  std::uint32_t* begin;
-  std::uint32_t* next;
-  std::uint32_t* rows;
-};
+/// The rows of a bucket in scratch memory, to be measured and filled: where each begins, and behind that their numbers. While
+/// they are filled, where the next number of a key goes stands where the row of the following key will begin.
+NumberRows emptyRows(const Bucket& bucket, std::span<std::uint32_t> scratch, std::size_t size) noexcept {
+  scratch[0] = 0;
+  return {scratch.data() + bucket.keys() + 2,
+          size,
+          scratch.data(),
+          bucket.rule.otherBits,
+          bucket.firstKey(),
+          bucket.rule.bySecond};
+}
 
 std::size_t scratchFor(const Bucket& bucket, std::size_t size) noexcept {
   return bucket.keys() + 2 + size + kVectorSlack;
@@ -102,15 +101,14 @@ BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : b
   otherBits = static_cast<unsigned>(std::bit_width(others - 1));
 }
 
-void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch,
-                const Kernels& kernels) noexcept {
+void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
   const BucketRule& rule = bucket.rule;
   if (scratchFor(bucket, place.size()) <= scratch.size()) {
-    const RowMemory memory(bucket, scratch);
-    if (measureRows(bucket, memory.next) <= kLongestRow) {
-      putInRows(bucket, memory.next, memory.rows);
-      kernels.orderRows({memory.rows, place.size(), memory.begin, rule.otherBits, bucket.firstKey(), rule.bySecond},
-                        place.data());
+    const NumberRows rows = emptyRows(bucket, scratch, place.size());
+    std::uint32_t* const next = scratch.data() + 1;
+    if (measureRows(bucket, next) <= kLongestRow) {
+      putInRows(bucket, next, rows.numbers);
+      bucket.kernels.orderRows(rows, place.data());
       return;
     }
   }
@@ -124,19 +122,19 @@ void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint
 std::size_t scratchToList(const Bucket& bucket) noexcept { return scratchFor(bucket, bucket.size()); }
 
 void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_t before,
-                const ListTools& tools) noexcept {
-  const unsigned otherBits = bucket.rule.otherBits;
+                std::span<std::uint32_t> scratch) noexcept {
   const std::size_t size = place.indices.size();
-  const RowMemory memory(bucket, tools.scratch);
-  const std::size_t longest = measureRows(bucket, memory.next);
-  for (std::size_t key = 0; key < place.offsets.size(); ++key) place.offsets[key] = before + memory.next[key];
+  const NumberRows rows = emptyRows(bucket, scratch, size);
+  std::uint32_t* const next = scratch.data() + 1;
+  const std::size_t longest = measureRows(bucket, next);
+  for (std::size_t key = 0; key < place.offsets.size(); ++key) place.offsets[key] = before + next[key];
   if (longest <= kLongestRow) {
-    putInRows(bucket, memory.next, memory.rows);
-    tools.kernels.orderPartners({memory.rows, size, memory.begin, otherBits}, place.indices.data());
+    putInRows(bucket, next, rows.numbers);
+    bucket.kernels.orderPartners(rows, place.indices.data());
     return;
   }
-  const std::uint32_t* const sorted = radixSortBucket(bucket, size, memory.rows, place.indices.data());
-  const std::uint32_t otherMask = (std::uint32_t{1} << otherBits) - 1;
+  const std::uint32_t* const sorted = radixSortBucket(bucket, size, rows.numbers, place.indices.data());
+  const std::uint32_t otherMask = (std::uint32_t{1} << rows.otherBits) - 1;
   std::transform(sorted, sorted + size, place.indices.data(), [=](std::uint32_t number) { return number & otherMask; });
 }
 

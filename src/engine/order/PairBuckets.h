@@ -86,11 +86,12 @@ class PairBuckets {
   Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
 };
 
-/// The pairs of a bucket, which each worker has some of.
+/// The pairs of a bucket, which each worker has some of, and what puts them in order.
 struct Bucket {
   const BucketRule& rule;
   std::size_t number;
   std::span<const PairBuckets> ofWorkers;
+  const Kernels& kernels;
 
   [[nodiscard]] std::size_t size() const noexcept {
     std::size_t size = 0;
@@ -105,20 +106,14 @@ struct Bucket {
 ///
 /// Where they fit into the scratch memory and no key has many, each pair goes to its key's row, and then to where its rank in
 /// the row says; else they are radix sorted in the memory of the result.
-void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch,
-                const Kernels& kernels) noexcept;
-
-/// What listBucket() works with: scratch memory has room for as many numbers as scratchToList() says.
-struct ListTools {
-  const Kernels& kernels;
-  std::span<std::uint32_t> scratch;
-};
+void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept;
 
 /// Puts the other index of each pair of a bucket into its place in order, in the same ways, and the beginning of each key's row.
 ///
 /// `place` has the offsets of the keys, without the one after the last, and the indices of the bucket, which `before` others precede.
+/// The scratch memory has room for as many numbers as scratchToList() says.
 void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_t before,
-                const ListTools& tools) noexcept;
+                std::span<std::uint32_t> scratch) noexcept;
 [[nodiscard]] std::size_t scratchToList(const Bucket& bucket) noexcept;
 
 }  // namespace allpairs::engine

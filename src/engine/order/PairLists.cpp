@@ -19,9 +19,6 @@ constexpr unsigned kPlaceBits = 48;
 /// (dense_benchmark).
 constexpr std::size_t kPrefetchDistance = 8;
 
-/// Partners of the rows of a task, on average: of long lists a few milliseconds of work, between two looks at a flag that stops it.
-constexpr std::size_t kPartPartners = std::size_t{1} << 20;
-
 template <bool kBySecond>
 void expandRow(std::uint32_t row, std::span<const std::uint32_t> list, Pair* to) noexcept {
   for (std::size_t i = 0; i < list.size(); ++i) to[i] = kBySecond ? Pair{list[i], row} : Pair{row, list[i]};
@@ -66,7 +63,7 @@ template <class Use>
 void PairLists::forEachList(Executor& executor, const Use& use) {
   m_places.clear();
   std::size_t place = 0;
-  const std::size_t longest = kPartPartners * m_rows / std::max<std::size_t>(1, size());
+  const std::size_t longest = kWorkBetweenLooks * m_rows / std::max<std::size_t>(1, size());
   const std::size_t partSize = std::clamp<std::size_t>(longest, 1, kPartSize);
   for (std::size_t begin = 0; begin < m_rows; begin += partSize) {
     m_places.push_back(place);

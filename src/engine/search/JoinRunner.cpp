@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "search/StoppableExecutor.h"
+#include "input/Parts.h"
 #include "search/TaskCut.h"
 
 namespace allpairs::engine {
@@ -100,7 +100,7 @@ void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t e
     const std::size_t next = std::min(end, isWhole ? (begin + units) / kFanOut * kFanOut : begin + units);
     const std::uint64_t before = hits.boxTests + hits.groupTests;
     runPart(job, begin, next, worker);
-    const bool isLong = hits.boxTests + hits.groupTests - before > kTestsBetweenLooks;
+    const bool isLong = hits.boxTests + hits.groupTests - before > kWorkBetweenLooks;
     units = isLong ? std::max(units / 2, kRowsAtOnce) : std::min(2 * units, kMostUnits);
     begin = next;
   }

@@ -10,7 +10,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Two arrays of this many ids stay in the first-level cache beside what the kernels read (allpairs bench).
+/// Two arrays of this many ids stay in the first-level cache beside what the kernels read (allpairs bench uniform -n
+/// 100000).
 constexpr std::size_t kHitCapacity = 2048;
 
 /// Their offset within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that loads

@@ -13,8 +13,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes are tested exhaustively against a set of any size: ordering the set would cost more
-/// (allpairs bench).
+/// Up to this many boxes are tested exhaustively against a set of any size: ordering a box of it takes some 30 ns, a test of it
+/// in a vector one (docs/decisions/0022).
 constexpr std::size_t kFewRows = 32;
 
 /// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap: a
@@ -22,7 +22,8 @@ constexpr std::size_t kFewRows = 32;
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
 /// From this share of all pairs on, so few tests can be skipped that the exhaustive search is faster; it finds pairs in
-/// order, so that for ordered output the share is smaller (dense_benchmark).
+/// order, so that for ordered output the share is smaller (allpairs bench cubes.csv --strategy exhaustive, and bvh, of cubes with
+/// sides of 0.2 to 0.6 at random places in a unit cube).
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
@@ -313,7 +314,7 @@ bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
     m_runner.withScratch(0, [&](std::span<std::uint32_t> scratch) {
-      sortBucket({rule, b, m_buckets}, place, scratch, *m_kernels);
+      sortBucket({rule, b, m_buckets, *m_kernels}, place, scratch);
     });
   });
   return true;
@@ -333,7 +334,9 @@ bool Search::fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::
   run(plan, *m_executor);
   m_places.resize(rule.buckets + 1);
   m_places[0] = 0;
-  for (std::size_t b = 0; b < rule.buckets; ++b) m_places[b + 1] = m_places[b] + Bucket{rule, b, m_buckets}.size();
+  for (std::size_t b = 0; b < rule.buckets; ++b) {
+    m_places[b + 1] = m_places[b] + Bucket{rule, b, m_buckets, *m_kernels}.size();
+  }
   return true;
 }
 

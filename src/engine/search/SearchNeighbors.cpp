@@ -70,13 +70,12 @@ bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
   m_rowsFound = roomForRows(rows, m_places.back());
   m_rowsFound.offsets.back() = m_places.back();
   m_executor->run(rule.buckets, [&](std::size_t b) {
-    const Bucket bucket{rule, b, m_buckets};
+    const Bucket bucket{rule, b, m_buckets, *m_kernels};
     const std::size_t firstRow = bucket.firstKey();
     const NeighborsMemory place{m_rowsFound.offsets.subspan(firstRow, std::min(bucket.keys(), rows - firstRow)),
                                 m_rowsFound.indices.subspan(m_places[b], m_places[b + 1] - m_places[b])};
-    m_runner.withScratch(scratchToList(bucket), [&](std::span<std::uint32_t> scratch) {
-      listBucket(bucket, place, m_places[b], {*m_kernels, scratch});
-    });
+    m_runner.withScratch(scratchToList(bucket),
+                         [&](std::span<std::uint32_t> scratch) { listBucket(bucket, place, m_places[b], scratch); });
   });
   return true;
 }

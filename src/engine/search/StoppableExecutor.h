@@ -2,15 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "allpairs/Executor.h"
 #include "allpairs/StopFlag.h"
 
 namespace allpairs::engine {
-
-/// Tests of boxes, some milliseconds of work, between two looks at the flag that stops them.
-inline constexpr std::uint64_t kTestsBetweenLooks = std::uint64_t{1} << 22;
 
 /// Runs tasks on another executor until a flag is set: from then on they throw Stopped.
 class StoppableExecutor final : public Executor {

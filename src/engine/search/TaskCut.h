@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "kernels/Lanes.h"
+
 namespace allpairs::engine {
 
 /// The maximum number of tasks per thread: several, since some take longer than others.
@@ -27,15 +29,13 @@ class TaskCut {
   }
 
   /// Leaf blocks, of which those from `firstLarge` on hold boxes larger than most: one of them may have as many
-  /// partners as all the others. Of the others a task has enough to make the cost of its descent from the root
-  /// negligible.
+  /// partners as all the others. Of the others a task has those of a node, to which it descends once.
   static TaskCut ofLeaves(std::size_t leaves, std::size_t firstLarge, std::size_t threads) {
-    constexpr std::size_t kMinLeaves = 16;  // A node of them is descended to once.
     TaskCut cut(leaves);
     if (threads <= 1 || leaves == 0) return cut;
     const std::size_t most = kTasksPerThread * threads;
     cut.m_firstUnits = std::min(firstLarge, leaves);
-    cut.m_firstTasks = cut.m_firstUnits == 0 ? 0 : std::clamp<std::size_t>(cut.m_firstUnits / kMinLeaves, 1, most);
+    cut.m_firstTasks = cut.m_firstUnits == 0 ? 0 : std::clamp<std::size_t>(cut.m_firstUnits / kFanOut, 1, most);
     cut.m_lastTasks = std::min(leaves - cut.m_firstUnits, most);
     return cut;
   }

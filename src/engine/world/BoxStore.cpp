@@ -13,7 +13,7 @@ namespace allpairs::engine {
 namespace {
 
 /// If at least one id in this many is in a list, iterating over all ids is faster than over the list
-/// (moving_benchmark).
+/// (moving_benchmark --setting world).
 constexpr std::size_t kShareOfIds = 16;
 
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {
@@ -215,8 +215,6 @@ void BoxStore::write(BoxId id, const Box& box) {
   if (changed) note(id);
 }
 
-void BoxStore::writeEmpty(BoxId id) { write(id, kEmptyBox); }
-
 void BoxStore::move(BoxId id, const Box& box) {
   if (!contains(id)) throwUnknown(0, id);
   if (hasNan(box)) throw InvalidBox(0, "the box with the id " + std::to_string(id) + " has a NaN");
@@ -275,7 +273,7 @@ void BoxStore::prepareRemoval(std::size_t boxes) {
 
 void BoxStore::removeOne(BoxId id) {
   noteResettled(id);
-  writeEmpty(id);
+  write(id, kEmptyBox);
   const bool stepped = (m_flags[id] & Stepped) != 0;
   if (isStatic(id)) --m_staticCount;
   BoxProperties none;

@@ -168,7 +168,6 @@ class BoxStore {
   [[nodiscard]] bool needsFloat64(const BoxView& boxes) const;
   void widenToDouble();
   void write(BoxId id, const Box& box);
-  void writeEmpty(BoxId id);
   void assign(BoxId id, const BoxProperties& properties);
   void removeOne(BoxId id);
 

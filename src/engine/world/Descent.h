@@ -7,30 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "allpairs/Box.h"
-#include "allpairs/WorldTypes.h"
 #include "kernels/Lanes.h"
 
 namespace allpairs::engine {
 
-/// A box that a descent has reached.
-struct Arrival {
-  BoxId id = kNoBox;
-  const LaneBlock& block;
-  std::size_t lane = 0;
-
-  /// The bounds that the lane holds, in double.
-  [[nodiscard]] Box lanes() const noexcept {
-    Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.min[axis] = static_cast<double>(block.bound[axis][lane]);
-      box.max[axis] = static_cast<double>(block.bound[axis + 3][lane]);
-    }
-    return box;
-  }
-};
-
-/// Calls take(arrival) for all candidate boxes; lanesOf(block) has a bit for each candidate lane.
+/// Calls take(id, lanes) for all candidate boxes; lanesOf(block) has a bit for each candidate lane.
 template <class LanesOf, class Take>
 void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
   // As deep as there are levels, at most kMaxLevels.
@@ -39,7 +20,7 @@ void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
     for (std::uint32_t bits = lanesOf(lanes); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t child = block * kFanOut + lane;
-      level == 0 ? take(Arrival{view.ids[child], lanes, lane}) : self(self, level - 1, child);
+      level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
     }
   };
   visit(visit, view.depth - 1, 0);
@@ -55,7 +36,7 @@ void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
   return best;
 }
 
-/// Calls take(arrival) for boxes in approximate order of cost, up to a limit that take() may lower.
+/// Calls take(id, lanes) for boxes in approximate order of cost, up to a limit that take() may lower.
 ///
 /// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
 /// lanes: lower bounds of the costs of their boxes, and not negative.
@@ -70,7 +51,7 @@ void descendByCost(const BvhView& view, const LanesOf& lanesOf, const float& lim
       if (costs[lane] > limit) return;
       bits &= ~(1U << lane);
       const std::size_t child = block * kFanOut + lane;
-      level == 0 ? take(Arrival{view.ids[child], lanes, lane}) : self(self, level - 1, child);
+      level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
     }
   };
   visit(visit, view.depth - 1, 0);

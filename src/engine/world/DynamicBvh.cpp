@@ -12,13 +12,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// The share of places reserved for boxes added later, and of places that may become vacant before a rebuild: more
-/// reserves memory, less rebuilds more often.
-constexpr std::size_t kShareOfChange = 8;
-
-/// If at least one box in this many has moved, all blocks are read again: most would be anyway (moving_benchmark).
-constexpr std::size_t kShareOfMoved = 8;
-
 /// Some more than the share, for worlds of few boxes.
 std::size_t roomFor(std::size_t boxes) { return boxes / kShareOfChange + 64; }
 
@@ -199,10 +192,29 @@ bool gatherLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_
   return read.exact;
 }
 
+void ChangedBoxes::start(std::size_t boxes) {
+  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (boxes + boxes / 4)));
+  m_levels.resize(0);
+  m_size = boxes;
+  m_next = 0;
+  m_sourceBlock = static_cast<std::size_t>(-1);
+}
+
+/// Copies a box; those of a block of the source are copied one after the other.
+void ChangedBoxes::append(const BvhView& source, std::size_t place) {
+  if (place / kFanOut != std::exchange(m_sourceBlock, place / kFanOut)) {
+    m_next = m_levels.blockCount() * kFanOut;
+    m_levels.resize(m_next + kFanOut);
+  }
+  const LaneBox box = source.level[0].blocks[place / kFanOut].get(place % kFanOut);
+  m_levels.block(m_next / kFanOut).set(m_next % kFanOut, box);
+  m_levels.id(m_next++) = source.ids[place];
+}
+
 void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels,
                           Executor& executor) {
-  const BvhLevels& source = from.levels();
-  const std::size_t words = (source.places() + 63) / 64;
+  const BvhView source = from.levels().view();
+  const std::size_t words = (from.levels().places() + 63) / 64;
   // Marks left by a call that threw.
   if (std::exchange(m_marking, true)) std::fill(m_marked.begin(), m_marked.end(), std::uint64_t{0});
   if (m_marked.size() < words) m_marked.resize(words + words / 4, 0);
@@ -213,44 +225,23 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, DynamicBvh& from, cons
     m_marked[place / 64] |= std::uint64_t{1} << (place % 64);
     ++count;
   }
-  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (count + count / 4)));
-  m_levels.resize(0);
-  std::size_t next = 0;
-  std::size_t sourceBlock = source.places();
+  start(count);
   for (std::size_t word = 0; word < words; ++word) {
     for (std::uint64_t bits = std::exchange(m_marked[word], 0); bits != 0; bits &= bits - 1) {
-      const std::size_t place = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-      if (place / kFanOut != std::exchange(sourceBlock, place / kFanOut)) {
-        next = m_levels.blockCount() * kFanOut;
-        m_levels.resize(next + kFanOut);
-      }
-      m_levels.block(next / kFanOut).set(next % kFanOut, source.block(place / kFanOut).get(place % kFanOut));
-      m_levels.id(next++) = source.id(place);
+      append(source, word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
     }
   }
   m_marking = false;
-  m_size = count;
   m_levels.boundAll(kernels, executor);
 }
 
 void ChangedBoxes::gather(const BoxStore& store, const BvhView& from, const Kernels& kernels, Executor& executor) {
   const std::span<const std::uint32_t> ids(from.ids, from.depth == 0 ? 0 : from.level[0].size);
   const auto isChanged = [&](BoxId id) { return store.isTouched(id); };
-  const auto count = static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), isChanged));
-  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (count + count / 4)));
-  m_levels.resize(0);
-  std::size_t next = 0;
-  std::size_t sourceBlock = ids.size();
+  start(static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), isChanged)));
   for (std::size_t place = 0; place < ids.size(); ++place) {
-    if (!isChanged(ids[place])) continue;
-    if (place / kFanOut != std::exchange(sourceBlock, place / kFanOut)) {
-      next = m_levels.blockCount() * kFanOut;
-      m_levels.resize(next + kFanOut);
-    }
-    m_levels.block(next / kFanOut).set(next % kFanOut, from.level[0].blocks[place / kFanOut].get(place % kFanOut));
-    m_levels.id(next++) = ids[place];
+    if (isChanged(ids[place])) append(from, place);
   }
-  m_size = count;
   m_levels.boundAll(kernels, executor);
 }
 

@@ -126,10 +126,15 @@ class ChangedBoxes {
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
 
  private:
+  void start(std::size_t boxes);
+  void append(const BvhView& source, std::size_t place);
+
   std::pmr::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
   bool m_marking = false;                    ///< Not all of them have been read.
   BvhLevels m_levels;
   std::size_t m_size = 0;
+  std::size_t m_next = 0;         ///< Where the next box goes.
+  std::size_t m_sourceBlock = 0;  ///< The block that the last one came from.
 };
 
 }  // namespace allpairs::engine

@@ -11,10 +11,11 @@
 namespace allpairs::engine {
 namespace {
 
-/// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark).
+/// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark --scene
+/// one-percent).
 constexpr std::size_t kShortRow = 16;
 
-/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark).
+/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark --scene one-percent).
 constexpr std::size_t kPrefetchPairs = 16;
 
 }  // namespace
@@ -28,7 +29,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
   for (Fresh& fresh : m_fresh) fresh.size = 0;
   if (looksFor == Joined::All) return;
   if (!m_rowsAreCurrent) findRows();
-  makeRoom(m_seen, m_result.pairs.size());
+  m_seen.requireAmply(m_result.pairs.size() + 1);
   std::fill_n(m_seen.data(), m_result.pairs.size(), std::uint8_t{0});
 }
 
@@ -117,9 +118,9 @@ void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& e
 void PairHistory::makeRoomForChanges() {
   const std::size_t old = m_result.pairs.size();
   const std::size_t fresh = freshSize();
-  makeRoom(m_began, fresh);
-  makeRoom(m_persisted, std::max(old, fresh));
-  makeRoom(m_ended, old);
+  m_began.requireAmply(fresh + 1);
+  m_persisted.requireAmply(std::max(old, fresh) + 1);
+  m_ended.requireAmply(old + 1);
   m_pairs.grow(old + fresh + 1);
   m_result.pairs = {m_pairs.data(), old};
 }
@@ -137,11 +138,11 @@ bool PairHistory::takeOrdered() noexcept {
 
 void PairHistory::finishAll(Executor& executor) {
   const std::size_t size = freshSize();
-  makeRoom(m_persisted, size);
-  makeRoom(m_began, size);
-  makeRoom(m_ended, m_result.pairs.size());
+  m_persisted.requireAmply(size + 1);
+  m_began.requireAmply(size + 1);
+  m_ended.requireAmply(m_result.pairs.size() + 1);
   if (!takeOrdered()) {
-    makeRoom(m_next, size);
+    m_next.requireAmply(size + 1);
     sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, executor);
   }
   compare({m_next.data(), size});

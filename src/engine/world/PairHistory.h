@@ -95,11 +95,6 @@ class PairHistory {
     m_result.ended = {m_ended.data(), ended};
   }
 
-  /// Over-allocates, so that a fluctuating number of pairs soon allocates nothing.
-  template <class T>
-  static void makeRoom(Buffer<T>& buffer, std::size_t size) {
-    if (size + 1 > buffer.capacity()) buffer.require(size + size / 4 + 1);
-  }
   void gather(std::span<const Pair> found, Fresh& fresh);
   void tickOff(std::span<const Pair> found, Fresh& fresh);
   /// The place of an old pair, or the number of old pairs.

@@ -113,4 +113,13 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   return lanes;
 }
 
+[[nodiscard]] inline Box boxOf(const LaneBox& lanes) noexcept {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = static_cast<double>(lanes.bound[axis]);
+    box.max[axis] = static_cast<double>(lanes.bound[axis + 3]);
+  }
+  return box;
+}
+
 }  // namespace allpairs::engine

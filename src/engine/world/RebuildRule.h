@@ -8,6 +8,14 @@
 
 namespace allpairs::engine {
 
+/// Hierarchies and lists that are kept between steps have room for one more box in this many, and are made again when more
+/// have come, or come and gone: one in 16 makes them again twice as often, one in 4 takes twice as much memory beyond need.
+inline constexpr std::size_t kShareOfChange = 8;
+
+/// If at least one box in this many has moved, all blocks of a hierarchy are read again: most would be anyway
+/// (moving_benchmark --scene one-percent, of which fewer move; --scene slow, of which all do).
+inline constexpr std::size_t kShareOfMoved = 8;
+
 /// The boxes that a join tested against the others.
 enum class Joined : std::uint8_t { All, Changed };
 

@@ -17,25 +17,21 @@ constexpr std::size_t kMostShared = 32;
 /// Pairs that worlds in a row are searched for at once: they stay in a second-level cache until they are taken.
 constexpr std::size_t kPairsAtOnce = 8192;
 
-/// Whether the kernel for boxes of float32 takes the rows as they are.
-bool isPlain(const SmallWorlds::Input& input) noexcept {
-  const BoxView& boxes = *input.store.tested().boxes;
-  return !boxes.isFloat64() && !boxes.hasMargins() && input.options.distance == 0.0;
-}
-
 }  // namespace
 
-bool SmallWorlds::takes(const Input& input, std::size_t world) noexcept {
-  const WorldMembers& members = input.members;
-  const std::size_t shared = world == members.everyWorld() ? 0 : members.shared().size();
-  const std::size_t most =
-      std::min({kMostInWorld, input.kernels.flatOrdered, isPlain(input) ? kMostInWorld : kMostInDouble});
-  return shared <= kMostShared && members.boxes(world).size() + shared <= most;
-}
-
-void SmallWorlds::start(std::size_t threads) {
+void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size_t threads) {
+  m_store = &store;
+  m_filter = &filter;
+  m_boxes = store.tested().boxes;
+  m_isPlain = !m_boxes->isFloat64() && !m_boxes->hasMargins() && m_options.distance == 0.0;
+  m_mostBoxes = std::min({kMostInWorld, m_kernels.flatOrdered, m_isPlain ? kMostInWorld : kMostInDouble});
   m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
+}
+
+bool SmallWorlds::takes(std::size_t world) const noexcept {
+  const std::size_t shared = world == m_members.everyWorld() ? 0 : m_members.shared().size();
+  return shared <= kMostShared && m_members.boxes(world).size() + shared <= m_mostBoxes;
 }
 
 std::uint64_t SmallWorlds::boxTests() const noexcept {
@@ -45,10 +41,10 @@ std::uint64_t SmallWorlds::boxTests() const noexcept {
 }
 
 /// The boxes of a world and those of every world, by ascending id.
-std::span<const BoxId> SmallWorlds::idsOf(const WorldMembers& members, std::size_t world, Worker& worker) {
-  const std::span<const BoxId> own = members.boxes(world);
-  const std::span<const BoxId> shared = members.shared();
-  if (world == members.everyWorld() || shared.empty()) return own;
+std::span<const BoxId> SmallWorlds::idsOf(std::size_t world, Worker& worker) const {
+  const std::span<const BoxId> own = m_members.boxes(world);
+  const std::span<const BoxId> shared = m_members.shared();
+  if (world == m_members.everyWorld() || shared.empty()) return own;
   worker.ids.require(own.size() + shared.size());
   BoxId* const end = std::merge(own.begin(), own.end(), shared.begin(), shared.end(), worker.ids.data());
   return {worker.ids.data(), end};
@@ -56,36 +52,36 @@ std::span<const BoxId> SmallWorlds::idsOf(const WorldMembers& members, std::size
 
 /// Lists the worlds, from the first on, whose boxes follow each other in the store, so that the kernel takes them in one call;
 /// returns their number.
-std::size_t SmallWorlds::listRow(const Input& input, std::span<const std::uint32_t> worlds, Worker& worker) {
-  if (!isPlain(input) || !input.members.shared().empty()) return 0;
+std::size_t SmallWorlds::listRow(std::span<const std::uint32_t> worlds, Worker& worker) const {
+  if (!m_isPlain || !m_members.shared().empty()) return 0;
   worker.begin.require(worlds.size() + 2);
   worker.pairEnd.require(worlds.size() + 2);
   std::size_t row = 0;
   for (; row < worlds.size(); ++row) {
-    const std::span<const BoxId> boxes = input.members.boxes(worlds[row]);
-    if (boxes.empty() || boxes.back() - boxes.front() + 1 != boxes.size()) break;
-    if (row != 0 && boxes.front() != worker.begin[row + 1]) break;
-    worker.begin[row + 1] = boxes.front();
-    worker.begin[row + 2] = std::uint64_t{boxes.back()} + 1;
+    const std::span<const BoxId> ids = m_members.boxes(worlds[row]);
+    if (ids.empty() || ids.back() - ids.front() + 1 != ids.size()) break;
+    if (row != 0 && ids.front() != worker.begin[row + 1]) break;
+    worker.begin[row + 1] = ids.front();
+    worker.begin[row + 2] = std::uint64_t{ids.back()} + 1;
   }
   worker.begin[0] = 0;
   return row;
 }
 
 /// The pairs of worlds of a row, after those that are done, as many worlds as there is room for.
-std::span<const Pair> SmallWorlds::findInRow(const Input& input, std::size_t row, std::size_t& done, Worker& worker) {
-  const BoxView& boxes = *input.store.tested().boxes;
+std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done, Worker& worker) const {
   const std::span<const std::uint64_t> begin(worker.begin.data(), row + 2);
-  const Worlds worlds(boxes.slice(0, begin.back()), begin);
-  worker.pairs.require(std::max(kPairsAtOnce, WorldPairsPlace::roomFor(begin[done + 2] - begin[done + 1])));
-  WorldsRun run = runOf(input, worker);
-  run.min = boxes.float32().min.data;
+  const Worlds worlds(m_boxes->slice(0, begin.back()), begin);
+  worker.pairs.require(std::max(kPairsAtOnce, WorldSink::roomFor(begin[done + 2] - begin[done + 1])));
+  WorldsRun run;
+  run.sink = sinkOf(worker);
+  run.min = m_boxes->float32().min.data;
   run.max = run.min + 3;
   run.worlds = &worlds;
   run.world = done + 1;
   run.end = row + 1;
   run.pairEnd = worker.pairEnd.data();
-  input.kernels.searchWorlds(run);
+  m_kernels.searchWorlds(run);
   worker.boxTests += run.boxTests;
   Pair* pair = worker.pairs.data();
   for (; done + 1 < run.world; ++done) {
@@ -93,86 +89,72 @@ std::span<const Pair> SmallWorlds::findInRow(const Input& input, std::size_t row
     for (; pair != worker.pairs.data() + run.pairEnd[done + 1]; ++pair)
       *pair = {pair->first + first, pair->second + first};
   }
-  const std::span<Pair> pairs(worker.pairs.data(), run.place.size);
-  return pairs.first(select(input, input.members.everyWorld(), pairs));
+  const std::span<Pair> pairs(worker.pairs.data(), run.sink.size);
+  return pairs.first(select(m_members.everyWorld(), pairs));
 }
 
-std::span<const Pair> SmallWorlds::find(const Input& input, std::size_t world, Worker& worker) {
-  if (input.members.boxes(world).empty()) return {};
-  const std::span<const BoxId> ids = idsOf(input.members, world, worker);
-  worker.pairs.require(WorldPairsPlace::roomFor(ids.size()));
-  const std::uint64_t size = isPlain(input) ? runPlain(input, ids, worker) : runWide(input, ids, worker);
-  worker.boxTests += ids.size() * (ids.size() - 1) / 2;
+std::span<const Pair> SmallWorlds::find(std::size_t world, Worker& worker) const {
+  if (m_members.boxes(world).empty()) return {};
+  const std::span<const BoxId> ids = idsOf(world, worker);
+  worker.pairs.require(WorldSink::roomFor(ids.size()));
+  const std::uint64_t size = m_isPlain ? runPlain(ids, worker) : runWide(ids, worker);
+  worker.boxTests += WorldSink::pairsOf(ids.size());
   const std::span<Pair> pairs(worker.pairs.data(), size);
   for (Pair& pair : pairs) pair = {ids[pair.first], ids[pair.second]};
-  return pairs.first(select(input, world, pairs));
+  return pairs.first(select(world, pairs));
 }
 
-/// What is the same in each call of the kernel.
-WorldsRun SmallWorlds::runOf(const Input& input, const Worker& worker) {
-  WorldsRun run;
-  run.rule.bySecond = input.options.order == Order::BySecond;
-  run.place = {worker.pairs.data(), worker.pairs.capacity()};
-  return run;
+WorldSink SmallWorlds::sinkOf(const Worker& worker) const noexcept {
+  WorldSink sink{worker.pairs.data(), worker.pairs.capacity()};
+  sink.bySecond = m_options.order == Order::BySecond;
+  return sink;
 }
 
 /// Boxes of float32 that are not in a row are copied. Returns the number of pairs.
-std::uint64_t SmallWorlds::runPlain(const Input& input, std::span<const BoxId> ids, Worker& worker) {
-  const BoxView& boxes = *input.store.tested().boxes;
+std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) const {
   worker.rows.require(6 * ids.size());
   float* to = worker.rows.data();
-  for (const BoxId id : ids) to = std::copy_n(boxes.float32().min.data + std::size_t{6} * id, 6, to);
+  for (const BoxId id : ids) to = std::copy_n(m_boxes->float32().min.data + std::size_t{6} * id, 6, to);
   // The kernel asks only where worlds begin.
   const std::array<std::uint64_t, 2> begin{0, ids.size()};
-  const Worlds worlds(boxes.slice(0, ids.size()), begin);
+  const Worlds worlds(m_boxes->slice(0, ids.size()), begin);
   std::uint64_t pairEnd = 0;
-  WorldsRun run = runOf(input, worker);
+  WorldsRun run;
+  run.sink = sinkOf(worker);
   run.min = worker.rows.data();
   run.max = run.min + 3;
   run.worlds = &worlds;
   run.end = 1;
   run.pairEnd = &pairEnd;
-  input.kernels.searchWorlds(run);
-  return run.place.size;
+  m_kernels.searchWorlds(run);
+  return run.sink.size;
 }
 
 /// The same in double, with margins and a distance.
-std::uint64_t SmallWorlds::runWide(const Input& input, std::span<const BoxId> ids, Worker& worker) {
+std::uint64_t SmallWorlds::runWide(std::span<const BoxId> ids, Worker& worker) const {
   worker.wide.require(1);
   WideWorld& wide = worker.wide[0];
-  const BoxView& boxes = *input.store.tested().boxes;
   const WorldPlaces places = WorldPlaces::of(ids.size());
-  wide.alive.fill(0);
+  wide.start(ids.size(), *m_boxes, m_options.distance);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const Box box = boxes[ids[i]];
-    const std::size_t at = places.first + i;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      wide.tile.bound[axis][at] = box.min[axis];
-      wide.tile.bound[axis + 3][at] = box.max[axis];
-    }
-    wide.margins[at] = boxes.margin(ids[i]);
-    if (!isEmpty(box)) wide.alive[at / kWordBoxes] |= std::uint64_t{1} << (at % kWordBoxes);
+    wide.set(places.first + i, (*m_boxes)[ids[i]], m_boxes->margin(ids[i]), true);
   }
-  wide.boxes = ids.size();
-  wide.distance = input.options.distance;
-  wide.hasMargins = boxes.hasMargins();
-  WorldPairsPlace place{worker.pairs.data(), worker.pairs.capacity()};
-  input.kernels.searchWideWorld(wide, {input.options.order == Order::BySecond}, place);
-  return place.size;
+  WorldSink sink = sinkOf(worker);
+  m_kernels.searchWideWorld(wide, sink);
+  return sink.size;
 }
 
 /// Moves the pairs that are pairs of this world to the front; returns their number.
-std::size_t SmallWorlds::select(const Input& input, std::size_t world, std::span<Pair> pairs) {
-  const WorldMembers& members = input.members;
-  const bool hasShared = world != members.everyWorld() && !members.shared().empty();
-  if (!hasShared && input.store.staticCount() == 0) return input.test.select(pairs);
-  const auto isShared = [&](BoxId id) { return members.worldOf(id) == members.everyWorld(); };
+std::size_t SmallWorlds::select(std::size_t world, std::span<Pair> pairs) const {
+  const bool hasShared = world != m_members.everyWorld() && !m_members.shared().empty();
+  if (!hasShared && m_store->staticCount() == 0) return m_filter->select(pairs);
+  const auto isShared = [&](BoxId id) { return m_members.worldOf(id) == m_members.everyWorld(); };
   const auto isDropped = [&](Pair pair) {
     if (hasShared && isShared(pair.first) && isShared(pair.second)) return true;
-    return input.store.isStatic(pair.first) && input.store.isStatic(pair.second);
+    return m_store->isStatic(pair.first) && m_store->isStatic(pair.second);
   };
   const auto end = std::remove_if(pairs.begin(), pairs.end(), isDropped);
-  return input.test.select(pairs.first(static_cast<std::size_t>(end - pairs.begin())));
+  return m_filter->select(pairs.first(static_cast<std::size_t>(end - pairs.begin())));
 }
 
 }  // namespace allpairs::engine

@@ -23,34 +23,28 @@ namespace allpairs::engine {
 /// store, without a hierarchy (docs/decisions/0031).
 class SmallWorlds {
  public:
-  /// What a search reads. The test's part is to filter: the search itself is exact.
-  struct Input {
-    const BoxStore& store;
-    const WorldMembers& members;
-    const WorldOptions& options;
-    const Kernels& kernels;
-    PairTest test;
-  };
-
-  explicit SmallWorlds(std::pmr::memory_resource* memory) : m_workers(memory) {}
+  SmallWorlds(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels,
+              const WorldMembers& members)
+      : m_options(options), m_kernels(kernels), m_members(members), m_workers(memory) {}
 
   /// Releases all memory.
   void release() noexcept { m_workers = Workers<Worker>(m_workers.memory()); }
 
-  /// Whether a world is so small that this search is the fastest one.
-  [[nodiscard]] static bool takes(const Input& input, std::size_t world) noexcept;
+  /// Starts searches by so many threads, of a store that the worlds are up to date with. The search itself is exact: the test
+  /// has to filter only. Both must outlive the searches.
+  void start(const BoxStore& store, const PairTest& filter, std::size_t threads);
 
-  /// Makes workers, for so many threads.
-  void start(std::size_t threads);
+  /// Whether a world is so small that this search is the fastest one.
+  [[nodiscard]] bool takes(std::size_t world) const noexcept;
 
   /// Calls take(pairs, worker) with the pairs of some worlds, those of a world in order, one world's after the other's.
   template <class Take>
-  void search(const Input& input, std::span<const std::uint32_t> worlds, const Take& take) {
+  void search(std::span<const std::uint32_t> worlds, const Take& take) {
     m_workers.withOne([&](std::size_t index, Worker& worker) {
       for (std::size_t i = 0; i < worlds.size();) {
-        const std::size_t row = listRow(input, worlds.subspan(i), worker);
-        for (std::size_t done = 0; done < row;) take(findInRow(input, row, done, worker), index);
-        if (row == 0) take(find(input, worlds[i], worker), index);
+        const std::size_t row = listRow(worlds.subspan(i), worker);
+        for (std::size_t done = 0; done < row;) take(findInRow(row, done, worker), index);
+        if (row == 0) take(find(worlds[i], worker), index);
         i += std::max<std::size_t>(row, 1);
       }
     });
@@ -73,15 +67,23 @@ class SmallWorlds {
     std::uint64_t boxTests = 0;
   };
 
-  static std::size_t listRow(const Input& input, std::span<const std::uint32_t> worlds, Worker& worker);
-  static std::span<const Pair> findInRow(const Input& input, std::size_t row, std::size_t& done, Worker& worker);
-  static std::span<const Pair> find(const Input& input, std::size_t world, Worker& worker);
-  static std::span<const BoxId> idsOf(const WorldMembers& members, std::size_t world, Worker& worker);
-  static WorldsRun runOf(const Input& input, const Worker& worker);
-  static std::uint64_t runPlain(const Input& input, std::span<const BoxId> ids, Worker& worker);
-  static std::uint64_t runWide(const Input& input, std::span<const BoxId> ids, Worker& worker);
-  static std::size_t select(const Input& input, std::size_t world, std::span<Pair> pairs);
+  std::size_t listRow(std::span<const std::uint32_t> worlds, Worker& worker) const;
+  std::span<const Pair> findInRow(std::size_t row, std::size_t& done, Worker& worker) const;
+  std::span<const Pair> find(std::size_t world, Worker& worker) const;
+  std::span<const BoxId> idsOf(std::size_t world, Worker& worker) const;
+  [[nodiscard]] WorldSink sinkOf(const Worker& worker) const noexcept;
+  std::uint64_t runPlain(std::span<const BoxId> ids, Worker& worker) const;
+  std::uint64_t runWide(std::span<const BoxId> ids, Worker& worker) const;
+  std::size_t select(std::size_t world, std::span<Pair> pairs) const;
 
+  const WorldOptions& m_options;
+  const Kernels& m_kernels;
+  const WorldMembers& m_members;
+  const BoxStore* m_store = nullptr;  ///< From here on: of the searches since the start.
+  const PairTest* m_filter = nullptr;
+  const BoxView* m_boxes = nullptr;
+  std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
+  bool m_isPlain = false;       ///< Rows of float32 that the kernel takes as they are.
   Workers<Worker> m_workers;
 };
 

@@ -8,13 +8,6 @@
 #include "bvh/RadixSort.h"
 
 namespace allpairs::engine {
-namespace {
-
-/// More than there are, so that a fluctuating number of pairs soon allocates nothing.
-std::size_t roomForPairs(std::size_t pairs) { return pairs + pairs / 4 + 64; }
-
-}  // namespace
-
 void WorldLists::prepareStep(const BoxStore& store) {
   if (m_membership == store.membership()) return;
   m_before.reserve(store.worlds().size());
@@ -33,9 +26,9 @@ void WorldLists::shrink() noexcept {
   m_keyed = Buffer<std::uint64_t>(from);
   m_spare = Buffer<std::uint64_t>(from);
   if (m_isSame) m_before = Numbers(from);
-  for (Grouped& grouped : m_lists) {
-    if (grouped.own.empty()) grouped.own.shrink_to_fit();
-    if (grouped.kept.empty()) grouped.kept.shrink_to_fit();
+  for (Grouped* list : {&m_pairs, &m_began, &m_persisted, &m_ended}) {
+    if (list->own.empty()) list->own.shrink_to_fit();
+    if (list->kept.empty()) list->kept.shrink_to_fit();
   }
 }
 
@@ -47,24 +40,23 @@ std::uint32_t WorldLists::numberOf(const Numbers& numbers, Pair pair) noexcept {
 }
 
 void WorldLists::group(const StepResult& result) {
-  groupOne(Current, result.pairs, m_now);
-  for (Grouped& grouped : m_lists) grouped.kept.clear();
+  groupOne(m_pairs, result.pairs, m_now);
+  for (Grouped* list : {&m_began, &m_persisted, &m_ended}) list->kept.clear();
   if (m_isSame) {
-    groupOne(Began, result.began, m_now);
-    groupOne(Persisted, result.persisted, m_now);
-    groupOne(Ended, result.ended, m_now);
+    groupOne(m_began, result.began, m_now);
+    groupOne(m_persisted, result.persisted, m_now);
+    groupOne(m_ended, result.ended, m_now);
     return;
   }
   moveChanged(result);
-  groupOne(Began, m_lists[Began].kept, m_now);
-  groupOne(Persisted, m_lists[Persisted].kept, m_now);
-  groupOne(Ended, m_lists[Ended].kept, m_before);
+  groupOne(m_began, m_began.kept, m_now);
+  groupOne(m_persisted, m_persisted.kept, m_now);
+  groupOne(m_ended, m_ended.kept, m_before);
 }
 
 /// The lists with the pairs that persist in another world among those that ended and began.
 void WorldLists::moveChanged(const StepResult& result) {
-  std::pmr::vector<Pair>& persisted = m_lists[Persisted].kept;
-  persisted.clear();
+  std::pmr::vector<Pair>& persisted = m_persisted.kept;
   std::pmr::vector<Pair> moved(persisted.get_allocator());
   for (const Pair pair : result.persisted) {
     (numberOf(m_now, pair) == numberOf(m_before, pair) ? persisted : moved).push_back(pair);
@@ -78,15 +70,14 @@ void WorldLists::moveChanged(const StepResult& result) {
     list.resize(moved.size() + with.size());
     std::merge(moved.begin(), moved.end(), with.begin(), with.end(), list.begin(), isBefore);
   };
-  mergeInto(m_lists[Began].kept, result.began);
-  mergeInto(m_lists[Ended].kept, result.ended);
+  mergeInto(m_began.kept, result.began);
+  mergeInto(m_ended.kept, result.ended);
 }
 
-void WorldLists::groupOne(List list, std::span<const Pair> pairs, const Numbers& numbers) {
-  Grouped& grouped = m_lists[list];
-  grouped.numbers = &numbers;
-  grouped.pairs = pairs;
-  grouped.own.clear();
+void WorldLists::groupOne(Grouped& list, std::span<const Pair> pairs, const Numbers& numbers) {
+  list.numbers = &numbers;
+  list.pairs = pairs;
+  list.own.clear();
   std::uint32_t all = 0;
   std::uint32_t last = 0;
   bool isGrouped = true;
@@ -97,31 +88,27 @@ void WorldLists::groupOne(List list, std::span<const Pair> pairs, const Numbers&
     all |= number;
   }
   if (isGrouped) return;
-  const std::size_t room = roomForPairs(pairs.size());
-  if (pairs.size() > std::min(m_keyed.capacity(), m_spare.capacity())) {
-    m_keyed.require(room);
-    m_spare.require(room);
-  }
+  m_keyed.requireAmply(pairs.size());
+  m_spare.requireAmply(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     m_keyed[i] = std::uint64_t{numberOf(numbers, pairs[i])} << 32U | i;
   }
   const unsigned end = 32 + static_cast<unsigned>(std::bit_width(all));
   const std::uint64_t* const sorted = radixSort(m_keyed.data(), m_spare.data(), pairs.size(), 32, end);
-  if (pairs.size() > grouped.own.capacity()) grouped.own.reserve(room);
-  grouped.own.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) grouped.own[i] = pairs[static_cast<std::uint32_t>(sorted[i])];
-  grouped.pairs = grouped.own;
+  list.own.reserve(m_keyed.capacity());
+  list.own.resize(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) list.own[i] = pairs[static_cast<std::uint32_t>(sorted[i])];
+  list.pairs = list.own;
 }
 
-std::span<const Pair> WorldLists::part(List list, std::uint32_t world) const noexcept {
-  const Grouped& grouped = m_lists[list];
-  const auto isBelow = [&](Pair pair, std::uint64_t number) { return numberOf(*grouped.numbers, pair) < number; };
-  const auto begin = std::lower_bound(grouped.pairs.begin(), grouped.pairs.end(), std::uint64_t{world}, isBelow);
-  return {begin, std::lower_bound(begin, grouped.pairs.end(), std::uint64_t{world} + 1, isBelow)};
+std::span<const Pair> WorldLists::part(const Grouped& list, std::uint32_t world) noexcept {
+  const auto isBelow = [&](Pair pair, std::uint64_t number) { return numberOf(*list.numbers, pair) < number; };
+  const auto begin = std::lower_bound(list.pairs.begin(), list.pairs.end(), std::uint64_t{world}, isBelow);
+  return {begin, std::lower_bound(begin, list.pairs.end(), std::uint64_t{world} + 1, isBelow)};
 }
 
 StepResult WorldLists::of(std::uint32_t world) const noexcept {
-  return {part(Current, world), part(Began, world), part(Persisted, world), part(Ended, world)};
+  return {part(m_pairs, world), part(m_began, world), part(m_persisted, world), part(m_ended, world)};
 }
 
 }  // namespace allpairs::engine

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,7 +25,10 @@ class WorldLists {
       : m_order(order),
         m_now(memory),
         m_before(memory),
-        m_lists{Grouped(memory), Grouped(memory), Grouped(memory), Grouped(memory)},
+        m_pairs(memory),
+        m_began(memory),
+        m_persisted(memory),
+        m_ended(memory),
         m_keyed(memory),
         m_spare(memory) {}
 
@@ -56,19 +58,21 @@ class WorldLists {
     std::pmr::vector<Pair> kept;  ///< The list, if it is not quite that of the step.
     const Numbers* numbers = nullptr;
   };
-  enum List : std::uint8_t { Current, Began, Persisted, Ended };
 
   static std::uint32_t numberOf(const Numbers& numbers, Pair pair) noexcept;
   void moveChanged(const StepResult& result);
-  void groupOne(List list, std::span<const Pair> pairs, const Numbers& numbers);
-  [[nodiscard]] std::span<const Pair> part(List list, std::uint32_t world) const noexcept;
+  void groupOne(Grouped& list, std::span<const Pair> pairs, const Numbers& numbers);
+  [[nodiscard]] static std::span<const Pair> part(const Grouped& list, std::uint32_t world) noexcept;
 
   Order m_order;
   std::uint64_t m_membership = 0;
   bool m_isSame = true;  ///< All boxes of the step before the last one had the worlds that they have now.
   Numbers m_now;         ///< By id, in the last step; 0 beyond the end.
   Numbers m_before;      ///< In the one before, if they were others.
-  std::array<Grouped, 4> m_lists;
+  Grouped m_pairs;
+  Grouped m_began;
+  Grouped m_persisted;
+  Grouped m_ended;
   Buffer<std::uint64_t> m_keyed;
   Buffer<std::uint64_t> m_spare;
 };

@@ -6,12 +6,10 @@
 #include <utility>
 
 #include "bvh/CurveKey.h"
+#include "world/RebuildRule.h"
 
 namespace allpairs::engine {
 namespace {
-
-/// If more than one box in this many was added, removed or renumbered, all boxes are listed again.
-constexpr std::size_t kShareOfOthers = 16;
 
 /// The part of an ordered list of world numbers above ids that is of one world; removes it from the list.
 std::span<const std::uint64_t> takeWorld(std::span<const std::uint64_t>& keys, std::uint32_t number) {
@@ -75,7 +73,7 @@ bool WorldMembers::follow(const BoxStore& store) {
     if (was) m_keyed[gone++] = std::uint64_t{before} << kIndexBits | id;
     if (is) m_spare[come++] = std::uint64_t{now} << kIndexBits | id;
   }
-  if ((gone + come) * kShareOfOthers > store.size()) return false;
+  if ((gone + come) * kShareOfChange > store.size()) return false;
   std::sort(m_keyed.data(), m_keyed.data() + gone);
   std::sort(m_spare.data(), m_spare.data() + come);
   m_nextBoxes.resize(store.size());

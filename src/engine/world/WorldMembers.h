@@ -41,9 +41,8 @@ class WorldMembers {
   /// Releases all memory, until the next update.
   void release() noexcept { *this = WorldMembers(m_boxes.get_allocator().resource()); }
 
-  /// The number of worlds, and the world of the boxes that are in every one.
-  [[nodiscard]] std::size_t size() const noexcept { return m_numbers.size(); }
-  [[nodiscard]] std::size_t everyWorld() const noexcept { return size(); }
+  /// The world of the boxes that are in every one: there are so many others.
+  [[nodiscard]] std::size_t everyWorld() const noexcept { return m_numbers.size(); }
 
   [[nodiscard]] std::uint32_t numberOf(std::size_t world) const noexcept {
     return world == everyWorld() ? kEveryWorld : m_numbers[world];

@@ -18,15 +18,6 @@ bool isCloser(const Neighbor& a, const Neighbor& b) noexcept {
   return std::tie(a.distance, a.id) < std::tie(b.distance, b.id);
 }
 
-bool isExactly(const LaneBox& lanes, const Box& box) noexcept {
-  bool exact = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    exact = exact && static_cast<double>(lanes.bound[axis]) == box.min[axis] &&
-            static_cast<double>(lanes.bound[axis + 3]) == box.max[axis];
-  }
-  return exact;
-}
-
 /// Keeps the `count` nearest boxes found, from position `begin` of the list on, as a heap with the farthest on top;
 /// returns whether it is full and has changed.
 bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t count, const Neighbor& found) {
@@ -57,8 +48,8 @@ bool WorldQueries::passes(BoxId id) const noexcept {
   return acceptEachOther(row.category, row.mask, m_filter.category, m_filter.mask);
 }
 
-Box WorldQueries::widenedBox(const Arrival& at, bool exact) const noexcept {
-  return exact ? at.lanes() : widened(m_store.box(at.id), m_store.margin(at.id));
+Box WorldQueries::widenedBox(BoxId id, const LaneBox& lanes, bool exact) const noexcept {
+  return exact ? boxOf(lanes) : widened(m_store.box(id), m_store.margin(id));
 }
 
 template <class Visit>
@@ -143,12 +134,12 @@ void WorldQueries::overlapping(const Box& query, std::vector<BoxId>& ids) const 
   if (isEmpty(query)) return;
   const auto begin = static_cast<std::ptrdiff_t>(ids.size());
   const LaneBox lanes = lanesOf(query);
-  const bool queryIsExact = isExactly(lanes, query);
+  const bool queryIsExact = boxOf(lanes) == query;
   const auto lanesIn = [&](const LaneBlock& block) { return m_search.kernels().touchingLanes(block, lanes); };
   eachBvh([&](const BvhView& hierarchy, bool exact) {
-    const auto take = [&](const Arrival& at) {
-      if (!passes(at.id)) return;
-      if ((exact && queryIsExact) || overlap(m_store.box(at.id), query, m_store.margin(at.id))) ids.push_back(at.id);
+    const auto take = [&](BoxId id, const LaneBox&) {
+      if (!passes(id)) return;
+      if ((exact && queryIsExact) || overlap(m_store.box(id), query, m_store.margin(id))) ids.push_back(id);
     };
     descend(hierarchy, lanesIn, take);
   });
@@ -164,9 +155,9 @@ SweepHit WorldQueries::first(const BoxSweep& sweep) const {
     return m_search.kernels().meetingLanes(block, lanes, limit, times);
   };
   eachBvh([&](const BvhView& hierarchy, bool exact) {
-    const auto take = [&](const Arrival& at) {
-      if (!passes(at.id)) return;
-      const SweepHit hit{at.id, meetingTime(sweep, widenedBox(at, exact))};
+    const auto take = [&](BoxId id, const LaneBox& at) {
+      if (!passes(id)) return;
+      const SweepHit hit{id, meetingTime(sweep, widenedBox(id, at, exact))};
       if (hit.t >= kFar || !isNearer(hit, best)) return;
       best = hit;
       limit = roundUpFar(hit.t);
@@ -186,10 +177,10 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
     return m_search.kernels().meetingLanes(block, lanes, limit, times.data());
   };
   eachBvh([&](const BvhView& hierarchy, bool exact) {
-    const auto take = [&](const Arrival& at) {
-      if (!passes(at.id)) return;
-      const double t = meetingTime(sweep, widenedBox(at, exact));
-      if (t < kFar) hits.push_back({at.id, t});
+    const auto take = [&](BoxId id, const LaneBox& at) {
+      if (!passes(id)) return;
+      const double t = meetingTime(sweep, widenedBox(id, at, exact));
+      if (t < kFar) hits.push_back({id, t});
     };
     descend(hierarchy, lanesIn, take);
   });
@@ -218,9 +209,9 @@ void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count
   };
   const std::size_t begin = neighbors.size();
   eachBvh([&](const BvhView& hierarchy, bool exact) {
-    const auto take = [&](const Arrival& at) {
-      if (!passes(at.id)) return;
-      const Neighbor found{at.id, distanceFrom(point, widenedBox(at, exact))};
+    const auto take = [&](BoxId id, const LaneBox& at) {
+      if (!passes(id)) return;
+      const Neighbor found{id, distanceFrom(point, widenedBox(id, at, exact))};
       if (!keepNearest(neighbors, begin, count, found)) return;
       const double farthest = neighbors[begin].distance;
       limit = std::min(limit, roundUpFar(farthest * farthest));

@@ -50,7 +50,7 @@ class WorldQueries {
   template <class Visit>
   void eachTree(const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id) const noexcept;
-  [[nodiscard]] Box widenedBox(const Arrival& at, bool exact) const noexcept;
+  [[nodiscard]] Box widenedBox(BoxId id, const LaneBox& lanes, bool exact) const noexcept;
   [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;
 
   const BoxStore& m_store;

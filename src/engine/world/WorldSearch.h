@@ -22,7 +22,7 @@
 namespace allpairs::engine {
 
 /// If at least one box in this many has changed, all boxes are joined: the join of changed boxes finds pairs from both
-/// sides (moving_benchmark).
+/// sides (moving_benchmark --scene one-percent, and the others, in which all move).
 inline constexpr std::size_t kShareOfChanged = 4;
 
 /// The pairs of a world: hierarchies over its dynamic and its static boxes, and what was found in them. If boxes have world
@@ -40,7 +40,7 @@ class WorldSearch {
         m_members(memory),
         m_dynamicTrees(memory, false),
         m_staticTrees(memory, true),
-        m_small(memory),
+        m_small(memory, options, kernels, m_members),
         m_isChosen(memory),
         m_chosen(memory),
         m_large(memory),
@@ -103,8 +103,8 @@ class WorldSearch {
   void releaseTrees() noexcept;
   void updateTrees(const BoxStore& store, const BoxReader& reader);
   void countTouched(const BoxStore& store);
-  [[nodiscard]] bool chooseWorlds(const SmallWorlds::Input& small);
-  void moveLarge(const SmallWorlds::Input& small);
+  [[nodiscard]] bool chooseWorlds(const BoxStore& store);
+  void moveLarge();
   [[nodiscard]] bool isLookedFor(const BoxStore& store, Pair pair) const noexcept;
   template <class Visit>
   void eachTree(const BoxStore& store, const Visit& visit) const;

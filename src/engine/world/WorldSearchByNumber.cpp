@@ -23,15 +23,15 @@ void WorldSearch::countTouched(const BoxStore& store) {
 /// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
 /// among those of the last step would then take longer than comparing the lists. Of large worlds with few changed boxes only
 /// these are joined. Returns whether all worlds are searched, as a whole.
-bool WorldSearch::chooseWorlds(const SmallWorlds::Input& small) {
-  countTouched(small.store);
+bool WorldSearch::chooseWorlds(const BoxStore& store) {
+  countTouched(store);
   m_isChosen.assign(m_touchedIn.size(), 0);
   m_partly.clear();
   std::size_t boxes = 0;
   std::size_t whole = 0;
   for (const std::uint32_t world : m_chosen) {
     const std::size_t size = m_members.boxes(world).size();
-    if (m_touchedIn[world] <= size / kShareOfChanged && !SmallWorlds::takes(small, world)) {
+    if (m_touchedIn[world] <= size / kShareOfChanged && !m_small.takes(world)) {
       m_partly.push_back(world);
       boxes += m_touchedIn[world];
     } else {
@@ -40,8 +40,8 @@ bool WorldSearch::chooseWorlds(const SmallWorlds::Input& small) {
       boxes += size;
     }
   }
-  const std::size_t most = small.store.size() / kShareOfChanged;
-  const bool all = std::max(boxes, small.store.touched().size()) > most || m_touchedIn[m_members.everyWorld()] != 0;
+  const std::size_t most = store.size() / kShareOfChanged;
+  const bool all = std::max(boxes, store.touched().size()) > most || m_touchedIn[m_members.everyWorld()] != 0;
   m_chosen.resize(all ? m_isChosen.size() : whole);
   if (!all) return false;
   m_partly.clear();
@@ -51,11 +51,11 @@ bool WorldSearch::chooseWorlds(const SmallWorlds::Input& small) {
 }
 
 /// Moves the chosen worlds that are too large for an exhaustive search to a list of their own.
-void WorldSearch::moveLarge(const SmallWorlds::Input& small) {
+void WorldSearch::moveLarge() {
   m_large.clear();
   std::size_t kept = 0;
   for (const std::uint32_t world : m_chosen) {
-    if (SmallWorlds::takes(small, world)) {
+    if (m_small.takes(world)) {
       m_chosen[kept++] = world;
     } else {
       m_large.push_back(world);
@@ -73,9 +73,10 @@ bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
 void WorldSearch::joinWorlds(BoxStore& store) {
   m_members.update(store, executor());
   static_cast<void>(store.set());  // The tests read it.
-  const SmallWorlds::Input small{store, m_members, m_options, m_kernels, testOf(store, 0.0, true)};
-  m_statistics.joinedAll = chooseWorlds(small);
-  moveLarge(small);
+  const PairTest filter = testOf(store, 0.0, true);
+  m_small.start(store, filter, executor().concurrency());
+  m_statistics.joinedAll = chooseWorlds(store);
+  moveLarge();
   if (!m_large.empty() || !m_partly.empty() || m_options.accept) update(store);  // `accept` may ask queries.
   const PairTest test = testOf(store, m_options.distance, isExact());
   const auto take = [&](std::span<const Pair> pairs, std::size_t worker) {
@@ -86,14 +87,13 @@ void WorldSearch::joinWorlds(BoxStore& store) {
   SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
   sink.stop = m_options.stop;
   sink.emit.emplace(takeHits);
-  m_small.start(executor().concurrency());
   const std::size_t workers = std::max(m_runner.start(sink, executor()), executor().concurrency());
   m_history.begin(store.idBound(), workers, m_statistics.joinedAll ? Joined::All : Joined::Changed);
   cutIntoRuns(
       m_chosen, [&](std::uint32_t world) { return m_members.boxes(world).size(); }, m_runs);
   executor().run(m_runs.size(), [&](std::size_t run) {
     const std::size_t begin = run == 0 ? 0 : m_runs[run - 1];
-    m_small.search(small, std::span(m_chosen).subspan(begin, m_runs[run] - begin), take);
+    m_small.search(std::span(m_chosen).subspan(begin, m_runs[run] - begin), take);
   });
   joinTrees();
   noteTotals();

@@ -35,31 +35,18 @@ bool haveReadableCorners(const BoxView& boxes) {
   return boxes.float32().isPacked() || (min.boxStride == 3 && max.boxStride == 3);
 }
 
-}  // namespace
+/// Whether the pairs of a world can be written to the sink at once.
+bool hasRoom(WorldSink& sink, std::size_t boxes) { return sink.countOnly || sink.makeRoom(WorldSink::roomFor(boxes)); }
 
-bool WorldsSearcher::Target::takes(std::size_t boxes) {
-  if (place.takes(boxes)) return true;
-  if (growing == nullptr) return false;
-  growing->grow(place.size + WorldPairsPlace::roomFor(boxes));
-  place.pairs = growing->data();
-  place.capacity = growing->capacity();
-  return true;
-}
-
-void WorldsSearcher::Target::append(std::span<const Pair> pairs) {
-  if (growing != nullptr && place.size + pairs.size() > place.capacity) {
-    growing->grow(place.size + pairs.size());
-    place.pairs = growing->data();
-    place.capacity = growing->capacity();
-  }
-  if (place.size + pairs.size() > place.capacity) {
+void append(std::span<const Pair> pairs, WorldSink& sink) {
+  if (!sink.makeRoom(pairs.size())) {
     throw InvalidArgument("there are more pairs than the offsets given say; count them first");
   }
-  std::copy(pairs.begin(), pairs.end(), place.pairs + place.size);
-  place.size += pairs.size();
+  std::copy(pairs.begin(), pairs.end(), sink.pairs + sink.size);
+  sink.size += pairs.size();
 }
 
-void WorldsSearcher::Target::check() const { checkLimit({.maxPairs = maxPairs}, place.size); }
+}  // namespace
 
 void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) {
   m_worlds = &worlds;
@@ -96,7 +83,7 @@ void WorldsSearcher::cutParts() {
   std::uint64_t all = 0;
   for (std::size_t world = 0; world < worlds; ++world) all += workOf(sizeOf(world), m_mostBoxes);
   std::uint64_t most = std::max<std::uint64_t>(kLeastWork, all / (kTasksPerThread * threads));
-  if (mayStop) most = std::min(most, kTestsBetweenLooks);
+  if (mayStop) most = std::min<std::uint64_t>(most, kWorkBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
     const bool takesAllThreads = sizeOf(world) > kHugeWorld;
@@ -109,17 +96,19 @@ void WorldsSearcher::cutParts() {
   }
 }
 
-/// Searches all parts, each by a worker that no other part has meanwhile; targetOf(part, worker) says where its pairs go.
-template <class TargetOf>
-void WorldsSearcher::searchParts(const TargetOf& targetOf) {
+/// Searches all parts, each by a worker that no other part has meanwhile; sinkOf(part, worker) says where its pairs go.
+template <class SinkOf>
+void WorldsSearcher::searchParts(const SinkOf& sinkOf) {
   const auto run = [&](Part& part) {
     m_workers.withOne([&](std::size_t index, Worker& worker) {
-      Target target = targetOf(part, worker);
+      WorldSink sink = sinkOf(part, worker);
+      sink.bySecond = m_options->order == Order::BySecond;
+      sink.allowed = m_filter.allowed();
       part.worker = index;
-      part.firstPair = target.place.size;
-      searchPart(part, worker, target);
-      part.pairs = target.place.size - part.firstPair;
-      worker.size = target.place.size;
+      part.firstPair = sink.size;
+      searchPart(part, worker, sink);
+      part.pairs = sink.size - part.firstPair;
+      worker.size = sink.size;
     });
   };
   m_executor->run(m_parts.size(), [&](std::size_t i) {
@@ -141,7 +130,7 @@ void WorldsSearcher::placeParts() {
     part.place = place;
     place += part.pairs;
   }
-  checkLimit({.maxPairs = m_options->maxPairs}, place);
+  checkPairs(place);
   for (const Part& part : m_parts) {
     if (part.place == part.firstPair) continue;
     for (std::size_t world = part.begin; world < part.end; ++world) m_begin[world + 1] += part.place - part.firstPair;
@@ -153,7 +142,9 @@ WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& 
   searchParts([&](const Part& part, Worker& worker) {
     const std::size_t boxes = m_worlds->begin(part.end) - m_worlds->begin(part.begin);
     worker.pairs.grow(worker.size + likelyPairsOf(boxes) / 2);  // Boxes of small worlds have fewer.
-    return Target{{worker.pairs.data(), worker.pairs.capacity(), worker.size}, &worker.pairs, options.maxPairs};
+    WorldSink sink{worker.pairs.data(), worker.pairs.capacity(), worker.size};
+    sink.growing = &worker.pairs;
+    return sink;
   });
   if (m_parts.size() <= 1) {
     const Pair* const pairs = m_parts.empty() ? nullptr : m_workers[m_parts[0].worker].pairs.data();
@@ -169,7 +160,7 @@ WorldPairsView WorldsSearcher::find(const Worlds& worlds, const OverlapOptions& 
 
 std::span<const std::uint64_t> WorldsSearcher::count(const Worlds& worlds, const OverlapOptions& options) {
   begin(worlds, options);
-  searchParts([&](const Part&, Worker&) { return Target{{.countOnly = true}, nullptr, options.maxPairs}; });
+  searchParts([&](const Part&, Worker&) { return WorldSink{.countOnly = true}; });
   return m_begin;
 }
 
@@ -178,33 +169,36 @@ std::span<const std::uint64_t> WorldsSearcher::list(const Worlds& worlds, const 
   this->begin(worlds, options);
   searchParts([&](const Part& part, Worker&) {
     const std::uint64_t first = begin[part.begin];
-    return Target{{pairs.data() + first, begin[part.end] - first}, nullptr, options.maxPairs};
+    return WorldSink{pairs.data() + first, begin[part.end] - first};
   });
   return m_begin;
 }
 
-void WorldsSearcher::searchPart(const Part& part, Worker& worker, Target& target) {
+/// Throws if there are more than the options allow.
+void WorldsSearcher::checkPairs(std::uint64_t pairs) const { checkLimit({.maxPairs = m_options->maxPairs}, pairs); }
+
+void WorldsSearcher::searchPart(const Part& part, Worker& worker, WorldSink& sink) {
   for (std::size_t world = part.begin; world < part.end;) {
     if (m_isPlain && !m_filter.selects()) {
-      const std::size_t next = runKernel(world, part.end, worker, target.place);
-      target.check();
+      const std::size_t next = runKernel(world, part.end, worker, sink);
+      checkPairs(sink.size);
       if (next == part.end) return;
       world = next;
-      if (sizeOf(world) <= m_mostBoxes && target.takes(sizeOf(world))) continue;
+      if (sizeOf(world) <= m_mostBoxes && hasRoom(sink, sizeOf(world))) continue;
     }
     if (sizeOf(world) <= m_mostBoxes) {
-      searchSmall(world, worker, target);
+      searchSmall(world, worker, sink);
     } else {
-      searchLarge(world, part.takesAllThreads, worker, target);
+      searchLarge(world, part.takesAllThreads, worker, sink);
     }
-    target.check();
-    m_begin[world + 1] = target.place.size;
+    checkPairs(sink.size);
+    m_begin[world + 1] = sink.size;
     ++world;
   }
 }
 
 /// Worlds that the kernel reads itself, as many as there is room for; returns the one that follows them.
-std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker& worker, WorldPairsPlace& place) {
+std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink) {
   const auto& [min, max] = m_worlds->boxes().float32();
   WorldsRun run;
   run.min = min.data;
@@ -214,68 +208,59 @@ std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker
   run.world = world;
   run.end = end;
   run.mostBoxes = m_mostBoxes;
-  run.rule = {m_options->order == Order::BySecond, m_filter.allowed()};
-  run.place = place;
+  run.sink = sink;
   run.pairEnd = m_begin.data() + 1;
   m_kernels->searchWorlds(run);
-  place = run.place;
+  sink = run.sink;
   worker.statistics.boxTests += run.boxTests;
   return run.world;
 }
 
 /// One world, in its place if there is certainly room for all its pairs before some are selected, else beside it.
-void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, Target& target) {
+void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, WorldSink& sink) {
   const std::size_t boxes = sizeOf(world);
-  const bool isCounted = target.place.countOnly && !m_filter.selects();
-  const bool isDirect = isCounted || (!target.place.countOnly && target.takes(boxes));
-  WorldPairsPlace place = target.place;
+  const bool isDirect = sink.countOnly ? !m_filter.selects() : hasRoom(sink, boxes);
+  WorldSink found = sink;
   if (!isDirect) {
-    worker.scratch.require(WorldPairsPlace::roomFor(boxes));
-    place = {worker.scratch.data(), worker.scratch.capacity()};
+    worker.scratch.require(WorldSink::roomFor(boxes));
+    found = {worker.scratch.data(), worker.scratch.capacity()};
+    found.bySecond = sink.bySecond;
+    found.allowed = sink.allowed;
   }
-  const std::uint64_t before = place.size;
-  m_isPlain ? static_cast<void>(runKernel(world, world + 1, worker, place)) : runWide(world, worker, place);
+  const std::uint64_t before = found.size;
+  m_isPlain ? static_cast<void>(runKernel(world, world + 1, worker, found)) : runWide(world, worker, found);
   if (m_filter.selects()) {
-    place.size = before + m_filter.select(world, {place.pairs + before, place.size - before});
+    found.size = before + m_filter.select(world, {found.pairs + before, found.size - before});
   }
   if (isDirect) {
-    target.place = place;
-  } else if (target.place.countOnly) {
-    target.place.size += place.size;
+    sink = found;
+  } else if (sink.countOnly) {
+    sink.size += found.size;
   } else {
-    target.append({place.pairs, place.size});
+    append({found.pairs, found.size}, sink);
   }
 }
 
-void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldPairsPlace& place) const {
+void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldSink& sink) const {
   worker.wide.require(1);
   WideWorld& wide = worker.wide[0];
   const BoxView& boxes = m_worlds->boxes();
   const std::size_t first = m_worlds->begin(world);
   const std::size_t size = sizeOf(world);
   const WorldPlaces places = WorldPlaces::of(size);
-  wide.alive.fill(0);
+  wide.start(size, boxes, m_options->distance);
   for (std::size_t i = 0; i < size; ++i) {
     const Box box = boxes[first + i];
     const double margin = boxes.margin(first + i);
-    const std::size_t at = places.first + i;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      wide.tile.bound[axis][at] = box.min[axis];
-      wide.tile.bound[axis + 3][at] = box.max[axis];
-    }
-    wide.margins[at] = margin;
     const bool isIn = !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
-    if (isIn && !isEmpty(box)) wide.alive[at / kWordBoxes] |= std::uint64_t{1} << (at % kWordBoxes);
+    wide.set(places.first + i, box, margin, isIn);
   }
-  wide.boxes = size;
-  wide.distance = m_options->distance;
-  wide.hasMargins = boxes.hasMargins();
-  m_kernels->searchWideWorld(wide, {m_options->order == Order::BySecond, m_filter.allowed()}, place);
-  worker.statistics.boxTests += WorldPairsPlace::roomFor(size) - WorldPairsPlace::kSlack;
+  m_kernels->searchWideWorld(wide, sink);
+  worker.statistics.boxTests += WorldSink::pairsOf(size);
 }
 
 /// A world that is searched as if it were alone.
-void WorldsSearcher::searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, Target& target) {
+void WorldsSearcher::searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, WorldSink& sink) {
   const BoxView boxes = (*m_worlds)[world];
   OverlapOptions options = *m_options;
   options.executor = takesAllThreads ? m_executor : nullptr;
@@ -286,10 +271,10 @@ void WorldsSearcher::searchLarge(std::size_t world, bool takesAllThreads, Worker
       return !m_filter.isIgnored({first, second}) && (!accept || accept(first, second));
     };
   }
-  if (target.place.countOnly) {
-    target.place.size += worker.search.count({boxes, boxes, true}, options);
+  if (sink.countOnly) {
+    sink.size += worker.search.count({boxes, boxes, true}, options);
   } else {
-    target.append(worker.search.find({boxes, boxes, true}, options));
+    append(worker.search.find({boxes, boxes, true}, options), sink);
   }
   add(worker.statistics, worker.search.statistics());
 }

@@ -34,18 +34,6 @@ class WorldsSearcher {
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
-  /// Where pairs go, and how many may.
-  struct Target {
-    WorldPairsPlace place;
-    Buffer<Pair>* growing = nullptr;  ///< Grows as needed; null if the place is of fixed size.
-    std::uint64_t maxPairs = 0;
-
-    /// Whether the pairs of a world can be written there at once; makes room if it can grow.
-    bool takes(std::size_t boxes);
-    void append(std::span<const Pair> pairs);
-    void check() const;
-  };
-
   /// What a thread needs.
   struct Worker {
     explicit Worker(std::pmr::memory_resource* memory) : search(memory), pairs(memory), scratch(memory), wide(memory) {}
@@ -71,15 +59,16 @@ class WorldsSearcher {
 
   void begin(const Worlds& worlds, const OverlapOptions& options);
   void cutParts();
-  template <class TargetOf>
-  void searchParts(const TargetOf& targetOf);
+  template <class SinkOf>
+  void searchParts(const SinkOf& sinkOf);
   void placeParts();
 
-  void searchPart(const Part& part, Worker& worker, Target& target);
-  std::size_t runKernel(std::size_t world, std::size_t end, Worker& worker, WorldPairsPlace& place);
-  void searchSmall(std::size_t world, Worker& worker, Target& target);
-  void searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, Target& target);
-  void runWide(std::size_t world, Worker& worker, WorldPairsPlace& place) const;
+  void checkPairs(std::uint64_t pairs) const;
+  void searchPart(const Part& part, Worker& worker, WorldSink& sink);
+  std::size_t runKernel(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink);
+  void searchSmall(std::size_t world, Worker& worker, WorldSink& sink);
+  void searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, WorldSink& sink);
+  void runWide(std::size_t world, Worker& worker, WorldSink& sink) const;
   [[nodiscard]] std::size_t sizeOf(std::size_t world) const noexcept {
     return m_worlds->begin(world + 1) - m_worlds->begin(world);
   }
