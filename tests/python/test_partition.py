@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import allpairs
-from conftest import corners, every_pair_between
+from conftest import corners, every_kept_pair, every_kept_pair_between, every_pair_between, what_boxes_may_have
 
 
 def some_boxes(count=300, seed=1, dtype=np.float32):
@@ -70,6 +70,40 @@ def test_margins_widen_and_are_seen():
     assert sorted(found) == allpairs.overlaps(boxes, margin=margins).tolist()
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_cells_leave_out_what_a_search_leaves_out(dtype):
+    boxes, own = some_boxes(400, 6, dtype), what_boxes_may_have(400, 6)
+    options = {"distance": 0.125, "region": [[1, 1, 1], [4, 5, 3]]}
+    margin = own["margin"]
+    partition = allpairs.Partition(boxes, cells=7, distance=0.125, margin=margin)
+    homes = partition.cells_of(boxes, distance=0.125, margin=margin)
+    found, count = [], 0
+    for number, cell in enumerate(partition.cells):
+        here = homes[homes[:, 1] == number, 0]
+        given = {name: values[here] for name, values in own.items()}
+        found += allpairs.overlaps_in_cell(boxes[here], None, here, cell, **options, **given).tolist()
+        count += allpairs.count_in_cell(boxes[here], None, cell, **options, **given)
+    assert sorted(found) == every_kept_pair(boxes, **options, **own).tolist()
+    assert count == len(found) > 20
+
+
+def test_cells_leave_out_what_a_search_of_two_sets_leaves_out():
+    sets = [some_boxes(300, 7), some_boxes(200, 8)]
+    owns = [what_boxes_may_have(300, 7), what_boxes_may_have(200, 8)]
+    options = {"distance": -0.125, "region": [[1, 1, 1], [4, 5, 3]]}
+    own = {name: (owns[0][name], owns[1][name]) for name in owns[0]}
+    partition = allpairs.Partition(np.vstack(sets), cells=7)
+    homes = [partition.cells_of(boxes, margin=o["margin"], max_margin=4.0) for boxes, o in zip(sets, owns)]
+    found, count = [], 0
+    for number, cell in enumerate(partition.cells):
+        a, b = (rows[rows[:, 1] == number, 0] for rows in homes)
+        given = {name: (first[a], second[b]) for name, (first, second) in own.items()}
+        found += allpairs.overlaps_between_in_cell(sets[0][a], sets[1][b], (a, b), cell, **options, **given).tolist()
+        count += allpairs.count_between_in_cell(sets[0][a], sets[1][b], cell, **options, **given)
+    assert sorted(found) == every_kept_pair_between(*sets, **options, **own).tolist()
+    assert count == len(found) > 20
+
+
 def test_a_partition_pickles():
     boxes = some_boxes()
     partition = allpairs.Partition(boxes, cells=5)
@@ -95,6 +129,10 @@ def test_bad_arguments_are_named():
         allpairs.overlaps_between_in_cell(boxes, boxes, ([1, 2, 3], [1, 2]), space)
     with pytest.raises(allpairs.InvalidArgument, match="ids takes a tuple of two"):
         allpairs.overlaps_between_in_cell(boxes, boxes, [1, 2, 3], space)
+    with pytest.raises(allpairs.InvalidArgument, match=r"group has shape \(2,\); for 3 boxes it takes \(3,\)"):
+        allpairs.count_in_cell(boxes, None, space, group=[1, 2])
+    with pytest.raises(allpairs.InvalidArgument, match=r"second set: margin has shape \(2,\)"):
+        allpairs.count_between_in_cell(boxes, boxes, space, margin=(None, [1, 2]))
     with pytest.raises(allpairs.InvalidArgument, match="cells is 0"):
         allpairs.Partition(boxes, cells=0)
 
