@@ -101,7 +101,8 @@ void runJoin(const JoinSettings& settings) {
   options.executor = executor.get();
   options.resume = settings.resume;
   options.work = settings.work;
-  if (options.work.empty()) options.work = (settings.count ? settings.shared.paths.front() : settings.output) + ".work";
+  if (options.work.empty())
+    options.work = (settings.count ? settings.shared.sets.paths.front() : settings.output) + ".work";
   JoinLine line;
   options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
   join::JoinSummary summary;
