@@ -15,6 +15,7 @@ void addJoinArguments(CLI::App& command, JoinArguments& arguments) {
   command.add_option("--memory", arguments.memory, "Never take more; by default half of the machine's, least 64M")
       ->type_name("SIZE");
   addDistance(command, arguments.distance, "Pairs up to D apart on every axis");
+  addBoxValues(command, arguments.sets);
 }
 
 join::JoinOptions joinOptions(const JoinArguments& arguments) {
@@ -22,6 +23,9 @@ join::JoinOptions joinOptions(const JoinArguments& arguments) {
   if (!arguments.memory.empty()) options.memory = parseMemory("--memory", arguments.memory);
   if (!arguments.distance.empty()) options.distance = parseDistance(arguments.distance);
   options.second = pathsOf(arguments.sets.with);
+  if (!arguments.sets.box.empty()) options.region = parseRegion(arguments.sets.box);
+  options.values = filesOf(arguments.sets.values);
+  options.secondValues = filesOf(arguments.sets.withValues);
   return options;
 }
 

@@ -22,7 +22,7 @@ struct JoinArguments {
   std::string distance;
 };
 
-/// Declares BOXES..., --with, --memory and --distance.
+/// Declares BOXES..., --with, --memory, --distance, and what addBoxValues() declares.
 void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 
 /// Bad input: throws UsageError.

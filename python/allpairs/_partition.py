@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core, _search
 from ._errors import InvalidArgument
+
+if TYPE_CHECKING:  # not every build has it
+    from . import _files
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -48,12 +51,33 @@ def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:
     return names
 
 
+def _value_files(values: dict[str, Any], sets: int) -> list[_files.BoxValueFiles]:
+    """The files that arguments name of each set; with two sets an argument is a tuple of two."""
+    from . import _reading
+
+    files = [_reading.BoxValueFiles() for _ in range(sets)]
+    for name in ("margin", "group", "category", "mask"):
+        given = values[name]
+        if given is None:
+            continue
+        if sets == 2 and (not isinstance(given, tuple) or len(given) != 2):
+            raise InvalidArgument(f"{name} takes a tuple of two here: files of each set, or None")
+        for own, paths in zip(files, given if sets == 2 else [given]):
+            setattr(own, name, [] if paths is None else _names_of(name, paths))
+    return files
+
+
 def join(
     inputs: Path | Iterable[Path],
     output: Path | None = None,
     *,
     second: Path | Iterable[Path] | None = None,
     distance: float = 0.0,
+    margin: Any = None,
+    region: npt.ArrayLike | None = None,
+    group: Any = None,
+    category: Any = None,
+    mask: Any = None,
     memory: int = 0,
     work: Path | None = None,
     threads: int = 1,
@@ -71,14 +95,18 @@ def join(
     second : path, or iterable of paths
         Files of a second set. The pairs are those of a box of the inputs and a box of these, what `overlaps_between`
         returns where that fits in memory; both sets are numbered by themselves.
-    distance : float
+    distance, region
         As in `overlaps`.
+    margin, group, category, mask : path, or iterable of paths
+        .npy files of shape (n,): a number for each box, as in `overlaps`; several are one array. With ``second`` a tuple of
+        two: files of each set, or None.
     memory : int
         The bytes that the process may have, at least 64 MiB; 0 means half of the machine's. The interpreter, and what
         else the process has loaded, should leave 32 MiB at most, or be added.
     work : path
         The folder of the join's own files; by default the name of the output, or of the first input, and ".work". It
-        takes 32 bytes for each box and copy (56 in float64) and 8 for each pair. It stays after a failure.
+        takes 32 bytes for each box and copy (56 in float64) and 8 for each pair, 8 more for each box with margins and 8
+        for each two of groups, categories and masks. It stays after a failure.
     resume : bool
         Go on with what is complete in that folder.
 
@@ -100,7 +128,11 @@ def join(
     1
     >>> np.load(folder + "/pairs.npy")
     array([[0, 1]], dtype=uint32)
+    >>> np.save(folder + "/margins.npy", np.array([0.0, 6.0, 0.0]))
+    >>> allpairs.join(folder + "/boxes.npy", margin=folder + "/margins.npy").pairs
+    2
     """
+    values = locals()
     from . import _reading
 
     names = _names_of("inputs", inputs)
@@ -110,6 +142,11 @@ def join(
     options.memory = _arguments.whole("memory", memory)
     options.resume = bool(resume)
     options.second = [] if second is None else _names_of("second", second)
+    options.values, *others = _value_files(values, 1 if second is None else 2)
+    if others:
+        options.second_values = others[0]
+    if region is not None:
+        options.set_region(_arguments.region_of(region))
     options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
