@@ -40,11 +40,20 @@ _allpairs() {
         --with) files=-f ;;
         --memory) return ;;
         --distance) return ;;
+        --box) return ;;
+        --margins) files=-f ;;
+        --groups) files=-f ;;
+        --categories) files=-f ;;
+        --masks) files=-f ;;
+        --with-margins) files=-f ;;
+        --with-groups) files=-f ;;
+        --with-categories) files=-f ;;
+        --with-masks) files=-f ;;
         --work) files=-d ;;
         --threads) return ;;
         -o | --output) files=-f ;;
         *)
-          options='-h --help --with --memory --distance --work --resume --count --threads -o --output'
+          options='-h --help --with --memory --distance --box --margins --groups --categories --masks --with-margins --with-groups --with-categories --with-masks --work --resume --count --threads -o --output'
           files=-f
           ;;
       esac
@@ -54,11 +63,20 @@ _allpairs() {
         --with) files=-f ;;
         --memory) return ;;
         --distance) return ;;
+        --box) return ;;
+        --margins) files=-f ;;
+        --groups) files=-f ;;
+        --categories) files=-f ;;
+        --masks) files=-f ;;
+        --with-margins) files=-f ;;
+        --with-groups) files=-f ;;
+        --with-categories) files=-f ;;
+        --with-masks) files=-f ;;
         --work) files=-d ;;
         --ranks) return ;;
         --threads) return ;;
         *)
-          options='-h --help --with --memory --distance --work --ranks --threads'
+          options='-h --help --with --memory --distance --box --margins --groups --categories --masks --with-margins --with-groups --with-categories --with-masks --work --ranks --threads'
           files=-f
           ;;
       esac

@@ -44,6 +44,17 @@ std::string byTodaysName(std::string_view argument) {
 /// What stands behind "--" is no option, though it begins like one. CLI11 knows that before the first input only.
 std::string asPath(std::string_view word) { return (word.starts_with('-') ? "./" : "") + std::string(word); }
 
+std::array<CLI::Option*, 4> addValues(CLI::App& command, const std::string& prefix, ValueArguments& values) {
+  const std::string start = prefix == "--" ? "Files: " : "Files of the second set: ";
+  const auto add = [&](const char* name, std::vector<std::string>& files, const char* what) {
+    return command.add_option(prefix + name, files, start + what)->type_name("FILE");
+  };
+  return {add("margins", values.margins, "how far each box extends beyond its bounds"),
+          add("groups", values.groups, "each box's group; those of the same are no pair, unless it is 0"),
+          add("categories", values.categories, "each box's categories, as bits"),
+          add("masks", values.masks, "the categories that each box accepts, as bits")};
+}
+
 }  // namespace
 
 std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
@@ -101,17 +112,37 @@ std::uint64_t parseMemory(const std::string& option, const std::string& text) {
   return value << shift;
 }
 
-void addBoxSets(CLI::App& command, std::vector<std::string>& boxes, std::vector<std::string>& with) {
-  const CLI::Option* first = command.add_option("BOXES", boxes, "One or more .npy files of boxes")->required();
-  const CLI::Option* second =
-      command.add_option("--with", with, "Files of a second set: pairs of a box of BOXES and a box of these")
-          ->type_name("FILE");
-  command.parse_complete_callback([&command, first, second] {
-    const std::vector<CLI::Option*>& order = command.parse_order();
-    if (std::find(std::find(order.begin(), order.end(), second), order.end(), first) != order.end()) {
-      throw UsageError("BOXES come before --with, which takes all files that follow it");
+void addBoxSets(CLI::App& command, BoxSetArguments& arguments) {
+  const CLI::Option* boxes =
+      command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
+  command.add_option("--with", arguments.with, "Files of a second set: pairs of a box of BOXES and a box of these")
+      ->type_name("FILE");
+  command.parse_complete_callback([&command, boxes] {
+    const CLI::Option* before = nullptr;  // that takes all files that follow it
+    for (const CLI::Option* option : command.parse_order()) {
+      if (option == boxes && before != nullptr) {
+        throw UsageError("BOXES come before " + before->get_name() + ", which takes all files that follow it");
+      }
+      if (option != boxes && option->get_expected_max() > 1) before = option;
     }
   });
+}
+
+void addBoxValues(CLI::App& command, BoxSetArguments& arguments) {
+  command.add_option("--box", arguments.box, "Leave out boxes outside of this region")->type_name("x0,y0,z0,x1,y1,z1");
+  addValues(command, "--", arguments.values);
+  for (CLI::Option* option : addValues(command, "--with-", arguments.withValues)) option->needs("--with");
+}
+
+std::vector<std::filesystem::path> pathsOf(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
+scene::BoxValueFiles filesOf(const ValueArguments& arguments) {
+  return {.margins = pathsOf(arguments.margins),
+          .groups = pathsOf(arguments.groups),
+          .categories = pathsOf(arguments.categories),
+          .masks = pathsOf(arguments.masks)};
 }
 
 Box parseRegion(const std::string& text) {

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "allpairs/Box.h"
+#include "allpairs/scene/BoxValues.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
@@ -39,10 +41,35 @@ namespace allpairs::app {
 /// Bad input: throws UsageError.
 [[nodiscard]] std::uint64_t parseMemory(const std::string& option, const std::string& text);
 
-/// Declares BOXES... and --with FILE..., the files of one or two sets of boxes.
+/// Files of what each box of a set has beside its bounds.
+struct ValueArguments {
+  std::vector<std::string> margins;
+  std::vector<std::string> groups;
+  std::vector<std::string> categories;
+  std::vector<std::string> masks;
+};
+
+/// The files of one or two sets of boxes.
+struct BoxSetArguments {
+  std::vector<std::string> paths;
+  std::vector<std::string> with;  ///< The second set.
+  ValueArguments values;
+  ValueArguments withValues;
+  std::string box;  ///< As written; empty for no region.
+};
+
+/// Declares BOXES... and --with FILE....
 ///
-/// Bad input: BOXES after --with, which takes all files that follow it, throw UsageError when the command is parsed.
-void addBoxSets(CLI::App& command, std::vector<std::string>& boxes, std::vector<std::string>& with);
+/// Bad input: BOXES after --with, or after another option that takes all files that follow it, throw UsageError when the
+///            command is parsed.
+void addBoxSets(CLI::App& command, BoxSetArguments& arguments);
+
+/// Declares --box, and --margins, --groups, --categories and --masks, which take files, and the same of the second set:
+/// --with-margins and so on.
+void addBoxValues(CLI::App& command, BoxSetArguments& arguments);
+
+[[nodiscard]] std::vector<std::filesystem::path> pathsOf(const std::vector<std::string>& names);
+[[nodiscard]] scene::BoxValueFiles filesOf(const ValueArguments& arguments);
 
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///

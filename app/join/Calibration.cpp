@@ -64,6 +64,9 @@ JoinCost measureJoinCost(const fs::path& place, join::JoinOptions options) {
   writeBoxes(input[0]);
   options.work = folder.file("work");
   options.second.clear();
+  options.region.reset();
+  options.values = {};
+  options.secondValues = {};
   const Timer timer;
   (void)join::countFiles(input, options);
   const double counting = timer.seconds();

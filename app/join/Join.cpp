@@ -42,11 +42,14 @@ array (m, 2), uint32, or uint64 of more than 2^32 boxes in a set, ordered by
 With --with the pairs are those of a box of BOXES, first, and a box of a second
 set of files, second; both sets are numbered by themselves. --with comes after
 BOXES: it takes all files up to the next option.
+Margins are .npy arrays (n,) of float32 or float64, groups, categories and masks
+of integers: one number for each box, in one file or several, numbered on.
 
 Examples:
   allpairs join boxes.npy -o pairs.npy --memory 4G
   allpairs join part0.npy part1.npy -o pairs.npy --work /scratch/join
   allpairs join parts.npy --with obstacles.npy -o pairs.npy
+  allpairs join boxes.npy -o pairs.npy --margins margins.npy --box 0,0,0,9,9,9
   allpairs join boxes.npy -o pairs.npy --resume     after a kill or a full disk
   allpairs join boxes.npy --count
 
@@ -101,7 +104,8 @@ void runJoin(const JoinSettings& settings) {
   options.executor = executor.get();
   options.resume = settings.resume;
   options.work = settings.work;
-  if (options.work.empty()) options.work = (settings.count ? settings.shared.paths.front() : settings.output) + ".work";
+  if (options.work.empty())
+    options.work = (settings.count ? settings.shared.sets.paths.front() : settings.output) + ".work";
   JoinLine line;
   options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
   join::JoinSummary summary;

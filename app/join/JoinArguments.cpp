@@ -6,23 +6,26 @@
 #include <CLI/Formatter.hpp>
 
 #include "allpairs/parallel/TbbExecutor.h"
-#include "cli/Arguments.h"
 #include "cli/Options.h"
 
 namespace allpairs::app {
 
 void addJoinArguments(CLI::App& command, JoinArguments& arguments) {
-  addBoxSets(command, arguments.paths, arguments.with);
+  addBoxSets(command, arguments.sets);
   command.add_option("--memory", arguments.memory, "Never take more; by default half of the machine's, least 64M")
       ->type_name("SIZE");
   addDistance(command, arguments.distance, "Pairs up to D apart on every axis");
+  addBoxValues(command, arguments.sets);
 }
 
 join::JoinOptions joinOptions(const JoinArguments& arguments) {
   join::JoinOptions options;
   if (!arguments.memory.empty()) options.memory = parseMemory("--memory", arguments.memory);
   if (!arguments.distance.empty()) options.distance = parseDistance(arguments.distance);
-  options.second.assign(arguments.with.begin(), arguments.with.end());
+  options.second = pathsOf(arguments.sets.with);
+  if (!arguments.sets.box.empty()) options.region = parseRegion(arguments.sets.box);
+  options.values = filesOf(arguments.sets.values);
+  options.secondValues = filesOf(arguments.sets.withValues);
   return options;
 }
 
@@ -31,8 +34,6 @@ std::unique_ptr<Executor> executorOf(const std::string& threads) {
   return count == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(count);
 }
 
-std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments) {
-  return {arguments.paths.begin(), arguments.paths.end()};
-}
+std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments) { return pathsOf(arguments.sets.paths); }
 
 }  // namespace allpairs::app

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "allpairs/join/Join.h"
+#include "cli/Arguments.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
@@ -16,13 +17,12 @@ namespace allpairs::app {
 
 /// What join and plan have in common.
 struct JoinArguments {
-  std::vector<std::string> paths;
-  std::vector<std::string> with;  ///< The second set.
+  BoxSetArguments sets;
   std::string memory;
   std::string distance;
 };
 
-/// Declares BOXES..., --with, --memory and --distance.
+/// Declares BOXES..., --with, --memory, --distance, and what addBoxValues() declares.
 void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 
 /// Bad input: throws UsageError.

@@ -10,8 +10,8 @@
 
 namespace allpairs::app {
 
-BoxShare::BoxShare(std::span<const std::filesystem::path> paths, int rank, int ranks) : m_paths(paths) {
-  for (const auto& path : paths) {
+BoxShare::BoxShare(const BoxFiles& files, int rank, int ranks) : m_paths(files.paths) {
+  for (const auto& path : files.paths) {
     const scene::BoxRows file(path);
     m_allBoxes += file.size();
     m_ends.push_back(m_allBoxes);
@@ -29,6 +29,18 @@ BoxShare::BoxShare(std::span<const std::filesystem::path> paths, int rank, int r
   } else {
     read(m_float32);
   }
+  m_margins = valuesOf<double>(files.values.margins, scene::BoxValue::Margin);
+  m_groups = valuesOf<std::uint32_t>(files.values.groups, scene::BoxValue::Group);
+  m_categories = valuesOf<std::uint32_t>(files.values.categories, scene::BoxValue::Category);
+  m_masks = valuesOf<std::uint32_t>(files.values.masks, scene::BoxValue::Mask);
+}
+
+template <class Number>
+std::vector<Number> BoxShare::valuesOf(std::span<const std::filesystem::path> paths, scene::BoxValue kind) const {
+  if (paths.empty()) return {};
+  std::vector<Number> numbers(static_cast<std::size_t>(m_end - m_begin));
+  scene::BoxValues(paths, kind, m_allBoxes).read(m_begin, numbers);
+  return numbers;
 }
 
 template <class Number>
@@ -47,9 +59,13 @@ void BoxShare::read(std::vector<Number>& rows) {
   }
 }
 
+FilterBits BoxShare::bits() const { return {.categories = m_categories, .masks = m_masks, .groups = m_groups}; }
+
 BoxView BoxShare::view() const {
   try {
-    return m_isFloat64 ? BoxView::fromRows(m_float64) : BoxView::fromRows(m_float32);
+    BoxView boxes = m_isFloat64 ? BoxView::fromRows(m_float64) : BoxView::fromRows(m_float32);
+    boxes.setMargins(m_margins);
+    return boxes;
   } catch (const InvalidBox& problem) {
     failAt(m_begin + problem.index());
   }

@@ -7,8 +7,16 @@
 #include <vector>
 
 #include "allpairs/BoxView.h"
+#include "allpairs/Filter.h"
+#include "allpairs/scene/BoxValues.h"
 
 namespace allpairs::app {
+
+/// The files of a set.
+struct BoxFiles {
+  std::vector<std::filesystem::path> paths{};
+  scene::BoxValueFiles values{};
+};
 
 /// One rank's share of the boxes of .npy files, which are one set numbered on from file to file: as float32 where all
 /// files are, else as float64. Disjoint shares are read with ordinary reads, so that any file system that all ranks see
@@ -16,10 +24,14 @@ namespace allpairs::app {
 class BoxShare {
  public:
   /// Bad input: throws FileError.
-  BoxShare(std::span<const std::filesystem::path> paths, int rank, int ranks);
+  BoxShare(const BoxFiles& files, int rank, int ranks);
 
+  /// With their margins.
+  ///
   /// Bad input: a NaN throws FileError, which names file and box.
   [[nodiscard]] BoxView view() const;
+
+  [[nodiscard]] FilterBits bits() const;
 
   /// Of all files.
   [[nodiscard]] std::uint64_t allBoxes() const noexcept { return m_allBoxes; }
@@ -27,6 +39,8 @@ class BoxShare {
  private:
   template <class Number>
   void read(std::vector<Number>& rows);
+  template <class Number>
+  [[nodiscard]] std::vector<Number> valuesOf(std::span<const std::filesystem::path> paths, scene::BoxValue kind) const;
   [[noreturn]] void failAt(std::uint64_t box) const;
 
   std::span<const std::filesystem::path> m_paths;
@@ -37,6 +51,10 @@ class BoxShare {
   bool m_isFloat64 = false;
   std::vector<float> m_float32;
   std::vector<double> m_float64;
+  std::vector<double> m_margins;
+  std::vector<std::uint32_t> m_groups;
+  std::vector<std::uint32_t> m_categories;
+  std::vector<std::uint32_t> m_masks;
 };
 
 }  // namespace allpairs::app

@@ -38,16 +38,18 @@ them. The result is the file that 'allpairs detect -o' and 'allpairs join' write
 With --with the pairs are those of a box of BOXES, first, and a box of a second
 set of files, second; both sets are numbered by themselves. --with comes after
 BOXES: it takes all files up to the next option.
+Margins are .npy arrays (n,) of float32 or float64, groups, categories and masks
+of integers: one number for each box, in one file or several, numbered on.
 
 Examples:
   mpirun allpairs-mpi join boxes.npy -o pairs.npy
   mpirun -n 64 allpairs-mpi join part*.npy --count
   mpirun -n 64 allpairs-mpi join part*.npy --with obstacles.npy -o pairs.npy
+  mpirun allpairs-mpi join boxes.npy -o pairs.npy --margins margins.npy
   mpirun --map-by socket allpairs-mpi join boxes.npy -o pairs.npy --threads 16)";
 
 struct Settings {
-  std::vector<std::string> paths;
-  std::vector<std::string> with;  ///< The second set.
+  allpairs::app::BoxSetArguments sets;
   std::string output;
   std::string distance;
   std::string threads = "1";
@@ -59,8 +61,8 @@ class Join {
  public:
   explicit Join(const Settings& settings)
       : m_settings(settings),
-        m_paths(settings.paths.begin(), settings.paths.end()),
-        m_with(settings.with.begin(), settings.with.end()) {
+        m_files{allpairs::app::pathsOf(settings.sets.paths), allpairs::app::filesOf(settings.sets.values)},
+        m_with{allpairs::app::pathsOf(settings.sets.with), allpairs::app::filesOf(settings.sets.withValues)} {
     MPI_Comm_rank(MPI_COMM_WORLD, &m_rank);
     MPI_Comm_size(MPI_COMM_WORLD, &m_ranks);
   }
@@ -70,6 +72,7 @@ class Join {
     const std::size_t threads = allpairs::app::parseThreads(m_settings.threads);
     allpairs::parallel::TbbExecutor executor(threads);
     allpairs::mpi::DistributedOptions options;
+    if (!m_settings.sets.box.empty()) options.region = allpairs::app::parseRegion(m_settings.sets.box);
     if (!m_settings.distance.empty()) options.distance = allpairs::app::parseDistance(m_settings.distance);
     if (threads != 1) options.executor = &executor;
     std::optional<allpairs::app::PairFile> output;  // before all else: a place that cannot be written is an error now
@@ -77,9 +80,11 @@ class Join {
     std::optional<allpairs::app::BoxShare> first;
     std::optional<allpairs::app::BoxShare> second;
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
-      first.emplace(m_paths, m_rank, m_ranks);
-      if (!m_with.empty()) second.emplace(m_with, m_rank, m_ranks);
+      first.emplace(m_files, m_rank, m_ranks);
+      if (!m_with.paths.empty()) second.emplace(m_with, m_rank, m_ranks);
     });
+    options.first = first->bits();
+    if (second) options.second = second->bits();
     allpairs::mpi::DistributedOverlaps search(MPI_COMM_WORLD, options);
     const auto boxes = [&first] { return first->view(); };
     const auto others = [&second] { return second->view(); };
@@ -115,8 +120,8 @@ class Join {
   }
 
   const Settings& m_settings;
-  std::vector<std::filesystem::path> m_paths;
-  std::vector<std::filesystem::path> m_with;
+  allpairs::app::BoxFiles m_files;
+  allpairs::app::BoxFiles m_with;
   int m_rank = 0;
   int m_ranks = 1;
 };
@@ -155,10 +160,11 @@ void run(int count, char** arguments) {
   Settings settings;
   CLI::App* join = program.add_subcommand("join", "Find the pairs, or count them");
   join->footer(kExamples);
-  allpairs::app::addBoxSets(*join, settings.paths, settings.with);
+  allpairs::app::addBoxSets(*join, settings.sets);
   join->add_option("-o,--output", settings.output, "Write the pairs to this .npy file")->type_name("FILE");
   join->add_option("--distance", settings.distance, "Pairs up to D apart on every axis")->type_name("D");
   join->add_option("--threads", settings.threads, "Threads of each rank; 0 means all cores")->type_name("N");
+  allpairs::app::addBoxValues(*join, settings.sets);
   join->add_flag("--count", settings.count, "Only count the pairs");
   join->callback([&settings] { Join(settings).run(); });
   parse(program, count, arguments);

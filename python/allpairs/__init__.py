@@ -14,7 +14,15 @@ from ._core import version as __version__
 from ._elements import MeshCandidates
 from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded
 from ._neighbors import neighbors, neighbors_between
-from ._partition import JoinSummary, Partition, join, overlaps_between_in_cell, overlaps_in_cell
+from ._partition import (
+    JoinSummary,
+    Partition,
+    count_between_in_cell,
+    count_in_cell,
+    join,
+    overlaps_between_in_cell,
+    overlaps_in_cell,
+)
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
 from ._world import EVERY_WORLD, NO_BOX, Step, World
@@ -42,6 +50,8 @@ __all__ = [
     "batches_between",
     "count",
     "count_between",
+    "count_between_in_cell",
+    "count_in_cell",
     "detect",
     "instruction_sets",
     "join",

@@ -22,11 +22,20 @@ class Scene:
 
 def load(path: str, search_roots: list[str], partial: bool, sofa: str, allow_outside: bool, max_memory: int) -> Scene: ...
 
+class BoxValueFiles:
+    margin: list[str]
+    group: list[str]
+    category: list[str]
+    mask: list[str]
+
 class JoinOptions:
     distance: float
     memory: int
     work: str
     resume: bool
     second: list[str]
+    values: BoxValueFiles
+    second_values: BoxValueFiles
+    def set_region(self, box: list[float]) -> None: ...
 
 def join_files(inputs: list[str], output: Optional[str], options: JoinOptions, threads: int) -> tuple[int, ...]: ...

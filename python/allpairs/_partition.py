@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +13,16 @@ import numpy.typing as npt
 from . import _arguments, _core, _search
 from ._errors import InvalidArgument
 
+if TYPE_CHECKING:  # not every build has it
+    from . import _files
+
 Path = Union[str, "os.PathLike[str]"]
 
 #: Pairs by 64-bit ids: shape (m, 2).
 IdPairs = npt.NDArray[np.uint64]
+
+#: What the settings of a search have that a search of a cell has not.
+_FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto"}
 
 
 class JoinSummary(NamedTuple):
@@ -45,12 +51,33 @@ def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:
     return names
 
 
+def _value_files(values: dict[str, Any], sets: int) -> list[_files.BoxValueFiles]:
+    """The files that arguments name of each set; with two sets an argument is a tuple of two."""
+    from . import _reading
+
+    files = [_reading.BoxValueFiles() for _ in range(sets)]
+    for name in ("margin", "group", "category", "mask"):
+        given = values[name]
+        if given is None:
+            continue
+        if sets == 2 and (not isinstance(given, tuple) or len(given) != 2):
+            raise InvalidArgument(f"{name} takes a tuple of two here: files of each set, or None")
+        for own, paths in zip(files, given if sets == 2 else [given]):
+            setattr(own, name, [] if paths is None else _names_of(name, paths))
+    return files
+
+
 def join(
     inputs: Path | Iterable[Path],
     output: Path | None = None,
     *,
     second: Path | Iterable[Path] | None = None,
     distance: float = 0.0,
+    margin: Any = None,
+    region: npt.ArrayLike | None = None,
+    group: Any = None,
+    category: Any = None,
+    mask: Any = None,
     memory: int = 0,
     work: Path | None = None,
     threads: int = 1,
@@ -68,14 +95,18 @@ def join(
     second : path, or iterable of paths
         Files of a second set. The pairs are those of a box of the inputs and a box of these, what `overlaps_between`
         returns where that fits in memory; both sets are numbered by themselves.
-    distance : float
+    distance, region
         As in `overlaps`.
+    margin, group, category, mask : path, or iterable of paths
+        .npy files of shape (n,): a number for each box, as in `overlaps`; several are one array. With ``second`` a tuple of
+        two: files of each set, or None.
     memory : int
         The bytes that the process may have, at least 64 MiB; 0 means half of the machine's. The interpreter, and what
         else the process has loaded, should leave 32 MiB at most, or be added.
     work : path
         The folder of the join's own files; by default the name of the output, or of the first input, and ".work". It
-        takes 32 bytes for each box and copy (56 in float64) and 8 for each pair. It stays after a failure.
+        takes 32 bytes for each box and copy (56 in float64) and 8 for each pair, 8 more for each box with margins and 8
+        for each two of groups, categories and masks. It stays after a failure.
     resume : bool
         Go on with what is complete in that folder.
 
@@ -97,7 +128,11 @@ def join(
     1
     >>> np.load(folder + "/pairs.npy")
     array([[0, 1]], dtype=uint32)
+    >>> np.save(folder + "/margins.npy", np.array([0.0, 6.0, 0.0]))
+    >>> allpairs.join(folder + "/boxes.npy", margin=folder + "/margins.npy").pairs
+    2
     """
+    values = locals()
     from . import _reading
 
     names = _names_of("inputs", inputs)
@@ -107,6 +142,11 @@ def join(
     options.memory = _arguments.whole("memory", memory)
     options.resume = bool(resume)
     options.second = [] if second is None else _names_of("second", second)
+    options.values, *others = _value_files(values, 1 if second is None else 2)
+    if others:
+        options.second_values = others[0]
+    if region is not None:
+        options.set_region(_arguments.region_of(region))
     options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
@@ -130,6 +170,27 @@ def _ids_of(value: npt.ArrayLike, length: int, prefix: str = "") -> npt.NDArray[
     return _arguments.contiguous(array, dtype=np.uint64)
 
 
+def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
+    """Boxes of a cell, and the settings of a search of them."""
+    boxes = _arguments.with_margins(_arguments.boxes_of(values["lower"], values["upper"]), values["margin"])
+    options = _search._settings({**_FIXED, **values}, 3, one_set=True)
+    _search._filter(options, _core.Side.FIRST, boxes, values, "")
+    return boxes, options
+
+
+def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
+    """Likewise of two sets."""
+    options = _search._settings({**_FIXED, **values}, 3, one_set=False)
+    own = {name: _arguments.both(name, values[name]) for name in ("margin", "group", "category", "mask")}
+    sets = []
+    for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
+        prefix = f"{name} set: "
+        boxes = _arguments.boxes_of(*_arguments.two_corners(values[name], prefix), prefix)
+        sets.append(_arguments.with_margins(boxes, own["margin"][i], prefix))
+        _search._filter(options, side, boxes, {key: pair[i] for key, pair in own.items()}, prefix)
+    return sets[0], sets[1], options
+
+
 def overlaps_in_cell(
     lower: npt.ArrayLike,
     upper: npt.ArrayLike | None,
@@ -138,6 +199,10 @@ def overlaps_in_cell(
     *,
     distance: float = 0.0,
     margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
     threads: int = 1,
 ) -> IdPairs:
     """The overlapping pairs of boxes that belong to one cell of space, by the boxes' 64-bit ids.
@@ -153,8 +218,8 @@ def overlaps_in_cell(
     cell : array_like, shape (2, 3) or (6,)
         Its least corner, which is in it, and its greatest, which is not, unless it is infinity: one of
         `Partition.cells`.
-    distance, margin
-        As in `overlaps`.
+    distance, margin, region, group, category, mask
+        As in `overlaps`; those of the boxes that are given.
 
     Returns
     -------
@@ -171,10 +236,11 @@ def overlaps_in_cell(
     array([[50, 60],
            [50, 70],
            [60, 70]], dtype=uint64)
+    >>> allpairs.overlaps_in_cell(boxes, None, [70, 50, 60], space, group=[7, 7, 0])
+    array([[50, 60],
+           [60, 70]], dtype=uint64)
     """
-    boxes = _arguments.with_margins(_arguments.boxes_of(lower, upper), margin)
-    values: dict[str, Any] = {"distance": distance, "strategy": "auto", "threads": threads, "region": None, "ignore": None}
-    options = _search._settings(values, 3, one_set=True)
+    boxes, options = _one(locals())
     return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(ids, len(boxes)), _cell_of(cell), options))
 
 
@@ -186,6 +252,10 @@ def overlaps_between_in_cell(
     *,
     distance: float = 0.0,
     margin: _search.Both = None,
+    region: npt.ArrayLike | None = None,
+    group: _search.Both = None,
+    category: _search.Both = None,
+    mask: _search.Both = None,
     threads: int = 1,
 ) -> IdPairs:
     """The pairs of a box of the first set and a box of the second that belong to one cell of space, by their ids.
@@ -198,8 +268,8 @@ def overlaps_between_in_cell(
         Those of the boxes of the first set, and those of the second: each as in `overlaps_in_cell`.
     cell
         As in `overlaps_in_cell`.
-    distance, margin
-        As in `overlaps_between`.
+    distance, margin, region, group, category, mask
+        As in `overlaps_between`; those of the boxes that are given.
 
     Returns
     -------
@@ -218,14 +288,66 @@ def overlaps_between_in_cell(
     """
     if not isinstance(ids, tuple) or len(ids) != 2:
         raise InvalidArgument("ids takes a tuple of two here: those of each set")
-    sets = []
-    for boxes, numbers, apart, name in zip((first, second), ids, _arguments.both("margin", margin), ("first", "second")):
-        prefix = f"{name} set: "
-        view = _arguments.boxes_of(*_arguments.two_corners(boxes, prefix), prefix)
-        sets.append((_arguments.with_margins(view, apart, prefix), _ids_of(numbers, len(view), prefix)))
-    values: dict[str, Any] = {"distance": distance, "strategy": "auto", "threads": threads, "region": None, "ignore": None}
-    options = _search._settings(values, 3, one_set=False)
-    return np.asarray(_core.overlaps_between_in_cell(sets[0], sets[1], _cell_of(cell), options))
+    a, b, options = _two(locals())
+    first_ids, second_ids = _ids_of(ids[0], len(a), "first set: "), _ids_of(ids[1], len(b), "second set: ")
+    return np.asarray(_core.overlaps_between_in_cell((a, first_ids), (b, second_ids), _cell_of(cell), options))
+
+
+def count_in_cell(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None,
+    cell: npt.ArrayLike,
+    *,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    threads: int = 1,
+) -> int:
+    """The number of pairs of `overlaps_in_cell`; uses memory independent of that number.
+
+    The parameters are those of `overlaps_in_cell`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> boxes = np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [2, 2, 2, 4, 4, 4]], dtype=np.float32)
+    >>> allpairs.count_in_cell(boxes, None, [[1.5] * 3, [np.inf] * 3])
+    2
+    """
+    boxes, options = _one(locals())
+    return _core.count_in_cell(boxes, _cell_of(cell), options)
+
+
+def count_between_in_cell(
+    first: Any,
+    second: Any,
+    cell: npt.ArrayLike,
+    *,
+    distance: float = 0.0,
+    margin: _search.Both = None,
+    region: npt.ArrayLike | None = None,
+    group: _search.Both = None,
+    category: _search.Both = None,
+    mask: _search.Both = None,
+    threads: int = 1,
+) -> int:
+    """The number of pairs of `overlaps_between_in_cell`; uses memory independent of that number.
+
+    The parameters are those of `overlaps_between_in_cell`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> allpairs.count_between_in_cell(np.zeros((3, 6)), np.zeros((2, 6)), [[-np.inf] * 3, [np.inf] * 3])
+    6
+    """
+    a, b, options = _two(locals())
+    return _core.count_between_in_cell(a, b, _cell_of(cell), options)
 
 
 class Partition:

@@ -15,86 +15,120 @@ from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
-from dask.array.core import Array as DaskArray
 from dask.array.core import concatenate, from_delayed
 from dask.base import compute
 from dask.delayed import delayed
 
 from . import _arguments
+from . import count as count_in_memory
 from ._errors import InvalidArgument, InvalidBox
-from ._partition import Partition, overlaps_between_in_cell, overlaps_in_cell
+from ._partition import (
+    Partition,
+    count_between_in_cell,
+    count_in_cell,
+    overlaps_between_in_cell,
+    overlaps_in_cell,
+)
+from ._parts import NAMES, Array, BoxParts, Values, box_parts
 
-__all__ = ["overlaps"]
+__all__ = ["count", "overlaps"]
 
 PathLike = Union[str, "os.PathLike[str]"]
-Array = npt.NDArray[Any]
 
 #: Boxes of a sample for each cell.
 _SAMPLE_OF_A_CELL = 1000
 
 
-def _read(path: str) -> Array:
-    boxes: Array = np.load(path, mmap_mode="r", allow_pickle=False)
-    return boxes
+class _Piece(NamedTuple):
+    """The boxes of a part, or of all, that go to one cell."""
+
+    ids: npt.NDArray[np.uint64]
+    boxes: Array
+    values: Values
 
 
-def _parts_of(argument: str, boxes: Any) -> tuple[list[Any], list[int]]:
-    """The boxes as parts that tasks read, and the number of boxes in each."""
-    if isinstance(boxes, DaskArray):
-        if boxes.ndim != 2 or boxes.shape[1] != 6:
-            raise InvalidArgument(f"{argument} has shape {boxes.shape}; it takes (n, 6)")
-        if np.isnan(boxes.shape[0]):
-            raise InvalidArgument(f"{argument} has chunks of unknown sizes; call compute_chunk_sizes() before")
-        rows = boxes.rechunk({1: 6})
-        return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]]
-    paths = [boxes] if isinstance(boxes, (str, os.PathLike)) else list(boxes)
-    names = [os.path.abspath(os.fsdecode(path)) for path in paths]
-    if not names:
-        raise InvalidArgument(f"{argument} names no file")
-    shapes = [_read(name).shape for name in names]
-    for name, shape in zip(names, shapes):
-        if len(shape) != 2 or shape[1] != 6:
-            raise InvalidArgument(f"{name} has shape {shape}; boxes are (n, 6)")
-    return [delayed(_read)(name) for name in names], [shape[0] for shape in shapes]
+class _Plan(NamedTuple):
+    """What it takes to say which cells a box goes to."""
+
+    partition: Partition
+    distance: float
+    greatest: float
+    """The greatest margin of any box."""
 
 
-def _sample(part: Array, step: int) -> Array:
-    return np.asarray(part[::step])
+def _sample(part: Array, margin: Any, step: int) -> tuple[Array, Array]:
+    """Some boxes, and their margins; NaNs are for _divide."""
+    rows = np.asarray(part[::step])
+    margins = np.broadcast_to(margin, len(part))[::step]
+    whole = ~np.isnan(rows).any(axis=1)
+    return rows[whole], margins[whole]
 
 
-def _divide(
-    part: Array, begin: int, partition: Partition, distance: float, whose: str
-) -> list[tuple[npt.NDArray[np.uint64], Array]]:
+def _greatest(margin: Any) -> float:
+    return float(np.max(margin, initial=-np.inf))
+
+
+def _chosen(value: Any, rows: Array) -> Any:
+    return value if _arguments.is_one(value) else value[rows]
+
+
+def _divide(part: Array, values: Values, plan: _Plan, *, begin: int, whose: str) -> list[_Piece]:
     """The boxes of a part by cell, with their numbers."""
     boxes = _arguments.floats("boxes", _arguments.contiguous(part))
     try:
-        homes = partition.cells_of(boxes, distance=distance)
+        homes = plan.partition.cells_of(
+            boxes, distance=plan.distance, margin=values.get("margin"), max_margin=plan.greatest
+        )
     except InvalidBox as problem:
         raise InvalidArgument(f"box {begin + problem.index} of {whose}: {problem}") from None
     order = np.argsort(homes[:, 1], kind="stable")
-    bounds = np.searchsorted(homes[order, 1], np.arange(len(partition) + 1))
-    rows = homes[order, 0]
-    return [
-        ((rows[low:high] + begin).astype(np.uint64), boxes[rows[low:high]]) for low, high in zip(bounds, bounds[1:])
-    ]
+    bounds = np.searchsorted(homes[order, 1], np.arange(len(plan.partition) + 1))
+    pieces = []
+    for low, high in zip(bounds, bounds[1:]):
+        rows = homes[order[low:high], 0]
+        own = {name: _chosen(value, rows) for name, value in values.items()}
+        pieces.append(_Piece((rows + begin).astype(np.uint64), boxes[rows], own))
+    return pieces
 
 
-def _gathered(divided: list[tuple[Array, Array]]) -> tuple[Array, Array]:
-    return np.concatenate([ids for ids, _ in divided]), np.concatenate([boxes for _, boxes in divided])
+def _joined(values: list[Any]) -> Any:
+    return values[0] if _arguments.is_one(values[0]) else np.concatenate(values)
 
 
-def _search(
-    sets: list[list[tuple[Array, Array]]], cell: Array, distance: float, begins: Sequence[int], dtype: str
-) -> list[Array]:
+def _gathered(pieces: list[_Piece]) -> _Piece:
+    values = {name: _joined([piece.values[name] for piece in pieces]) for name in pieces[0].values}
+    return _Piece(
+        np.concatenate([piece.ids for piece in pieces]), np.concatenate([piece.boxes for piece in pieces]), values
+    )
+
+
+def _arguments_of(sets: list[_Piece], settings: Values) -> Values:
+    """What a search of a cell takes by name: what is given of one set, or a tuple for two."""
+    each = {name: tuple(one.values.get(name) for one in sets) for name in NAMES}
+    return {**settings, **{name: own if len(own) == 2 else own[0] for name, own in each.items()}}
+
+
+def _search(sets: list[list[_Piece]], cell: Array, settings: Values, ranges: tuple[Sequence[int], str]) -> list[Array]:
     """The pairs of a cell, of one set or of two, by the range that their first box is in."""
-    ids, boxes = _gathered(sets[0])
-    if len(sets) == 1:
-        pairs = overlaps_in_cell(boxes, None, ids, cell, distance=distance)
+    gathered = [_gathered(pieces) for pieces in sets]
+    given = _arguments_of(gathered, settings)
+    first = gathered[0]
+    if len(gathered) == 1:
+        pairs = overlaps_in_cell(first.boxes, None, first.ids, cell, **given)
     else:
-        other_ids, others = _gathered(sets[1])
-        pairs = overlaps_between_in_cell(boxes, others, (ids, other_ids), cell, distance=distance)
+        second = gathered[1]
+        pairs = overlaps_between_in_cell(first.boxes, second.boxes, (first.ids, second.ids), cell, **given)
+    begins, dtype = ranges
     bounds = np.searchsorted(pairs[:, 0], np.asarray(begins[1:-1], dtype=np.uint64))
     return list(np.split(pairs.astype(dtype), bounds))
+
+
+def _count(sets: list[list[_Piece]], cell: Array, settings: Values) -> int:
+    gathered = [_gathered(pieces) for pieces in sets]
+    given = _arguments_of(gathered, settings)
+    if len(gathered) == 1:
+        return count_in_cell(gathered[0].boxes, None, cell, **given)
+    return count_between_in_cell(gathered[0].boxes, gathered[1].boxes, cell, **given)
 
 
 def _merge(found: list[Array]) -> Array:
@@ -116,41 +150,51 @@ def _picked(items: Any, index: int) -> Any:
     return items[index]
 
 
-class _Set(NamedTuple):
-    """A set of boxes as parts that tasks read."""
+class _Cell(NamedTuple):
+    """A cell, and the task for the boxes of each part of each set in it."""
 
-    parts: list[Any]
-    sizes: list[int]
-    whose: str
-    """What errors call it."""
-
-    @property
-    def begins(self) -> list[int]:
-        """The number of the first box of each part, and that of all boxes."""
-        return [0, *np.cumsum(self.sizes).tolist()]
+    bounds: Array
+    sets: list[list[Any]]
 
 
-def _pairs_by_range(sets: list[_Set], distance: float, cells: int, dtype: str) -> list[Any]:
-    """A task for the pairs of each range of first boxes: those of one part."""
-    step = max(1, sum(boxes.begins[-1] for boxes in sets) // (cells * _SAMPLE_OF_A_CELL))
-    samples = compute(*[delayed(_sample)(part, step) for boxes in sets for part in boxes.parts])
-    sample = np.concatenate(samples)
-    partition = Partition(sample[~np.isnan(sample).any(axis=1)], cells=cells, distance=distance)  # NaNs are for _divide
-    pick = delayed(_picked)
-    shared = delayed(partition)
+def _settings_of(values: Values) -> Values:
+    """What is not about single boxes, checked."""
+    settings = {"distance": _arguments.number("distance", values["distance"]), "region": None}
+    if values["region"] is not None:
+        settings["region"] = _arguments.region_of(values["region"])
+    count_in_memory(np.zeros((1, 6)), **settings)
+    return settings
+
+
+def _sets_of(values: Values) -> list[BoxParts]:
+    return box_parts([values["boxes"], values["second"]], values)
+
+
+def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> list[_Cell]:
+    """Cuts space by a sample, which is computed now, and divides the boxes, which waits."""
+    parts = sum(len(each.parts) for each in sets)
+    count_of_cells = _arguments.whole("cells", 4 * parts if cells is None else cells, least=1)
+    step = max(1, sum(each.begins[-1] for each in sets) // (count_of_cells * _SAMPLE_OF_A_CELL))
+    margins = [[values.get("margin", 0.0) for values in each.values] for each in sets]
+    samples = compute(
+        *[delayed(_sample)(part, own, step) for each, all in zip(sets, margins) for part, own in zip(each.parts, all)]
+    )
+    rows, apart = (np.concatenate(column) for column in zip(*samples))
+    partition = Partition(rows, cells=count_of_cells, distance=distance, margin=apart)
+    greatest = delayed(max)([delayed(_greatest)(own) for all in margins for own in all])
+    plan = delayed(_Plan)(partition, distance, greatest)
     divided = [
         [
-            delayed(_divide)(part, begin, shared, distance, boxes.whose)
-            for part, begin in zip(boxes.parts, boxes.begins)
+            delayed(_divide)(part, values, plan, begin=begin, whose=each.whose)
+            for part, values, begin in zip(each.parts, each.values, each.begins)
         ]
-        for boxes in sets
+        for each in sets
     ]
-    begins = sets[0].begins
-    found = [
-        delayed(_search)([[pick(part, number) for part in parts] for parts in divided], cell, distance, begins, dtype)
-        for number, cell in enumerate(partition.cells)
+    pick = delayed(_picked)
+    return [
+        _Cell(bounds, [[pick(part, number) for part in parts] for parts in divided])
+        for number, bounds in enumerate(partition.cells)
     ]
-    return [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(sets[0].parts))]
 
 
 def overlaps(
@@ -159,6 +203,11 @@ def overlaps(
     *,
     second: Any = None,
     distance: float = 0.0,
+    margin: Any = None,
+    region: Optional[npt.ArrayLike] = None,
+    group: Any = None,
+    category: Any = None,
+    mask: Any = None,
     cells: Optional[int] = None,
 ) -> Any:
     """All pairs of boxes that overlap, each once, ordered by (first, second).
@@ -175,8 +224,11 @@ def overlaps(
         sets are numbered by themselves.
     output : path of a folder
         Write the pairs there, as part-00000.npy and so on, and return their number.
-    distance : float
+    distance, region
         As in `allpairs.overlaps`.
+    margin, group, category, mask : number, dask array or array_like of shape (n,), path, or list of paths
+        Of each box, as in `allpairs.overlaps`. Files are .npy, of shape (n,), and several are one array; they need not
+        be cut where those of the boxes are. With ``second`` a tuple of two, one for each set, or a number for all boxes.
     cells : int
         About how many tasks search; by default four for each chunk or file of all sets.
 
@@ -192,15 +244,18 @@ def overlaps(
     >>> boxes = dask.array.from_array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9.0]], chunks=(2, 6))
     >>> allpairs.dask.overlaps(boxes).compute()
     array([[0, 1]], dtype=uint32)
+    >>> allpairs.dask.overlaps(boxes, margin=[0, 2, 4]).compute()
+    array([[0, 1],
+           [1, 2]], dtype=uint32)
     """
-    apart = _arguments.number("distance", distance)
-    sets = [_Set(*_parts_of("boxes", boxes), "all" if second is None else "the first set")]
-    if second is not None:
-        sets.append(_Set(*_parts_of("second", second), "the second set"))
-    parts = sum(len(each.parts) for each in sets)
-    count = _arguments.whole("cells", 4 * parts if cells is None else cells, least=1)
+    values = locals()
+    settings, sets = _settings_of(values), _sets_of(values)
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
-    merged = _pairs_by_range(sets, apart, count, dtype)
+    ranges = (sets[0].begins, dtype)
+    divided = _cells_of(sets, settings["distance"], cells)
+    found = [delayed(_search)(cell.sets, cell.bounds, settings, ranges) for cell in divided]
+    pick = delayed(_picked)
+    merged = [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(sets[0].parts))]
     if output is not None:
         folder = Path(os.path.abspath(os.fsdecode(output)))
         folder.mkdir(parents=True, exist_ok=True)
@@ -209,3 +264,33 @@ def overlaps(
         return sum(counts)
     chunks = [from_delayed(pairs, (np.nan, 2), dtype=dtype) for pairs in merged]
     return concatenate(chunks, allow_unknown_chunksizes=True)
+
+
+def count(
+    boxes: Any,
+    *,
+    second: Any = None,
+    distance: float = 0.0,
+    margin: Any = None,
+    region: Optional[npt.ArrayLike] = None,
+    group: Any = None,
+    category: Any = None,
+    mask: Any = None,
+    cells: Optional[int] = None,
+) -> int:
+    """The number of pairs of `overlaps`, computed at once; no task holds pairs.
+
+    The parameters are those of `overlaps`.
+
+    Examples
+    --------
+    >>> import dask.array
+    >>> import allpairs.dask
+    >>> allpairs.dask.count(dask.array.zeros((1000, 6), chunks=(300, 6)))  # all in one place
+    499500
+    """
+    values = locals()
+    settings, sets = _settings_of(values), _sets_of(values)
+    divided = _cells_of(sets, settings["distance"], cells)
+    counts: Iterable[int] = compute(*[delayed(_count)(cell.sets, cell.bounds, settings) for cell in divided])
+    return sum(counts)

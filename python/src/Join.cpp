@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "Bindings.h"
 #include "Interrupts.h"
 #include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/BoxValues.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
@@ -39,8 +41,20 @@ py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
 }  // namespace
 
 void bindJoin(py::module_& module) {
+  py::class_<scene::BoxValueFiles>(module, "BoxValueFiles")
+      .def(py::init<>())
+      .def_readwrite("margin", &scene::BoxValueFiles::margins)
+      .def_readwrite("group", &scene::BoxValueFiles::groups)
+      .def_readwrite("category", &scene::BoxValueFiles::categories)
+      .def_readwrite("mask", &scene::BoxValueFiles::masks);
   py::class_<join::JoinOptions>(module, "JoinOptions")
       .def(py::init<>())
+      .def("set_region",
+           [](join::JoinOptions& options, const std::array<double, 6>& bounds) {
+             options.region = Box{{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
+           })
+      .def_readwrite("values", &join::JoinOptions::values)
+      .def_readwrite("second_values", &join::JoinOptions::secondValues)
       .def_readwrite("distance", &join::JoinOptions::distance)
       .def_readwrite("memory", &join::JoinOptions::memory)
       .def_readwrite("work", &join::JoinOptions::work)

@@ -66,6 +66,18 @@ std::unique_ptr<OffsetArray> overlapsBetweenInCell(const Identified& first, cons
   return arrayOf(pairs);
 }
 
+std::uint64_t countInCell(const Boxes& boxes, const Bounds& cell, Options& options) {
+  return options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
+    return partition::countOverlapsInCell(boxes.set(), cellOf(cell), settings);
+  });
+}
+
+std::uint64_t countBetweenInCell(const Boxes& first, const Boxes& second, const Bounds& cell, Options& options) {
+  return options.run(first.set().size() + second.set().size(), [&](const OverlapOptions& settings) {
+    return partition::countOverlapsInCell(first.set(), second.set(), cellOf(cell), settings);
+  });
+}
+
 std::unique_ptr<RealArray> cellsOf(const Partition& partition) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < partition.size(); ++i) {
@@ -131,6 +143,8 @@ void bindPartition(py::module_& module) {
       .def("__len__", &Partition::size);
   module.def("overlaps_in_cell", &overlapsInCell);
   module.def("overlaps_between_in_cell", &overlapsBetweenInCell);
+  module.def("count_in_cell", &countInCell);
+  module.def("count_between_in_cell", &countBetweenInCell);
 }
 
 }  // namespace allpairs::python

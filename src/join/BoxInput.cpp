@@ -26,20 +26,64 @@ BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const 
 
 }  // namespace
 
-BoxInput::BoxInput(std::span<const std::filesystem::path> first, std::span<const std::filesystem::path> second)
+SetValues::SetValues(const scene::BoxValueFiles& files, std::uint64_t boxes) {
+  if (!files.margins.empty()) m_marginFiles.emplace(files.margins, scene::BoxValue::Margin, boxes);
+  if (!files.groups.empty()) m_groupFiles.emplace(files.groups, scene::BoxValue::Group, boxes);
+  if (!files.categories.empty()) m_categoryFiles.emplace(files.categories, scene::BoxValue::Category, boxes);
+  if (!files.masks.empty()) m_maskFiles.emplace(files.masks, scene::BoxValue::Mask, boxes);
+}
+
+void SetValues::addTo(RecordType& type) const noexcept {
+  type.hasMargins = type.hasMargins || m_marginFiles;
+  type.hasGroups = type.hasGroups || m_groupFiles;
+  type.hasCategories = type.hasCategories || m_categoryFiles;
+  type.hasMasks = type.hasMasks || m_maskFiles;
+}
+
+void SetValues::read(std::uint64_t begin, std::size_t count) {
+  const auto readFrom = [begin, count](std::optional<scene::BoxValues>& files, auto& values) {
+    if (!files) return;
+    values.resize(count);
+    files->read(begin, values);
+  };
+  readFrom(m_marginFiles, m_margins);
+  readFrom(m_groupFiles, m_groups);
+  readFrom(m_categoryFiles, m_categories);
+  readFrom(m_maskFiles, m_masks);
+}
+
+void SetValues::readMargins(std::uint64_t begin, std::size_t count) {
+  m_margins.resize(count);
+  m_marginFiles->read(begin, m_margins);
+}
+
+BoxInput::BoxInput(std::span<const std::filesystem::path> first, const JoinOptions& options)
     : m_paths(first.begin(), first.end()), m_firstFiles(first.size()) {
-  m_paths.insert(m_paths.end(), second.begin(), second.end());
+  m_paths.insert(m_paths.end(), options.second.begin(), options.second.end());
   for (std::size_t k = 0; k < m_paths.size(); ++k) {
     const scene::BoxRows file(m_paths[k]);
     m_sizes.push_back(file.size());
     m_setSizes[setOf(k)] += file.size();
-    m_isFloat64 = m_isFloat64 || file.isFloat64();
+    m_type.isFloat64 = m_type.isFloat64 || file.isFloat64();
   }
+  for (std::size_t set = 0; set < sets(); ++set) takeValues(set, set == 0 ? options.values : options.secondValues);
+}
+
+void BoxInput::takeValues(std::size_t set, const scene::BoxValueFiles& files) {
+  m_values[set] = SetValues(files, m_setSizes[set]);
+  m_values[set].addTo(m_type);
+  const auto note = [&](const std::vector<std::filesystem::path>& paths, scene::BoxValue kind) {
+    for (const auto& path : paths) m_valuePaths.push_back({4 * set + static_cast<std::uint64_t>(kind), path});
+  };
+  note(files.margins, scene::BoxValue::Margin);
+  note(files.groups, scene::BoxValue::Group);
+  note(files.categories, scene::BoxValue::Category);
+  note(files.masks, scene::BoxValue::Mask);
 }
 
 scene::BoxRows BoxInput::open(std::size_t file) const {
   scene::BoxRows rows(m_paths[file]);
-  if (rows.size() != m_sizes[file] || (rows.isFloat64() && !m_isFloat64)) {
+  if (rows.size() != m_sizes[file] || (rows.isFloat64() && !m_type.isFloat64)) {
     throw FileError(m_paths[file], "changed while it was read");
   }
   return rows;
@@ -48,11 +92,25 @@ scene::BoxRows BoxInput::open(std::size_t file) const {
 void BoxInput::forEachBlock(Visitor visit) {
   std::vector<float> float32;
   std::vector<double> float64;
-  if (m_isFloat64) {
+  if (m_type.isFloat64) {
     readBlocks(float64, visit);
   } else {
     readBlocks(float32, visit);
   }
+}
+
+/// As many boxes as there is room for in `rows`.
+template <class Number>
+BoxBlock BoxInput::readBlock(scene::BoxRows& file, const Place& place, std::vector<Number>& rows) {
+  file.read(place.begin, std::span(rows));
+  const std::uint64_t begin = place.before + place.begin;
+  BoxBlock block{place.set, begin, (place.set == 0 ? 0 : m_setSizes[0]) + begin,
+                 viewOf(file, place.begin, std::span<const Number>(rows))};
+  SetValues& values = m_values[place.set];
+  values.read(begin, block.boxes.size());
+  if (values.hasMargins()) block.boxes.setMargins(values.margins());
+  block.bits = values.bits();
+  return block;
 }
 
 template <class Number>
@@ -63,32 +121,39 @@ void BoxInput::readBlocks(std::vector<Number>& rows, Visitor visit) {
     const std::size_t set = setOf(k);
     for (std::uint64_t begin = 0; begin < file.size(); begin += kBlock) {
       rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, file.size() - begin)));
-      file.read(begin, std::span(rows));
-      visit({set, read[set] + begin, read[0] + read[1] + begin, viewOf(file, begin, std::span<const Number>(rows))});
+      visit(readBlock(file, {set, read[set], begin}, rows));
     }
     read[set] += file.size();
   }
 }
 
-std::vector<Box> BoxInput::sample(std::size_t count) {
-  return m_isFloat64 ? sampleAs<double>(count) : sampleAs<float>(count);
+BoxSample BoxInput::sample(std::size_t count) {
+  return m_type.isFloat64 ? sampleAs<double>(count) : sampleAs<float>(count);
 }
 
 template <class Number>
-std::vector<Box> BoxInput::sampleAs(std::size_t count) {
-  std::vector<Box> boxes;
+BoxSample BoxInput::sampleAs(std::size_t count) {
+  BoxSample sample{.type = {.hasMargins = m_type.hasMargins}};
   std::vector<Number> rows;
+  std::array<std::uint64_t, 2> read{};
   const std::uint64_t step = size() <= count ? kNeighbors : size() / std::max<std::size_t>(count / kNeighbors, 1);
   for (std::size_t k = 0; k < m_paths.size(); ++k) {
     scene::BoxRows file = open(k);
+    const std::size_t set = setOf(k);
     for (std::uint64_t begin = 0; begin < file.size(); begin += step) {
       rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kNeighbors, file.size() - begin)));
-      file.read(begin, std::span(rows));
-      const BoxView view = viewOf(file, begin, std::span<const Number>(rows));
-      for (std::size_t i = 0; i < view.size(); ++i) boxes.push_back(view[i]);
+      const BoxBlock block = readBlock(file, {set, read[set], begin}, rows);
+      for (std::size_t i = 0; i < block.boxes.size(); ++i) sample.add(block, i);
     }
+    read[set] += file.size();
   }
-  return boxes;
+  return sample;
+}
+
+std::span<const double> BoxInput::margins(std::size_t set, std::uint64_t begin) {
+  const std::uint64_t count = std::min<std::uint64_t>(kBlock, m_setSizes[set] - begin);
+  m_values[set].readMargins(begin, static_cast<std::size_t>(count));
+  return m_values[set].margins();
 }
 
 }  // namespace allpairs::join

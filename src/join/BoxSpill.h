@@ -4,37 +4,60 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "BoxBlock.h"
 #include "Checksum.h"
+#include "RecordType.h"
 #include "WorkFile.h"
 #include "allpairs/BoxView.h"
+#include "allpairs/Filter.h"
 
 namespace allpairs::join {
 
-/// A box on disk: its number in 64 bits, and six numbers.
-struct RecordType {
-  bool isFloat64 = false;
-
-  [[nodiscard]] std::size_t boundsSize() const noexcept { return 6 * (isFloat64 ? sizeof(double) : sizeof(float)); }
-  [[nodiscard]] std::size_t size() const noexcept { return sizeof(std::uint64_t) + boundsSize(); }
-  [[nodiscard]] std::size_t words() const noexcept { return size() / sizeof(std::uint64_t); }
-};
-
-/// Some records, in memory that somebody else owns.
+/// Some records, in memory that a RecordRoom owns.
 class Records {
  public:
-  Records(RecordType type, std::span<std::uint64_t> words) : m_type(type), m_words(words) {}
-
   [[nodiscard]] std::size_t size() const noexcept { return m_words.size() / m_type.words(); }
   [[nodiscard]] BoxView boxes() const;
+  [[nodiscard]] FilterBits bits() const;
   [[nodiscard]] std::uint64_t id(std::size_t i) const noexcept { return m_words[i * m_type.words()]; }
   [[nodiscard]] std::span<std::uint64_t> words() const noexcept { return m_words; }
 
+  /// Brings together what the search reads of the records beside bounds.
+  void unpack() const;
+
+ private:
+  friend class RecordRoom;
+
+  template <class Number>
+  [[nodiscard]] BoxView viewAs() const;
+
+  RecordType m_type{};
+  std::span<std::uint64_t> m_words{};
+  std::span<double> m_margins{};  ///< These are empty where records have none.
+  std::span<std::uint32_t> m_groups{};
+  std::span<std::uint32_t> m_categories{};
+  std::span<std::uint32_t> m_masks{};
+};
+
+/// Memory for records. Pages that are not written to are no memory.
+class RecordRoom {
+ public:
+  RecordRoom(RecordType type, std::size_t records);
+
+  /// The records [begin, begin + count) of it.
+  [[nodiscard]] Records at(std::size_t begin, std::size_t count) const;
+
  private:
   RecordType m_type;
-  std::span<std::uint64_t> m_words;
+  std::unique_ptr<std::uint64_t[]> m_words;
+  std::unique_ptr<double[]> m_margins;
+  std::unique_ptr<std::uint32_t[]> m_groups;
+  std::unique_ptr<std::uint32_t[]> m_categories;
+  std::unique_ptr<std::uint32_t[]> m_masks;
 };
 
 /// Where the boxes of one cell lie in the file.
@@ -54,8 +77,8 @@ class BoxSpill {
   /// A file that is complete.
   BoxSpill(const std::filesystem::path& path, RecordType type, std::vector<Extent> extents);
 
-  /// Adds box i of a block, whose number is `id`, to a cell.
-  void add(std::size_t cell, std::uint64_t id, const BoxView& block, std::size_t i);
+  /// Adds box i of a block to a cell.
+  void add(std::size_t cell, const BoxBlock& block, std::size_t i);
 
   /// Writes what is left; nothing is added after this.
   void finish();
@@ -77,6 +100,7 @@ class BoxSpill {
   };
 
   void flush(std::size_t cell);
+  void writeValues(std::byte* target, const BoxBlock& block, std::size_t i) const;
   [[noreturn]] void failForCount() const;
   [[nodiscard]] std::uint64_t positionOf(std::size_t cell) const { return m_extents[cell].begin * m_type.size(); }
 

@@ -16,12 +16,27 @@ CellJoin::CellJoin(const BoxSpill& spill, const partition::Partition& cells, std
     for (std::size_t set = 0; set < m_sets; ++set) boxes += countOf(partOf(cells, set, task)) + countOf(wide(set));
     needed = std::max(needed, boxes);
   }
-  m_capacity = static_cast<std::size_t>(std::min<std::uint64_t>(needed, m_most));
-  m_words = std::make_unique_for_overwrite<std::uint64_t[]>(m_capacity * m_type.words());
+  m_room.emplace(m_type, static_cast<std::size_t>(std::min<std::uint64_t>(needed, m_most)));
 }
 
-Records CellJoin::room(std::size_t begin, std::uint64_t count) {
-  return {m_type, {m_words.get() + begin * m_type.words(), static_cast<std::size_t>(count) * m_type.words()}};
+/// Pairs of a box of the first records and one of the second.
+void CellJoin::stream(const Records& first, const Records& second, const partition::Cell& cell, Receiver receive) {
+  if (m_type.labels() != 0) m_search.setFilter({.first = first.bits(), .second = second.bits()});
+  m_search.stream(first.boxes(), second.boxes(), cell,
+                  [&](std::span<const Pair> pairs) { receive(pairs, first, second); });
+}
+
+/// Those of them whose first box has the lower number.
+void CellJoin::streamUpwards(const Records& first, const Records& second, const partition::Cell& cell,
+                             Receiver receive) {
+  const auto keep = [&](std::span<const Pair> pairs, const Records&, const Records&) {
+    m_kept.clear();
+    for (const Pair pair : pairs) {
+      if (first.id(pair.first) < second.id(pair.second)) m_kept.push_back(pair);
+    }
+    if (!m_kept.empty()) receive(m_kept, first, second);
+  };
+  stream(first, second, cell, keep);
 }
 
 void CellJoin::search(std::size_t task, Receiver receive) {
@@ -45,12 +60,12 @@ void CellJoin::searchWithin(std::size_t part, const partition::Cell& cell, Recei
   for (std::uint64_t begin = 0; begin < count; begin += step) {
     const Records own = room(0, std::min(step, count - begin));
     m_spill.read(part, begin, own);
+    if (m_type.labels() != 0) m_search.setFilter({.first = own.bits()});
     m_search.stream(own.boxes(), cell, [&](std::span<const Pair> pairs) { receive(pairs, own, own); });
     for (std::uint64_t next = begin + step; next < count; next += step) {
       const Records other = room(own.size(), std::min(step, count - next));
       m_spill.read(part, next, other);
-      m_search.stream(own.boxes(), other.boxes(), cell,
-                      [&](std::span<const Pair> pairs) { receive(pairs, own, other); });
+      stream(own, other, cell, receive);
     }
   }
 }
@@ -74,8 +89,12 @@ void CellJoin::searchWithPart(const Records& own, std::size_t part, const partit
   for (std::uint64_t begin = 0; begin < count; begin += step) {
     const Records others = room(own.size(), std::min(step, count - begin));
     m_spill.read(part, begin, others);
-    m_search.stream(own.boxes(), others.boxes(), cell,
-                    [&](std::span<const Pair> pairs) { receive(pairs, own, others); });
+    if (m_sets == 1 && m_type.hasMargins) {  // margins are added in the order of the numbers
+      streamUpwards(own, others, cell, receive);
+      streamUpwards(others, own, cell, receive);
+    } else {
+      stream(own, others, cell, receive);
+    }
   }
 }
 

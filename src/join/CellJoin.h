@@ -3,8 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "BoxSpill.h"
 #include "Divider.h"
@@ -42,7 +43,12 @@ class CellJoin {
   void searchWithPart(const Records& own, std::size_t part, const partition::Cell& cell, Receiver receive);
   [[nodiscard]] std::uint64_t countOf(std::size_t part) const { return m_spill.extents()[part].count; }
   [[nodiscard]] std::size_t wide(std::size_t set) const { return partOf(m_cells, set, m_cells.size()); }
-  [[nodiscard]] Records room(std::size_t begin, std::uint64_t count);
+  [[nodiscard]] Records room(std::size_t begin, std::uint64_t count) const {
+    return m_room->at(begin, static_cast<std::size_t>(count));
+  }
+
+  void stream(const Records& first, const Records& second, const partition::Cell& cell, Receiver receive);
+  void streamUpwards(const Records& first, const Records& second, const partition::Cell& cell, Receiver receive);
 
   const BoxSpill& m_spill;
   const partition::Partition& m_cells;
@@ -50,8 +56,8 @@ class CellJoin {
   std::size_t m_most;
   std::size_t m_sets = 1;
   partition::CellSearch m_search;
-  std::size_t m_capacity = 0;
-  std::unique_ptr<std::uint64_t[]> m_words;
+  std::optional<RecordRoom> m_room;
+  std::vector<Pair> m_kept;
 };
 
 }  // namespace allpairs::join

@@ -54,7 +54,9 @@ DiskJoin::DiskJoin(BoxInput& input, const JoinOptions& options, const Budget& bu
       m_ranges(KeyRanges::of(0, input.size(0), false, kMostRanges)) {
   m_manifest.inputs = statesOf(input.paths());
   m_manifest.secondFiles = input.secondFiles();
+  m_manifest.values = statesOf(input.valuePaths());
   m_manifest.distance = options.distance;
+  m_manifest.region = options.region;
   m_manifest.isCount = isCount;
 }
 
@@ -110,10 +112,12 @@ void DiskJoin::readManifest() {
   if (!m_options.resume) {
     throw FileError(m_options.work, "has a join that did not end: resume it, or remove the folder");
   }
-  if (found->inputs != m_manifest.inputs || found->secondFiles != m_manifest.secondFiles) {
+  if (found->inputs != m_manifest.inputs || found->secondFiles != m_manifest.secondFiles ||
+      found->values != m_manifest.values) {
     throw FileError(m_options.work, "has a join of other files, or they changed");
   }
-  if (found->distance != m_manifest.distance || found->isCount != m_manifest.isCount) {
+  if (found->distance != m_manifest.distance || found->region != m_manifest.region ||
+      found->isCount != m_manifest.isCount) {
     throw FileError(m_options.work, "has a join with other options");
   }
   m_manifest = std::move(*found);
@@ -179,24 +183,34 @@ void DiskJoin::distribute() {
   requireRoom(division);
   m_cells = division.cells;
   m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
-  CellFinder finder(m_cells, m_options.distance);
+  CellFinder finder(division, m_options);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     for (std::size_t i = 0; i < block.boxes.size(); ++i) {
-      for (const std::uint32_t cell : finder.cellsOf(block.boxes[i])) {
-        m_spill->add(partOf(m_cells, block.set, cell), block.begin + i, block.boxes, i);
+      for (const std::uint32_t cell : finder.cellsOf(block, i)) {
+        m_spill->add(partOf(m_cells, block.set, cell), block, i);
       }
     }
     report("distributing", block.before + block.boxes.size(), m_input.size());
   });
   m_spill->finish();
-  const std::vector<InputState> now = statesOf(m_input.paths());
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i] != m_manifest.inputs[i]) throw FileError(m_input.paths()[i], "changed while it was read");
-  }
+  requireUnchanged();
+  m_manifest.outside = m_input.size() - division.kept[0] - division.kept[1];
   m_manifest.cuts.assign(m_cells.cuts().begin(), m_cells.cuts().end());
   m_manifest.extents = m_spill->extents();
   m_manifest.write(file("manifest"));
+}
+
+void DiskJoin::requireUnchanged() const {
+  constexpr const char* kProblem = "changed while it was read";
+  const std::vector<InputState> inputs = statesOf(m_input.paths());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i] != m_manifest.inputs[i]) throw FileError(m_input.paths()[i], kProblem);
+  }
+  const std::vector<ValueState> values = statesOf(m_input.valuePaths());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != m_manifest.values[i]) throw FileError(m_input.valuePaths()[i].path, kProblem);
+  }
 }
 
 template <class Id>
@@ -294,7 +308,8 @@ JoinSummary DiskJoin::summary() const {
   std::uint64_t records = 0;
   for (const Extent& extent : m_manifest.extents) records += extent.count;
   for (const auto& [number, result] : m_manifest.cells) summary.pairs += result.pairs;
-  summary.copies = records > summary.boxes ? records - summary.boxes : 0;
+  const std::uint64_t kept = summary.boxes - m_manifest.outside;
+  summary.copies = records > kept ? records - kept : 0;
   for (std::size_t set = 0; set < m_input.sets(); ++set) {
     summary.wideBoxes += m_manifest.extents[partOf(m_cells, set, m_cells.size())].count;
   }

@@ -35,6 +35,7 @@ class DiskJoin {
   void clearFolder();
   void requireRoom(const Division& division) const;
   void distribute();
+  void requireUnchanged() const;
   void dropDamaged();
   [[nodiscard]] bool hasAllBoxes();
   void dropDamagedCells();
@@ -48,7 +49,7 @@ class DiskJoin {
   template <class Id>
   void finish(const ResultSink* sink);
   [[nodiscard]] JoinSummary summary() const;
-  [[nodiscard]] RecordType recordType() const { return {m_input.isFloat64()}; }
+  [[nodiscard]] const RecordType& recordType() const { return m_input.recordType(); }
   [[nodiscard]] std::size_t pairSize() const { return pairSizeFor(m_input.largestSize()); }
   [[nodiscard]] std::size_t tasks() const { return m_cells.size() + 1; }  ///< Of searching: cells, and the wide boxes.
   [[nodiscard]] std::filesystem::path file(const char* name) const { return m_options.work / name; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -35,7 +36,8 @@ std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
 
 std::uint64_t Division::records() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
 
-std::uint64_t Division::copies(std::uint64_t boxes) const {
+std::uint64_t Division::copies() const {
+  const std::uint64_t boxes = kept[0] + kept[1];
   return records() > boxes ? records() - boxes : 0;  // empty boxes go nowhere
 }
 
@@ -45,11 +47,15 @@ std::uint64_t Division::countOf(std::size_t cell) const {
   return count;
 }
 
-CellFinder::CellFinder(const partition::Partition& cells, double distance) : m_cells(cells), m_distance(distance) {}
+CellFinder::CellFinder(const Division& division, const JoinOptions& options)
+    : m_division(division), m_options(options) {}
 
-std::span<const std::uint32_t> CellFinder::cellsOf(const Box& box) {
-  m_cells.cellsOf(partition::reachOf(box, 0.0, m_distance), m_found);
-  if (m_cells.isWide(m_found.size())) m_found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
+std::span<const std::uint32_t> CellFinder::cellsOf(const BoxBlock& block, std::size_t i) {
+  if (!isKept(block, i, m_options)) return {};
+  const partition::Partition& cells = m_division.cells;
+  const double partnerMargin = m_division.partnerMargins[block.set];
+  cells.cellsOf(partition::reachOf(block.boxes[i], block.boxes.margin(i), m_options.distance, partnerMargin), m_found);
+  if (cells.isWide(m_found.size())) m_found.assign(1, static_cast<std::uint32_t>(cells.size()));
   return m_found;
 }
 
@@ -58,35 +64,74 @@ Divider::Divider(BoxInput& input, const JoinOptions& options, const Budget& budg
 
 Division Divider::divide() {
   Division division;
-  const std::size_t wanted = cellsFor(m_input.size(), m_budget);
-  const std::size_t sampleSize = std::max(kCutSample, kSamplePerCell * wanted);
-  const std::vector<Box> sample = m_input.sample(std::min(sampleSize, m_budget.sampleBoxes));
-  division.cells = partition::Partition(sample, wanted, m_options.distance);
+  measureMargins(division);
+  const std::size_t most = cellsFor(m_input.size(), m_budget);
+  const std::size_t sampleSize = m_options.region ? m_budget.sampleBoxes : std::max(kCutSample, kSamplePerCell * most);
+  BoxSample sample = m_input.sample(std::min(sampleSize, m_budget.sampleBoxes));
+  std::uint64_t boxes = m_input.size();
+  if (m_options.region) {
+    const std::size_t all = std::max<std::size_t>(sample.boxes.size(), 1);
+    sample = keptOf(sample);
+    boxes = static_cast<std::uint64_t>(static_cast<double>(boxes) * static_cast<double>(sample.boxes.size()) /
+                                       static_cast<double>(all));
+  }
+  division.cells = partition::Partition(sample.view(), cellsFor(boxes, m_budget), m_options.distance);
   count(division);
   for (int round = 0; round < kRounds && cutFullCells(division, sample); ++round) count(division);
-  division.pairs = estimatePairs();
+  division.pairs = estimatePairs(division);
   return division;
+}
+
+/// Of no box 0, which is asked for where the other set has some.
+double Divider::greatestMargin(std::size_t set) const {
+  if (!m_input.hasMargins(set) || m_input.size(set) == 0) return 0.0;
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (std::uint64_t begin = 0; begin < m_input.size(set);) {
+    checkStop(m_options.stop);
+    const std::span<const double> margins = m_input.margins(set, begin);
+    greatest = std::max(greatest, *std::max_element(margins.begin(), margins.end()));
+    begin += margins.size();
+  }
+  return greatest;
+}
+
+void Divider::measureMargins(Division& division) const {
+  division.partnerMargins = {greatestMargin(0), greatestMargin(1)};
+  if (m_input.sets() == 2) std::swap(division.partnerMargins[0], division.partnerMargins[1]);
+}
+
+BoxSample Divider::keptOf(const BoxSample& all) const {
+  BoxSample kept{.type = all.type};
+  const BoxBlock block = all.block();
+  for (std::size_t i = 0; i < block.boxes.size(); ++i) {
+    if (isKept(block, i, m_options)) kept.add(block, i);
+  }
+  return kept;
 }
 
 void Divider::count(Division& division) {
   division.counts.assign(m_input.sets() * (division.cells.size() + 1), 0);
   const std::uint64_t most = std::max<std::uint64_t>(m_budget.sampleBoxes / m_input.sets(), 1);
-  for (std::vector<Box>& sample : m_evenSamples) sample.clear();
-  CellFinder finder(division.cells, m_options.distance);
+  division.kept = {};
+  for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
+  CellFinder finder(division, m_options);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     const std::uint64_t step = m_input.size(block.set) / most + 1;
     for (std::size_t i = 0; i < block.boxes.size(); ++i) {
-      const Box box = block.boxes[i];
-      for (const std::uint32_t cell : finder.cellsOf(box)) ++division.counts[partOf(division.cells, block.set, cell)];
-      if ((block.begin + i) % step == 0) m_evenSamples[block.set].push_back(box);
+      if (!isKept(block, i, m_options)) continue;
+      ++division.kept[block.set];
+      for (const std::uint32_t cell : finder.cellsOf(block, i)) {
+        ++division.counts[partOf(division.cells, block.set, cell)];
+      }
+      if ((block.begin + i) % step == 0) m_evenSamples[block.set].add(block, i);
     }
     if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
 }
 
 /// Returns whether anything was cut.
-bool Divider::cutFullCells(Division& division, const std::vector<Box>& sample) const {
+bool Divider::cutFullCells(Division& division, const BoxSample& sample) const {
   bool isCut = false;
   std::vector<std::pair<std::size_t, std::uint64_t>> full;
   for (std::size_t cell = 0; cell < division.cells.size(); ++cell) {
@@ -94,35 +139,39 @@ bool Divider::cutFullCells(Division& division, const std::vector<Box>& sample) c
     if (boxes > m_budget.cellBoxes) full.emplace_back(cell, boxes);
   }
   for (const auto& [cell, boxes] : full) {
-    isCut |= division.cells.cutAgain(cell, sample, 2 * cellsFor(boxes, m_budget), m_options.distance);
+    isCut |= division.cells.cutAgain(cell, sample.view(), 2 * cellsFor(boxes, m_budget), m_options.distance);
   }
   return isCut;
 }
 
 /// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long.
-std::uint64_t Divider::estimatePairs() const {
+std::uint64_t Divider::estimatePairs(const Division& division) const {
   std::uint64_t pairs = 0;
-  std::array<std::vector<Box>, 2> parts;
+  std::array<BoxSample, 2> parts;
   for (std::size_t step = 256; step > 0 && pairs < kEnoughPairs; step /= 4) {
     for (std::size_t set = 0; set < m_input.sets(); ++set) {
-      parts[set].clear();
-      for (std::size_t i = 0; i < m_evenSamples[set].size(); i += step) parts[set].push_back(m_evenSamples[set][i]);
+      parts[set] = {.type = m_input.recordType()};
+      const BoxBlock block = m_evenSamples[set].block();
+      for (std::size_t i = 0; i < block.boxes.size(); i += step) parts[set].add(block, i);
     }
     pairs = pairsOf(std::span(parts).first(m_input.sets()));
   }
   const bool isOneSet = m_input.sets() == 1;
   const auto shareOf = [&](std::size_t set, std::size_t less) {  // of how many boxes one of the sample stands for
-    const auto all = static_cast<double>(m_input.size(set) - less);
-    return all / static_cast<double>(parts[set].size() - less);
+    const auto all = static_cast<double>(division.kept[set] - less);
+    return all / static_cast<double>(parts[set].boxes.size() - less);
   };
   if (pairs == 0) return 0;
   const double share = shareOf(0, 0) * (isOneSet ? shareOf(0, 1) : shareOf(1, 0));
   return static_cast<std::uint64_t>(static_cast<double>(pairs) * share);
 }
 
-std::uint64_t Divider::pairsOf(std::span<const std::vector<Box>> parts) const {
-  const OverlapOptions options{.distance = m_options.distance, .stop = m_options.stop};
-  return parts.size() == 1 ? countOverlaps(parts[0], options) : countOverlaps(parts[0], parts[1], options);
+std::uint64_t Divider::pairsOf(std::span<const BoxSample> parts) const {
+  OverlapOptions options{.distance = m_options.distance, .stop = m_options.stop};
+  options.filter.first = parts[0].bits();
+  if (parts.size() == 1) return countOverlaps(parts[0].view(), options);
+  options.filter.second = parts[1].bits();
+  return countOverlaps(parts[0].view(), parts[1].view(), options);
 }
 
 }  // namespace allpairs::join

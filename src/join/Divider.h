@@ -24,12 +24,14 @@ namespace allpairs::join {
 /// How space is cut for one or two sets of boxes, and how many go where.
 struct Division {
   partition::Partition cells{};
-  std::vector<std::uint64_t> counts{};  ///< Of each part.
-  std::uint64_t pairs = 0;              ///< Estimated.
+  std::vector<std::uint64_t> counts{};     ///< Of each part.
+  std::array<double, 2> partnerMargins{};  ///< The greatest margin of what a box of each set may be paired with.
+  std::array<std::uint64_t, 2> kept{};     ///< Boxes of each set that the region does not leave out.
+  std::uint64_t pairs = 0;                 ///< Estimated.
 
   /// Boxes and their copies: what is written.
   [[nodiscard]] std::uint64_t records() const;
-  [[nodiscard]] std::uint64_t copies(std::uint64_t boxes) const;
+  [[nodiscard]] std::uint64_t copies() const;
 
   /// The boxes of all sets in a cell, or those that are wide.
   [[nodiscard]] std::uint64_t countOf(std::size_t cell) const;
@@ -46,28 +48,37 @@ class Divider {
   [[nodiscard]] Division divide();
 
  private:
+  [[nodiscard]] double greatestMargin(std::size_t set) const;
+  void measureMargins(Division& division) const;
   void count(Division& division);
-  [[nodiscard]] bool cutFullCells(Division& division, const std::vector<Box>& sample) const;
-  [[nodiscard]] std::uint64_t estimatePairs() const;
-  [[nodiscard]] std::uint64_t pairsOf(std::span<const std::vector<Box>> parts) const;
+  [[nodiscard]] BoxSample keptOf(const BoxSample& all) const;
+  [[nodiscard]] bool cutFullCells(Division& division, const BoxSample& sample) const;
+  [[nodiscard]] std::uint64_t estimatePairs(const Division& division) const;
+  [[nodiscard]] std::uint64_t pairsOf(std::span<const BoxSample> parts) const;
 
   BoxInput& m_input;
   const JoinOptions& m_options;
   const Budget& m_budget;
-  std::array<std::vector<Box>, 2> m_evenSamples;  ///< Boxes at equal distances in each set, taken while counting.
+  std::array<BoxSample, 2> m_evenSamples;  ///< Boxes at equal distances in each set, taken while counting.
 };
+
+/// Whether the region does not leave a box out.
+[[nodiscard]] inline bool isKept(const BoxBlock& block, std::size_t i, const JoinOptions& options) {
+  return !options.region || overlap(block.boxes[i], *options.region, options.distance + block.boxes.margin(i));
+}
 
 /// Finds the cells that a box goes to.
 class CellFinder {
  public:
-  CellFinder(const partition::Partition& cells, double distance);
+  CellFinder(const Division& division, const JoinOptions& options);
 
-  /// The numbers of the cells; of a box in many, that of the wide ones alone, which is the number after the last.
-  [[nodiscard]] std::span<const std::uint32_t> cellsOf(const Box& box);
+  /// The numbers of the cells; of a box in many, that of the wide ones alone, which is the number after the last. None
+  /// of a box outside of the region.
+  [[nodiscard]] std::span<const std::uint32_t> cellsOf(const BoxBlock& block, std::size_t i);
 
  private:
-  const partition::Partition& m_cells;
-  double m_distance;
+  const Division& m_division;
+  const JoinOptions& m_options;
   std::vector<std::uint32_t> m_found;
 };
 

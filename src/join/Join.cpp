@@ -12,6 +12,7 @@
 #include "DiskJoin.h"
 #include "WorkFile.h"
 #include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadOptions.h"
 
@@ -29,8 +30,7 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
   }
   const std::size_t threads = options.executor != nullptr ? options.executor->concurrency() : 1;
   const std::uint64_t workers = std::min<std::uint64_t>(threads, 1 + (memory - kLeastMemory) / kMemoryPerThread);
-  const std::size_t recordSize = RecordType{input.isFloat64()}.size();
-  return Budget::of(memory, static_cast<std::size_t>(workers), recordSize, pairSizeFor(input.largestSize()));
+  return Budget::of(memory, static_cast<std::size_t>(workers), input.recordType(), pairSizeFor(input.largestSize()));
 }
 
 /// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it is
@@ -68,17 +68,32 @@ class PartFile {
   std::uint64_t m_position = 0;
 };
 
+bool hasAny(const scene::BoxValueFiles& files) {
+  return !files.margins.empty() || !files.groups.empty() || !files.categories.empty() || !files.masks.empty();
+}
+
 void checkOptions(std::span<const fs::path> inputs, const JoinOptions& options) {
   if (inputs.empty()) throw InvalidArgument("a join of no files");
   if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
     throw InvalidArgument("the distance is not a number that can be added");
   }
+  if (options.region) (void)countOverlaps(BoxView(), {.region = options.region});  // refuses one that makes no sense
+  if (options.second.empty() && hasAny(options.secondValues)) {
+    throw InvalidArgument("margins, groups, categories or masks of a second set, and one set");
+  }
+}
+
+/// What a box is where it travels: categories and masks share a word.
+std::uint64_t sentSizeOf(const RecordType& type) {
+  const bool hasBits = type.hasCategories || type.hasMasks;
+  return sizeof(std::uint64_t) * (1 + (type.hasMargins ? 1U : 0U) + (hasBits ? 1U : 0U) + (type.hasGroups ? 1U : 0U)) +
+         type.boundsSize();
 }
 
 JoinSummary run(std::span<const fs::path> inputs, const ResultSink* sink, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (options.work.empty()) throw InvalidArgument("a join needs a folder to work in");
-  BoxInput input(inputs, options.second);
+  BoxInput input(inputs, options);
   const Budget budget = budgetOf(options, input);
   return DiskJoin(input, options, budget, sink == nullptr).run(sink);
 }
@@ -104,15 +119,15 @@ JoinSummary countFiles(Span<const fs::path> inputs, const JoinOptions& options) 
 
 JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
   checkOptions(inputs, options);
-  BoxInput input(inputs, options.second);
+  BoxInput input(inputs, options);
   const Budget budget = budgetOf(options, input);
   const Division division = Divider(input, options, budget).divide();
   return {.boxes = input.size(),
           .pairs = division.pairs,
           .cells = division.cells.size(),
-          .copies = division.copies(input.size()),
+          .copies = division.copies(),
           .wideBoxes = division.wideBoxes(),
-          .boxBytes = division.records() * RecordType{input.isFloat64()}.size(),
+          .boxBytes = division.records() * input.recordType().size(),
           .pairBytes = division.pairs * pairSizeFor(input.largestSize()),
           .secondBoxes = input.size(1)};
 }
@@ -120,7 +135,7 @@ JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
 RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
-  BoxInput input(inputs, options.second);
+  BoxInput input(inputs, options);
   Budget budget = budgetOf(options, input);
   const std::uint64_t cells =
       ranks == 1 ? 1
@@ -129,13 +144,13 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
   budget.cellBoxes =
       static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);  // Divider fills cells to seven tenths
   const Division division = Divider(input, options, budget).divide();
-  const std::uint64_t recordSize = RecordType{input.isFloat64()}.size();
+  const std::uint64_t recordSize = sentSizeOf(input.recordType());
   const std::uint64_t wide = division.wideBoxes();
   const auto leaving = [ranks](std::uint64_t bytes) { return bytes / ranks * (ranks - 1); };  // for another rank
   return {.boxes = input.size(),
           .pairs = division.pairs,
           .cells = division.cells.size(),
-          .copies = division.copies(input.size()),
+          .copies = division.copies(),
           .wideBoxes = wide,
           .boxBytes = leaving((division.records() - wide) * recordSize) + (ranks - 1) * wide * recordSize,
           .pairBytes = leaving(division.pairs * pairSizeFor(input.largestSize()))};

@@ -36,12 +36,20 @@ void addLine(std::string& text, std::string_view word, Numbers... numbers) {
   text += '\n';
 }
 
+std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value); }
+
 std::string textOf(const Manifest& manifest) {
   std::string text(kFirstLine);
   text += '\n';
   for (const InputState& input : manifest.inputs) addLine(text, "input", input.path, input.bytes, input.changed);
   addLine(text, "options", std::bit_cast<std::uint64_t>(manifest.distance), manifest.isCount);
   if (manifest.secondFiles != 0) addLine(text, "second", manifest.secondFiles);
+  for (const auto& [kind, file] : manifest.values) addLine(text, "value", kind, file.path, file.bytes, file.changed);
+  if (manifest.region) {
+    const auto [x0, y0, z0] = manifest.region->min;
+    const auto [x1, y1, z1] = manifest.region->max;
+    addLine(text, "region", bitsOf(x0), bitsOf(y0), bitsOf(z0), bitsOf(x1), bitsOf(y1), bitsOf(z1), manifest.outside);
+  }
   for (const partition::Cut& cut : manifest.cuts) {
     addLine(text, "cut", std::bit_cast<std::uint64_t>(cut.at), cut.axis, cut.low, cut.high);
   }
@@ -95,6 +103,13 @@ void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
     manifest.isCount = line.number() != 0;
   } else if (line.word() == "second") {
     manifest.secondFiles = static_cast<std::size_t>(line.number());
+  } else if (line.word() == "value") {
+    manifest.values.push_back(
+        {line.number(), {line.number(), line.number(), static_cast<std::int64_t>(line.number())}});
+  } else if (line.word() == "region") {
+    const auto bound = [&line] { return std::bit_cast<double>(line.number()); };
+    manifest.region = Box{{bound(), bound(), bound()}, {bound(), bound(), bound()}};
+    manifest.outside = line.number();
   } else if (line.word() == "cut") {
     manifest.cuts.push_back({std::bit_cast<double>(line.number()), static_cast<std::uint32_t>(line.number()),
                              static_cast<std::int32_t>(line.number()), static_cast<std::int32_t>(line.number())});
@@ -108,6 +123,11 @@ void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
   } else {
     throw InvalidArgument("a line of another kind");
   }
+}
+
+InputState stateOf(const fs::path& path) {
+  return {checksumOf(fs::absolute(path).lexically_normal().string()), fs::file_size(path),
+          fs::last_write_time(path).time_since_epoch().count()};
 }
 
 Manifest manifestOf(std::string_view text) {
@@ -177,10 +197,13 @@ std::optional<Manifest> Manifest::read(const fs::path& path) {
 
 std::vector<InputState> statesOf(std::span<const fs::path> paths) {
   std::vector<InputState> states;
-  for (const fs::path& path : paths) {
-    states.push_back({checksumOf(fs::absolute(path).lexically_normal().string()), fs::file_size(path),
-                      fs::last_write_time(path).time_since_epoch().count()});
-  }
+  for (const fs::path& path : paths) states.push_back(stateOf(path));
+  return states;
+}
+
+std::vector<ValueState> statesOf(std::span<const ValuePath> paths) {
+  std::vector<ValueState> states;
+  for (const ValuePath& values : paths) states.push_back({values.kind, stateOf(values.path)});
   return states;
 }
 

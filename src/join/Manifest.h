@@ -8,8 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "BoxInput.h"
 #include "BoxSpill.h"
 #include "PairRuns.h"
+#include "allpairs/Box.h"
 #include "allpairs/partition/Partition.h"
 
 namespace allpairs::join {
@@ -23,6 +25,14 @@ struct InputState {
   friend bool operator==(const InputState&, const InputState&) = default;
 };
 
+/// A file of what boxes have, as it was then, and which that is; see ValuePath.
+struct ValueState {
+  std::uint64_t kind = 0;
+  InputState file{};
+
+  friend bool operator==(const ValueState&, const ValueState&) = default;
+};
+
 /// The pairs of a cell that was searched.
 struct CellResult {
   std::uint64_t pairs = 0;
@@ -34,7 +44,10 @@ struct Manifest {
   std::vector<InputState> inputs{};
   std::size_t secondFiles = 0;  ///< How many of them, the last ones, are the second of two sets.
   double distance = 0.0;
+  std::vector<ValueState> values{};
+  std::optional<Box> region{};
   bool isCount = false;
+  std::uint64_t outside = 0;  ///< Boxes that the region leaves out.
   std::vector<partition::Cut> cuts{};
   std::vector<Extent> extents{};              ///< Of each part of the boxes; see partOf().
   std::map<std::size_t, CellResult> cells{};  ///< Those that were searched.
@@ -54,5 +67,6 @@ struct Manifest {
 
 /// The state of inputs, to compare with that of a manifest.
 [[nodiscard]] std::vector<InputState> statesOf(std::span<const std::filesystem::path> paths);
+[[nodiscard]] std::vector<ValueState> statesOf(std::span<const ValuePath> paths);
 
 }  // namespace allpairs::join

@@ -114,6 +114,12 @@ CellSearch::~CellSearch() = default;
 CellSearch::CellSearch(CellSearch&&) noexcept = default;
 CellSearch& CellSearch::operator=(CellSearch&&) noexcept = default;
 
+void CellSearch::setFilter(Filter filter) {
+  OverlapOptions options = m_state->search.options();
+  options.filter = std::move(filter);
+  m_state->search.setOptions(std::move(options));
+}
+
 void CellSearch::stream(const BoxView& boxes, const Cell& cell, PairVisitor visitor) {
   State& state = *m_state;
   state.count = 0;

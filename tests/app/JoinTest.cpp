@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -8,6 +10,8 @@
 #include <vector>
 
 #include "Expect.h"
+#include "allpairs/BoxView.h"
+#include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
 #include "support/Npy.h"
 #include "support/Oracle.h"
@@ -83,6 +87,78 @@ TEST_F(JoinCommand, TakesASecondSet) {
   expectSuccess(plan);
   EXPECT_TRUE(plan.out.starts_with("boxes    700, ")) << plan.out;
   expectFailure(runProgram({"join", few, "--with", in("gone.npy"), "--count"}), kBadInput, "gone.npy: no such file");
+}
+
+TEST_F(JoinCommand, TakesWhatBoxesHaveAndARegion) {
+  std::vector<double> margins(400);
+  std::vector<std::uint8_t> groups(400);
+  for (std::size_t i = 0; i < 400; ++i) {
+    margins[i] = 0.01 * static_cast<double>(i % 50);
+    groups[i] = static_cast<std::uint8_t>(i % 7);
+  }
+  const std::string marginsFile = folder.write("margins.npy", npyNumbers(margins, "<f8")).string();
+  const std::string groupsFile = folder.write("groups.npy", npyNumbers(groups, "|u1")).string();
+  const Box region{{1, 1, 1}, {15, 15, 15}};
+  BoxView view(boxes);
+  view.setMargins(margins);
+  std::vector<std::uint32_t> wide(groups.begin(), groups.end());
+  const std::vector<Pair> expected = overlaps(view, {.region = region, .filter = {.first = {.groups = wide}}});
+  const ProgramRun run = runProgram({"join", few, "-o", in("pairs.npy"), "--margins", marginsFile, "--groups",
+                                     groupsFile, "--box", "1,1,1,15,15,15"});
+  expectSuccess(run);
+  EXPECT_EQ(pairsOfNpy(bytes("pairs.npy")), expected);
+  const std::vector<Pair> between = overlaps(view, view, {.filter = {.second = {.masks = wide}}});
+  const ProgramRun two = runProgram({"join", few, "--with", few, "--margins", marginsFile, "--with-margins",
+                                     marginsFile, "--with-masks", groupsFile, "--count"});
+  expectSuccess(two);
+  std::string said = two.out;
+  std::erase(said, ',');
+  EXPECT_TRUE(said.starts_with(std::to_string(between.size()) + " pairs among ")) << said;
+}
+
+TEST_F(JoinCommand, APlanCountsWhatBoxesHaveAndARegion) {
+  const std::string margins = folder.write("margins.npy", npyNumbers(std::vector<double>(400), "<f8")).string();
+  const std::string plain = runProgram({"plan", few, "--ranks", "2"}).out;
+  const std::string with = runProgram({"plan", few, "--ranks", "2", "--margins", margins, "--groups", margins}).err;
+  EXPECT_NE(with.find("margins.npy: holds numbers of type '<f8'; groups are integers"), std::string::npos) << with;
+  const ProgramRun far = runProgram({"plan", few, "--ranks", "2", "--margins", margins, "--box", "90,90,90,91,91,91"});
+  expectSuccess(far);
+  EXPECT_NE(far.out.find("pairs    about 0\n"), std::string::npos) << far.out;
+  EXPECT_EQ(plain.find("pairs    about 0\n"), std::string::npos) << plain;
+}
+
+TEST_F(JoinCommand, WhatIsWrongWithValuesIsNamed) {
+  const std::string margins = folder.write("margins.npy", npyNumbers(std::vector<double>(399), "<f8")).string();
+  expectFailure(runProgram({"join", few, "--count", "--margins", margins}), kBadInput,
+                "margins.npy: has 399 margins for 400 boxes");
+  expectFailure(runProgram({"join", few, "--count", "--masks", margins}), kBadInput,
+                "margins.npy: holds numbers of type '<f8'; masks are integers");
+  expectFailure(runProgram({"join", few, "--count", "--groups", in("gone.npy")}), kBadInput, "gone.npy: no such file");
+  expectFailure(runProgram({"join", few, "--count", "--with-groups", margins}), kWrongUsage,
+                "--with-groups requires --with");
+  expectFailure(runProgram({"join", "--count", "--margins", margins, margins, "--", few}), kWrongUsage, "BOXES");
+  expectFailure(runProgram({"join", few, "--count", "--box", "1,1,1,0,2,2"}), kWrongUsage, "--box: '1,1,1,0,2,2': ");
+  expectFailure(runProgram({"plan", few, "--box", "1,2"}), kWrongUsage, "--box: '1,2' has 2 numbers");
+  EXPECT_FALSE(fs::exists(few + ".work"));
+}
+
+TEST_F(JoinCommand, WithMarginsKilledAtAnyMomentItGoesOnToTheSameBytes) {
+  writeMany();
+  std::vector<double> margins(300'000);
+  for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 1e-6 * static_cast<double>(i % 1'000);
+  folder.write("margins.npy", npyNumbers(margins, "<f8"));
+  const std::string join =
+      "\"$0\" join many.npy -o join.npy --memory 64M --threads 1 --margins margins.npy --box 0,0,0,60,60,60";
+  const std::string enter = "cd '" + folder.path().string() + "' && ";
+  ASSERT_EQ(runScript(enter + join + " && mv join.npy whole.npy").status, 0);
+  const ProgramRun run = runScript(enter + "for delay in 0.02 0.05 0.09 0.13 0.2; do " + join +
+                                   " --resume >/dev/null 2>&1 & sleep $delay; kill -9 $! 2>/dev/null; wait $! "
+                                   "2>/dev/null; done; " +
+                                   join + " --resume");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(bytes("join.npy") == bytes("whole.npy"));
+  EXPECT_GT(bytes("whole.npy").size(), 1'000U);
+  EXPECT_FALSE(fs::exists(in("join.npy.work")));
 }
 
 TEST_F(JoinCommand, ASecondSetKilledAtAnyMomentGoesOnToTheSameBytes) {

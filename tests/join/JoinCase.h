@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,12 +80,16 @@ class JoinCase {
     join::JoinOptions options;
     options.work = folder.path() / "work";
     options.second = second;
+    options.distance = distance;
+    options.region = region;
+    options.values = values;
+    options.secondValues = secondValues;
     return options;
   }
 
   /// The result's bytes, in the budget.
   std::string run(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
-    join::BoxInput input(paths, options.second);
+    join::BoxInput input(paths, options);
     std::string bytes;
     const auto append = [&bytes](std::string_view part) { bytes += part; };
     const join::ResultSink sink(append);
@@ -93,7 +98,7 @@ class JoinCase {
   }
 
   std::uint64_t count(const join::JoinOptions& options, const join::Budget& budget = tinyBudget()) {
-    join::BoxInput input(paths, options.second);
+    join::BoxInput input(paths, options);
     summary = join::DiskJoin(input, options, budget, true).run(nullptr);
     return summary.pairs;
   }
@@ -101,6 +106,10 @@ class JoinCase {
   TempFolder folder;
   std::vector<std::filesystem::path> paths;
   std::vector<std::filesystem::path> second;
+  double distance = 0.0;
+  std::optional<Box> region{};
+  scene::BoxValueFiles values{};
+  scene::BoxValueFiles secondValues{};
   join::JoinSummary summary{};
 };
 

@@ -62,7 +62,7 @@ inline JoinCase& stoppedWhileWriting(JoinCase& with) {
   const join::ResultSink sink(failing);
   const join::JoinOptions options = with.options();
   const join::Budget budget = tinyBudget();
-  join::BoxInput input(with.paths, options.second);
+  join::BoxInput input(with.paths, options);
   EXPECT_THROW(join::DiskJoin(input, options, budget, false).run(&sink), std::runtime_error);
   return with;
 }

@@ -17,7 +17,7 @@ def of_modules():
     for name in names:
         if name in ("allpairs._core", "allpairs._files", "allpairs._mpi"):
             continue
-        needed = {"allpairs.dask": "dask", "allpairs.mpi": "mpi4py"}.get(name)
+        needed = {"allpairs._parts": "dask", "allpairs.dask": "dask", "allpairs.mpi": "mpi4py"}.get(name)
         if needed and importlib.util.find_spec(needed) is None:
             continue
         if name == "allpairs.mpi" and importlib.util.find_spec("allpairs._mpi") is None:

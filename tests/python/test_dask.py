@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import allpairs
-from conftest import corners, every_pair_between
+from conftest import corners, every_kept_pair, every_kept_pair_between, every_pair_between, what_boxes_may_have
 
 dask = pytest.importorskip("dask")
 import dask.array  # noqa: E402
@@ -83,6 +83,93 @@ def test_two_sets_of_files_and_sets_without_boxes(tmp_path):
         assert len(allpairs.dask.overlaps(tmp_path / first, second=tmp_path / second).compute()) == 0
 
 
+REGION = [[1, 1, 0], [8, 12, 9]]
+
+
+def odd_boxes(n, seed, dtype):
+    """Boxes of many sizes, some of them empty or without end, and in float64 far from the origin."""
+    rng = np.random.default_rng(seed)
+    lower = rng.random((n, 3)).astype(dtype) * 12
+    boxes = np.hstack([lower, lower + rng.random((n, 3)).astype(dtype) ** 4 * 3])
+    boxes[::17, 4] = boxes[::17, 1] - 1
+    boxes[5::97, 3:] = np.inf
+    boxes[7::97, :3] = -np.inf
+    return boxes if dtype == np.float32 else boxes / 3 + 1e9
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("seed", range(6))
+def test_all_that_boxes_may_have_is_as_in_one_search(tmp_path, seed, dtype):
+    rng = np.random.default_rng(seed)
+    n, chunk, cells = rng.integers(200, 900), rng.integers(50, 400), rng.integers(1, 40)
+    boxes, own = odd_boxes(n, seed, dtype), what_boxes_may_have(n, seed)
+    region = None if seed % 2 else REGION if dtype == np.float32 else np.array(REGION) / 3 + 1e9
+    options = {"distance": [0.0, 0.25, -0.125][seed % 3], "region": region}
+    expected = every_kept_pair(boxes, **options, **own)
+    assert allpairs.overlaps(boxes, **options, **own).tobytes() == expected.tobytes() and len(expected) > 50
+    for name, values in own.items():  # cut elsewhere than the boxes
+        np.save(tmp_path / f"{name}0.npy", values[: n // 3])
+        np.save(tmp_path / f"{name}1.npy", values[n // 3 :])
+    as_files = {name: [tmp_path / f"{name}0.npy", tmp_path / f"{name}1.npy"] for name in own}
+    as_dask = {name: dask.array.from_array(values, chunks=77) for name, values in own.items()}
+    array = dask.array.from_array(boxes, chunks=(chunk, 6))
+    for given in (own, as_files, as_dask):
+        found = allpairs.dask.overlaps(array, cells=cells, **options, **given)
+        assert found.compute(scheduler="threads").tobytes() == expected.tobytes()
+    assert allpairs.dask.count(array, cells=cells, **options, **as_files) == len(expected)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_all_that_boxes_of_two_sets_may_have_is_as_in_one_search(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    sizes = rng.integers(100, 500, 2)
+    dtype = np.float64 if seed % 2 else np.float32
+    first, second = (odd_boxes(n, seed + 50 * i, dtype) for i, n in enumerate(sizes))
+    owns = [what_boxes_may_have(n, seed + 50 * i) for i, n in enumerate(sizes)]
+    own = {name: (owns[0][name], owns[1][name]) for name in owns[0]}
+    options = {"distance": 0.125, "region": None if seed % 2 else REGION}
+    expected = every_kept_pair_between(first, second, **options, **own)
+    assert allpairs.overlaps_between(first, second, **options, **own).tobytes() == expected.tobytes()
+    np.save(tmp_path / "margins.npy", own["margin"][1])
+    given = {**own, "margin": (dask.array.from_array(own["margin"][0], chunks=90), tmp_path / "margins.npy")}
+    sets = [dask.array.from_array(boxes, chunks=(120, 6)) for boxes in (first, second)]
+    found = allpairs.dask.overlaps(sets[0], second=sets[1], **options, **given)
+    assert found.compute(scheduler="threads").tobytes() == expected.tobytes()
+    assert allpairs.dask.count(sets[0], second=sets[1], **options, **given) == len(expected)
+
+
+def test_a_number_is_for_all_boxes_and_one_set_may_have_what_the_other_has_not():
+    first, second = odd_boxes(300, 1, np.float32), odd_boxes(200, 2, np.float32)
+    margin = np.linspace(0, 2, 200)
+    sets = [dask.array.from_array(boxes, chunks=(90, 6)) for boxes in (first, second)]
+    for own in ({"margin": 0.5}, {"mask": 0}, {"group": 3}, {"margin": (None, margin)}, {"group": (3, None)}):
+        expected = allpairs.overlaps_between(first, second, **own)
+        found = allpairs.dask.overlaps(sets[0], second=sets[1], **own).compute()
+        assert found.tobytes() == expected.tobytes(), own
+    for own in ({"margin": 0.5}, {"margin": -0.5}, {"mask": 0}, {"group": 3}, {"category": 1}):
+        found = allpairs.dask.overlaps(sets[0], **own).compute()
+        assert found.tobytes() == allpairs.overlaps(first, **own).tobytes(), own
+        assert allpairs.dask.count(sets[0], **own) == allpairs.count(first, **own)
+
+
+def test_a_margin_without_end_pairs_its_box_with_all():
+    boxes = odd_boxes(300, 3, np.float32)
+    margin = np.zeros(300)
+    margin[[20, 250]] = np.inf
+    found = allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(60, 6)), margin=margin, cells=20)
+    assert found.compute().tolist() == every_kept_pair(boxes, margin=margin).tolist()
+
+
+def test_a_count_is_of_boxes_in_files_and_of_none(tmp_path):
+    boxes = boxes_of("uniform", np.float32)
+    np.save(tmp_path / "a.npy", boxes)
+    np.save(tmp_path / "none.npy", boxes[:0])
+    np.save(tmp_path / "no margins.npy", np.zeros(0))
+    assert allpairs.dask.count(tmp_path / "a.npy") == allpairs.count(boxes)
+    assert allpairs.dask.count([tmp_path / "none.npy"], margin=tmp_path / "no margins.npy") == 0
+    assert allpairs.dask.count(tmp_path / "a.npy", second=tmp_path / "none.npy", margin=1.0) == 0
+
+
 def test_no_boxes_and_few():
     for count in (0, 1, 2):
         boxes = boxes_of("uniform", np.float32)[:count]
@@ -123,6 +210,43 @@ def test_what_is_wrong_is_named(tmp_path):
         allpairs.dask.overlaps(tmp_path / "flat.npy")
 
 
+def test_what_is_wrong_with_values_is_named(tmp_path):
+    boxes = dask.array.from_array(boxes_of("uniform", np.float32), chunks=(700, 6))
+
+    def refused(match, **options):
+        with pytest.raises(allpairs.InvalidArgument, match=match) as problem:
+            result = allpairs.dask.overlaps(boxes, **options)
+            result.compute()
+        assert "\n" not in str(problem.value)
+
+    def saved(name, values):
+        np.save(tmp_path / name, values)
+        return tmp_path / name
+
+    margins = np.zeros(3000)
+    margins[1234] = np.nan
+    for given in (margins, dask.array.from_array(margins, chunks=500)):
+        refused(r"^margin\[1234\] is nan; it takes numbers$", margin=given)
+    refused(r"/nan.npy\[1234\] is nan", margin=saved("nan.npy", margins))
+    refused(r"/two.npy\[234\] is nan", margin=[saved("one.npy", margins[:1000]), saved("two.npy", margins[1000:])])
+    refused(r"^margin\[0\] is -inf", margin=-np.inf)
+    refused(r"^second set: margin\[1234\] is nan", second=boxes, margin=(None, margins))
+    refused(r"^group\[7\] is -1; it takes 0 to 4294967295$", group=np.where(np.arange(3000) == 7, -1, 0))
+    refused(r"/labels.npy\[2999\] is 4294967296", mask=saved("labels.npy", np.arange(3000) // 2999 * 2**32))
+    refused(r"^category has dtype float64; it takes integers$", category=margins)
+    refused(r"/nan.npy has dtype float64; it takes integers$", group=tmp_path / "nan.npy")
+    refused(r"^margin has shape \(2999,\); for 3000 boxes it takes \(3000,\)$", margin=margins[1:])
+    refused(r"/short.npy: 5 numbers, a margin for each of 3000 boxes$", margin=saved("short.npy", np.zeros(5)))
+    refused(r"/flat.npy has shape \(3, 6\)", margin=saved("flat.npy", np.zeros((3, 6))))
+    refused("^margin has shape", margin=np.zeros((3000, 1)))
+    refused("margin takes a number or a tuple of two", second=boxes, margin=str(tmp_path / "nan.npy"))
+    refused("^group names no file", group=[])
+    refused("region", region=[[1, 1, 1], [0, 2, 2]])
+    refused("region has shape", region=[1, 2, 3])
+    with pytest.raises(TypeError, match="it takes a dask array, or .npy files"):
+        allpairs.dask.overlaps(np.zeros((3, 6)))
+
+
 @pytest.fixture(scope="module")
 def cluster():
     distributed = pytest.importorskip("distributed")
@@ -152,6 +276,7 @@ def test_a_worker_that_is_killed_changes_nothing(cluster, tmp_path):
         os.kill(os.getpid(), signal.SIGKILL)
 
     array = dask.array.from_array(boxes, chunks=(500, 6)).map_blocks(kill_once, dtype=boxes.dtype, meta=boxes[:0])
-    found = allpairs.dask.overlaps(array)
-    assert found.compute().tobytes() == allpairs.overlaps(boxes).tobytes()
+    own = what_boxes_may_have(3000, 9)
+    found = allpairs.dask.overlaps(array, **own)
+    assert found.compute().tobytes() == allpairs.overlaps(boxes, **own).tobytes()
     assert os.path.exists(marker)

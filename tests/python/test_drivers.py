@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import allpairs
-from conftest import corners, every_pair_between
+from conftest import corners, every_kept_pair, every_kept_pair_between, every_pair_between, what_boxes_may_have
 
 PROGRAM = os.environ.get("ALLPAIRS_PROGRAM", "")
 MPI_PROGRAM = os.environ.get("ALLPAIRS_MPI_PROGRAM", "")
@@ -150,6 +150,105 @@ def test_two_sets_have_one_list_in_all_drivers(tmp_path, first, second):
         assert digest(tmp_path / "mpi.npy") == digest(tmp_path / "join.npy"), ranks
         assert f" among {len(a):,} and {len(b):,} box" in done.stdout
         assert mpirun(ranks, *arguments, "--count").stdout.startswith(f"{len(expected):,} pair")
+
+
+def odd_boxes(scene, step):
+    """Some boxes of a scene, of which some are empty or without end."""
+    boxes = boxes_of(scene)[1::step][:700]
+    boxes[3::71, 4] = boxes[3::71, 1] - 1
+    boxes[5::197, 3:] = np.inf
+    return boxes
+
+
+def saved_values(folder, prefix, own):
+    """The options of a command for what boxes have, each in two files of different types."""
+    options = []
+    for name, plural in (("margin", "margins"), ("group", "groups"), ("category", "categories"), ("mask", "masks")):
+        values = own[name]
+        np.save(folder / f"{prefix}{name}0.npy", values[:60].astype(">f8" if name == "margin" else np.uint8))
+        np.save(folder / f"{prefix}{name}1.npy", values[60:].astype(np.float64 if name == "margin" else ">i8"))
+        options += [f"--{prefix}{plural}", folder / f"{prefix}{name}0.npy", folder / f"{prefix}{name}1.npy"]
+    return options
+
+
+REGIONS = {"uniform": [2, 0, -1, 19, 22, 9], "far": [1e9, 1e9, 1e9, 1e9 + 5, 1e9 + 6, 1e9 + 7], "giant": None}
+
+
+@pytest.mark.parametrize("scene", REGIONS)
+def test_what_boxes_may_have_decides_as_in_one_search(tmp_path, scene):
+    boxes = odd_boxes(scene, 6)
+    own = what_boxes_may_have(len(boxes), 7)
+    np.save(tmp_path / "a.npy", boxes[:333])
+    np.save(tmp_path / "b.npy", boxes[333:])
+    region, distance = REGIONS[scene], 0.125
+    expected = every_kept_pair(boxes, distance=distance, region=region, **own)
+    assert allpairs.overlaps(boxes, distance=distance, region=region, **own).tobytes() == expected.tobytes()
+    assert len(expected) > 20
+    arguments = ["join", tmp_path / "a.npy", tmp_path / "b.npy", "--distance", distance, *saved_values(tmp_path, "", own)]
+    if region:
+        arguments += ["--box", ",".join(map(repr, region))]
+    run(PROGRAM, *arguments, "-o", tmp_path / "join.npy", "--memory", "64M")
+    assert np.load(tmp_path / "join.npy").tobytes() == expected.tobytes()
+    assert run(PROGRAM, *arguments, "--count").stdout.startswith(f"{len(expected):,} pairs among {len(boxes)} boxes\n")
+    for ranks in (1, 3) if MPI_PROGRAM else ():
+        mpirun(ranks, *arguments, "-o", tmp_path / "mpi.npy")
+        assert digest(tmp_path / "mpi.npy") == digest(tmp_path / "join.npy"), ranks
+    if not MPI_PROGRAM:
+        return
+    assert mpirun(3, *arguments, "--count").stdout.startswith(f"{len(expected):,} pairs among {len(boxes)} boxes")
+
+
+@pytest.mark.parametrize("scenes", [("uniform", "giant"), ("far", "far")])
+def test_what_boxes_of_two_sets_may_have_decides_as_in_one_search(tmp_path, scenes):
+    first, second = odd_boxes(scenes[0], 6), odd_boxes(scenes[1], 9)[:500]
+    owns = [what_boxes_may_have(len(first), 8), what_boxes_may_have(len(second), 9)]
+    np.save(tmp_path / "a.npy", first)
+    np.save(tmp_path / "b.npy", second)
+    region = REGIONS[scenes[0]]
+    own = {name: (owns[0][name], owns[1][name]) for name in owns[0]}
+    expected = every_kept_pair_between(first, second, region=region, **own)
+    assert allpairs.overlaps_between(first, second, region=region, **own).tobytes() == expected.tobytes()
+    assert len(expected) > 20
+    values = [*saved_values(tmp_path, "", owns[0]), *saved_values(tmp_path, "with-", owns[1])]
+    arguments = ["join", tmp_path / "a.npy", "--with", tmp_path / "b.npy", *values, "--box", ",".join(map(repr, region))]
+    run(PROGRAM, *arguments, "-o", tmp_path / "join.npy")
+    assert np.load(tmp_path / "join.npy").tobytes() == expected.tobytes()
+    for ranks in (1, 4) if MPI_PROGRAM else ():
+        mpirun(ranks, *arguments, "-o", tmp_path / "mpi.npy")
+        assert digest(tmp_path / "mpi.npy") == digest(tmp_path / "join.npy"), ranks
+
+
+@needs_mpi
+def test_values_that_are_wrong_are_named(tmp_path):
+    ranks = 2
+    margins = np.zeros(300)
+    margins[298] = np.nan
+    for name, values in {
+        "a": boxes_of("uniform")[:300],
+        "nan": margins,
+        "short": margins[:299],
+        "flat": np.zeros((300, 1)),
+        "far": np.full(300, -1),
+    }.items():
+        np.save(tmp_path / f"{name}.npy", values)
+
+    def refused(said, *arguments, status=3):
+        lines = mpirun(ranks, "join", tmp_path / "a.npy", "--count", *arguments, status=status).stderr.splitlines()
+        ours = [line for line in lines if line.startswith("allpairs-mpi: ")]
+        assert len(ours) == 1 and said in ours[0], lines
+
+    refused("nan.npy: margin 298 is a NaN", "--margins", tmp_path / "nan.npy")
+    refused("short.npy: has 299 margins for 300 boxes", "--margins", tmp_path / "short.npy")
+    refused("flat.npy: has shape (300, 1); margins are (n,)", "--margins", tmp_path / "flat.npy")
+    refused("nan.npy: holds numbers of type '<f8'; masks are integers", "--masks", tmp_path / "nan.npy")
+    refused("far.npy: number 0 is -1; 0 to 4294967295 are taken", "--groups", tmp_path / "far.npy")
+    other = ("--with", tmp_path / "a.npy")
+    refused("far.npy: number 0 is -1", *other, "--with-categories", tmp_path / "far.npy")
+    refused("gone.npy", *other, "--with-margins", tmp_path / "gone.npy")
+    refused("--with-margins requires --with", "--with-margins", tmp_path / "nan.npy", status=2)
+    refused("--box: '1,2,3'", "--box", "1,2,3", status=2)
+    masks = ("--masks", tmp_path / "far.npy", tmp_path / "a.npy", tmp_path / "a.npy")
+    assert "BOXES come before --masks, which" in mpirun(ranks, "join", "--count", *masks, status=2).stderr
 
 
 @needs_mpi

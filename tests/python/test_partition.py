@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import allpairs
-from conftest import corners, every_pair_between
+from conftest import corners, every_kept_pair, every_kept_pair_between, every_pair_between, what_boxes_may_have
 
 
 def some_boxes(count=300, seed=1, dtype=np.float32):
@@ -70,6 +70,40 @@ def test_margins_widen_and_are_seen():
     assert sorted(found) == allpairs.overlaps(boxes, margin=margins).tolist()
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_cells_leave_out_what_a_search_leaves_out(dtype):
+    boxes, own = some_boxes(400, 6, dtype), what_boxes_may_have(400, 6)
+    options = {"distance": 0.125, "region": [[1, 1, 1], [4, 5, 3]]}
+    margin = own["margin"]
+    partition = allpairs.Partition(boxes, cells=7, distance=0.125, margin=margin)
+    homes = partition.cells_of(boxes, distance=0.125, margin=margin)
+    found, count = [], 0
+    for number, cell in enumerate(partition.cells):
+        here = homes[homes[:, 1] == number, 0]
+        given = {name: values[here] for name, values in own.items()}
+        found += allpairs.overlaps_in_cell(boxes[here], None, here, cell, **options, **given).tolist()
+        count += allpairs.count_in_cell(boxes[here], None, cell, **options, **given)
+    assert sorted(found) == every_kept_pair(boxes, **options, **own).tolist()
+    assert count == len(found) > 20
+
+
+def test_cells_leave_out_what_a_search_of_two_sets_leaves_out():
+    sets = [some_boxes(300, 7), some_boxes(200, 8)]
+    owns = [what_boxes_may_have(300, 7), what_boxes_may_have(200, 8)]
+    options = {"distance": -0.125, "region": [[1, 1, 1], [4, 5, 3]]}
+    own = {name: (owns[0][name], owns[1][name]) for name in owns[0]}
+    partition = allpairs.Partition(np.vstack(sets), cells=7)
+    homes = [partition.cells_of(boxes, margin=o["margin"], max_margin=4.0) for boxes, o in zip(sets, owns)]
+    found, count = [], 0
+    for number, cell in enumerate(partition.cells):
+        a, b = (rows[rows[:, 1] == number, 0] for rows in homes)
+        given = {name: (first[a], second[b]) for name, (first, second) in own.items()}
+        found += allpairs.overlaps_between_in_cell(sets[0][a], sets[1][b], (a, b), cell, **options, **given).tolist()
+        count += allpairs.count_between_in_cell(sets[0][a], sets[1][b], cell, **options, **given)
+    assert sorted(found) == every_kept_pair_between(*sets, **options, **own).tolist()
+    assert count == len(found) > 20
+
+
 def test_a_partition_pickles():
     boxes = some_boxes()
     partition = allpairs.Partition(boxes, cells=5)
@@ -95,6 +129,10 @@ def test_bad_arguments_are_named():
         allpairs.overlaps_between_in_cell(boxes, boxes, ([1, 2, 3], [1, 2]), space)
     with pytest.raises(allpairs.InvalidArgument, match="ids takes a tuple of two"):
         allpairs.overlaps_between_in_cell(boxes, boxes, [1, 2, 3], space)
+    with pytest.raises(allpairs.InvalidArgument, match=r"group has shape \(2,\); for 3 boxes it takes \(3,\)"):
+        allpairs.count_in_cell(boxes, None, space, group=[1, 2])
+    with pytest.raises(allpairs.InvalidArgument, match=r"second set: margin has shape \(2,\)"):
+        allpairs.count_between_in_cell(boxes, boxes, space, margin=(None, [1, 2]))
     with pytest.raises(allpairs.InvalidArgument, match="cells is 0"):
         allpairs.Partition(boxes, cells=0)
 
@@ -139,6 +177,63 @@ def test_a_join_of_two_sets_is_the_search_in_memory(tmp_path, dtype, distance):
     np.save(tmp_path / "none.npy", first[:0])
     assert allpairs.join(tmp_path / "a.npy", second=tmp_path / "none.npy").pairs == 0
     assert allpairs.join(tmp_path / "none.npy", second=tmp_path / "a.npy").pairs == 0
+
+
+def saved(folder, name, values):
+    np.save(folder / f"{name}.npy", values)
+    return folder / f"{name}.npy"
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_a_join_leaves_out_what_a_search_leaves_out(tmp_path, dtype):
+    boxes, own = some_boxes(500, 12, dtype), what_boxes_may_have(500, 12)
+    options = {"distance": 0.125, "region": [[1, 1, 1], [4, 5, 3]]}
+    files = {name: saved(tmp_path, name, values) for name, values in own.items()}
+    files["group"] = [saved(tmp_path, "a", own["group"][:90]), str(saved(tmp_path, "b", own["group"][90:].astype(">i8")))]
+    boxes_file = saved(tmp_path, "boxes", boxes)
+    done = allpairs.join(boxes_file, tmp_path / "pairs.npy", **options, **files)
+    expected = every_kept_pair(boxes, **options, **own)
+    assert np.load(tmp_path / "pairs.npy").tobytes() == expected.tobytes() and len(expected) > 20
+    assert done.pairs == allpairs.join(boxes_file, **options, **files).pairs == len(expected)
+    assert done.copies == 0
+
+
+def test_a_join_of_two_sets_leaves_out_what_a_search_leaves_out(tmp_path):
+    first, second = some_boxes(400, 13), some_boxes(300, 14, np.float64)
+    owns = [what_boxes_may_have(400, 13), what_boxes_may_have(300, 14)]
+    names = [saved(tmp_path, "first", first), saved(tmp_path, "second", second)]
+    options = {"distance": -0.125, "region": [1, 1, 1, 4, 5, 3]}
+    for left_out in ((), ("margin", 0), ("mask", 1), ("group", 0)):
+        own = {name: [owns[0][name], owns[1][name]] for name in owns[0]}
+        if left_out:
+            own[left_out[0]][left_out[1]] = None
+        files = {
+            name: tuple(None if v is None else saved(tmp_path, f"{name}{i}", v) for i, v in enumerate(pair))
+            for name, pair in own.items()
+        }
+        allpairs.join(names[0], tmp_path / "pairs.npy", second=names[1], **options, **files)
+        expected = allpairs.overlaps_between(first, second, **options, **{n: tuple(pair) for n, pair in own.items()})
+        assert np.load(tmp_path / "pairs.npy").tobytes() == expected.tobytes(), left_out
+        if not left_out:
+            oracle = every_kept_pair_between(first, second, **options, **{n: tuple(pair) for n, pair in own.items()})
+            assert expected.tolist() == oracle.tolist() and len(oracle) > 20
+
+
+def test_a_join_says_what_is_wrong_with_values(tmp_path):
+    boxes = saved(tmp_path, "boxes", some_boxes(10))
+    margins = saved(tmp_path, "margins", np.array([0.0] * 7 + [np.nan] * 3))
+    with pytest.raises(allpairs.FileError, match="margins.npy: margin 7 is a NaN"):
+        allpairs.join(boxes, margin=margins)
+    with pytest.raises(allpairs.FileError, match="margins.npy: holds numbers of type '<f8'; groups are integers"):
+        allpairs.join(boxes, group=margins)
+    with pytest.raises(allpairs.FileError, match="short.npy: has 9 masks for 10 boxes"):
+        allpairs.join(boxes, mask=saved(tmp_path, "short", np.arange(9)))
+    with pytest.raises(allpairs.InvalidArgument, match="category takes a tuple of two here"):
+        allpairs.join(boxes, second=boxes, category=[margins, margins])
+    with pytest.raises(allpairs.InvalidArgument, match="margin names no file"):
+        allpairs.join(boxes, margin=[])
+    with pytest.raises(allpairs.InvalidArgument, match="region"):
+        allpairs.join(boxes, region=[[1, 1, 1], [0, 2, 2]])
 
 
 def test_join_says_what_is_wrong(tmp_path):

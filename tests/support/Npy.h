@@ -58,6 +58,15 @@ inline std::string npyBytes(const std::vector<Box>& boxes, const NpyStyle& style
   return bytes;
 }
 
+/// Numbers as the bytes of a .npy file of shape (n,); `descr` is their type.
+template <class T>
+std::string npyNumbers(const std::vector<T>& numbers, const std::string& descr) {
+  std::string bytes = npyHeaderBytes("{'descr': '" + descr + "', 'fortran_order': False, 'shape': (" +
+                                     std::to_string(numbers.size()) + ",), }");
+  for (const T number : numbers) appendNumber(bytes, number, descr[0] == '>');
+  return bytes;
+}
+
 /// The pairs in a .npy file of shape (m, 2) and type uint32, its 128 bytes of header taken on trust.
 inline std::vector<Pair> pairsOfNpy(const std::string& bytes) {
   constexpr std::size_t kHeader = 128;

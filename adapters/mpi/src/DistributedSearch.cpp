@@ -50,7 +50,7 @@ void DistributedSearch::search(std::span<const LocalBoxes> given) {
   const bool areAllEmpty =
       std::any_of(m_sets.begin(), m_sets.end(), [](const LocalSet& set) { return set.allBoxes == 0; });
   if (!areAllEmpty) {
-    const Distribution distribution(m_ranks, m_sets, m_options.distance, m_tuning);
+    const Distribution distribution(m_ranks, m_sets, m_options, m_tuning);
     for (std::size_t round = 0; round < distribution.rounds(); ++round) searchCells(distribution, round);
     for (std::size_t set = 0; set < m_sets.size(); ++set) searchWide(distribution, set);
   }

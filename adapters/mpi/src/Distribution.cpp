@@ -17,7 +17,7 @@ namespace allpairs::mpi {
 namespace {
 
 constexpr std::uint32_t kLast = std::uint32_t{1} << 31;  // marks the last cell of a box
-constexpr std::uint32_t kNoCell = kLast - 1;             // of an empty box
+constexpr std::uint32_t kNoCell = kLast - 1;             // of an empty box, and of one outside of the region
 constexpr int kRounds = 3;                               // of cutting cells again
 constexpr std::size_t kEnoughPairs = 16;                 // of a sample, for each cell
 constexpr double kPairWork = 0.1;                        // of a pair, where that of a box is 1
@@ -61,8 +61,9 @@ std::vector<Box> everyNth(std::span<const Box> boxes, std::size_t n) {
 
 }  // namespace
 
-Distribution::Distribution(const Ranks& ranks, std::span<const LocalSet> sets, double distance, const Tuning& tuning)
-    : m_ranks(ranks), m_sets(sets), m_distance(distance), m_tuning(tuning) {
+Distribution::Distribution(const Ranks& ranks, std::span<const LocalSet> sets, const DistributedOptions& options,
+                           const Tuning& tuning)
+    : m_ranks(ranks), m_sets(sets), m_options(options), m_tuning(tuning) {
   for (const LocalSet& set : sets) m_allBoxes += set.allBoxes;
   const auto size = static_cast<std::size_t>(ranks.size());
   m_wanted = std::max(tuning.cellsPerRank * size, static_cast<std::size_t>(m_allBoxes / tuning.boxesPerCell));
@@ -89,6 +90,13 @@ std::span<const std::uint32_t> Distribution::boxesOf(std::size_t set, std::uint3
   return std::span(rows.boxes).subspan(rows.begins[cell], rows.begins[cell + 1] - rows.begins[cell]);
 }
 
+Box Distribution::reachOf(const LocalSet& set, std::size_t i) const {
+  const Box box = set.boxes[i];
+  const double margin = set.boxes.margin(i);
+  if (m_options.region && !overlap(box, *m_options.region, m_options.distance + margin)) return kEmptyBox;
+  return partition::reachOf(box, margin, m_options.distance, set.maxMargin);
+}
+
 /// Takes what the boxes reach, so that no margin has to be known where it is cut.
 void Distribution::takeSample(std::size_t set) {
   std::vector<std::vector<std::uint64_t>> outgoing;
@@ -98,7 +106,7 @@ void Distribution::takeSample(std::size_t set) {
     const std::uint64_t size = std::max<std::uint64_t>(m_tuning.leastSample, m_tuning.samplePerCell * m_wanted);
     const std::uint64_t step = m_allBoxes / size + 1;
     for (std::uint64_t i = (step - local.firstId % step) % step; i < local.boxes.size(); i += step) {
-      const Box reach = partition::reachOf(local.boxes[i], local.boxes.margin(i), m_distance, local.maxMargin);
+      const Box reach = reachOf(local, i);
       if (isEmpty(reach)) continue;
       for (const double value : reach.min) outgoing.front().push_back(wordOf(value));
       for (const double value : reach.max) outgoing.front().push_back(wordOf(value));
@@ -133,7 +141,7 @@ void Distribution::findCells(std::size_t set) {
   cells.clear();
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < local.boxes.size(); ++i) {
-    m_cells.cellsOf(partition::reachOf(local.boxes[i], local.boxes.margin(i), m_distance, local.maxMargin), found);
+    m_cells.cellsOf(reachOf(local, i), found);
     if (found.empty()) found.assign(1, kNoCell);
     if (m_cells.isWide(found.size())) found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
     found.back() |= kLast;

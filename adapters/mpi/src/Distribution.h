@@ -11,6 +11,7 @@
 #include "LocalSet.h"
 #include "Ranks.h"
 #include "Tuning.h"
+#include "allpairs/mpi/DistributedOverlaps.h"
 #include "allpairs/partition/Partition.h"
 
 namespace allpairs::mpi {
@@ -22,8 +23,9 @@ namespace allpairs::mpi {
 /// boxes, and that no cut divides. Wide boxes go to no cell.
 class Distribution {
  public:
-  /// `distance` is that of the search; one set, or two.
-  Distribution(const Ranks& ranks, std::span<const LocalSet> sets, double distance, const Tuning& tuning);
+  /// The options are those of the search; one set, or two.
+  Distribution(const Ranks& ranks, std::span<const LocalSet> sets, const DistributedOptions& options,
+               const Tuning& tuning);
 
   /// In each round a rank searches at most one cell.
   [[nodiscard]] std::size_t rounds() const noexcept { return m_rounds; }
@@ -49,6 +51,9 @@ class Distribution {
     std::vector<std::uint32_t> boxes{};
   };
 
+  /// Empty of a box that is, and of one that the region leaves out: these are sent nowhere.
+  [[nodiscard]] Box reachOf(const LocalSet& set, std::size_t i) const;
+
   void takeSample(std::size_t set);
   void shareCells();
   void findCells(std::size_t set);
@@ -62,7 +67,7 @@ class Distribution {
 
   const Ranks& m_ranks;
   std::span<const LocalSet> m_sets;
-  double m_distance;
+  const DistributedOptions& m_options;
   const Tuning& m_tuning;
   std::uint64_t m_allBoxes = 0;
   std::size_t m_wanted = 1;       ///< Cells.

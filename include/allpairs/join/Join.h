@@ -5,14 +5,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "allpairs/Box.h"
 #include "allpairs/Executor.h"
 #include "allpairs/FunctionRef.h"
 #include "allpairs/Span.h"
 #include "allpairs/StopFlag.h"
+#include "allpairs/scene/BoxValues.h"
 
 namespace allpairs::join {
 
@@ -57,6 +60,14 @@ struct JoinOptions {
   /// Files of a second set: the pairs are those of a box of the inputs and a box of these, and both sets are numbered by
   /// themselves. None means pairs within the inputs.
   std::vector<std::filesystem::path> second{};
+
+  /// As OverlapOptions::region: boxes outside it are left out.
+  std::optional<Box> region{};
+
+  /// Files of what each box of the inputs has, and each of the second set: a margin, as BoxView::setMargins() takes them, a
+  /// group, categories and a mask, as in FilterBits.
+  scene::BoxValueFiles values{};
+  scene::BoxValueFiles secondValues{};
 };
 
 /// What a join did, or is expected to do.
@@ -82,9 +93,11 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 /// Inputs:    .npy files of shape (n, 6), numbered as one set in the order given; see scene::BoxRows. Of two sets,
 ///            options.second has the files of the other.
 /// Bad input: a file that is none, or a box with a NaN, throws FileError, which names it; so does a work folder that is
-///            full, in use, or another join's. Too little memory, or a distance that is none, throws InvalidArgument.
+///            full, in use, or another join's; so does a file of margins or the like that scene::BoxValues refuses. Too
+///            little memory, a distance or a region that is none, or values of a second set that there is not, throw
+///            InvalidArgument.
 ///            What was complete stays in the work folder.
-/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes per box and copy (56 in float64) and 8
+/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and masks, and 8
 ///            per pair (16 of more than 2^32 boxes in a set). Where the disk is estimated to be too small it throws before it
 ///            writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that

@@ -13,6 +13,7 @@
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
+#include "allpairs/Filter.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/Span.h"
@@ -95,6 +96,9 @@ class CellSearch {
   ~CellSearch();
   CellSearch(CellSearch&&) noexcept;
   CellSearch& operator=(CellSearch&&) noexcept;
+
+  /// Another filter for the searches that follow.
+  void setFilter(Filter filter);
 
   /// Passes the pairs that belong to the cell to the visitor, by index into the given boxes, in batches and in bounded
   /// memory: at most as many at once as OverlapSearch::stream() passes.

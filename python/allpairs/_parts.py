@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: MIT
+"""Boxes, and what belongs to each of them, as parts that Dask's tasks read: of Dask arrays, arrays and .npy files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+from dask.array.core import Array as DaskArray
+from dask.delayed import delayed
+
+from . import _arguments
+from ._errors import InvalidArgument, InvalidBox
+
+Array = npt.NDArray[Any]
+
+#: What each box may have: an array of one dimension, or a number for all.
+Values = dict[str, Any]
+
+#: What a box has beside its bounds, in the order of the arguments.
+NAMES = ("margin", "group", "category", "mask")
+
+
+class BoxParts(NamedTuple):
+    """A set of boxes as parts that tasks read."""
+
+    parts: list[Any]
+    sizes: list[int]
+    values: list[Values]
+    """Of each part, what was given."""
+    whose: str
+    """What errors call the set."""
+
+    @property
+    def begins(self) -> list[int]:
+        """The number of the first box of each part, and that of all boxes."""
+        return [0, *np.cumsum(self.sizes).tolist()]
+
+
+def _read(path: str) -> Array:
+    array: Array = np.load(path, mmap_mode="r", allow_pickle=False)
+    return array
+
+
+def _files_of(value: Any) -> Optional[list[str]]:
+    """The paths that an argument names; None if it is something else."""
+    if isinstance(value, (str, os.PathLike)):
+        value = [value]
+    elif isinstance(value, (np.ndarray, DaskArray)) or not np.iterable(value):
+        return None
+    paths = value if isinstance(value, (list, tuple)) else list(value)
+    if not all(isinstance(path, (str, bytes, os.PathLike)) for path in paths):
+        return None
+    return [os.path.abspath(os.fsdecode(path)) for path in paths]
+
+
+def _check_chunks(argument: str, array: Any) -> None:
+    if np.isnan(array.shape[0]):
+        raise InvalidArgument(f"{argument} has chunks of unknown sizes; call compute_chunk_sizes() before")
+
+
+def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int]]:
+    """The boxes as parts that tasks read, and the number of boxes in each."""
+    if isinstance(boxes, DaskArray):
+        if boxes.ndim != 2 or boxes.shape[1] != 6:
+            raise InvalidArgument(f"{argument} has shape {boxes.shape}; it takes (n, 6)")
+        _check_chunks(argument, boxes)
+        rows = boxes.rechunk({1: 6})
+        return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]]
+    names = _files_of(boxes)
+    if names is None:
+        raise TypeError(f"{argument} is {type(boxes).__name__}; it takes a dask array, or .npy files")
+    if not names:
+        raise InvalidArgument(f"{argument} names no file")
+    shapes = [_read(name).shape for name in names]
+    for name, shape in zip(names, shapes):
+        if len(shape) != 2 or shape[1] != 6:
+            raise InvalidArgument(f"{name} has shape {shape}; boxes are (n, 6)")
+    return [delayed(_read)(name) for name in names], [shape[0] for shape in shapes]
+
+
+def _checked(name: str, values: Array, called: str, begin: int) -> Array:
+    """Values that a search takes; an error says which it does not."""
+    if name != "margin":
+        try:
+            return _arguments.labels(called, values, len(values))
+        except InvalidBox as problem:
+            at = problem.index
+            raise InvalidArgument(f"{called}[{begin + at}] is {values[at]}; it takes 0 to 4294967295") from None
+    margins = _arguments.floats(called, values).astype(np.float64, copy=False)
+    wrong = np.flatnonzero(~(margins > -np.inf))
+    if len(wrong):
+        raise InvalidArgument(f"{called}[{begin + wrong[0]}] is {margins[wrong[0]]}; it takes numbers")
+    return margins
+
+
+def _joined(name: str, blocks: list[Array], called: str, begin: int) -> Array:
+    return _checked(name, np.concatenate([np.asarray(block) for block in blocks]), called, begin)
+
+
+def _read_range(name: str, pieces: list[tuple[str, int, int]]) -> Array:
+    """What lies in parts of files, one after the other."""
+    return np.concatenate([_checked(name, _read(path)[begin:end], path, begin) for path, begin, end in pieces])
+
+
+def _pieces(names: Sequence[str], sizes: Sequence[int], begin: int, end: int) -> list[tuple[str, int, int]]:
+    """Which rows of which files are [begin, end) of all of them; of one file at least, so that there is a type."""
+    ends = np.cumsum(sizes).tolist()
+    rows = [
+        (name, max(begin - (last - size), 0), min(end - (last - size), size)) for name, size, last in zip(names, sizes, ends)
+    ]
+    return [(name, low, high) for name, low, high in rows if low < high] or [(names[0], 0, 0)]
+
+
+def _check_type(name: str, called: str, shape: tuple[int, ...], dtype: np.dtype[Any]) -> None:
+    if len(shape) != 1:
+        raise InvalidArgument(f"{called} has shape {shape}; it takes one number for each box")
+    if dtype.kind not in ("iub" if name != "margin" else "iubf"):
+        raise InvalidArgument(f"{called} has dtype {dtype}; it takes {'integers' if name != 'margin' else 'numbers'}")
+
+
+def _of_files(name: str, names: list[str], begins: Sequence[int]) -> list[Any]:
+    if not names:
+        raise InvalidArgument(f"{name} names no file")
+    arrays = [_read(path) for path in names]
+    for path, array in zip(names, arrays):
+        _check_type(name, path, array.shape, array.dtype)
+    sizes = [len(array) for array in arrays]
+    if sum(sizes) != begins[-1]:
+        raise InvalidArgument(f"{', '.join(names)}: {sum(sizes)} numbers, a {name} for each of {begins[-1]} boxes")
+    read = delayed(_read_range)
+    return [read(name, _pieces(names, sizes, begin, end)) for begin, end in zip(begins, begins[1:])]
+
+
+def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str) -> list[Any]:
+    """The value for the boxes of each part: what a task reads, or the number that all have."""
+    called = prefix + name
+    names = _files_of(value)
+    if names is not None:
+        return _of_files(name, names, begins)
+    if _arguments.is_one(value):
+        single = np.asarray(value).reshape(1)
+        _check_type(name, called, single.shape, single.dtype)
+        return [_checked(name, single, called, 0)[0].item()] * (len(begins) - 1)
+    array = value if isinstance(value, DaskArray) else _arguments.array_of(called, value)
+    _check_type(name, called, array.shape, array.dtype)
+    if isinstance(array, DaskArray):
+        _check_chunks(called, array)
+    if array.shape[0] != begins[-1]:
+        raise InvalidArgument(f"{called} has shape {array.shape}; for {begins[-1]} boxes it takes ({begins[-1]},)")
+    rows = [array[begin:end] for begin, end in zip(begins, begins[1:])]
+    blocks = [list(part.to_delayed().ravel()) if isinstance(part, DaskArray) else [part] for part in rows]
+    return [delayed(_joined)(name, parts, called, begin) for parts, begin in zip(blocks, begins)]
+
+
+def _of_each_set(name: str, value: Any, sets: int) -> list[Any]:
+    if sets == 1:
+        return [value]
+    return list(_arguments.both(name, [value] if isinstance(value, str) else value))
+
+
+def box_parts(boxes: Sequence[Union[Any, None]], values: Values) -> list[BoxParts]:
+    """One set, or two: what `boxes` and `second` are, with margins and labels of each."""
+    given = [each for each in boxes if each is not None]
+    own = {name: _of_each_set(name, values[name], len(given)) for name in NAMES}
+    called = ["all"] if len(given) == 1 else ["the first set", "the second set"]
+    prefixes = [""] if len(given) == 1 else ["first set: ", "second set: "]
+    sets = []
+    for i, (argument, each) in enumerate(zip(("boxes", "second"), given)):
+        plain = BoxParts(*_boxes_of(argument, each), [], called[i])
+        columns = {
+            name: _of_each_part(name, pair[i], plain.begins, prefixes[i]) for name, pair in own.items() if pair[i] is not None
+        }
+        rows = [{name: column[number] for name, column in columns.items()} for number in range(len(plain.parts))]
+        sets.append(plain._replace(values=rows))
+    return sets
