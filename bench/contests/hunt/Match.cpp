@@ -143,6 +143,7 @@ struct Contender {
   Entry entry;
   std::unique_ptr<SetSearch<T>> search;
   std::vector<double> ns = {};
+  bool rests = false;
 };
 
 template <class T>
@@ -157,13 +158,13 @@ class Match {
 
   MatchResult hold() {
     check();
-    takeTurns(m_options.seconds);
-    MatchResult quick = result();
+    takeTurns(m_options.seconds, 1);
+    const MatchResult quick = result();
     if (std::min(quick.orderedRatio(), quick.unorderedRatio()) > kDoubtful) return quick;
+    restSlowOnes(quick);
     draw();
-    for (Contender<T>& contender : m_contenders) contender.ns.clear();
     check();
-    takeTurns(m_options.carefulSeconds);
+    takeTurns(m_options.carefulSeconds, 3);
     return result();
   }
 
@@ -193,6 +194,16 @@ class Match {
     return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
   }
 
+  /// Those that are far from the fastest need no more care.
+  void restSlowOnes(const MatchResult& quick) {
+    constexpr double kFar = 3.0;
+    for (std::size_t i = 0; i < m_contenders.size(); ++i) {
+      const bool isOurs = i < 2;
+      m_contenders[i].rests = !isOurs && !m_options.all && quick.entries[i].ns > kFar * quick.best()->ns;
+      if (!m_contenders[i].rests) m_contenders[i].ns.clear();
+    }
+  }
+
   /// Compares all pairs of some scenes; what runs for the first time is not timed either.
   void check() {
     constexpr std::size_t kMostScenes = 20;
@@ -200,6 +211,7 @@ class Match {
     for (const Scene<T>& scene : scenes) {
       Finding expected;
       for (Contender<T>& contender : m_contenders) {
+        if (contender.rests) continue;
         const std::span<const Pair> pairs = contender.search->find(scene.sets());
         const Finding found{pairs.size(), hashOf(pairs, scene.areTwo)};
         if (&contender == m_contenders.data()) expected = found;
@@ -210,11 +222,17 @@ class Match {
     }
   }
 
-  void takeTurns(double seconds) {
+  void takeTurns(double seconds, int fewestRounds) {
     constexpr int kMostRounds = 50;
+    constexpr double kMostMs = 2000.0;  // Slow scenes have to do with fewer rounds.
     const measure::Stopwatch watch;
     double roundMs = 0.0;  // No round is begun that would not end in time.
-    for (int round = 0; round < kMostRounds && watch.elapsed().wallMs + roundMs < 1e3 * seconds; ++round) {
+    const auto endsWithin = [&](double ms) { return watch.elapsed().wallMs + roundMs < ms; };
+    const auto goesOn = [&](int round) {
+      if (round < fewestRounds) return round == 0 || endsWithin(kMostMs);
+      return round < kMostRounds && endsWithin(1e3 * seconds);
+    };
+    for (int round = 0; goesOn(round); ++round) {
       const measure::Stopwatch ofRound;
       takeRound();
       roundMs = ofRound.elapsed().wallMs;
@@ -225,6 +243,7 @@ class Match {
     for (std::size_t i = 0; i < m_scenes->groups(); ++i) {
       std::size_t expected = 0;
       for (Contender<T>& contender : m_contenders) {
+        if (contender.rests) continue;
         const Turn<T> turn(*contender.search, m_scenes->group(i));
         contender.ns.push_back(turn.ns);
         if (&contender == m_contenders.data()) expected = turn.pairs;

@@ -40,8 +40,8 @@ struct MatchResult {
 /// How a match is held.
 struct MatchOptions {
   std::vector<std::string> peers;  ///< Only these besides us; all if empty.
-  double seconds = 0.1;            ///< For the timed turns; one round is the least.
-  double carefulSeconds = 0.4;     ///< For a second match, on other boxes, where we seem to lead by little.
+  double seconds = 0.1;            ///< For the timed turns.
+  double carefulSeconds = 0.6;     ///< For a second match, on other boxes, where we seem to lead by little.
   bool all = false;                ///< Measures those too that would be left out.
 };
 

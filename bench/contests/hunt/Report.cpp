@@ -2,7 +2,9 @@
 #include "Report.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "Samples.h"
@@ -15,12 +17,13 @@ namespace {
 using Ratio = double (MatchResult::*)() const;
 
 struct Column {
+  const char* name;
   const char* title;
   Ratio ratio;
 };
 
-constexpr Column kUnordered{"a kept object's find(), unordered", &MatchResult::unorderedRatio};
-constexpr Column kOrdered{"overlaps(), ordered, in a vector", &MatchResult::orderedRatio};
+constexpr Column kUnordered{"find()", "a kept object's find(), unordered", &MatchResult::unorderedRatio};
+constexpr Column kOrdered{"overlaps()", "overlaps(), ordered, in a vector", &MatchResult::orderedRatio};
 
 std::string timeText(double ns) {
   char text[32];
@@ -49,19 +52,41 @@ void printLine(const MatchResult& result) {
               describe(result.family).c_str());
 }
 
-void printWorst(const std::vector<MatchResult>& results, const Column& column) {
+/// Scenes by the number of their boxes.
+struct SizeClass {
+  const char* title;
+  std::size_t least;
+  std::size_t most;
+
+  [[nodiscard]] bool holds(const MatchResult& result) const {
+    return result.family.boxes() >= least && result.family.boxes() <= most;
+  }
+};
+
+constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+constexpr std::array<SizeClass, 2> kWorstOf{{{"up to 63 boxes", 0, 63}, {"64 boxes or more", 64, kAny}}};
+constexpr std::array<SizeClass, 5> kSharesOf{{{"all", 0, kAny},
+                                              {"up to 16 boxes", 0, 16},
+                                              {"17 to 63", 17, 63},
+                                              {"64 to 999", 64, 999},
+                                              {"1,000 or more", 1000, kAny}}};
+
+void printWorst(const std::vector<MatchResult>& results, const Column& column, const SizeClass& sizes) {
   constexpr std::size_t kWorst = 10;
   std::vector<const MatchResult*> sorted;
-  for (const MatchResult& result : results) sorted.push_back(&result);
+  for (const MatchResult& result : results) {
+    if (sizes.holds(result)) sorted.push_back(&result);
+  }
   std::sort(sorted.begin(), sorted.end(),
             [&](const MatchResult* a, const MatchResult* b) { return (a->*column.ratio)() < (b->*column.ratio)(); });
-  std::printf("\nThe worst for %s: the best contender's time divided by ours.\n\n", column.title);
+  std::printf("\nThe worst of %s for %s: the best contender's time divided by ours.\n\n", sizes.title, column.title);
   printHeading();
   for (std::size_t i = 0; i < std::min(kWorst, sorted.size()); ++i) printLine(*sorted[i]);
 }
 
 /// Ratios of which infinite ones are those of contenders that were left out.
 void printShares(const char* name, std::vector<double> ratios) {
+  if (ratios.empty()) return;
   const auto share = [&](auto&& holds) {
     return 100.0 * static_cast<double>(std::count_if(ratios.begin(), ratios.end(), holds)) /
            static_cast<double>(ratios.size());
@@ -73,9 +98,13 @@ void printShares(const char* name, std::vector<double> ratios) {
 }
 
 void printShares(const std::vector<MatchResult>& results, const Column& column) {
-  std::vector<double> ratios;
-  for (const MatchResult& result : results) ratios.push_back((result.*column.ratio)());
-  printShares(column.title, ratios);
+  for (const SizeClass& sizes : kSharesOf) {
+    std::vector<double> ratios;
+    for (const MatchResult& result : results) {
+      if (sizes.holds(result)) ratios.push_back((result.*column.ratio)());
+    }
+    printShares((std::string(column.name) + ", " + sizes.title).c_str(), ratios);
+  }
 }
 
 void printByContender(const std::vector<MatchResult>& results) {
@@ -87,7 +116,7 @@ void printByContender(const std::vector<MatchResult>& results) {
       ratios[entry.name].push_back(entry.leftOut ? std::max(ratio, 8.0) : ratio);
     }
   }
-  for (const auto& [name, of] : ratios) printShares(("  find() beside " + name).c_str(), of);
+  for (const auto& [name, of] : ratios) printShares(("find() beside " + name).c_str(), of);
 }
 
 void printSummary(const std::vector<MatchResult>& results) {
@@ -147,8 +176,9 @@ void Report::printMistakes(const MatchResult& result) {
 
 void Report::print() const {
   if (m_results.empty()) return;
-  printWorst(m_results, kUnordered);
-  printWorst(m_results, kOrdered);
+  for (const Column& column : {kUnordered, kOrdered}) {
+    for (const SizeClass& sizes : kWorstOf) printWorst(m_results, column, sizes);
+  }
   printSummary(m_results);
 }
 
