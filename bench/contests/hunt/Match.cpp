@@ -159,7 +159,7 @@ class Match {
   MatchResult hold() {
     check();
     takeTurns(m_options.seconds, 1);
-    const MatchResult quick = result();
+    MatchResult quick = result();
     if (std::min(quick.orderedRatio(), quick.unorderedRatio()) > kDoubtful) return quick;
     restSlowOnes(quick);
     draw();
