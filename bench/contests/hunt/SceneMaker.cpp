@@ -22,8 +22,9 @@ std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number, bool isSecond) 
 
 Point unitPoint(Random& random) { return {random.unit(), random.unit(), random.unit()}; }
 
-Point clustered(Random& random, std::uint64_t stream, std::size_t clusters) {
-  Random cluster(~stream, random.below(clusters));
+/// Clusters are the same for all scenes of a family and for both sets.
+Point clustered(Random& random, std::uint64_t seed, std::size_t clusters) {
+  Random cluster(~seed, random.below(clusters));
   Point point = unitPoint(cluster);
   const double spread = cluster.between(0.02, 0.16) / std::cbrt(static_cast<double>(clusters));
   for (double& coordinate : point) coordinate += spread * random.bell();
@@ -145,7 +146,7 @@ SceneMaker::Placed SceneMaker::place(const Draw& draw) const {
       point = unitPoint(random);
       break;
     case Spacing::Clusters:
-      point = clustered(random, draw.stream, m_family.clusters);
+      point = clustered(random, m_family.seed, m_family.clusters);
       break;
     case Spacing::Fractal:
       point = fractal(random, m_cumulative);
