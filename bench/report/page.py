@@ -26,6 +26,8 @@ METHOD = """## How it is measured
 - **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on an idle
   machine and is hardly affected by other load. Times are medians; the records also hold wall time, spread and
   repetitions.
+- **Data**: boxes are others from repetition to repetition, from at least three sets of the scene and 40,000 boxes in all, since
+  a processor learns the branches of a small set that it sees again. Above a million boxes there is one set.
 - **Fairness**: contenders are interleaved on the same boxes. Each peer is tried in several settings on each scene, and
   its best one counts; settings are tried at up to 100,000 boxes, and the best one is used above.
 - **Same answer**: each contender's complete list of pairs is compared with ours before its time counts.

@@ -19,13 +19,26 @@ measure::Duration timeOnce(const MakeSearch& make, std::span<const float> rows) 
   return watch.elapsed();
 }
 
-/// The mean of runs that are too short for the clock; it includes taking down what they built.
-measure::Duration timeRuns(const MakeSearch& make, std::span<const float> rows, std::size_t runs) {
-  if (runs == 1) return timeOnce(make, rows);
-  const measure::Stopwatch watch;
-  for (std::size_t run = 0; run < runs; ++run) (void)make()->find(rows);
-  return watch.elapsed() / static_cast<double>(runs);
-}
+/// Runs of one contender, each on the set after the one before.
+class Runs {
+ public:
+  Runs(const MakeSearch& make, const BoxSets& sets) : m_make(make), m_sets(sets) {}
+
+  /// The mean of runs that are too short for the clock; it includes taking down what they built.
+  measure::Duration operator()(std::size_t runs) {
+    if (runs == 1) return timeOnce(m_make, nextSet());
+    const measure::Stopwatch watch;
+    for (std::size_t run = 0; run < runs; ++run) (void)m_make()->find(nextSet());
+    return watch.elapsed() / static_cast<double>(runs);
+  }
+
+ private:
+  std::span<const float> nextSet() { return m_sets[m_next++ % m_sets.size()]; }
+
+  const MakeSearch& m_make;
+  const BoxSets& m_sets;
+  std::size_t m_next = 0;
+};
 
 std::string describe(const Pair& pair) { return std::to_string(pair.first) + " and " + std::to_string(pair.second); }
 
@@ -38,12 +51,12 @@ std::string difference(std::span<const Pair> found, std::span<const Pair> expect
   return text + ", first missing one " + describe(*e);
 }
 
-std::vector<measure::Summary> takeTurns(std::span<const Contender> contenders, std::span<const float> rows,
+std::vector<measure::Summary> takeTurns(std::span<const Contender> contenders, const BoxSets& sets,
                                         const measure::Effort& effort) {
   std::vector<measure::Sampling> turns;
   std::size_t rounds = 1;
   for (const Contender& contender : contenders) {
-    turns.emplace_back([&](std::size_t runs) { return timeRuns(contender.make, rows, runs); }, effort);
+    turns.emplace_back(Runs(contender.make, sets), effort);
     rounds = std::max(rounds, turns.back().allowance());
   }
   // Who has fewer samples takes them in rounds that are spread evenly over the whole.
@@ -80,10 +93,10 @@ std::vector<Outcome> compareResults(std::span<const Contender> contenders, std::
 
 }  // namespace
 
-std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
+std::vector<Outcome> contest(std::span<const Contender> contenders, const BoxSets& sets,
                              const measure::Effort& effort) {
-  std::vector<Outcome> outcomes = compareResults(contenders, rows);
-  const std::vector<measure::Summary> summaries = takeTurns(contenders, rows, effort);
+  std::vector<Outcome> outcomes = compareResults(contenders, sets.front());
+  const std::vector<measure::Summary> summaries = takeTurns(contenders, sets, effort);
   for (std::size_t k = 0; k < outcomes.size(); ++k) outcomes[k].times = summaries[k];
   return outcomes;
 }

@@ -29,10 +29,15 @@ struct Outcome {
   std::string mistake;  ///< How its pairs differ from the first contender's; empty if they don't.
 };
 
-/// Measures all contenders on the same boxes, interleaved, so that other load on the machine affects them equally.
+/// Sets of boxes from the same distribution, each as rows of 6.
+using BoxSets = std::vector<std::vector<float>>;
+
+/// Measures all contenders on the same boxes, interleaved, so that other load on the machine affects them equally. They
+/// take the sets one after the other: a processor learns the branches of a small set that it sees again.
 ///
-/// Each runs once first, untimed as far as the result goes, and its pairs are compared whole with the first one's.
-[[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, std::span<const float> rows,
+/// On the first set each runs once before, untimed as far as the result goes, and its pairs are compared whole with the
+/// first contender's.
+[[nodiscard]] std::vector<Outcome> contest(std::span<const Contender> contenders, const BoxSets& sets,
                                            const measure::Effort& effort);
 
 /// The setting in which the peer is the fastest on these boxes: each is tried, slow ones once and fast ones thrice;

@@ -59,7 +59,7 @@ void Runner::runCell(const Cell& cell) {
     if (setting == nullptr || cell.boxes > setting->mostBoxes) continue;
     contenders.push_back({.name = peer.name, .setting = setting->name, .make = setting->make});
   }
-  keep(cell, contenders, boxesOf(cell));
+  keep(cell, contenders);
 }
 
 void Runner::runThreads(const Cell& cell) {
@@ -72,7 +72,7 @@ void Runner::runThreads(const Cell& cell) {
     contenders.push_back(
         {.name = "allpairs", .setting = "unordered", .threads = threads, .make = freshSearches(options)});
   }
-  keep(cell, contenders, boxesOf(cell));
+  keep(cell, contenders);
 }
 
 void Runner::runKernel(const Cell& cell) {
@@ -86,7 +86,7 @@ void Runner::runKernel(const Cell& cell) {
                           .make = countingSearches(options),
                           .givesPairs = false});
   }
-  keep(cell, contenders, boxesOf(cell));
+  keep(cell, contenders);
 }
 
 std::vector<Contender> Runner::ownContenders() const {
@@ -106,8 +106,19 @@ OverlapOptions Runner::optionsFor(Order order) const {
   return options;
 }
 
-std::vector<float> Runner::boxesOf(const Cell& cell) const {
-  return generate::makeBoxes({.scene = cell.scene, .count = cell.boxes, .seed = m_options.seed, .sorted = cell.sorted});
+std::vector<float> Runner::boxesOf(const Cell& cell, std::size_t set) const {
+  return generate::makeBoxes(
+      {.scene = cell.scene, .count = cell.boxes, .seed = m_options.seed + set, .sorted = cell.sorted});
+}
+
+/// So many that no processor remembers their branches.
+BoxSets Runner::setsOf(const Cell& cell) const {
+  constexpr std::size_t kBoxes = 40000;
+  constexpr std::size_t kManyBoxes = 1000000;
+  const std::size_t fewest = cell.boxes > kManyBoxes ? 1 : 3;
+  BoxSets sets(std::max(fewest, kBoxes / std::max<std::size_t>(cell.boxes, 100)));
+  for (std::size_t i = 0; i < sets.size(); ++i) sets[i] = boxesOf(cell, i);
+  return sets;
 }
 
 bool Runner::isWanted(const Peer& peer) const {
@@ -123,8 +134,8 @@ const Setting* Runner::settingFor(const Peer& peer, const Cell& cell) {
   return entry->second;
 }
 
-void Runner::keep(const Cell& cell, const std::vector<Contender>& contenders, const std::vector<float>& rows) {
-  const std::vector<Outcome> outcomes = contest(contenders, rows, m_options.plan.effort);
+void Runner::keep(const Cell& cell, const std::vector<Contender>& contenders) {
+  const std::vector<Outcome> outcomes = contest(contenders, setsOf(cell), m_options.plan.effort);
   printTable(cell, contenders, outcomes);
   m_results.add(cell, contenders, outcomes);
   m_mistakes += static_cast<std::size_t>(

@@ -35,10 +35,11 @@ class Runner {
   void runKernel(const Cell& cell);
   [[nodiscard]] std::vector<Contender> ownContenders() const;
   [[nodiscard]] OverlapOptions optionsFor(Order order) const;
-  [[nodiscard]] std::vector<float> boxesOf(const Cell& cell) const;
+  [[nodiscard]] std::vector<float> boxesOf(const Cell& cell, std::size_t set = 0) const;
+  [[nodiscard]] BoxSets setsOf(const Cell& cell) const;
   [[nodiscard]] bool isWanted(const Peer& peer) const;
   [[nodiscard]] const Setting* settingFor(const Peer& peer, const Cell& cell);
-  void keep(const Cell& cell, const std::vector<Contender>& contenders, const std::vector<float>& rows);
+  void keep(const Cell& cell, const std::vector<Contender>& contenders);
 
   RunOptions m_options;
   Results& m_results;
