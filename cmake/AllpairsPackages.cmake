@@ -86,7 +86,7 @@ endif()
 set(allpairs_for_engine)
 set(allpairs_for_scene)
 if(NOT BUILD_SHARED_LIBS)
-  set(allpairs_for_engine "libhwy-dev, libtbb-dev")
+  set(allpairs_for_engine "libtbb-dev")
   set(allpairs_for_scene "libassimp-dev, zlib1g-dev, libpugixml-dev, libfmt-dev, nlohmann-json3-dev")
 endif()
 allpairs_package(dev liballpairs-dev SECTION libdevel SUMMARY "headers" OURS lib c RECOMMENDS "${allpairs_for_engine}"

@@ -55,13 +55,13 @@ function(unpack tree name)
   set(foreign "${foreign}" PARENT_SCOPE)
 endfunction()
 
-# Fails unless all that a package brings asks of others is Highway, oneTBB, the C++ library and what these expressions describe.
+# Fails unless all that a package brings asks of others is oneTBB, the C++ library and what these expressions describe.
 function(expect_needs name)
   set(foreign)
   unpack(${WORK}/alone/${name} ${name})
   list(JOIN ARGN "|" allowed)
   foreach(needed IN LISTS foreign)
-    if(NOT needed MATCHES "^(libc6|libgcc-s1|libstdc\\+\\+6|libhwy[0-9]+|libtbb12|${allowed})$")
+    if(NOT needed MATCHES "^(libc6|libgcc-s1|libstdc\\+\\+6|libtbb12|${allowed})$")
       message(FATAL_ERROR "${name} brings ${needed}, of all it asks for: ${foreign}")
     endif()
   endforeach()

@@ -57,7 +57,9 @@ struct KernelList {
 /// most searches of few boxes.
 std::int64_t supportedTargets() {
   const ProcessorLevel level = processorLevel();
+#if !ALLPAIRS_KNOWS_PROCESSOR
   if (level == ProcessorLevel::Unknown) return hwy::SupportedTargets();
+#endif
   std::int64_t targets = 0;
 #if HWY_ARCH_X86
   if (level >= ProcessorLevel::Ssse3) targets |= HWY_SSSE3;

@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 #endif
 
-#if (defined(__x86_64__) || defined(__i386__)) && __has_include(<sys/platform/x86.h>)
+#if ALLPAIRS_KNOWS_PROCESSOR && !defined(__aarch64__)
 #define _Bool bool  // NOLINT(bugprone-reserved-identifier, readability-identifier-naming): the header is C.
 #include <sys/platform/x86.h>
 #undef _Bool
@@ -56,7 +56,9 @@ ProcessorLevel processorLevel() noexcept {
 
 #else
 
-ProcessorLevel processorLevel() noexcept { return ProcessorLevel::Unknown; }
+ProcessorLevel processorLevel() noexcept {
+  return ALLPAIRS_KNOWS_PROCESSOR ? ProcessorLevel::Baseline : ProcessorLevel::Unknown;
+}
 
 #endif
 

@@ -10,6 +10,15 @@
 #endif
 #endif
 
+// Whether processorLevel() knows what this processor supports: by glibc, or because every one of the kind has the same.
+#if defined(__aarch64__)
+#define ALLPAIRS_KNOWS_PROCESSOR 1
+#elif (defined(__x86_64__) || defined(__i386__)) && __has_include(<sys/platform/x86.h>)
+#define ALLPAIRS_KNOWS_PROCESSOR 1
+#else
+#define ALLPAIRS_KNOWS_PROCESSOR 0
+#endif
+
 namespace allpairs::engine {
 
 // What systems and compilers have, and standard C++ has not. All of the engine that asks on which system it runs is here.
@@ -21,8 +30,8 @@ void adviseLargePages(void* memory, std::size_t bytes) noexcept;
 /// Instruction sets that the processor and the system support, each with those before it.
 enum class ProcessorLevel { Unknown, Baseline, Ssse3, Sse4, Avx2, Avx3, Avx3Dl };
 
-/// As the C library found it at the start of the process; Unknown of one that does not tell, or of another processor than
-/// x86. The processor itself takes a virtual machine some 70 microseconds to ask.
+/// As the C library found it at the start of the process; Unknown where nothing tells, see ALLPAIRS_KNOWS_PROCESSOR. The
+/// processor itself takes a virtual machine some 70 microseconds to ask.
 [[nodiscard]] ProcessorLevel processorLevel() noexcept;
 
 /// Asks for a line of memory that is read soon, where the compiler has a word for that.
