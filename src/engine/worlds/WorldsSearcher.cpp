@@ -6,6 +6,7 @@
 
 #include "allpairs/Error.h"
 #include "input/Options.h"
+#include "input/Parts.h"
 #include "search/PairSink.h"
 #include "search/TaskCut.h"
 
