@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <random>
+#include <string_view>
 #include <vector>
 
 #include "allpairs/Error.h"
@@ -97,6 +99,109 @@ TYPED_TEST(FewBoxes, OfTwoSetsGiveTheOraclesPairsInEveryOrder) {
       }
     }
   }
+}
+
+/// Whatever way a search of these two sets is asked for gives the pairs, in the order of the search's options.
+template <class T>
+void expectPairs(OverlapSearch& search, const std::vector<BasicBox<T>>& first, const std::vector<BasicBox<T>>& second,
+                 const std::vector<Pair>& expected) {
+  const auto comparable = [&](std::vector<Pair> pairs) {
+    if (search.options().order == Order::Unordered) std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  };
+  ASSERT_EQ(comparable(test::toVector(search.find(first, second))), expected);
+  ASSERT_EQ(search.statistics().pairs, expected.size());
+  ASSERT_EQ(search.statistics().boxTests, first.size() * second.size());
+  std::vector<Pair> memory(expected.size());
+  ASSERT_EQ(search.findInto(first, second, memory).size(), expected.size());
+  ASSERT_EQ(comparable(memory), expected);
+  ASSERT_EQ(search.count(first, second), expected.size());
+  ASSERT_EQ(comparable(overlaps(first, second, search.options())), expected);
+}
+
+TYPED_TEST(FewBoxes, OfTwoSetsGiveTheOraclesPairsForEveryCountWithEveryInstructionSet) {
+  for (std::size_t n = 0; n <= 70; ++n) {
+    for (std::size_t m = 0; m <= 70; ++m) {
+      const auto first = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+      const auto second = someBoxes<TypeParam>(m, static_cast<unsigned>(100 + m));
+      const std::vector<Pair> expected = test::oracleBetween(inDouble(first), inDouble(second));
+      const std::string_view instructionSet = instructionSets()[(n + m) % instructionSets().size()];
+      for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+        OverlapSearch search({.order = order, .instructionSet = instructionSet});
+        ASSERT_NO_FATAL_FAILURE(expectPairs(search, first, second, inOrder(expected, order)))
+            << n << " and " << m << " boxes, " << instructionSet;
+      }
+    }
+  }
+}
+
+TYPED_TEST(FewBoxes, GiveTheSameListWithEveryInstructionSet) {
+  for (std::size_t n = 0; n <= 70; ++n) {
+    const auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+    const auto others = someBoxes<TypeParam>(n / 2, static_cast<unsigned>(200 + n));
+    const std::vector<Pair> expected = test::oracle(inDouble(boxes));
+    const std::vector<Pair> between = test::oracleBetween(inDouble(boxes), inDouble(others));
+    for (const std::string_view instructionSet : instructionSets()) {
+      for (const Order order : {Order::ByFirst, Order::BySecond}) {
+        const OverlapOptions options{.order = order, .instructionSet = instructionSet};
+        ASSERT_EQ(overlaps(boxes, options), inOrder(expected, order)) << n << " boxes, " << instructionSet;
+        ASSERT_EQ(overlaps(boxes, others, options), inOrder(between, order)) << n << " boxes, " << instructionSet;
+      }
+    }
+  }
+}
+
+TYPED_TEST(FewBoxes, OfTwoSetsThatAllOverlapFitTheResult) {
+  for (const std::size_t n : {1U, 5U, 31U, 32U, 33U, 63U, 64U, 65U, 128U}) {
+    for (const std::size_t m : {1U, 31U, 32U, 63U, 64U, 65U, 128U}) {
+      const std::vector<BasicBox<TypeParam>> first(n, {{0, 0, 0}, {1, 1, 1}});
+      const std::vector<BasicBox<TypeParam>> second(m, {{1, 1, 1}, {2, 2, 2}});
+      ASSERT_EQ(overlaps(first, second).size(), n * m);
+      ASSERT_EQ(overlaps(second, first, {.order = Order::BySecond}).size(), n * m);
+    }
+  }
+}
+
+/// Bounds that float32 cannot tell apart.
+TEST(FewBoxesInDouble, AreNotRounded) {
+  for (const std::size_t n : {1U, 3U, 9U, 20U, 40U}) {
+    const std::vector<Box> first(n, {{0, 0, 0}, {0.1, 1, 1}});
+    const std::vector<Box> apart(n, {{std::nextafter(0.1, 1.0), 0, 0}, {1, 1, 1}});
+    const std::vector<Box> touching(n, {{0.1, 0, 0}, {1, 1, 1}});
+    for (const std::string_view instructionSet : instructionSets()) {
+      const OverlapOptions options{.instructionSet = instructionSet};
+      EXPECT_EQ(overlaps(first, apart, options).size(), 0U) << n << " boxes, " << instructionSet;
+      EXPECT_EQ(overlaps(first, touching, options).size(), n * n) << n << " boxes, " << instructionSet;
+    }
+  }
+}
+
+TEST(FewBoxesOfTwoSets, OfDifferentPrecisionsAndLayoutsAreCompared) {
+  const auto first = someBoxes<double>(20, 1);
+  const auto second = someBoxes<float>(30, 2);
+  const std::vector<Pair> expected = test::oracleBetween(first, inDouble(second));
+  EXPECT_EQ(overlaps(first, second), expected);
+  EXPECT_EQ(overlaps(second, first).size(), expected.size());
+  std::vector<double> min;
+  std::vector<double> max;
+  for (const Box& box : first) min.insert(min.end(), box.min.begin(), box.min.end());
+  for (const Box& box : first) max.insert(max.end(), box.max.begin(), box.max.end());
+  const auto inDoubleSecond = inDouble(second);
+  EXPECT_EQ(overlaps(BoxView::fromCorners(min, max), inDoubleSecond), expected);
+}
+
+TEST(FewBoxesOfTwoSets, WithOptionsGoTheWayOfMany) {
+  const auto first = someBoxes<double>(20, 3);
+  const auto second = someBoxes<double>(30, 4);
+  EXPECT_EQ(overlaps(first, second, {.distance = 0.1}), test::oracleBetween(first, second, 0.1));
+  OverlapOptions options;
+  options.filter.accept = [](std::uint32_t a, std::uint32_t b) { return a < b; };
+  std::vector<Pair> expected = test::oracleBetween(first, second);
+  std::erase_if(expected, [](Pair pair) { return pair.first >= pair.second; });
+  EXPECT_EQ(overlaps(first, second, options), expected);
+  const std::vector<Box> one(1, test::cube(0, 0, 0));
+  EXPECT_THROW((void)overlaps(one, one, {.instructionSet = "NONE"}), InvalidArgument);
+  EXPECT_THROW((void)overlaps(one, one, {.maxPairs = 0}), LimitExceeded);
 }
 
 TYPED_TEST(FewBoxes, AreFilteredAndWidenedAsManyAre) {

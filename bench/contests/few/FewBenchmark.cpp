@@ -26,25 +26,50 @@ using namespace allpairs;
 /// Boxes of all sets of a measurement together: more than branch predictors remember.
 constexpr std::size_t kBoxes = 40000;
 
-using Rows = std::vector<float>;
+/// The boxes of a search, as rows: of one set, or of two.
+template <class T>
+struct Scene {
+  std::vector<T> first;
+  std::vector<T> second;
+};
 
-std::vector<Rows> makeSets(std::size_t boxes) {
-  std::vector<Rows> sets(std::max<std::size_t>(40, kBoxes / boxes));
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    sets[i] = generate::makeBoxes({.scene = "uniform", .count = boxes, .seed = 1000 * boxes + i});
+/// How many boxes; none in the second set means one set.
+struct Counts {
+  std::size_t first;
+  std::size_t second = 0;
+};
+
+template <class T>
+std::vector<T> makeRows(std::size_t boxes, std::size_t seed) {
+  if (boxes == 0) return {};
+  const std::vector<float> rows = generate::makeBoxes({.scene = "uniform", .count = boxes, .seed = seed});
+  return {rows.begin(), rows.end()};
+}
+
+template <class T>
+std::vector<Scene<T>> makeScenes(Counts counts) {
+  const std::size_t boxes = counts.first + counts.second;
+  std::vector<Scene<T>> scenes(std::max<std::size_t>(40, kBoxes / boxes));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    scenes[i] = {makeRows<T>(counts.first, 1000 * boxes + i), makeRows<T>(counts.second, 1000 * boxes + i + 500000)};
   }
-  return sets;
+  return scenes;
+}
+
+template <class T>
+bool overlap(const T* a, const T* b) {
+  return a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5];
 }
 
 /// The double loop that a user would write.
-std::vector<Pair> loop(std::span<const float> rows) {
+template <class T>
+std::vector<Pair> loop(const Scene<T>& scene) {
   std::vector<Pair> pairs;
-  const std::size_t count = rows.size() / 6;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
-      const float* const a = &rows[6 * i];
-      const float* const b = &rows[6 * j];
-      if (a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5]) {
+  const std::vector<T>& columns = scene.second.empty() ? scene.first : scene.second;
+  const std::size_t count = columns.size() / 6;
+  for (std::size_t i = 0; i < scene.first.size() / 6; ++i) {
+    for (std::size_t j = scene.second.empty() ? i + 1 : 0; j < count; ++j) {
+      if (overlap(&scene.first[6 * i], &columns[6 * j])) {
         pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
       }
     }
@@ -52,23 +77,39 @@ std::vector<Pair> loop(std::span<const float> rows) {
   return pairs;
 }
 
-/// A way of searching one set; returns the number of pairs.
+/// A way of searching a scene; returns the number of pairs.
+template <class T>
 struct Contender {
   std::string name;
-  std::function<std::size_t(const BoxView&, const Rows&)> search;
+  std::function<std::size_t(const Scene<T>&)> search;
   double leastNs = std::numeric_limits<double>::infinity();
 };
 
-/// Lets all contenders search all sets in turns, and keeps the least time of a search of each.
-void compete(std::span<Contender> contenders, const std::vector<Rows>& sets, double seconds) {
+/// The library's call with views of one set or of two.
+template <class T, class Call>
+std::size_t pairsOf(const Scene<T>& scene, const Call& call) {
+  if (scene.second.empty()) return call(BoxView::fromRows(scene.first)).size();
+  return call(BoxView::fromRows(scene.first), BoxView::fromRows(scene.second)).size();
+}
+
+template <class T>
+Contender<T> found(const std::string& name, OverlapSearch& search) {
+  return {name, [&search](const Scene<T>& scene) {
+            return pairsOf(scene, [&](const auto&... views) { return search.find(views...); });
+          }};
+}
+
+/// Lets all contenders search all scenes in turns, and keeps the least time of a search of each.
+template <class T>
+void compete(std::span<Contender<T>> contenders, const std::vector<Scene<T>>& scenes, double seconds) {
   const measure::Stopwatch total;
   for (int round = 0; round < 3 || total.elapsed().wallMs < 1000.0 * seconds; ++round) {
     std::size_t expected = 0;
-    for (Contender& contender : contenders) {
+    for (Contender<T>& contender : contenders) {
       std::size_t pairs = 0;
       const measure::Stopwatch watch;
-      for (const Rows& rows : sets) pairs += contender.search(BoxView::fromRows(rows), rows);
-      const double ns = 1e6 * watch.elapsed().cpuMs / static_cast<double>(sets.size());
+      for (const Scene<T>& scene : scenes) pairs += contender.search(scene);
+      const double ns = 1e6 * watch.elapsed().cpuMs / static_cast<double>(scenes.size());
       contender.leastNs = std::min(contender.leastNs, ns);
       if (&contender == contenders.data()) expected = pairs;
       if (pairs != expected) throw std::runtime_error(contender.name + " found another number of pairs");
@@ -76,24 +117,51 @@ void compete(std::span<Contender> contenders, const std::vector<Rows>& sets, dou
   }
 }
 
-void compareCalls(double seconds) {
-  constexpr std::array<std::size_t, 22> kCounts{2,  3,  4,  6,   8,   9,   12,  16,  17,  24,  32,
-                                                48, 64, 96, 128, 129, 192, 256, 257, 384, 385, 512};
-  std::printf("Nanoseconds per search of uniform boxes, the least of all rounds; views of the boxes included.\n\n");
+template <class T>
+void compareCalls(std::span<const Counts> all, double seconds) {
+  std::printf("\nfloat%zu:\n\n", 8 * sizeof(T));
   std::printf(
       "| boxes | double loop | overlaps() | find(), ordered | find(), unordered |\n|---:|---:|---:|---:|---:|\n");
   OverlapSearch ordered;
   OverlapSearch unordered({.order = Order::Unordered});
-  for (const std::size_t boxes : kCounts) {
-    std::array<Contender, 4> contenders{
-        Contender{"the double loop", [](const BoxView&, const Rows& rows) { return loop(rows).size(); }},
-        Contender{"overlaps()", [](const BoxView& view, const Rows&) { return overlaps(view).size(); }},
-        Contender{"find(), ordered", [&](const BoxView& view, const Rows&) { return ordered.find(view).size(); }},
-        Contender{"find(), unordered", [&](const BoxView& view, const Rows&) { return unordered.find(view).size(); }}};
-    compete(contenders, makeSets(boxes), seconds);
-    std::printf("| %zu | %.0f | %.0f | %.0f | %.0f |\n", boxes, contenders[0].leastNs, contenders[1].leastNs,
-                contenders[2].leastNs, contenders[3].leastNs);
+  for (const Counts& counts : all) {
+    std::array<Contender<T>, 4> contenders{
+        Contender<T>{"the double loop", [](const Scene<T>& scene) { return loop(scene).size(); }},
+        Contender<T>{"overlaps()",
+                     [](const Scene<T>& scene) {
+                       return pairsOf(scene, [](const auto&... views) { return overlaps(views...); });
+                     }},
+        found<T>("find(), ordered", ordered), found<T>("find(), unordered", unordered)};
+    compete<T>(contenders, makeScenes<T>(counts), seconds);
+    std::printf("| %zu", counts.first);
+    if (counts.second != 0) std::printf(" x %zu", counts.second);
+    for (const Contender<T>& contender : contenders) std::printf(" | %.0f", contender.leastNs);
+    std::printf(" |\n");
   }
+}
+
+void compareAllCalls(double seconds) {
+  constexpr std::array<Counts, 22> kOneSet{{{2},  {3},  {4},  {6},   {8},   {9},   {12},  {16},  {17},  {24},  {32},
+                                            {48}, {64}, {96}, {128}, {129}, {192}, {256}, {257}, {384}, {385}, {512}}};
+  constexpr std::array<Counts, 14> kTwoSets{{{1, 1},
+                                             {1, 2},
+                                             {2, 2},
+                                             {3, 3},
+                                             {1, 8},
+                                             {8, 1},
+                                             {4, 4},
+                                             {3, 20},
+                                             {8, 8},
+                                             {1, 60},
+                                             {60, 1},
+                                             {16, 16},
+                                             {31, 32},
+                                             {64, 64}}};
+  std::printf("Nanoseconds per search of uniform boxes, the least of all rounds; views of the boxes included.\n");
+  compareCalls<float>(kOneSet, seconds);
+  compareCalls<double>(kOneSet, seconds);
+  compareCalls<float>(kTwoSets, seconds);
+  compareCalls<double>(kTwoSets, seconds);
 }
 
 void compareStrategies(double seconds) {
@@ -112,10 +180,9 @@ void compareStrategies(double seconds) {
       options.strategy = Strategy::Bvh;
       OverlapSearch hierarchy(options);
       for (const std::size_t boxes : kSizes) {
-        std::array<Contender, 2> contenders{
-            Contender{"exhaustive", [&](const BoxView& view, const Rows&) { return exhaustive.find(view).size(); }},
-            Contender{"hierarchy", [&](const BoxView& view, const Rows&) { return hierarchy.find(view).size(); }}};
-        compete(contenders, makeSets(boxes), seconds);
+        std::array<Contender<float>, 2> contenders{found<float>("exhaustive", exhaustive),
+                                                   found<float>("hierarchy", hierarchy)};
+        compete<float>(contenders, makeScenes<float>({boxes}), seconds);
         std::printf(" %.2f |", contenders[0].leastNs / contenders[1].leastNs);
       }
     }
@@ -130,7 +197,7 @@ int main(int argc, char** argv) {
   CLI::App app("Compares calls on few boxes.");
   app.add_option("--seconds", seconds, "For each number of boxes")->capture_default_str();
   return allpairs::bench::runMain(app, argc, argv, [&] {
-    compareCalls(seconds);
+    compareAllCalls(seconds);
     compareStrategies(seconds);
     return 0;
   });

@@ -8,6 +8,7 @@
 #define ALLPAIRS_KERNEL_TABLE_INL_H
 #endif
 
+#include "kernels/FewKernel-inl.h"
 #include "kernels/FlatKernel-inl.h"
 #include "kernels/JoinKernel-inl.h"
 #include "kernels/Kernels.h"
@@ -33,6 +34,8 @@ const Kernels* kernelTable() {
                              kFlatUnordered,
                              &searchFlat,
                              &searchFew,
+                             &searchFewBoxes<float>,
+                             &searchFewBoxes<double>,
                              &searchWorlds,
                              &searchWideWorld,
                              &join,

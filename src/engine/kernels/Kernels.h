@@ -41,6 +41,17 @@ struct FewSearch {
   Columns tested = Columns::All;
 };
 
+/// The same of boxes as they lie in memory, rows of six that follow each other.
+template <class T>
+struct FewBoxesSearch {
+  const T* rows = nullptr;
+  const T* columns = nullptr;
+  std::size_t rowCount = 0;
+  std::size_t columnCount = 0;  ///< From 1 to kWordBoxes.
+  Columns tested = Columns::All;
+  bool rowSecond = false;  ///< In pairs; of one set where rows are tested against what precedes them, and only there.
+};
+
 /// Working memory of a join that lists neighbors: the boxes near a node, with their ids, in an array for each bound.
 class NeighborScratch {
  public:
@@ -174,6 +185,11 @@ struct Kernels {
 
   /// The same for a few boxes.
   void (*searchFew)(const FewSearch& search, Hits& hits);
+
+  /// The same for boxes that are not rounded: writes their pairs, by row, and up to WorldSink::kSlack past the last one. Returns how
+  /// many there are.
+  std::size_t (*searchFew32)(const FewBoxesSearch<float>& search, Pair* pairs);
+  std::size_t (*searchFew64)(const FewBoxesSearch<double>& search, Pair* pairs);
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
   void (*searchWorlds)(WorldsRun& run);

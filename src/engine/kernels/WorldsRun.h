@@ -50,7 +50,7 @@ struct WorldSink {
   static constexpr std::size_t kSlack = 8;
 
   /// All pairs of so many boxes.
-  [[nodiscard]] static std::size_t pairsOf(std::size_t boxes) noexcept {
+  [[nodiscard]] static constexpr std::size_t pairsOf(std::size_t boxes) noexcept {
     return boxes * (boxes - (boxes == 0 ? 0 : 1)) / 2;
   }
 

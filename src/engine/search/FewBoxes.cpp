@@ -12,12 +12,25 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes of one set, a plain loop over them takes less time than arranging them for vectors
+/// Up to so many pairs of boxes, a plain loop over them takes less time than arranging boxes for vectors
 /// (docs/decisions/0009, few_benchmark).
-constexpr std::size_t kPlainBoxes = 8;
+constexpr std::size_t kTestedPairs = 24;
+
+/// Up to so many, boxes are compared as they are, and their pairs are collected on the stack: those of 64 boxes of one set.
+constexpr std::size_t kPlainPairs = WorldSink::pairsOf(kWordBoxes);
 
 /// Hits that are buffered: a few times those of one box.
 constexpr std::size_t kHits = 4 * FewTile::kCapacity;
+
+/// Room for pairs on the stack. Pairs themselves would be set to 0 first, which takes longer than many a search.
+template <std::size_t kSize>
+class PairsOnStack {
+ public:
+  [[nodiscard]] Pair* data() noexcept { return reinterpret_cast<Pair*>(m_bytes.data()); }
+
+ private:
+  alignas(64) std::array<std::byte, kSize * sizeof(Pair)> m_bytes;
+};
 
 /// Turns hits into pairs, and passes on those that the test keeps.
 class Receiver {
@@ -79,48 +92,88 @@ bool readFew(const BoxReader& reader, FewTile& tile) {
   return exact;
 }
 
-/// All pairs of rows of six, in order; returns their number.
+/// Whether rows of six overlap; no comparison is true of an empty box.
 template <class T>
-std::size_t testAll(const T* rows, std::size_t size, bool bySecond, Pair* pairs) {
-  const auto isHit = [rows](std::size_t i, std::size_t j) {
-    const T* const a = rows + 6 * i;
-    const T* const b = rows + 6 * j;
-    return (a[0] <= b[3]) & (b[0] <= a[3]) & (a[1] <= b[4]) & (b[1] <= a[4]) & (a[2] <= b[5]) & (b[2] <= a[5]);
-  };
-  std::array<std::uint32_t, kPlainBoxes> used;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    const T* const a = rows + 6 * i;
-    used[count] = static_cast<std::uint32_t>(i);
-    count += static_cast<std::size_t>((a[0] <= a[3]) & (a[1] <= a[4]) & (a[2] <= a[5]));
-  }
+bool areHit(const T* a, const T* b) {
+  const bool x = std::max(a[0], b[0]) <= std::min(a[3], b[3]);
+  const bool y = std::max(a[1], b[1]) <= std::min(a[4], b[4]);
+  const bool z = std::max(a[2], b[2]) <= std::min(a[5], b[5]);
+  return x & y & z;
+}
+
+/// All pairs, by row; returns their number.
+template <class T>
+std::size_t testAll(const FewBoxesSearch<T>& search, Pair* pairs) {
   std::size_t found = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = bySecond ? 0 : i + 1; j < (bySecond ? i : count); ++j) {
-      pairs[found] = bySecond ? Pair{used[j], used[i]} : Pair{used[i], used[j]};
-      found += static_cast<std::size_t>(isHit(used[i], used[j]));
+  for (std::uint32_t i = 0; i < search.rowCount; ++i) {
+    const std::uint32_t begin = search.tested == Columns::Following ? i + 1 : 0;
+    const std::size_t end = search.tested == Columns::Preceding ? i : search.columnCount;
+    for (std::uint32_t j = begin; j < end; ++j) {
+      pairs[found] = search.rowSecond ? Pair{j, i} : Pair{i, j};
+      found += static_cast<std::size_t>(areHit(search.rows + 6 * std::size_t{i}, search.columns + 6 * std::size_t{j}));
     }
   }
   return found;
 }
 
-/// Whether testAll() takes these boxes: only their bounds matter, which are rows, and no option can be invalid.
-bool arePlain(const Sets& sets, const OverlapOptions& options) {
-  const BoxView& boxes = sets.first;
-  return sets.one && boxes.size() <= kPlainBoxes && options.distance == 0.0 && !options.region &&
-         isEmpty(options.filter.first) && isEmpty(options.filter.second) && !options.filter.accept &&
-         options.instructionSet.empty() && !boxes.hasMargins() &&
-         (boxes.isFloat64() ? boxes.float64().isPacked() : boxes.float32().isPacked());
+/// How many pairs of boxes there are.
+std::size_t pairsOf(const Sets& sets) {
+  const std::size_t size = sets.first.size();
+  return sets.one ? WorldSink::pairsOf(size) : size * sets.second.size();
 }
 
-OverlapStatistics findPlain(const BoxView& boxes, const OverlapOptions& options, Order order,
-                            FunctionRef<void(std::span<const Pair>)> take) {
-  std::array<Pair, kPlainBoxes * kPlainBoxes / 2> pairs;
+template <class T>
+bool areRows(const BoxView::Corners<T>& first, const BoxView::Corners<T>& second) {
+  return first.isPacked() && second.isPacked();
+}
+
+/// Whether findPlain() takes these boxes: only their bounds matter, which are rows, and no option but the instruction set can be
+/// invalid.
+bool arePlain(const Sets& sets, const OverlapOptions& options) {
+  const BoxView& first = sets.first;
+  const BoxView& second = sets.second;
+  return std::max(first.size(), second.size()) <= kWordBoxes && pairsOf(sets) <= kPlainPairs &&
+         first.isFloat64() == second.isFloat64() && !first.hasMargins() && !second.hasMargins() &&
+         options.distance == 0.0 && !options.region && !options.filter.accept && isEmpty(options.filter.first) &&
+         isEmpty(options.filter.second) &&
+         (first.isFloat64() ? areRows(first.float64(), second.float64()) : areRows(first.float32(), second.float32()));
+}
+
+/// The search of two sets of rows, or of one twice, by the index that pairs are ordered by. All boxes against a single one are
+/// in its order too if that is the row, which takes fewer tests of a vector.
+template <class T>
+FewBoxesSearch<T> plainSearch(const Sets& sets, Order order, const T* first, const T* second) {
+  const std::size_t firstSize = sets.first.size();
+  const std::size_t secondSize = sets.second.size();
   const bool bySecond = order == Order::BySecond;
+  if (sets.one) {
+    const Columns tested = bySecond ? Columns::Preceding : Columns::Following;
+    return {first, first, firstSize, firstSize, tested, bySecond};
+  }
+  if (secondSize == 1 || (bySecond && firstSize != 1))
+    return {second, first, secondSize, firstSize, Columns::All, true};
+  return {first, second, firstSize, secondSize, Columns::All, false};
+}
+
+/// Writes all pairs that overlap; returns their number.
+std::size_t searchPlain(const Sets& sets, Order order, const Kernels& kernels, Pair* pairs) {
+  const std::size_t most = pairsOf(sets);
+  if (most == 0) return 0;
+  const bool isTested = most <= kTestedPairs;
+  if (sets.first.isFloat64()) {
+    const auto search = plainSearch(sets, order, sets.first.float64().min.data, sets.second.float64().min.data);
+    return isTested ? testAll(search, pairs) : kernels.searchFew64(search, pairs);
+  }
+  const auto search = plainSearch(sets, order, sets.first.float32().min.data, sets.second.float32().min.data);
+  return isTested ? testAll(search, pairs) : kernels.searchFew32(search, pairs);
+}
+
+OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
+                            FunctionRef<void(std::span<const Pair>)> take) {
+  PairsOnStack<kPlainPairs + WorldSink::kSlack> pairs;
   OverlapStatistics statistics;
-  statistics.pairs = boxes.isFloat64() ? testAll(boxes.float64().min.data, boxes.size(), bySecond, pairs.data())
-                                       : testAll(boxes.float32().min.data, boxes.size(), bySecond, pairs.data());
-  statistics.boxTests = boxes.size() * (boxes.size() - (boxes.empty() ? 0 : 1)) / 2;
+  statistics.pairs = searchPlain(sets, order, chooseKernels(options), pairs.data());
+  statistics.boxTests = pairsOf(sets);
   checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
   if (statistics.pairs != 0) take({pairs.data(), statistics.pairs});
   return statistics;
@@ -162,8 +215,7 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
 
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
-  return arePlain(sets, options) ? findPlain(sets.first, options, order, take)
-                                 : findInTiles(sets, options, order, take);
+  return arePlain(sets, options) ? findPlain(sets, options, order, take) : findInTiles(sets, options, order, take);
 }
 
 }  // namespace allpairs::engine

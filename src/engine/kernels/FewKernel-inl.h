@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// A few boxes against each other as they lie in the caller's memory: hits of each row as bits, and then pairs of bits.
+
+#if defined(ALLPAIRS_FEW_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_FEW_KERNEL_INL_H
+#undef ALLPAIRS_FEW_KERNEL_INL_H
+#else
+#define ALLPAIRS_FEW_KERNEL_INL_H
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/Kernels.h"
+#include "kernels/WorldsKernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+/// Pairs of a row that are written unasked: most rows of few boxes have no more (few_benchmark).
+constexpr std::size_t kUnaskedOfFew = 2;
+
+/// Boxes as they are, of float32 or of float64, an array for each bound.
+template <class T>
+using FewColumns = std::array<std::array<T, kWordBoxes>, 6>;
+
+/// As many boxes as a vector has lanes, from rows of six that follow each other.
+template <class T>
+HWY_INLINE void readColumns(const T* rows, FewColumns<T>& columns, std::size_t at) {
+  const hn::CappedTag<T, kFanOut> d;
+#if HWY_TARGET == HWY_SCALAR
+  for (std::size_t bound = 0; bound < 6; ++bound) hn::StoreU(hn::LoadU(d, rows + bound), d, &columns[bound][at]);
+#else
+  // Corners alternate between minimum and maximum.
+  hn::Vec<decltype(d)> first[3];
+  hn::Vec<decltype(d)> last[3];
+  hn::LoadInterleaved3(d, rows, first[0], first[1], first[2]);
+  hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d), last[0], last[1], last[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    hn::StoreU(hn::ConcatEven(d, last[axis], first[axis]), d, &columns[axis][at]);
+    hn::StoreU(hn::ConcatOdd(d, last[axis], first[axis]), d, &columns[axis + 3][at]);
+  }
+#endif
+}
+
+/// The same of any number of boxes; what follows the last one is unspecified.
+template <class T>
+HWY_INLINE void readAllColumns(const T* rows, std::size_t count, FewColumns<T>& columns) {
+  const std::size_t lanes = hn::Lanes(hn::CappedTag<T, kFanOut>());
+  std::size_t at = 0;
+  for (; at + lanes <= count; at += lanes) readColumns(rows + 6 * at, columns, at);
+  if (at == count) return;
+  std::array<T, 6 * kFanOut> rest;
+  std::copy_n(rows + 6 * at, 6 * (count - at), rest.data());
+  readColumns(rest.data(), columns, at);
+}
+
+/// The columns in vectors from `begin` up to `end` that a row overlaps, as bits. No comparison is true of an empty box, and
+/// nothing is rounded.
+template <class T>
+HWY_INLINE std::uint64_t hitsOf(const T* row, const FewColumns<T>& columns, std::size_t begin, std::size_t end) {
+  const hn::CappedTag<T, kFanOut> d;
+  std::uint64_t bits = 0;
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const auto from = [&](std::size_t axis)
+                          HWY_ATTR { return hn::Max(hn::Set(d, row[axis]), hn::LoadU(d, &columns[axis][i])); };
+    const auto to = [&](std::size_t axis)
+                        HWY_ATTR { return hn::Min(hn::Set(d, row[axis + 3]), hn::LoadU(d, &columns[axis + 3][i])); };
+    const auto x = hn::Le(from(0), to(0));
+    const auto y = hn::Le(from(1), to(1));
+    const auto z = hn::Le(from(2), to(2));
+    bits |= std::uint64_t{allBitsOf(d, hn::And(hn::And(x, y), z))} << i;
+  }
+  return bits;
+}
+
+/// So many bits, from the lowest on; fewer than a word has.
+HWY_INLINE std::uint64_t lowBits(std::size_t count) { return ~(~std::uint64_t{0} << count); }
+
+template <class T, Columns kTested, bool kRowSecond>
+HWY_INLINE std::size_t searchFewBoxes(const FewBoxesSearch<T>& search, Pair* pairs) {
+  alignas(64) FewColumns<T> columns;
+  readAllColumns(search.columns, search.columnCount, columns);
+  const std::size_t lanes = hn::Lanes(hn::CappedTag<T, kFanOut>());
+  const std::uint64_t all = ~std::uint64_t{0} >> (kWordBoxes - search.columnCount);
+  std::size_t size = 0;
+  for (std::size_t row = 0; row < search.rowCount; ++row) {
+    const std::size_t begin = kTested == Columns::Following ? row / lanes * lanes : 0;
+    const std::size_t end = kTested == Columns::Preceding ? row : search.columnCount;
+    std::uint64_t bits = hitsOf(search.rows + 6 * row, columns, begin, end) & all;
+    if (kTested == Columns::Following) bits &= ~std::uint64_t{1} << row;
+    if (kTested == Columns::Preceding) bits &= lowBits(row);
+    size += writeBits<kRowSecond, kUnaskedOfFew>(bits, static_cast<std::uint32_t>(row), 0, pairs + size);
+  }
+  return size;
+}
+
+template <class T>
+std::size_t searchFewBoxes(const FewBoxesSearch<T>& search, Pair* pairs) {
+  switch (search.tested) {
+    case Columns::Following:
+      return searchFewBoxes<T, Columns::Following, false>(search, pairs);
+    case Columns::Preceding:
+      return searchFewBoxes<T, Columns::Preceding, true>(search, pairs);
+    default:
+      return search.rowSecond ? searchFewBoxes<T, Columns::All, true>(search, pairs)
+                              : searchFewBoxes<T, Columns::All, false>(search, pairs);
+  }
+}
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_FEW_KERNEL_INL_H
