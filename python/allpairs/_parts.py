@@ -98,7 +98,7 @@ def _checked(name: str, values: Array, called: str, begin: int) -> Array:
 
 
 def _joined(name: str, blocks: list[Array], called: str, begin: int) -> Array:
-    return _checked(name, np.concatenate([np.asarray(block) for block in blocks]), called, begin)
+    return _checked(name, np.concatenate([_arguments.array_of(called, block) for block in blocks]), called, begin)
 
 
 def _read_range(name: str, pieces: list[tuple[str, int, int]]) -> Array:

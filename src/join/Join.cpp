@@ -135,6 +135,9 @@ JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
 RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
+  if (options.region)
+    throw InvalidArgument(
+        "a plan for ranks does not take a region: how many boxes it leaves is not known before they are read");
   BoxInput input(inputs, options);
   Budget budget = budgetOf(options, input);
   const std::uint64_t cells =

@@ -87,6 +87,9 @@ TEST(Join, APlanForRanksCountsWhatTravels) {
     before = plan.boxBytes;
   }
   EXPECT_THROW((void)join::planRanks(with.paths, 0, {}), InvalidArgument);
+  join::JoinOptions inRegion;
+  inRegion.region = Box{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_THROW((void)join::planRanks(with.paths, 2, inRegion), InvalidArgument);
 }
 
 TEST(Join, BadInputIsNamedAndNothingIsWritten) {

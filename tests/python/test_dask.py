@@ -280,3 +280,11 @@ def test_a_worker_that_is_killed_changes_nothing(cluster, tmp_path):
     found = allpairs.dask.overlaps(array, **own)
     assert found.compute().tobytes() == allpairs.overlaps(boxes, **own).tobytes()
     assert os.path.exists(marker)
+
+
+@pytest.mark.parametrize("name", ["margin", "group", "category", "mask"])
+def test_masked_entries_in_chunks_are_refused(name):
+    boxes = dask.array.from_array(np.tile([0.0, 0, 0, 1, 1, 1], (4, 1)), chunks=(2, 6))
+    values = dask.array.from_array(np.ma.array([1, 1, 1, 1], mask=[0, 0, 0, 1]), chunks=2, asarray=False)
+    with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has masked entries"):
+        allpairs.dask.overlaps(boxes, **{name: values}).compute()

@@ -95,7 +95,7 @@ void WorldLists::groupOne(Grouped& list, std::span<const Pair> pairs, const Numb
   }
   const unsigned end = 32 + static_cast<unsigned>(std::bit_width(all));
   const std::uint64_t* const sorted = radixSort(m_keyed.data(), m_spare.data(), pairs.size(), 32, end);
-  list.own.reserve(m_keyed.capacity());
+  if (list.own.capacity() < pairs.size()) list.own.reserve(pairs.size() + pairs.size() / 4);
   list.own.resize(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) list.own[i] = pairs[static_cast<std::uint32_t>(sorted[i])];
   list.pairs = list.own;

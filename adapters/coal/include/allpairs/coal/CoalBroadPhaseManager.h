@@ -139,7 +139,7 @@ class CoalBroadPhaseManager : public HostTree<CoalHost> {
 
   [[nodiscard]] bool empty() const override { return m_objects.rows().size() == 0; }
 
-  /// The first call after a change brings Coal's tree up to date, which Coal's trees read after they have called this.
+  /// The first call after an update or a registration brings Coal's tree up to date, which Coal's trees read after they have called this.
   [[nodiscard]] std::size_t size() const override {
     this->bringTree(m_objects.rows());
     return m_objects.rows().size();

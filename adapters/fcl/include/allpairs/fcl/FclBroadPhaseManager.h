@@ -140,7 +140,7 @@ class FclBroadPhaseManager : public HostTree<FclHost<S>> {
 
   [[nodiscard]] bool empty() const override { return m_objects.rows().size() == 0; }
 
-  /// The first call after a change brings FCL's tree up to date, which FCL's trees read after they have called this.
+  /// The first call after an update or a registration brings FCL's tree up to date, which FCL's trees read after they have called this.
   [[nodiscard]] std::size_t size() const override {
     this->bringTree(m_objects.rows());
     return m_objects.rows().size();
