@@ -56,7 +56,7 @@ struct KernelList {
 /// The targets of Highway that run here. Highway would ask the processor again, which takes a virtual machine longer than
 /// most searches of few boxes.
 std::int64_t supportedTargets() {
-  const ProcessorLevel level = processorLevel();
+  [[maybe_unused]] const ProcessorLevel level = processorLevel();
 #if !ALLPAIRS_KNOWS_PROCESSOR
   if (level == ProcessorLevel::Unknown) return hwy::SupportedTargets();
 #endif
