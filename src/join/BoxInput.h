@@ -92,7 +92,7 @@ class BoxInput {
   /// Bad input: a NaN throws FileError, which names file and box; so does a file that has become longer or shorter.
   void forEachBlock(Visitor visit);
 
-  /// About `count` boxes from everywhere in the files, with their margins: all, if there are no more.
+  /// About `count` boxes with their margins, spread over the files; all boxes if there are fewer.
   [[nodiscard]] BoxSample sample(std::size_t count);
 
   [[nodiscard]] bool hasMargins(std::size_t set) const noexcept { return m_values[set].hasMargins(); }

@@ -13,6 +13,7 @@ namespace allpairs::join {
 struct Budget {
   std::size_t workers = 1;
   std::size_t cellBoxes = 0;    ///< Boxes that a worker searches at once, of one set or of both together.
+  std::size_t leastCells = 1;   ///< Cells that space is cut into at least, however few boxes a region leaves.
   std::size_t bufferPairs = 0;  ///< Pairs that a worker gathers before it writes them.
   std::size_t bufferBytes = 0;  ///< All cells' buffers while boxes are distributed.
   std::size_t sampleBoxes = 0;  ///< Boxes in a sample.

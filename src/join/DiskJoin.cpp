@@ -187,6 +187,7 @@ void DiskJoin::distribute() {
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     for (std::size_t i = 0; i < block.boxes.size(); ++i) {
+      if (!isKept(block, i, m_options)) continue;
       for (const std::uint32_t cell : finder.cellsOf(block, i)) {
         m_spill->add(partOf(m_cells, block.set, cell), block, i);
       }

@@ -51,7 +51,6 @@ CellFinder::CellFinder(const Division& division, const JoinOptions& options)
     : m_division(division), m_options(options) {}
 
 std::span<const std::uint32_t> CellFinder::cellsOf(const BoxBlock& block, std::size_t i) {
-  if (!isKept(block, i, m_options)) return {};
   const partition::Partition& cells = m_division.cells;
   const double partnerMargin = m_division.partnerMargins[block.set];
   cells.cellsOf(partition::reachOf(block.boxes[i], block.boxes.margin(i), m_options.distance, partnerMargin), m_found);
@@ -75,7 +74,8 @@ Division Divider::divide() {
     boxes = static_cast<std::uint64_t>(static_cast<double>(boxes) * static_cast<double>(sample.boxes.size()) /
                                        static_cast<double>(all));
   }
-  division.cells = partition::Partition(sample.view(), cellsFor(boxes, m_budget), m_options.distance);
+  const std::size_t cells = std::max(cellsFor(boxes, m_budget), m_budget.leastCells);
+  division.cells = partition::Partition(sample.view(), cells, m_options.distance);
   count(division);
   for (int round = 0; round < kRounds && cutFullCells(division, sample); ++round) count(division);
   division.pairs = estimatePairs(division);

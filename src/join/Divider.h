@@ -72,8 +72,8 @@ class CellFinder {
  public:
   CellFinder(const Division& division, const JoinOptions& options);
 
-  /// The numbers of the cells; of a box in many, that of the wide ones alone, which is the number after the last. None
-  /// of a box outside of the region.
+  /// The numbers of the cells; of a box in many, that of the wide ones alone, which is the number after the last. The
+  /// region keeps the box.
   [[nodiscard]] std::span<const std::uint32_t> cellsOf(const BoxBlock& block, std::size_t i);
 
  private:

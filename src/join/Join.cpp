@@ -135,15 +135,13 @@ JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
 RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
-  if (options.region)
-    throw InvalidArgument(
-        "a plan for ranks does not take a region: how many boxes it leaves is not known before they are read");
   BoxInput input(inputs, options);
   Budget budget = budgetOf(options, input);
   const std::uint64_t cells =
       ranks == 1 ? 1
                  : std::max<std::uint64_t>(partition::kCellsPerRank * ranks, input.size() / partition::kBoxesPerCell);
   budget.workers = 1;
+  budget.leastCells = static_cast<std::size_t>(cells);
   budget.cellBoxes =
       static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);  // Divider fills cells to seven tenths
   const Division division = Divider(input, options, budget).divide();

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -87,9 +89,23 @@ TEST(Join, APlanForRanksCountsWhatTravels) {
     before = plan.boxBytes;
   }
   EXPECT_THROW((void)join::planRanks(with.paths, 0, {}), InvalidArgument);
-  join::JoinOptions inRegion;
-  inRegion.region = Box{{0, 0, 0}, {1, 1, 1}};
-  EXPECT_THROW((void)join::planRanks(with.paths, 2, inRegion), InvalidArgument);
+}
+
+/// Ranks cut space for all boxes, not for those that a region leaves.
+TEST(Join, APlanForRanksHasAsManyCellsInARegion) {
+  const std::vector<Box> boxes = toDouble(randomBoxes(40'000, 13));
+  const JoinCase with(boxes);
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (const Box& box : boxes) {
+    least = std::min(least, box.min[0]);
+    greatest = std::max(greatest, box.max[0]);
+  }
+  join::JoinOptions options;
+  options.region = Box{{least, least, least}, {least + 0.2 * (greatest - least), greatest, greatest}};
+  const join::RanksPlan plan = join::planRanks(with.paths, 4, options);
+  EXPECT_GE(plan.cells, 24);
+  EXPECT_LT(plan.boxBytes, join::planRanks(with.paths, 4, {}).boxBytes);
 }
 
 TEST(Join, BadInputIsNamedAndNothingIsWritten) {

@@ -93,11 +93,12 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 /// Inputs:    .npy files of shape (n, 6), numbered as one set in the order given; see scene::BoxRows. Of two sets,
 ///            options.second has the files of the other.
 /// Bad input: a file that is none, or a box with a NaN, throws FileError, which names it; so does a work folder that is
-///            full, in use, or another join's; so does a file of margins or the like that scene::BoxValues refuses. Too
-///            little memory, a distance or a region that is none, or values of a second set that there is not, throw
-///            InvalidArgument.
+///            full, in use, or another join's; so does a file of margins, groups, categories or masks that
+///            scene::BoxValues refuses. Too little memory, a distance or a region that is none, or values of a second set
+///            that there is not, throw InvalidArgument.
 ///            What was complete stays in the work folder.
-/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and masks, and 8
+/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes
+///            per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and masks, and 8
 ///            per pair (16 of more than 2^32 boxes in a set). Where the disk is estimated to be too small it throws before it
 ///            writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
