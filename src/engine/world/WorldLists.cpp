@@ -27,7 +27,7 @@ void WorldLists::shrink() noexcept {
   m_spare = Buffer<std::uint64_t>(from);
   if (m_isSame) m_before = Numbers(from);
   for (Grouped* list : {&m_pairs, &m_began, &m_persisted, &m_ended}) {
-    if (list->own.empty()) list->own.shrink_to_fit();
+    if (list->pairs.data() != list->own.data()) list->own = Buffer<Pair>(from);
     if (list->kept.empty()) list->kept.shrink_to_fit();
   }
 }
@@ -77,7 +77,6 @@ void WorldLists::moveChanged(const StepResult& result) {
 void WorldLists::groupOne(Grouped& list, std::span<const Pair> pairs, const Numbers& numbers) {
   list.numbers = &numbers;
   list.pairs = pairs;
-  list.own.clear();
   std::uint32_t all = 0;
   std::uint32_t last = 0;
   bool isGrouped = true;
@@ -95,10 +94,9 @@ void WorldLists::groupOne(Grouped& list, std::span<const Pair> pairs, const Numb
   }
   const unsigned end = 32 + static_cast<unsigned>(std::bit_width(all));
   const std::uint64_t* const sorted = radixSort(m_keyed.data(), m_spare.data(), pairs.size(), 32, end);
-  if (list.own.capacity() < pairs.size()) list.own.reserve(pairs.size() + pairs.size() / 4);
-  list.own.resize(pairs.size());
+  list.own.requireAmply(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) list.own[i] = pairs[static_cast<std::uint32_t>(sorted[i])];
-  list.pairs = list.own;
+  list.pairs = {list.own.data(), pairs.size()};
 }
 
 std::span<const Pair> WorldLists::part(const Grouped& list, std::uint32_t world) noexcept {

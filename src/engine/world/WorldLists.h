@@ -54,7 +54,7 @@ class WorldLists {
     explicit Grouped(std::pmr::memory_resource* memory) : own(memory), kept(memory) {}
 
     std::span<const Pair> pairs;
-    std::pmr::vector<Pair> own;   ///< The pairs by world, unless the list was so.
+    Buffer<Pair> own;             ///< The pairs by world, unless the list was so.
     std::pmr::vector<Pair> kept;  ///< The list, if it is not quite that of the step.
     const Numbers* numbers = nullptr;
   };
