@@ -56,19 +56,20 @@ struct KernelList {
 /// The targets of Highway that run here. Highway would ask the processor again, which takes a virtual machine longer than
 /// most searches of few boxes.
 std::int64_t supportedTargets() {
-  [[maybe_unused]] const ProcessorLevel level = processorLevel();
 #if !ALLPAIRS_KNOWS_PROCESSOR
-  if (level == ProcessorLevel::Unknown) return hwy::SupportedTargets();
-#endif
+  return hwy::SupportedTargets();
+#elif HWY_ARCH_X86
+  const ProcessorLevel level = processorLevel();
   std::int64_t targets = 0;
-#if HWY_ARCH_X86
   if (level >= ProcessorLevel::Ssse3) targets |= HWY_SSSE3;
   if (level >= ProcessorLevel::Sse4) targets |= HWY_SSE4;
   if (level >= ProcessorLevel::Avx2) targets |= HWY_AVX2;
   if (level >= ProcessorLevel::Avx3) targets |= HWY_AVX3;
   if (level >= ProcessorLevel::Avx3Dl) targets |= HWY_AVX3_DL;
-#endif
   return targets;
+#else
+  return 0;  // besides those that the build requires of processors
+#endif
 }
 
 KernelList availableKernels() {

@@ -54,11 +54,9 @@ ProcessorLevel processorLevel() noexcept {
   return avx3dl ? ProcessorLevel::Avx3Dl : ProcessorLevel::Avx3;
 }
 
-#else
+#elif ALLPAIRS_KNOWS_PROCESSOR
 
-ProcessorLevel processorLevel() noexcept {
-  return ALLPAIRS_KNOWS_PROCESSOR ? ProcessorLevel::Baseline : ProcessorLevel::Unknown;
-}
+ProcessorLevel processorLevel() noexcept { return ProcessorLevel::Baseline; }
 
 #endif
 

@@ -28,11 +28,13 @@ namespace allpairs::engine {
 void adviseLargePages(void* memory, std::size_t bytes) noexcept;
 
 /// Instruction sets that the processor and the system support, each with those before it.
-enum class ProcessorLevel { Unknown, Baseline, Ssse3, Sse4, Avx2, Avx3, Avx3Dl };
+enum class ProcessorLevel { Baseline, Ssse3, Sse4, Avx2, Avx3, Avx3Dl };
 
-/// As the C library found it at the start of the process; Unknown where nothing tells, see ALLPAIRS_KNOWS_PROCESSOR. The
-/// processor itself takes a virtual machine some 70 microseconds to ask.
+#if ALLPAIRS_KNOWS_PROCESSOR
+/// As the C library found it at the start of the process: the processor itself takes a virtual machine some 70 microseconds
+/// to ask. Where every processor of the kind has the same, the baseline.
 [[nodiscard]] ProcessorLevel processorLevel() noexcept;
+#endif
 
 /// Asks for a line of memory that is read soon, where the compiler has a word for that.
 inline void prefetchLine([[maybe_unused]] const void* address) noexcept {
