@@ -5,11 +5,10 @@
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/collision_object.h>
 
-#include <cstddef>
 #include <limits>
 #include <vector>
 
-#include "allpairs/objects/HostTree.h"
+#include "allpairs/objects/HostManager.h"
 #include "allpairs/objects/ObjectBroadPhase.h"
 
 namespace allpairs {
@@ -17,9 +16,10 @@ namespace allpairs {
 /// Settings of CoalBroadPhaseManager: an executor, and whether the pairs of collide() are ordered.
 using CoalBroadPhaseManagerOptions = ObjectBroadPhaseOptions;
 
-/// Coal's types, for HostTree.
+/// Coal's types, for HostManager.
 struct CoalHost {
   using Object = ::coal::CollisionObject;
+  using Base = ::coal::BroadPhaseCollisionManager;
   using Tree = ::coal::DynamicAABBTreeCollisionManager;
 
   /// One by one: all at once, Coal refuses boxes that are flat.
@@ -30,7 +30,7 @@ struct CoalHost {
 ///
 /// It is to Coal what FclBroadPhaseManager is to FCL, with the same promises; docs/fcl.md has them. In short: callbacks
 /// get the pairs whose boxes overlap, each once, first the object that was registered first, in an order that is the same
-/// each time; a distance callback gets every pair whose boxes overlap or are no farther apart than the smallest distance
+/// each time; a distance callback gets every pair whose boxes overlap or are within the smallest distance
 /// that it has set so far. A callback that returns true ends the query; its init() is called before each.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(). Planes, half-spaces and
@@ -43,79 +43,35 @@ struct CoalHost {
 /// Cost:      nothing is searched before it is asked for, as in FclBroadPhaseManager.
 /// Threads:   const members, queries, may be called concurrently, each with a callback of its own, while no other member
 ///            runs. A callback may query the manager, and must not register, update or unregister.
-class CoalBroadPhaseManager : public HostTree<CoalHost> {
+class CoalBroadPhaseManager : public HostManager<CoalHost> {
  public:
-  using Object = ::coal::CollisionObject;
-  using Base = ::coal::BroadPhaseCollisionManager;
   using CollisionCallBack = ::coal::CollisionCallBackBase;
   using DistanceCallBack = ::coal::DistanceCallBackBase;
   using S = ::coal::CoalScalar;
 
-  explicit CoalBroadPhaseManager(const CoalBroadPhaseManagerOptions& options = {}) : m_objects(options) {}
-
-  void registerObjects(const std::vector<Object*>& objects) override {
-    m_objects.reserve(objects.size());
-    for (Object* object : objects) registerObject(object);
-  }
-
-  void registerObject(Object* object) override {
-    m_objects.add(object);
-    this->noteTree();
-  }
-
-  void unregisterObject(Object* object) override {
-    const BoxId number = m_objects.remove(object);
-    if (number != kNoBox) this->leaveTree(number, object);
-  }
-
-  /// Nothing is left to do: each query finds what it needs.
-  void setup() override {}
-
-  void update() override {
-    this->noteTree();
-    m_objects.update();
-  }
-
-  void update(Object* object) override {
-    this->noteTree();
-    m_objects.update(object);
-  }
-
-  void update(const std::vector<Object*>& objects) override {
-    for (Object* object : objects) update(object);
-  }
-
-  void clear() override {
-    m_objects.clear();
-    this->clearTree();
-  }
-
-  using Base::getObjects;
-
-  /// The objects, in the order of their numbers.
-  void getObjects(std::vector<Object*>& objects) const override { m_objects.rows().copyTo(objects); }
+  explicit CoalBroadPhaseManager(const CoalBroadPhaseManagerOptions& options = {}) : HostManager(options) {}
 
   void collide(Object* object, CollisionCallBack* callback) const override {
     callback->init();
-    m_objects.eachOverlapping(*object, [&](Object* own) { return (*callback)(object, own); });
+    objects().eachOverlapping(*object, [&](Object* own) { return (*callback)(object, own); });
   }
 
   void distance(Object* object, DistanceCallBack* callback) const override {
     callback->init();
     S least = std::numeric_limits<S>::max();
-    m_objects.eachNear(
+    objects().eachNear(
         *object, [&](Object* own, S& now) { return (*callback)(object, own, now); }, least);
   }
 
   void collide(CollisionCallBack* callback) const override {
     callback->init();
-    m_objects.eachPair([&](Object* first, Object* second) { return (*callback)(first, second); });
+    objects().eachPair([&](Object* first, Object* second) { return (*callback)(first, second); });
   }
 
   void distance(DistanceCallBack* callback) const override {
     callback->init();
     S least = std::numeric_limits<S>::max();
-    m_objects.eachNearPair([&](Object* a, Object* b, S& now) { return (*callback)(a, b, now); }, least);
+    objects().eachNearPair([&](Object* a, Object* b, S& now) { return (*callback)(a, b, now); }, least);
   }
 
   void collide(Base* otherManager, CollisionCallBack* callback) const override {
@@ -123,10 +79,10 @@ class CoalBroadPhaseManager : public HostTree<CoalHost> {
     callback->init();
     const auto ask = [&](Object* own, Object* other) { return (*callback)(own, other); };
     if (const auto* ours = dynamic_cast<const CoalBroadPhaseManager*>(otherManager)) {
-      m_objects.eachPairWith(ours->m_objects, ask);
+      objects().eachPairWith(ours->objects(), ask);
       return;
     }
-    m_objects.eachPairWith(objectsOf(*otherManager), ask);
+    objects().eachPairWith(objectsOf(*otherManager), ask);
   }
 
   void distance(Base* otherManager, DistanceCallBack* callback) const override {
@@ -134,25 +90,8 @@ class CoalBroadPhaseManager : public HostTree<CoalHost> {
     callback->init();
     S least = std::numeric_limits<S>::max();
     const auto ask = [&](Object* own, Object* other, S& now) { return (*callback)(own, other, now); };
-    m_objects.eachNearPairWith(objectsOf(*otherManager), ask, least);
+    objects().eachNearPairWith(objectsOf(*otherManager), ask, least);
   }
-
-  [[nodiscard]] bool empty() const override { return m_objects.rows().size() == 0; }
-
-  /// The first call after an update or a registration brings Coal's tree up to date, which Coal's trees read after they have called this.
-  [[nodiscard]] std::size_t size() const override {
-    this->bringTree(m_objects.rows());
-    return m_objects.rows().size();
-  }
-
- private:
-  static std::vector<Object*> objectsOf(const Base& manager) {
-    std::vector<Object*> objects;
-    manager.getObjects(objects);
-    return objects;
-  }
-
-  ObjectBroadPhase<Object> m_objects;
 };
 
 }  // namespace allpairs

@@ -5,11 +5,10 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision_object.h>
 
-#include <cstddef>
 #include <limits>
 #include <vector>
 
-#include "allpairs/objects/HostTree.h"
+#include "allpairs/objects/HostManager.h"
 #include "allpairs/objects/ObjectBroadPhase.h"
 
 namespace allpairs {
@@ -17,10 +16,11 @@ namespace allpairs {
 /// Settings of FclBroadPhaseManager: an executor, and whether the pairs of collide() are ordered.
 using FclBroadPhaseManagerOptions = ObjectBroadPhaseOptions;
 
-/// FCL's types, for HostTree.
+/// FCL's types, for HostManager.
 template <class S>
 struct FclHost {
   using Object = ::fcl::CollisionObject<S>;
+  using Base = ::fcl::BroadPhaseCollisionManager<S>;
   using Tree = ::fcl::DynamicAABBTreeCollisionManager<S>;
 
   /// All at once: one by one, FCL passes over boxes that have hardly changed.
@@ -53,107 +53,54 @@ struct FclHost {
 /// Threads:   const members, queries, may be called concurrently while no other member runs. A callback may query the
 ///            manager, and must not register, update or unregister.
 template <class S>
-class FclBroadPhaseManager : public HostTree<FclHost<S>> {
+class FclBroadPhaseManager : public HostManager<FclHost<S>> {
  public:
-  using Object = ::fcl::CollisionObject<S>;
-  using Base = ::fcl::BroadPhaseCollisionManager<S>;
+  using Object = typename FclHost<S>::Object;
+  using Base = typename FclHost<S>::Base;
   using CollisionCallBack = ::fcl::CollisionCallBack<S>;
   using DistanceCallBack = ::fcl::DistanceCallBack<S>;
 
-  explicit FclBroadPhaseManager(const FclBroadPhaseManagerOptions& options = {}) : m_objects(options) {}
-
-  void registerObjects(const std::vector<Object*>& objects) override {
-    m_objects.reserve(objects.size());
-    for (Object* object : objects) registerObject(object);
-  }
-
-  void registerObject(Object* object) override {
-    m_objects.add(object);
-    this->noteTree();
-  }
-
-  void unregisterObject(Object* object) override {
-    const BoxId number = m_objects.remove(object);
-    if (number != kNoBox) this->leaveTree(number, object);
-  }
-
-  /// Nothing is left to do: each query finds what it needs.
-  void setup() override {}
-
-  void update() override {
-    this->noteTree();
-    m_objects.update();
-  }
-
-  void update(Object* object) override {
-    this->noteTree();
-    m_objects.update(object);
-  }
-
-  void update(const std::vector<Object*>& objects) override {
-    for (Object* object : objects) update(object);
-  }
-
-  void clear() override {
-    m_objects.clear();
-    this->clearTree();
-  }
-
-  /// The objects, in the order of their numbers.
-  void getObjects(std::vector<Object*>& objects) const override { m_objects.rows().copyTo(objects); }
+  explicit FclBroadPhaseManager(const FclBroadPhaseManagerOptions& options = {}) : HostManager<FclHost<S>>(options) {}
 
   void collide(Object* object, void* data, CollisionCallBack callback) const override {
-    m_objects.eachOverlapping(*object, [&](Object* own) { return callback(object, own, data); });
+    objects().eachOverlapping(*object, [&](Object* own) { return callback(object, own, data); });
   }
 
   void distance(Object* object, void* data, DistanceCallBack callback) const override {
     S least = std::numeric_limits<S>::max();
-    m_objects.eachNear(
+    objects().eachNear(
         *object, [&](Object* own, S& now) { return callback(object, own, data, now); }, least);
   }
 
   void collide(void* data, CollisionCallBack callback) const override {
-    m_objects.eachPair([&](Object* first, Object* second) { return callback(first, second, data); });
+    objects().eachPair([&](Object* first, Object* second) { return callback(first, second, data); });
   }
 
   void distance(void* data, DistanceCallBack callback) const override {
     S least = std::numeric_limits<S>::max();
-    m_objects.eachNearPair([&](Object* a, Object* b, S& now) { return callback(a, b, data, now); }, least);
+    objects().eachNearPair([&](Object* a, Object* b, S& now) { return callback(a, b, data, now); }, least);
   }
 
   void collide(Base* otherManager, void* data, CollisionCallBack callback) const override {
     if (otherManager == this) return collide(data, callback);
     const auto ask = [&](Object* own, Object* other) { return callback(own, other, data); };
     if (const auto* ours = dynamic_cast<const FclBroadPhaseManager*>(otherManager)) {
-      m_objects.eachPairWith(ours->m_objects, ask);
+      objects().eachPairWith(ours->objects(), ask);
       return;
     }
-    m_objects.eachPairWith(objectsOf(*otherManager), ask);
+    objects().eachPairWith(objectsOf(*otherManager), ask);
   }
 
   void distance(Base* otherManager, void* data, DistanceCallBack callback) const override {
     if (otherManager == this) return distance(data, callback);
     S least = std::numeric_limits<S>::max();
     const auto ask = [&](Object* own, Object* other, S& now) { return callback(own, other, data, now); };
-    m_objects.eachNearPairWith(objectsOf(*otherManager), ask, least);
-  }
-
-  [[nodiscard]] bool empty() const override { return m_objects.rows().size() == 0; }
-
-  /// The first call after an update or a registration brings FCL's tree up to date, which FCL's trees read after they have called this.
-  [[nodiscard]] std::size_t size() const override {
-    this->bringTree(m_objects.rows());
-    return m_objects.rows().size();
+    objects().eachNearPairWith(objectsOf(*otherManager), ask, least);
   }
 
  private:
-  static std::vector<Object*> objectsOf(const Base& manager) {
-    std::vector<Object*> objects;
-    manager.getObjects(objects);
-    return objects;
-  }
-
-  ObjectBroadPhase<Object> m_objects;
+  using HostManager<FclHost<S>>::objects;
+  using HostManager<FclHost<S>>::objectsOf;
 };
 
 using FclBroadPhaseManagerf = FclBroadPhaseManager<float>;

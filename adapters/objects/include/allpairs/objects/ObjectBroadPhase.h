@@ -119,7 +119,7 @@ class ObjectBroadPhase {
     });
   }
 
-  /// Asks about the objects that are no farther from one than the least distance, near ones early; ask(object, least) may
+  /// Asks about the objects within the least distance of one, near ones early; ask(object, least) may
   /// make that smaller. Objects whose boxes overlap its box are asked about however small it is.
   template <class Ask>
   bool eachNear(const Object& object, const Ask& ask, S& least) const {
