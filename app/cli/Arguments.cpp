@@ -50,7 +50,7 @@ std::array<CLI::Option*, 4> addValues(CLI::App& command, const std::string& pref
     return command.add_option(prefix + name, files, start + what)->type_name("FILE");
   };
   return {add("margins", values.margins, "how far each box extends beyond its bounds"),
-          add("groups", values.groups, "each box's group; those of the same are no pair, unless it is 0"),
+          add("groups", values.groups, "each box's group; boxes of one group form no pair, except those of group 0"),
           add("categories", values.categories, "each box's categories, as bits"),
           add("masks", values.masks, "the categories that each box accepts, as bits")};
 }

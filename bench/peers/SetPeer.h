@@ -21,7 +21,7 @@ struct Sets {
   [[nodiscard]] std::size_t boxes() const noexcept { return (first.size() + second.size()) / 6; }
 };
 
-/// Searches from boxes in memory to pairs in memory, one after the other; each starts anew.
+/// Finds the pairs of boxes in memory, in memory. It can be used again; each search starts from nothing.
 template <class T>
 class SetSearch {
  public:

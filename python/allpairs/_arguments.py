@@ -16,6 +16,9 @@ from ._errors import InvalidArgument, InvalidBox
 #: Boxes as one array of shape (n, 6), or as two of shape (n, 3); with 4 and 2 instead of 6 and 3 in the plane.
 BoxesLike = Union[npt.ArrayLike, tuple[npt.ArrayLike, npt.ArrayLike]]
 
+#: What each box may have beside its bounds, in the order of the arguments.
+OF_EACH_BOX = ("margin", "group", "category", "mask")
+
 #: The orders of pairs, of the lists of a World, and how pairs are found.
 Order = Literal["first", "second", "unordered"]
 StepOrder = Literal["first", "second"]

@@ -56,7 +56,7 @@ def _value_files(values: dict[str, Any], sets: int) -> list[_files.BoxValueFiles
     from . import _reading
 
     files = [_reading.BoxValueFiles() for _ in range(sets)]
-    for name in ("margin", "group", "category", "mask"):
+    for name in _arguments.OF_EACH_BOX:
         given = values[name]
         if given is None:
             continue
@@ -181,7 +181,7 @@ def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
 def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
     """Likewise of two sets."""
     options = _search._settings({**_FIXED, **values}, 3, one_set=False)
-    own = {name: _arguments.both(name, values[name]) for name in ("margin", "group", "category", "mask")}
+    own = {name: _arguments.both(name, values[name]) for name in _arguments.OF_EACH_BOX}
     sets = []
     for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
         prefix = f"{name} set: "

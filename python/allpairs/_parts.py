@@ -20,8 +20,6 @@ Array = npt.NDArray[Any]
 #: What each box may have: an array of one dimension, or a number for all.
 Values = dict[str, Any]
 
-#: What a box has beside its bounds, in the order of the arguments.
-NAMES = ("margin", "group", "category", "mask")
 
 
 class BoxParts(NamedTuple):
@@ -165,7 +163,7 @@ def _of_each_set(name: str, value: Any, sets: int) -> list[Any]:
 def box_parts(boxes: Sequence[Union[Any, None]], values: Values) -> list[BoxParts]:
     """One set, or two: what `boxes` and `second` are, with margins and labels of each."""
     given = [each for each in boxes if each is not None]
-    own = {name: _of_each_set(name, values[name], len(given)) for name in NAMES}
+    own = {name: _of_each_set(name, values[name], len(given)) for name in _arguments.OF_EACH_BOX}
     called = ["all"] if len(given) == 1 else ["the first set", "the second set"]
     prefixes = [""] if len(given) == 1 else ["first set: ", "second set: "]
     sets = []

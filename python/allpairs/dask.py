@@ -29,7 +29,7 @@ from ._partition import (
     overlaps_between_in_cell,
     overlaps_in_cell,
 )
-from ._parts import NAMES, Array, BoxParts, Values, box_parts
+from ._parts import Array, BoxParts, Values, box_parts
 
 __all__ = ["count", "overlaps"]
 
@@ -104,7 +104,7 @@ def _gathered(pieces: list[_Piece]) -> _Piece:
 
 def _arguments_of(sets: list[_Piece], settings: Values) -> Values:
     """What a search of a cell takes by name: what is given of one set, or a tuple for two."""
-    each = {name: tuple(one.values.get(name) for one in sets) for name in NAMES}
+    each = {name: tuple(one.values.get(name) for one in sets) for name in _arguments.OF_EACH_BOX}
     return {**settings, **{name: own if len(own) == 2 else own[0] for name, own in each.items()}}
 
 

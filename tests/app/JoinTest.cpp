@@ -37,6 +37,25 @@ class JoinCommand : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
+  /// Runs a join to join.npy that is killed and resumed again and again; in the end it has these bytes, and no work folder.
+  void expectSameBytesWhenKilled(const std::string& join, const char* expected) {
+    const ProgramRun run =
+        runScript("cd '" + folder.path().string() + "' && for delay in 0.02 0.05 0.09 0.13 0.2 0.3; do " + join +
+                  " --resume >/dev/null 2>&1 & sleep $delay; kill -9 $! 2>/dev/null; "
+                  "wait $! 2>/dev/null; done; " +
+                  join + " --resume");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_GT(bytes(expected).size(), 1'000U);
+    EXPECT_TRUE(bytes("join.npy") == bytes(expected));
+    EXPECT_FALSE(fs::exists(in("join.npy.work")));
+  }
+
+  /// The same, with the bytes of the join that nobody kills.
+  void expectSameBytesWhenKilled(const std::string& join) {
+    ASSERT_EQ(runScript("cd '" + folder.path().string() + "' && " + join + " && mv join.npy whole.npy").status, 0);
+    expectSameBytesWhenKilled(join, "whole.npy");
+  }
+
   TempFolder folder;
   std::vector<Box> boxes = toDouble(randomBoxes(400, 31));
   std::string few = folder.write("few.npy", npyBytes(boxes, {.descr = "<f4"})).string();
@@ -149,46 +168,20 @@ TEST_F(JoinCommand, WithMarginsKilledAtAnyMomentItGoesOnToTheSameBytes) {
   folder.write("margins.npy", npyNumbers(margins, "<f8"));
   const std::string join =
       "\"$0\" join many.npy -o join.npy --memory 64M --threads 1 --margins margins.npy --box 0,0,0,60,60,60";
-  const std::string enter = "cd '" + folder.path().string() + "' && ";
-  ASSERT_EQ(runScript(enter + join + " && mv join.npy whole.npy").status, 0);
-  const ProgramRun run = runScript(enter + "for delay in 0.02 0.05 0.09 0.13 0.2; do " + join +
-                                   " --resume >/dev/null 2>&1 & sleep $delay; kill -9 $! 2>/dev/null; wait $! "
-                                   "2>/dev/null; done; " +
-                                   join + " --resume");
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(bytes("join.npy") == bytes("whole.npy"));
-  EXPECT_GT(bytes("whole.npy").size(), 1'000U);
-  EXPECT_FALSE(fs::exists(in("join.npy.work")));
+  expectSameBytesWhenKilled(join);
 }
 
 TEST_F(JoinCommand, ASecondSetKilledAtAnyMomentGoesOnToTheSameBytes) {
   writeMany();
   expectSuccess(runProgram({"generate", "uniform", "-n", "100000", "-o", in("others.npy")}));
   const std::string join = "\"$0\" join many.npy --with others.npy -o join.npy --memory 64M --threads 1";
-  const std::string enter = "cd '" + folder.path().string() + "' && ";
-  ASSERT_EQ(runScript(enter + join + " && mv join.npy whole.npy").status, 0);
-  const ProgramRun run = runScript(enter + "for delay in 0.02 0.05 0.09 0.13 0.2; do " + join +
-                                   " --resume >/dev/null 2>&1 & sleep $delay; kill -9 $! 2>/dev/null; wait $! "
-                                   "2>/dev/null; done; " +
-                                   join + " --resume");
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(bytes("join.npy") == bytes("whole.npy"));
-  EXPECT_GT(bytes("whole.npy").size(), 1'000U);
-  EXPECT_FALSE(fs::exists(in("join.npy.work")));
+  expectSameBytesWhenKilled(join);
 }
 
 TEST_F(JoinCommand, KilledAtAnyMomentItGoesOnToTheSameBytes) {
   writeMany();
   expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));
-  const std::string script = "cd '" + folder.path().string() +
-                             "' && for delay in 0.02 0.05 0.09 0.13 0.2 0.3; do "
-                             "\"$0\" join many.npy -o join.npy --memory 64M --threads 1 --resume >/dev/null 2>&1 & "
-                             "sleep $delay; kill -9 $! 2>/dev/null; wait $! 2>/dev/null; "
-                             "done; \"$0\" join many.npy -o join.npy --memory 64M --threads 1 --resume";
-  const ProgramRun run = runScript(script);
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy"));
-  EXPECT_FALSE(fs::exists(in("join.npy.work")));
+  expectSameBytesWhenKilled("\"$0\" join many.npy -o join.npy --memory 64M --threads 1", "detect.npy");
 }
 
 TEST_F(JoinCommand, AFullDiskIsAnErrorAndWhatWasDoneStays) {

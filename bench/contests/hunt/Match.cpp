@@ -17,7 +17,7 @@ namespace allpairs::bench {
 
 namespace {
 
-/// Who takes longer than so many times our time is not worth measuring.
+/// A contender that takes longer than this many times our time is not measured.
 constexpr double kHopeless = 8.0;
 
 /// Where we lead by less than this, the match is held again with more care: of many scenes, those at the bottom of the
