@@ -113,6 +113,10 @@ class BoxView {
   [[nodiscard]] const Corners<double>& float64() const noexcept { return m_float64; }
 
  private:
+  /// Boxes whose coordinates of a corner follow each other.
+  template <class T>
+  static BoxView ofCorners(std::size_t size, const T* min, const T* max, std::ptrdiff_t boxStride);
+
   template <class T>
   static Box at(const Corners<T>& corners, std::size_t i) noexcept {
     Box box;

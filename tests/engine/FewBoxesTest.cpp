@@ -49,13 +49,6 @@ std::vector<Box> inDouble(const std::vector<BasicBox<T>>& boxes) {
   return result;
 }
 
-std::vector<Pair> inOrder(std::vector<Pair> pairs, Order order) {
-  if (order == Order::BySecond) {
-    std::sort(pairs.begin(), pairs.end(), test::isLessBySecond);
-  }
-  return pairs;
-}
-
 template <class T>
 class FewBoxes : public ::testing::Test {};
 using Precisions = ::testing::Types<float, double>;
@@ -74,8 +67,8 @@ TYPED_TEST(FewBoxes, GiveTheOraclesPairsInEveryOrderForEveryCount) {
       std::vector<Pair> found = test::toVector(kept.find(boxes));
       if (order == Order::Unordered) std::sort(made.begin(), made.end());
       if (order == Order::Unordered) std::sort(found.begin(), found.end());
-      ASSERT_EQ(made, inOrder(expected, order)) << n << " boxes";
-      ASSERT_EQ(found, inOrder(expected, order)) << n << " boxes";
+      ASSERT_EQ(made, test::inOrder(expected, order)) << n << " boxes";
+      ASSERT_EQ(found, test::inOrder(expected, order)) << n << " boxes";
       ASSERT_EQ(kept.statistics().pairs, expected.size()) << n << " boxes";
       ASSERT_EQ(kept.count(boxes), expected.size()) << n << " boxes";
     }
@@ -93,8 +86,9 @@ TYPED_TEST(FewBoxes, OfTwoSetsGiveTheOraclesPairsInEveryOrder) {
         OverlapOptions options;
         options.order = order;
         kept.setOptions(options);
-        ASSERT_EQ(overlaps(first, second, options), inOrder(expected, order)) << n << " and " << m << " boxes";
-        ASSERT_EQ(test::toVector(kept.find(first, second)), inOrder(expected, order)) << n << " and " << m << " boxes";
+        ASSERT_EQ(overlaps(first, second, options), test::inOrder(expected, order)) << n << " and " << m << " boxes";
+        ASSERT_EQ(test::toVector(kept.find(first, second)), test::inOrder(expected, order))
+            << n << " and " << m << " boxes";
         ASSERT_EQ(kept.count(first, second), expected.size()) << n << " and " << m << " boxes";
       }
     }
@@ -111,7 +105,9 @@ void expectPairs(OverlapSearch& search, const std::vector<BasicBox<T>>& first, c
   };
   ASSERT_EQ(comparable(test::toVector(search.find(first, second))), expected);
   ASSERT_EQ(search.statistics().pairs, expected.size());
-  ASSERT_EQ(search.statistics().boxTests, first.size() * second.size());
+  if (std::max(first.size(), second.size()) <= 64) {
+    ASSERT_EQ(search.statistics().boxTests, first.size() * second.size());
+  }
   std::vector<Pair> memory(expected.size());
   ASSERT_EQ(search.findInto(first, second, memory).size(), expected.size());
   ASSERT_EQ(comparable(memory), expected);
@@ -128,7 +124,7 @@ TYPED_TEST(FewBoxes, OfTwoSetsGiveTheOraclesPairsForEveryCountWithEveryInstructi
       const std::string_view instructionSet = instructionSets()[(n + m) % instructionSets().size()];
       for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
         OverlapSearch search({.order = order, .instructionSet = instructionSet});
-        ASSERT_NO_FATAL_FAILURE(expectPairs(search, first, second, inOrder(expected, order)))
+        ASSERT_NO_FATAL_FAILURE(expectPairs(search, first, second, test::inOrder(expected, order)))
             << n << " and " << m << " boxes, " << instructionSet;
       }
     }
@@ -144,8 +140,8 @@ TYPED_TEST(FewBoxes, GiveTheSameListWithEveryInstructionSet) {
     for (const std::string_view instructionSet : instructionSets()) {
       for (const Order order : {Order::ByFirst, Order::BySecond}) {
         const OverlapOptions options{.order = order, .instructionSet = instructionSet};
-        ASSERT_EQ(overlaps(boxes, options), inOrder(expected, order)) << n << " boxes, " << instructionSet;
-        ASSERT_EQ(overlaps(boxes, others, options), inOrder(between, order)) << n << " boxes, " << instructionSet;
+        ASSERT_EQ(overlaps(boxes, options), test::inOrder(expected, order)) << n << " boxes, " << instructionSet;
+        ASSERT_EQ(overlaps(boxes, others, options), test::inOrder(between, order)) << n << " boxes, " << instructionSet;
       }
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
@@ -9,17 +10,18 @@
 #include <vector>
 
 #include "allpairs/Box.h"
+#include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 
 namespace allpairs::test {
 
-/// n boxes whose centres fill a cube; `size` 1 gives about two pairs a box.
 /// Boxes of a temporary, for as long as the call that they are an argument of.
 template <class Boxes>
 std::span<const typename Boxes::value_type> lent(const Boxes& boxes) {
   return boxes;
 }
 
+/// n boxes whose centres fill a cube; `size` 1 gives about two pairs a box.
 inline std::vector<BoxF> randomBoxes(std::size_t n, unsigned seed, float size = 1.0F) {
   std::mt19937 generator(seed);
   const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32F; };
@@ -57,6 +59,12 @@ inline Box cube(double x, double y, double z, double side = 1.0) { return {{x, y
 
 /// The order by (second, first).
 inline bool isLessBySecond(Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; }
+
+/// Pairs in the order of the first box, in that of the order.
+inline std::vector<Pair> inOrder(std::vector<Pair> pairs, Order order) {
+  if (order == Order::BySecond) std::sort(pairs.begin(), pairs.end(), isLessBySecond);
+  return pairs;
+}
 
 template <class Pairs>
 std::vector<Pair> toVector(const Pairs& pairs) {

@@ -143,20 +143,10 @@ void compareCalls(std::span<const Counts> all, double seconds) {
 void compareAllCalls(double seconds) {
   constexpr std::array<Counts, 22> kOneSet{{{2},  {3},  {4},  {6},   {8},   {9},   {12},  {16},  {17},  {24},  {32},
                                             {48}, {64}, {96}, {128}, {129}, {192}, {256}, {257}, {384}, {385}, {512}}};
-  constexpr std::array<Counts, 14> kTwoSets{{{1, 1},
-                                             {1, 2},
-                                             {2, 2},
-                                             {3, 3},
-                                             {1, 8},
-                                             {8, 1},
-                                             {4, 4},
-                                             {3, 20},
-                                             {8, 8},
-                                             {1, 60},
-                                             {60, 1},
-                                             {16, 16},
-                                             {31, 32},
-                                             {64, 64}}};
+  constexpr std::array<Counts, 22> kTwoSets{{{1, 1},    {1, 2},    {2, 2},     {3, 3},    {1, 8},    {8, 1},
+                                             {4, 4},    {3, 20},   {8, 8},     {1, 60},   {60, 1},   {16, 16},
+                                             {31, 32},  {64, 64},  {1, 500},   {500, 1},  {4, 2000}, {2000, 4},
+                                             {5, 2000}, {2000, 5}, {2, 20000}, {20000, 2}}};
   std::printf("Nanoseconds per search of uniform boxes, the least of all rounds; views of the boxes included.\n");
   compareCalls<float>(kOneSet, seconds);
   compareCalls<double>(kOneSet, seconds);

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "allpairs/Error.h"
+#include "kernels/Kernels.h"
 
 namespace allpairs {
 
@@ -28,6 +29,16 @@ std::size_t rowCount(Span<const T> values, std::size_t width) {
                           std::to_string(width));
   }
   return values.size() / width;
+}
+
+template <class T>
+std::size_t cornerCount(Span<const T> min, Span<const T> max) {
+  const std::size_t size = rowCount(min, 3);
+  if (rowCount(max, 3) != size) {
+    throw InvalidArgument(std::to_string(size) + " min corners, but " + std::to_string(max.size() / 3) +
+                          " max corners");
+  }
+  return size;
 }
 
 /// Whether a corner coordinate of box i is a NaN.
@@ -51,9 +62,21 @@ bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
   throw InvalidBox(index, "box " + std::to_string(index) + " has a NaN");
 }
 
-/// Whether any of the values is a NaN; a loop that compilers vectorise, with flags as wide as the values.
+/// Up to so many values a loop here takes less time than finding the kernel for this processor (few_benchmark).
+constexpr std::size_t kFewValues = 64;
+
+/// Whether any of the values is a NaN.
 template <class T>
 bool anyNan(const T* values, std::size_t count) {
+  if (count > kFewValues) {
+    const engine::Kernels& kernels = *engine::findKernels({});
+    if constexpr (std::is_same_v<T, float>) {
+      return kernels.anyNan32(values, count);
+    } else {
+      return kernels.anyNan64(values, count);
+    }
+  }
+  // A loop that compilers vectorise, with flags as wide as the values.
   std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t> nans = 0;
   for (std::size_t i = 0; i < count; ++i) nans |= values[i] != values[i] ? 1U : 0U;
   return nans != 0;
@@ -73,42 +96,22 @@ bool anyNan(std::size_t size, const CornerView<T>& corner) {
 }
 
 template <class T>
+[[noreturn]] void throwFirstNan(const BoxView& set, const BoxView::Corners<T>& corners) {
+  std::ptrdiff_t i = 0;
+  while (!hasNanAt(corners.min, i) && !hasNanAt(corners.max, i)) ++i;
+  throwNan(static_cast<std::size_t>(i), set[static_cast<std::size_t>(i)]);
+}
+
+/// Of boxes that have one.
+[[noreturn]] void throwFirstNan(const BoxView& set) {
+  set.isFloat64() ? throwFirstNan(set, set.float64()) : throwFirstNan(set, set.float32());
+}
+
+template <class T>
 void checkNoNan(std::size_t size, const BoxView::Corners<T>& corners, const BoxView& set) {
   const bool found =
       corners.isPacked() ? anyNan(corners.min.data, 6 * size) : anyNan(size, corners.min) || anyNan(size, corners.max);
-  if (!found) return;
-  const auto count = static_cast<std::ptrdiff_t>(size);
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    if (hasNanAt(corners.min, i) || hasNanAt(corners.max, i)) {
-      throwNan(static_cast<std::size_t>(i), set[static_cast<std::size_t>(i)]);
-    }
-  }
-}
-
-template <class T>
-BoxView setFromBoxes(Span<const BasicBox<T>> boxes) {
-  static_assert(sizeof(BasicBox<T>) == 6 * sizeof(T));
-  if (boxes.empty()) return {};
-  return BoxView::fromStrided(boxes.size(), CornerView<T>{boxes.data()->min.data(), 6, 1},
-                              CornerView<T>{boxes.data()->max.data(), 6, 1});
-}
-
-template <class T>
-BoxView setFromRows(Span<const T> rows) {
-  const std::size_t size = rowCount(rows, 6);
-  if (size == 0) return {};
-  return BoxView::fromStrided(size, CornerView<T>{rows.data(), 6, 1}, CornerView<T>{rows.data() + 3, 6, 1});
-}
-
-template <class T>
-BoxView setFromCorners(Span<const T> min, Span<const T> max) {
-  const std::size_t size = rowCount(min, 3);
-  if (rowCount(max, 3) != size) {
-    throw InvalidArgument(std::to_string(size) + " min corners, but " + std::to_string(max.size() / 3) +
-                          " max corners");
-  }
-  if (size == 0) return {};
-  return BoxView::fromStrided(size, CornerView<T>{min.data(), 3, 1}, CornerView<T>{max.data(), 3, 1});
+  if (found) throwFirstNan(set);
 }
 
 /// Moves the view to start at box `begin`.
@@ -123,14 +126,52 @@ bool isMargin(double value) { return !std::isnan(value) && value != -std::numeri
 
 }  // namespace
 
-BoxView BoxView::fromBoxes(Span<const Box> boxes) { return setFromBoxes(boxes); }
-BoxView BoxView::fromBoxes(Span<const BoxF> boxes) { return setFromBoxes(boxes); }
+/// Written value by value: reading structs of arguments back from the stack would wait for it, which takes longer than checking a box.
+template <class T>
+BoxView BoxView::ofCorners(std::size_t size, const T* min, const T* max, std::ptrdiff_t boxStride) {
+  BoxView set;
+  if (size == 0) return set;
+  checkCount(size);
+  const auto place = [&](Corners<T>& corners) {
+    corners.min.data = min;
+    corners.max.data = max;
+    corners.min.boxStride = corners.max.boxStride = boxStride;
+  };
+  set.m_size = size;
+  if constexpr (std::is_same_v<T, double>) {
+    set.m_isFloat64 = true;
+    place(set.m_float64);
+  } else {
+    place(set.m_float32);
+  }
+  const bool isPacked = boxStride == 6 && max == min + 3;
+  const bool found = isPacked ? anyNan(min, 6 * size) : anyNan(min, 3 * size) || anyNan(max, 3 * size);
+  if (found) throwFirstNan(set);
+  return set;
+}
 
-BoxView BoxView::fromRows(Span<const float> rows) { return setFromRows(rows); }
-BoxView BoxView::fromRows(Span<const double> rows) { return setFromRows(rows); }
+BoxView BoxView::fromBoxes(Span<const Box> boxes) {
+  static_assert(sizeof(Box) == 6 * sizeof(double));
+  return boxes.empty() ? BoxView() : ofCorners(boxes.size(), boxes.data()->min.data(), boxes.data()->max.data(), 6);
+}
+BoxView BoxView::fromBoxes(Span<const BoxF> boxes) {
+  static_assert(sizeof(BoxF) == 6 * sizeof(float));
+  return boxes.empty() ? BoxView() : ofCorners(boxes.size(), boxes.data()->min.data(), boxes.data()->max.data(), 6);
+}
 
-BoxView BoxView::fromCorners(Span<const float> min, Span<const float> max) { return setFromCorners(min, max); }
-BoxView BoxView::fromCorners(Span<const double> min, Span<const double> max) { return setFromCorners(min, max); }
+BoxView BoxView::fromRows(Span<const float> rows) {
+  return rows.empty() ? BoxView() : ofCorners(rowCount(rows, 6), rows.data(), rows.data() + 3, 6);
+}
+BoxView BoxView::fromRows(Span<const double> rows) {
+  return rows.empty() ? BoxView() : ofCorners(rowCount(rows, 6), rows.data(), rows.data() + 3, 6);
+}
+
+BoxView BoxView::fromCorners(Span<const float> min, Span<const float> max) {
+  return ofCorners(cornerCount(min, max), min.data(), max.data(), 3);
+}
+BoxView BoxView::fromCorners(Span<const double> min, Span<const double> max) {
+  return ofCorners(cornerCount(min, max), min.data(), max.data(), 3);
+}
 
 BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
   checkCount(size);

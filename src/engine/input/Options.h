@@ -19,6 +19,12 @@ struct Sets {
   return bits.categories.empty() && bits.masks.empty() && bits.groups.empty();
 }
 
+/// Whether only the bounds of boxes decide which of them are paired; then no option but the instruction set can be invalid.
+[[nodiscard]] inline bool onlyBoundsMatter(const Sets& sets, const OverlapOptions& options) noexcept {
+  return options.distance == 0.0 && !options.region && !options.filter.accept && isEmpty(options.filter.first) &&
+         isEmpty(options.filter.second) && !sets.first.hasMargins() && !sets.second.hasMargins();
+}
+
 /// Throws InvalidArgument, with a message that names the setting, if options are invalid for these sets.
 void checkOptions(const Sets& sets, const OverlapOptions& options);
 

@@ -8,6 +8,7 @@
 #define ALLPAIRS_KERNEL_TABLE_INL_H
 #endif
 
+#include "kernels/CullKernel-inl.h"
 #include "kernels/FewKernel-inl.h"
 #include "kernels/FlatKernel-inl.h"
 #include "kernels/JoinKernel-inl.h"
@@ -36,6 +37,10 @@ const Kernels* kernelTable() {
                              &searchFew,
                              &searchFewBoxes<float>,
                              &searchFewBoxes<double>,
+                             &touchingBoxes<float>,
+                             &touchingBoxes<double>,
+                             &anyNan<float>,
+                             &anyNan<double>,
                              &searchWorlds,
                              &searchWideWorld,
                              &join,

@@ -52,6 +52,20 @@ struct FewBoxesSearch {
   bool rowSecond = false;  ///< In pairs; of one set where rows are tested against what precedes them, and only there.
 };
 
+/// Boxes one after the other in memory, as rows of six, or as rows of three in two arrays.
+template <class T>
+struct BoxRun {
+  const T* min = nullptr;
+  const T* max = nullptr;
+  std::size_t stride = 6;  ///< From a box to the next: 6 or 3.
+  std::size_t size = 0;
+
+  /// From box `begin` on, at most as many as requested.
+  [[nodiscard]] BoxRun part(std::size_t begin, std::size_t most) const noexcept {
+    return {min + begin * stride, max + begin * stride, stride, std::min(most, size - begin)};
+  }
+};
+
 /// Working memory of a join that lists neighbors: the boxes near a node, with their ids, in an array for each bound.
 class NeighborScratch {
  public:
@@ -190,6 +204,15 @@ struct Kernels {
   /// many there are.
   std::size_t (*searchFew32)(const FewBoxesSearch<float>& search, Pair* pairs);
   std::size_t (*searchFew64)(const FewBoxesSearch<double>& search, Pair* pairs);
+
+  /// Writes the numbers of the boxes of a run that touch a box, if their minimum is not above their maximum; there is room for all
+  /// of them. Returns how many there are.
+  std::size_t (*touchingBoxes32)(const BoxRun<float>& run, const std::array<float, 6>& box, std::uint32_t* numbers);
+  std::size_t (*touchingBoxes64)(const BoxRun<double>& run, const std::array<double, 6>& box, std::uint32_t* numbers);
+
+  /// Whether any value is a NaN.
+  bool (*anyNan32)(const float* values, std::size_t size);
+  bool (*anyNan64)(const double* values, std::size_t size);
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
   void (*searchWorlds)(WorldsRun& run);

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "input/Readers.h"
 #include "kernels/Kernels.h"
+#include "search/FewBesideMany.h"
 #include "search/PairSink.h"
 #include "search/PairTest.h"
+#include "search/PairsOnStack.h"
 
 namespace allpairs::engine {
 namespace {
@@ -16,21 +19,8 @@ namespace {
 /// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
-/// Up to so many, boxes are compared as they are, and their pairs are collected on the stack: those of 64 boxes of one set.
-constexpr std::size_t kPlainPairs = WorldSink::pairsOf(kWordBoxes);
-
 /// Hits that are buffered: a few times those of one box.
 constexpr std::size_t kHits = 4 * FewTile::kCapacity;
-
-/// Room for pairs on the stack. Pairs themselves would be set to 0 first, which takes longer than many a search.
-template <std::size_t kSize>
-class PairsOnStack {
- public:
-  [[nodiscard]] Pair* data() noexcept { return reinterpret_cast<Pair*>(m_bytes.data()); }
-
- private:
-  alignas(64) std::array<std::byte, kSize * sizeof(Pair)> m_bytes;
-};
 
 /// Turns hits into pairs, and passes on those that the test keeps.
 class Receiver {
@@ -127,15 +117,12 @@ bool areRows(const BoxView::Corners<T>& first, const BoxView::Corners<T>& second
   return first.isPacked() && second.isPacked();
 }
 
-/// Whether findPlain() takes these boxes: only their bounds matter, which are rows, and no option but the instruction set can be
-/// invalid.
+/// Whether findPlain() takes these boxes: only their bounds matter, which are rows.
 bool arePlain(const Sets& sets, const OverlapOptions& options) {
   const BoxView& first = sets.first;
   const BoxView& second = sets.second;
-  return std::max(first.size(), second.size()) <= kWordBoxes && pairsOf(sets) <= kPlainPairs &&
-         first.isFloat64() == second.isFloat64() && !first.hasMargins() && !second.hasMargins() &&
-         options.distance == 0.0 && !options.region && !options.filter.accept && isEmpty(options.filter.first) &&
-         isEmpty(options.filter.second) &&
+  return std::max(first.size(), second.size()) <= kWordBoxes && first.isFloat64() == second.isFloat64() &&
+         onlyBoundsMatter(sets, options) &&
          (first.isFloat64() ? areRows(first.float64(), second.float64()) : areRows(first.float32(), second.float32()));
 }
 
@@ -155,24 +142,36 @@ FewBoxesSearch<T> plainSearch(const Sets& sets, Order order, const T* first, con
   return {first, second, firstSize, secondSize, Columns::All, false};
 }
 
-/// Writes all pairs that overlap; returns their number.
-std::size_t searchPlain(const Sets& sets, Order order, const Kernels& kernels, Pair* pairs) {
-  const std::size_t most = pairsOf(sets);
-  if (most == 0) return 0;
-  const bool isTested = most <= kTestedPairs;
-  if (sets.first.isFloat64()) {
-    const auto search = plainSearch(sets, order, sets.first.float64().min.data, sets.second.float64().min.data);
-    return isTested ? testAll(search, pairs) : kernels.searchFew64(search, pairs);
+/// Without kernels, pairs are tested one by one.
+template <class T>
+std::size_t searchPlain(const FewBoxesSearch<T>& search, const Kernels* kernels, Pair* pairs) {
+  if (kernels == nullptr) return testAll(search, pairs);
+  if constexpr (std::is_same_v<T, float>) {
+    return kernels->searchFew32(search, pairs);
+  } else {
+    return kernels->searchFew64(search, pairs);
   }
-  const auto search = plainSearch(sets, order, sets.first.float32().min.data, sets.second.float32().min.data);
-  return isTested ? testAll(search, pairs) : kernels.searchFew32(search, pairs);
+}
+
+/// Writes all pairs that overlap; returns their number. An instruction set that is asked for has to be there, and is used.
+std::size_t searchPlain(const Sets& sets, const OverlapOptions& options, Order order, Pair* pairs) {
+  const std::size_t most = pairsOf(sets);
+  const bool isTested = most <= kTestedPairs && options.instructionSet.empty();
+  const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
+  if (most == 0) return 0;
+  const BoxView& first = sets.first;
+  const BoxView& second = sets.second;
+  return first.isFloat64() ? searchPlain(plainSearch(sets, order, first.float64().min.data, second.float64().min.data),
+                                         kernels, pairs)
+                           : searchPlain(plainSearch(sets, order, first.float32().min.data, second.float32().min.data),
+                                         kernels, pairs);
 }
 
 OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
                             FunctionRef<void(std::span<const Pair>)> take) {
-  PairsOnStack<kPlainPairs + WorldSink::kSlack> pairs;
+  PairsOnStack<kWordBoxes * kWordBoxes + WorldSink::kSlack> pairs;
   OverlapStatistics statistics;
-  statistics.pairs = searchPlain(sets, order, chooseKernels(options), pairs.data());
+  statistics.pairs = searchPlain(sets, options, order, pairs.data());
   statistics.boxTests = pairsOf(sets);
   checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
   if (statistics.pairs != 0) take({pairs.data(), statistics.pairs});
@@ -208,13 +207,16 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
 
 bool areFew(const Sets& sets, const OverlapOptions& options) {
   const std::size_t size = std::max(sets.first.size(), sets.second.size());
+  if (areFewBesideMany(sets, options)) return true;
   if (size > FewTile::kCapacity || options.strategy == Strategy::Bvh) return false;
+  if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
   return kernels == nullptr || options.strategy == Strategy::Exhaustive || size <= kernels->flatBoxes(options.order);
 }
 
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
+  if (areFewBesideMany(sets, options)) return findFewBesideMany(sets, options, order, take);
   return arePlain(sets, options) ? findPlain(sets, options, order, take) : findInTiles(sets, options, order, take);
 }
 

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// A few boxes beside a large set, which is searched as it lies in memory: whole lists beside a double loop, for counts around
+// the limits of vectors and of parts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
+#include "support/Boxes.h"
+#include "support/Oracle.h"
+
+namespace allpairs {
+namespace {
+
+/// Rows of six, of which some are empty, some reach to infinity, and some touch others at whole numbers.
+template <class T>
+std::vector<T> someRows(std::size_t boxes, unsigned seed, double side) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> place(0.0, 1.0);
+  std::vector<T> rows;
+  for (std::size_t i = 0; i < boxes; ++i) {
+    std::array<double, 6> row;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      row[axis] = place(generator);
+      row[axis + 3] = row[axis] + side * place(generator);
+      if (i % 5 == 1) row[axis] = std::floor(4.0 * row[axis]) / 4.0;
+      if (i % 5 == 1) row[axis + 3] = row[axis] + 0.25;
+    }
+    if (i % 11 == 3) std::swap(row[i % 3], row[i % 3 + 3]);
+    if (i % 13 == 5) row[i % 3] = -std::numeric_limits<double>::infinity();
+    if (i % 17 == 2) row[i % 3 + 3] = std::numeric_limits<double>::infinity();
+    if (i % 29 == 7) row[i % 3] = row[i % 3 + 3] = std::numeric_limits<double>::infinity();
+    for (const double bound : row) rows.push_back(static_cast<T>(bound));
+  }
+  return rows;
+}
+
+template <class T>
+std::vector<Box> boxesOf(const std::vector<T>& rows) {
+  const BoxView view = BoxView::fromRows(rows);
+  std::vector<Box> boxes(view.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = view[i];
+  return boxes;
+}
+
+template <class T>
+std::vector<Pair> pairsByLoop(const std::vector<T>& first, const std::vector<T>& second) {
+  return test::oracleBetween(boxesOf(first), boxesOf(second));
+}
+
+/// The same boxes as rows of three in two arrays.
+template <class T>
+struct Corners {
+  std::vector<T> min, max;
+
+  explicit Corners(const std::vector<T>& rows) {
+    for (std::size_t i = 0; i < rows.size(); i += 3) {
+      std::vector<T>& corner = i / 3 % 2 == 0 ? min : max;
+      corner.insert(corner.end(), rows.begin() + static_cast<std::ptrdiff_t>(i),
+                    rows.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    }
+  }
+};
+
+void expectPairs(OverlapSearch& search, const BoxView& first, const BoxView& second,
+                 const std::vector<Pair>& expected) {
+  const Order order = search.options().order;
+  const auto comparable = [&](std::vector<Pair> pairs) {
+    if (order == Order::Unordered) std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  };
+  const Span<const Pair> found = search.find(first, second);
+  ASSERT_EQ(comparable({found.begin(), found.end()}), test::inOrder(expected, order));
+  ASSERT_EQ(search.statistics().pairs, expected.size());
+  ASSERT_EQ(comparable(overlaps(first, second, search.options())), test::inOrder(expected, order));
+  ASSERT_EQ(search.count(first, second), expected.size());
+  std::vector<Pair> memory(expected.size());
+  ASSERT_EQ(search.findInto(first, second, memory).size(), expected.size());
+  ASSERT_EQ(comparable(memory), test::inOrder(expected, order));
+}
+
+void expectRows(const BoxView& first, const BoxView& second, const std::vector<Pair>& expected) {
+  const Neighbors rows = neighbors(first, second);
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i + 1 < rows.offsets.size(); ++i) {
+    for (std::uint64_t k = rows.offsets[i]; k < rows.offsets[i + 1]; ++k) pairs.push_back({i, rows.indices[k]});
+  }
+  ASSERT_EQ(pairs, expected);
+}
+
+template <class T>
+class FewBesideMany : public ::testing::Test {};
+using Precisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(FewBesideMany, Precisions);
+
+TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) {
+  unsigned seed = 0;
+  for (const std::size_t many : {65U, 66U, 71U, 79U, 80U, 97U, 128U, 300U, 4095U, 4096U, 4097U, 9001U}) {
+    for (const std::size_t few : {0U, 1U, 2U, 3U, 4U, 5U}) {
+      const std::vector<TypeParam> a = someRows<TypeParam>(few, ++seed, many < 1000 ? 1.5 : 0.3);
+      const std::vector<TypeParam> b = someRows<TypeParam>(many, ++seed, many < 1000 ? 0.4 : 0.1);
+      const Corners<TypeParam> aCorners(a);
+      const Corners<TypeParam> bCorners(b);
+      const std::vector<Pair> fewFirst = pairsByLoop(a, b);
+      const std::vector<Pair> fewSecond = pairsByLoop(b, a);
+      for (const std::string_view instructionSet : instructionSets()) {
+        for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+          SCOPED_TRACE(std::to_string(few) + " beside " + std::to_string(many) + ", " + std::string(instructionSet));
+          OverlapSearch search({.order = order, .instructionSet = instructionSet});
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(a), BoxView::fromRows(b), fewFirst));
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(b), BoxView::fromRows(a), fewSecond));
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromCorners(aCorners.min, aCorners.max),
+                                              BoxView::fromCorners(bCorners.min, bCorners.max), fewFirst));
+          ASSERT_NO_FATAL_FAILURE(
+              expectPairs(search, BoxView::fromRows(b), BoxView::fromCorners(aCorners.min, aCorners.max), fewSecond));
+        }
+      }
+      ASSERT_NO_FATAL_FAILURE(expectRows(BoxView::fromRows(a), BoxView::fromRows(b), fewFirst));
+      ASSERT_NO_FATAL_FAILURE(expectRows(BoxView::fromRows(b), BoxView::fromRows(a), fewSecond));
+    }
+  }
+}
+
+/// All pairs of 4 and 5,000 boxes: more than are collected at once.
+TYPED_TEST(FewBesideMany, ThatAllOverlapGiveAllPairs) {
+  const std::vector<TypeParam> box{0, 0, 0, 1, 1, 1};
+  std::vector<TypeParam> few;
+  std::vector<TypeParam> many;
+  for (std::size_t i = 0; i < 4; ++i) few.insert(few.end(), box.begin(), box.end());
+  for (std::size_t i = 0; i < 5000; ++i) many.insert(many.end(), box.begin(), box.end());
+  const std::vector<Pair> expected = pairsByLoop(few, many);
+  ASSERT_EQ(expected.size(), 20000U);
+  for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+    OverlapSearch search({.order = order});
+    ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(few), BoxView::fromRows(many), expected));
+    search.setOptions({.order = order, .maxPairs = 19999});
+    EXPECT_THROW((void)search.find(BoxView::fromRows(few), BoxView::fromRows(many)), LimitExceeded);
+    EXPECT_EQ(search.statistics().pairs, 0U);
+  }
+}
+
+/// Bounds that float32 cannot tell apart.
+TEST(FewBesideManyInDouble, AreNotRounded) {
+  const std::vector<Box> few(1, {{0, 0, 0}, {0.1, 1, 1}});
+  const std::vector<Box> apart(100, {{std::nextafter(0.1, 1.0), 0, 0}, {1, 1, 1}});
+  const std::vector<Box> touching(100, {{0.1, 0, 0}, {1, 1, 1}});
+  for (const std::string_view instructionSet : instructionSets()) {
+    EXPECT_EQ(overlaps(few, apart, {.instructionSet = instructionSet}).size(), 0U) << instructionSet;
+    EXPECT_EQ(overlaps(touching, few, {.instructionSet = instructionSet}).size(), 100U) << instructionSet;
+  }
+}
+
+TEST(FewBesideManyOptions, AreAppliedOrRefused) {
+  const std::vector<double> few = someRows<double>(2, 1, 1.5);
+  const std::vector<double> many = someRows<double>(500, 2, 0.4);
+  const BoxView a = BoxView::fromRows(few);
+  const BoxView b = BoxView::fromRows(many);
+  const std::vector<Pair> all = pairsByLoop(few, many);
+  std::vector<std::uint32_t> groups(500, 0);
+  for (std::size_t i = 0; i < groups.size(); i += 2) groups[i] = 1;
+  const std::vector<std::uint32_t> ones(2, 1);
+  OverlapOptions options;
+  options.filter.first.groups = ones;
+  options.filter.second.groups = groups;
+  std::vector<Pair> expected = all;
+  std::erase_if(expected, [](Pair pair) { return pair.second % 2 == 0; });
+  EXPECT_EQ(overlaps(a, b, options), expected);
+  options.filter.second.groups = ones;
+  EXPECT_THROW((void)overlaps(a, b, options), InvalidArgument);
+  EXPECT_THROW((void)overlaps(a, b, {.instructionSet = "NONE"}), InvalidArgument);
+  StopFlag stop;
+  stop.set();
+  EXPECT_THROW((void)overlaps(a, b, {.stop = &stop}), Stopped);
+}
+
+/// Every value of sets of every size around those of vectors is looked at.
+template <class T>
+void expectNanFoundEverywhere() {
+  for (const std::size_t boxes : {1U, 10U, 11U, 12U, 16U, 21U, 22U, 33U}) {
+    std::vector<T> rows = someRows<T>(boxes, 1, 0.1);
+    std::vector<T> other = rows;
+    EXPECT_EQ(BoxView::fromRows(rows).size(), boxes);
+    EXPECT_EQ(BoxView::fromCorners(rows, other).size(), 2 * boxes);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const T kept = std::exchange(rows[i], std::numeric_limits<T>::quiet_NaN());
+      EXPECT_THROW((void)BoxView::fromRows(rows), InvalidBox) << i << " of " << rows.size();
+      EXPECT_THROW((void)BoxView::fromCorners(rows, other), InvalidBox) << i << " of " << rows.size();
+      EXPECT_THROW((void)BoxView::fromCorners(other, rows), InvalidBox) << i << " of " << rows.size();
+      rows[i] = kept;
+    }
+  }
+}
+
+TEST(BoxViewOfManyBoxes, FindsANanAtEveryPlaceInBothPrecisions) {
+  expectNanFoundEverywhere<float>();
+  expectNanFoundEverywhere<double>();
+}
+
+}  // namespace
+}  // namespace allpairs
