@@ -25,7 +25,7 @@ constexpr std::size_t kUnaskedOfFew = 2;
 
 /// Boxes as they are, of float32 or of float64, an array for each bound.
 template <class T>
-using FewColumns = std::array<std::array<T, kWordBoxes>, 6>;
+using FewColumns = std::array<std::array<T, kMostPlain>, 6>;
 
 /// As many boxes as a vector has lanes, from rows of six that follow each other.
 template <class T>
@@ -58,8 +58,8 @@ HWY_INLINE void readAllColumns(const T* rows, std::size_t count, FewColumns<T>& 
   readColumns(rest.data(), columns, at);
 }
 
-/// The columns in vectors from `begin` up to `end` that a row overlaps, as bits. No comparison is true of an empty box, and
-/// nothing is rounded.
+/// The columns in vectors from `begin` up to `end`, all in one word, that a row overlaps, as bits of that word. No comparison is
+/// true of an empty box, and nothing is rounded.
 template <class T>
 HWY_INLINE std::uint64_t hitsOf(const T* row, const FewColumns<T>& columns, std::size_t begin, std::size_t end) {
   const hn::CappedTag<T, kFanOut> d;
@@ -72,7 +72,7 @@ HWY_INLINE std::uint64_t hitsOf(const T* row, const FewColumns<T>& columns, std:
     const auto x = hn::Le(from(0), to(0));
     const auto y = hn::Le(from(1), to(1));
     const auto z = hn::Le(from(2), to(2));
-    bits |= std::uint64_t{allBitsOf(d, hn::And(hn::And(x, y), z))} << i;
+    bits |= std::uint64_t{allBitsOf(d, hn::And(hn::And(x, y), z))} << (i % kWordBoxes);
   }
   return bits;
 }
@@ -80,26 +80,48 @@ HWY_INLINE std::uint64_t hitsOf(const T* row, const FewColumns<T>& columns, std:
 /// So many bits, from the lowest on; fewer than a word has.
 HWY_INLINE std::uint64_t lowBits(std::size_t count) { return ~(~std::uint64_t{0} << count); }
 
-template <class T, Columns kTested, bool kRowSecond>
-HWY_INLINE std::size_t searchFewBoxes(const FewBoxesSearch<T>& search, Pair* pairs) {
+/// Which columns of a row's own word are tested, of one set.
+template <Columns kTested>
+HWY_INLINE std::uint64_t testedOfOwnWord(std::size_t row) {
+  if (kTested == Columns::Following) return ~std::uint64_t{1} << (row % kWordBoxes);
+  return kTested == Columns::Preceding ? lowBits(row % kWordBoxes) : ~std::uint64_t{0};
+}
+
+template <class T, Columns kTested, bool kRowSecond, bool kOneWord>
+HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
   alignas(64) FewColumns<T> columns;
   readAllColumns(search.columns, search.columnCount, columns);
   const std::size_t lanes = hn::Lanes(hn::CappedTag<T, kFanOut>());
-  const std::uint64_t all = ~std::uint64_t{0} >> (kWordBoxes - search.columnCount);
+  const std::size_t lastWord = kOneWord ? 0 : (search.columnCount - 1) / kWordBoxes;
+  const std::uint64_t lastBits = ~std::uint64_t{0} >> (kWordBoxes - 1 - (search.columnCount - 1) % kWordBoxes);
   std::size_t size = 0;
-  for (std::size_t row = 0; row < search.rowCount; ++row) {
-    const std::size_t begin = kTested == Columns::Following ? row / lanes * lanes : 0;
-    const std::size_t end = kTested == Columns::Preceding ? row : search.columnCount;
-    std::uint64_t bits = hitsOf(search.rows + 6 * row, columns, begin, end) & all;
-    if (kTested == Columns::Following) bits &= ~std::uint64_t{1} << row;
-    if (kTested == Columns::Preceding) bits &= lowBits(row);
-    size += writeBits<kRowSecond, kUnaskedOfFew>(bits, static_cast<std::uint32_t>(row), 0, pairs + size);
+  std::size_t row = search.rowBegin;
+  for (; row < search.rowCount && size + search.columnCount <= search.room; ++row) {
+    const std::size_t first = kTested == Columns::Following ? row / lanes * lanes : 0;
+    const std::size_t last = kTested == Columns::Preceding ? row : search.columnCount;
+    for (std::size_t word = kOneWord ? 0 : first / kWordBoxes; word <= lastWord; ++word) {
+      const std::size_t begin = std::max(first, word * kWordBoxes);
+      const std::size_t end = kOneWord ? last : std::min(last, (word + 1) * kWordBoxes);
+      std::uint64_t bits = hitsOf(search.rows + 6 * row, columns, begin, end);
+      if (word == lastWord) bits &= lastBits;
+      if (kOneWord || word == row / kWordBoxes) bits &= testedOfOwnWord<kTested>(row);
+      const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes);
+      size += writeBits<kRowSecond, kUnaskedOfFew>(bits, static_cast<std::uint32_t>(row), firstOfWord, pairs + size);
+    }
   }
+  search.rowBegin = row;
   return size;
 }
 
+/// The same, for what is known of a search only now.
+template <class T, Columns kTested, bool kRowSecond>
+HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
+  return search.columnCount <= kWordBoxes ? searchFewBoxes<T, kTested, kRowSecond, true>(search, pairs)
+                                          : searchFewBoxes<T, kTested, kRowSecond, false>(search, pairs);
+}
+
 template <class T>
-std::size_t searchFewBoxes(const FewBoxesSearch<T>& search, Pair* pairs) {
+std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
   switch (search.tested) {
     case Columns::Following:
       return searchFewBoxes<T, Columns::Following, false>(search, pairs);

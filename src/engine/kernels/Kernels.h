@@ -41,15 +41,20 @@ struct FewSearch {
   Columns tested = Columns::All;
 };
 
+/// So many boxes are compared as they lie in memory.
+inline constexpr std::size_t kMostPlain = FewTile::kCapacity;
+
 /// The same of boxes as they lie in memory, rows of six that follow each other.
 template <class T>
 struct FewBoxesSearch {
   const T* rows = nullptr;
   const T* columns = nullptr;
   std::size_t rowCount = 0;
-  std::size_t columnCount = 0;  ///< From 1 to kWordBoxes.
+  std::size_t columnCount = 0;  ///< From 1 to kMostPlain.
   Columns tested = Columns::All;
-  bool rowSecond = false;  ///< In pairs; of one set where rows are tested against what precedes them, and only there.
+  bool rowSecond = false;    ///< In pairs; of one set where rows are tested against what precedes them, and only there.
+  std::size_t room = 0;      ///< For pairs: no fewer than there are columns.
+  std::size_t rowBegin = 0;  ///< The first row that is left.
 };
 
 /// Boxes one after the other in memory, as rows of six, or as rows of three in two arrays.
@@ -200,10 +205,10 @@ struct Kernels {
   /// The same for a few boxes.
   void (*searchFew)(const FewSearch& search, Hits& hits);
 
-  /// The same for boxes that are not rounded: writes their pairs, by row, and up to WorldSink::kSlack past the last one. Returns how
-  /// many there are.
-  std::size_t (*searchFew32)(const FewBoxesSearch<float>& search, Pair* pairs);
-  std::size_t (*searchFew64)(const FewBoxesSearch<double>& search, Pair* pairs);
+  /// The same for boxes that are not rounded: writes the pairs, by row, of as many of the rows that are left as there is room
+  /// for, and up to WorldSink::kSlack past the last one. Returns how many there are.
+  std::size_t (*searchFew32)(FewBoxesSearch<float>& search, Pair* pairs);
+  std::size_t (*searchFew64)(FewBoxesSearch<double>& search, Pair* pairs);
 
   /// Writes the numbers of the boxes of a run that touch a box, if their minimum is not above their maximum; there is room for all
   /// of them. Returns how many there are.

@@ -81,6 +81,8 @@ class PartSearch {
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
+  static constexpr std::size_t kRoom = kWordBoxes * kMostFew;
+
   std::size_t touchingBoxes(const BoxRun<T>& part, const Row<T>& bounds) {
     if constexpr (std::is_same_v<T, float>) {
       return m_kernels.touchingBoxes32(part, bounds, m_touching.data());
@@ -92,8 +94,9 @@ class PartSearch {
   /// Puts the pairs of those of a part that touch the few's bounds into m_pairs.
   void compare(std::span<const Row<T>> few, const BoxRun<T>& part, std::span<const std::uint32_t> touching) {
     for (std::size_t i = 0; i < touching.size(); ++i) m_rows[i] = rowOf(part, touching[i]);
-    const FewBoxesSearch<T> search{m_rows.front().data(), few.front().data(), touching.size(), few.size(),
-                                   Columns::All,          m_manySecond};
+    FewBoxesSearch<T> search{m_rows.front().data(), few.front().data(), touching.size(), few.size()};
+    search.rowSecond = m_manySecond;
+    search.room = kRoom;
     m_statistics.boxTests += touching.size() * few.size();
     if constexpr (std::is_same_v<T, float>) {
       m_found = m_kernels.searchFew32(search, m_pairs.data());
@@ -126,7 +129,7 @@ class PartSearch {
   std::size_t m_found = 0;
   std::array<std::uint32_t, kPartSize> m_touching;
   std::array<Row<T>, kWordBoxes> m_rows;
-  PairsOnStack<kWordBoxes * kMostFew + WorldSink::kSlack> m_pairs;
+  PairsOnStack<kRoom + WorldSink::kSlack> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }

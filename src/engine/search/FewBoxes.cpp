@@ -19,6 +19,9 @@ namespace {
 /// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
+/// Pairs that are collected on the stack before they are passed on.
+constexpr std::size_t kPlainRoom = 4096;
+
 /// Hits that are buffered: a few times those of one box.
 constexpr std::size_t kHits = 4 * FewTile::kCapacity;
 
@@ -93,7 +96,7 @@ bool areHit(const T* a, const T* b) {
 
 /// All pairs, by row; returns their number.
 template <class T>
-std::size_t testAll(const FewBoxesSearch<T>& search, Pair* pairs) {
+std::size_t testAll(FewBoxesSearch<T>& search, Pair* pairs) {
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < search.rowCount; ++i) {
     const std::uint32_t begin = search.tested == Columns::Following ? i + 1 : 0;
@@ -103,6 +106,7 @@ std::size_t testAll(const FewBoxesSearch<T>& search, Pair* pairs) {
       found += static_cast<std::size_t>(areHit(search.rows + 6 * std::size_t{i}, search.columns + 6 * std::size_t{j}));
     }
   }
+  search.rowBegin = search.rowCount;
   return found;
 }
 
@@ -117,12 +121,11 @@ bool areRows(const BoxView::Corners<T>& first, const BoxView::Corners<T>& second
   return first.isPacked() && second.isPacked();
 }
 
-/// Whether findPlain() takes these boxes: only their bounds matter, which are rows.
+/// Whether boxes are compared as they are: only their bounds matter, which are rows.
 bool arePlain(const Sets& sets, const OverlapOptions& options) {
   const BoxView& first = sets.first;
   const BoxView& second = sets.second;
-  return std::max(first.size(), second.size()) <= kWordBoxes && first.isFloat64() == second.isFloat64() &&
-         onlyBoundsMatter(sets, options) &&
+  return first.isFloat64() == second.isFloat64() && onlyBoundsMatter(sets, options) &&
          (first.isFloat64() ? areRows(first.float64(), second.float64()) : areRows(first.float32(), second.float32()));
 }
 
@@ -142,9 +145,9 @@ FewBoxesSearch<T> plainSearch(const Sets& sets, Order order, const T* first, con
   return {first, second, firstSize, secondSize, Columns::All, false};
 }
 
-/// Without kernels, pairs are tested one by one.
+/// Finds the pairs of the rows that are left, or of some of them if there are many; without kernels, tests one pair after the other.
 template <class T>
-std::size_t searchPlain(const FewBoxesSearch<T>& search, const Kernels* kernels, Pair* pairs) {
+std::size_t searchSome(FewBoxesSearch<T>& search, const Kernels* kernels, Pair* pairs) {
   if (kernels == nullptr) return testAll(search, pairs);
   if constexpr (std::is_same_v<T, float>) {
     return kernels->searchFew32(search, pairs);
@@ -153,29 +156,36 @@ std::size_t searchPlain(const FewBoxesSearch<T>& search, const Kernels* kernels,
   }
 }
 
-/// Writes all pairs that overlap; returns their number. An instruction set that is asked for has to be there, and is used.
-std::size_t searchPlain(const Sets& sets, const OverlapOptions& options, Order order, Pair* pairs) {
-  const std::size_t most = pairsOf(sets);
+template <class T>
+OverlapStatistics findPlain(FewBoxesSearch<T>&& search, std::size_t most, const OverlapOptions& options,
+                            FunctionRef<void(std::span<const Pair>)> take) {
+  static_assert(kPlainRoom >= kMostPlain && kPlainRoom >= kTestedPairs);
+  PairsOnStack<kPlainRoom + WorldSink::kSlack> pairs;
+  search.room = kPlainRoom;
+  // An instruction set that is asked for has to be there, and is used.
   const bool isTested = most <= kTestedPairs && options.instructionSet.empty();
   const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
-  if (most == 0) return 0;
-  const BoxView& first = sets.first;
-  const BoxView& second = sets.second;
-  return first.isFloat64() ? searchPlain(plainSearch(sets, order, first.float64().min.data, second.float64().min.data),
-                                         kernels, pairs)
-                           : searchPlain(plainSearch(sets, order, first.float32().min.data, second.float32().min.data),
-                                         kernels, pairs);
+  OverlapStatistics statistics;
+  statistics.boxTests = most;
+  while (most != 0 && search.rowBegin < search.rowCount) {
+    const std::size_t found = searchSome(search, kernels, pairs.data());
+    statistics.pairs += found;
+    checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
+    if (found != 0) take({pairs.data(), found});
+  }
+  return statistics;
 }
 
 OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
                             FunctionRef<void(std::span<const Pair>)> take) {
-  PairsOnStack<kWordBoxes * kWordBoxes + WorldSink::kSlack> pairs;
-  OverlapStatistics statistics;
-  statistics.pairs = searchPlain(sets, options, order, pairs.data());
-  statistics.boxTests = pairsOf(sets);
-  checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
-  if (statistics.pairs != 0) take({pairs.data(), statistics.pairs});
-  return statistics;
+  const std::size_t most = pairsOf(sets);
+  const BoxView& first = sets.first;
+  const BoxView& second = sets.second;
+  if (first.isFloat64()) {
+    return findPlain(plainSearch(sets, order, first.float64().min.data, second.float64().min.data), most, options,
+                     take);
+  }
+  return findPlain(plainSearch(sets, order, first.float32().min.data, second.float32().min.data), most, options, take);
 }
 
 OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order,
