@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <type_traits>
 
 #include "allpairs/BoxView.h"
@@ -31,6 +33,15 @@ template <class T>
 [[nodiscard]] BoxRun<T> runOf(const BoxView& boxes) noexcept {
   const BoxView::Corners<T>& corners = cornersOf<T>(boxes);
   return {corners.min.data, corners.max.data, static_cast<std::size_t>(corners.min.boxStride), boxes.size()};
+}
+
+/// Whether rows of six overlap; no comparison is true of an empty box.
+template <class T>
+[[nodiscard]] bool areHit(const T* a, const T* b) noexcept {
+  const bool x = std::max(a[0], b[0]) <= std::min(a[3], b[3]);
+  const bool y = std::max(a[1], b[1]) <= std::min(a[4], b[4]);
+  const bool z = std::max(a[2], b[2]) <= std::min(a[5], b[5]);
+  return x & y & z;
 }
 
 }  // namespace allpairs::engine

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
@@ -70,18 +71,25 @@ class PartSearch {
     const Row<T> bounds = boundsOf(few);
     if (isEmptyRow(bounds)) return;
     const BoxRun<T> part = m_many.part(begin, kPartSize);
-    m_statistics.boxTests += part.size;
-    const std::size_t size = touchingBoxes(part, bounds);
-    for (std::size_t i = 0; i < size; i += kWordBoxes) {
-      compare(few, part, std::span(m_touching).subspan(i, std::min(kWordBoxes, size - i)));
-      give(firstFew, static_cast<std::uint32_t>(begin), &m_touching[i]);
+    const std::size_t touching = touchingBoxes(part, bounds);
+    m_statistics.boxTests += part.size + touching * few.size();
+    for (std::size_t i = 0; i < touching; ++i) {
+      const Row<T> row = rowOf(part, m_touching[i]);
+      const auto many = static_cast<std::uint32_t>(begin + m_touching[i]);
+      for (std::uint32_t j = 0; j < few.size(); ++j) {
+        // Written whether they overlap or not, which is not guessed right often enough.
+        m_pairs.data()[m_found] = m_manySecond ? Pair{firstFew + j, many} : Pair{many, firstFew + j};
+        m_found += static_cast<std::size_t>(areHit(row.data(), few[j].data()));
+      }
+      if (m_found + kMostFew > kRoom) give();
     }
+    give();
   }
 
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
-  static constexpr std::size_t kRoom = kWordBoxes * kMostFew;
+  static constexpr std::size_t kRoom = 1024;
 
   std::size_t touchingBoxes(const BoxRun<T>& part, const Row<T>& bounds) {
     if constexpr (std::is_same_v<T, float>) {
@@ -91,33 +99,12 @@ class PartSearch {
     }
   }
 
-  /// Puts the pairs of those of a part that touch the few's bounds into m_pairs.
-  void compare(std::span<const Row<T>> few, const BoxRun<T>& part, std::span<const std::uint32_t> touching) {
-    for (std::size_t i = 0; i < touching.size(); ++i) m_rows[i] = rowOf(part, touching[i]);
-    FewBoxesSearch<T> search{m_rows.front().data(), few.front().data(), touching.size(), few.size()};
-    search.rowSecond = m_manySecond;
-    search.room = kRoom;
-    m_statistics.boxTests += touching.size() * few.size();
-    if constexpr (std::is_same_v<T, float>) {
-      m_found = m_kernels.searchFew32(search, m_pairs.data());
-    } else {
-      m_found = m_kernels.searchFew64(search, m_pairs.data());
-    }
-  }
-
-  /// Passes on the pairs that were just found: of boxes that are numbered from these on, or are touching ones of a part.
-  void give(std::uint32_t firstFew, std::uint32_t firstOfPart, const std::uint32_t* touching) {
+  /// Passes on the pairs that were found since the last time.
+  void give() {
     if (m_found == 0) return;
-    const std::span<Pair> pairs(m_pairs.data(), m_found);
-    for (Pair& pair : pairs) {
-      std::uint32_t& many = m_manySecond ? pair.second : pair.first;
-      std::uint32_t& few = m_manySecond ? pair.first : pair.second;
-      many = firstOfPart + touching[many];
-      few += firstFew;
-    }
     m_statistics.pairs += m_found;
     checkLimit({.maxPairs = m_options.maxPairs}, m_statistics.pairs);
-    m_take(pairs);
+    m_take({m_pairs.data(), std::exchange(m_found, 0)});
   }
 
   const BoxRun<T> m_many;
@@ -128,8 +115,7 @@ class PartSearch {
   OverlapStatistics m_statistics;
   std::size_t m_found = 0;
   std::array<std::uint32_t, kPartSize> m_touching;
-  std::array<Row<T>, kWordBoxes> m_rows;
-  PairsOnStack<kRoom + WorldSink::kSlack> m_pairs;
+  PairsOnStack<kRoom> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }

@@ -5,6 +5,7 @@
 #include <array>
 #include <type_traits>
 
+#include "input/BoxRuns.h"
 #include "input/Readers.h"
 #include "kernels/Kernels.h"
 #include "search/FewBesideMany.h"
@@ -83,15 +84,6 @@ bool readFew(const BoxReader& reader, FewTile& tile) {
     exact &= reader.read(all.part(begin, kFanOut), tile, begin);
   }
   return exact;
-}
-
-/// Whether rows of six overlap; no comparison is true of an empty box.
-template <class T>
-bool areHit(const T* a, const T* b) {
-  const bool x = std::max(a[0], b[0]) <= std::min(a[3], b[3]);
-  const bool y = std::max(a[1], b[1]) <= std::min(a[4], b[4]);
-  const bool z = std::max(a[2], b[2]) <= std::min(a[5], b[5]);
-  return x & y & z;
 }
 
 /// All pairs, by row; returns their number.
