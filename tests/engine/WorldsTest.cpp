@@ -72,7 +72,7 @@ struct Scene {
   }
 };
 
-const std::vector<std::size_t> kSizes{0, 1, 2, 15, 16, 17, 33, 63, 64, 65, 128, 129, 200, 449, 1000};
+const std::vector<std::size_t> kSizes{0, 1, 2, 15, 16, 17, 33, 63, 64, 65, 128, 129, 200, 400, 449, 1000};
 
 std::vector<std::size_t> mixedSizes(std::size_t worlds, unsigned seed) {
   std::mt19937 generator(seed);

@@ -7,6 +7,8 @@
 // Then worlds whose boxes all move a little in every step, or of which one is reset: a World whose boxes have world numbers,
 // in turns with the one-shot search of the same boxes, and with a World without numbers that holds the worlds side by side.
 //
+// Last, worlds that meet a static set of boxes that they share, in turns with one search of two sets, of the same boxes.
+//
 //   worlds_benchmark [--rounds R] [--instruction-set NAME]
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -257,6 +259,34 @@ void compareMoving(std::size_t worlds, std::size_t boxes, std::size_t rounds, co
   std::printf(" %.2f |\n", medianOf(ms[1]) / medianOf(ms[0]));
 }
 
+/// Boxes of all worlds as small as if they were one set, so that each meets about two of the shared ones.
+void compareShared(std::size_t worlds, std::size_t boxes, std::size_t rounds, const std::string& instructionSet) {
+  constexpr std::size_t kShared = 10000;
+  OverlapOptions options;
+  options.instructionSet = instructionSet;
+  OverlapSearch sets(options);
+  WorldsSearch search(options);
+  const std::vector<float> shared = generate::makeBoxes({.scene = "uniform", .count = kShared, .seed = 1});
+  std::vector<std::vector<float>> scenes;
+  for (std::size_t i = 0; i < kScenes; ++i) {
+    scenes.push_back(generate::makeBoxes({.scene = "uniform", .count = worlds * boxes, .seed = 2 + i}));
+  }
+  std::array<std::vector<double>, 2> ms;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const std::vector<float>& rows = scenes[round % kScenes];
+    const measure::Stopwatch ofSets;
+    const std::size_t expected = sets.find(BoxView::fromRows(rows), BoxView::fromRows(shared)).size();
+    ms[0].push_back(ofSets.elapsed().cpuMs);
+    const measure::Stopwatch ofWorlds;
+    const Worlds all = Worlds::ofEqualSize(BoxView::fromRows(rows), worlds);
+    const std::size_t found = search.find(all, BoxView::fromRows(shared)).pairs.size();
+    ms[1].push_back(ofWorlds.elapsed().cpuMs);
+    if (found != expected) throw std::runtime_error("the worlds have another number of pairs with the shared boxes");
+  }
+  std::printf("| %zu of %zu, %zu shared | %.2f | %.2f | %.2f |\n", worlds, boxes, kShared, medianOf(ms[0]),
+              medianOf(ms[1]), medianOf(ms[1]) / medianOf(ms[0]));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -282,6 +312,10 @@ int main(int argc, char** argv) {
          {std::pair<std::size_t, std::size_t>{32768, 5}, {8192, 20}, {4096, 64}, {1024, 200}, {64, 4000}}) {
       compareMoving(worlds, boxes, rounds, instructionSet);
     }
+    std::printf(
+        "\nBoxes that all worlds share, the same measure.\n\n| worlds | search of two sets | WorldsSearch | ratio |\n"
+        "|---|---:|---:|---:|\n");
+    compareShared(4096, 30, rounds, instructionSet);
     return 0;
   });
 }

@@ -15,7 +15,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "hwy/cache_control.h"
@@ -31,29 +30,75 @@ namespace {  // Each file that compiles the kernels has its own.
 /// The hits of up to a word of rows, in words by row. Masks may be stored as whole words.
 using WorldHits = std::array<std::uint64_t, kMostInWorld + 1>;
 
+/// Boxes that a row is tested against at once: as many as hits make a byte.
+constexpr std::size_t kColumnsAtOnce = 8;
+
+/// Vectors of 32 bytes, although AVX-512 has longer ones: a processor that cuts those in two spends units on broadcasts to
+/// them that it does not on these, and fewer of the boxes tested precede the row (worlds_benchmark).
+template <class T>
+using WorldTag = hn::CappedTag<T, 32 / sizeof(T)>;
+using WorldFloats = hn::Vec<WorldTag<float>>;
+
+/// The lanes of a mask in which one value is not above another.
+template <class T, class Mask, class Vector>
+HWY_INLINE Mask notAboveAlso(Mask also, Vector value, Vector other) {
+#if HWY_TARGET <= HWY_AVX3
+  // A masked comparison, where compilers combine two masks: a tenth of the time (worlds_benchmark).
+  if constexpr (sizeof(T) == sizeof(float)) {
+    return Mask{_mm256_mask_cmp_ps_mask(also.raw, value.raw, other.raw, _CMP_LE_OQ)};
+  } else {
+    return Mask{_mm256_mask_cmp_pd_mask(also.raw, value.raw, other.raw, _CMP_LE_OQ)};
+  }
+#else
+  return hn::And(also, hn::Le(value, other));
+#endif
+}
+
 /// Boxes of float32, or of float64, against each other: exact, and empty boxes hit nothing.
 template <class T>
 class BoundsTest {
  public:
-  using D = hn::CappedTag<T, kFanOut>;
-
   HWY_INLINE explicit BoundsTest(const WorldTile<T>& tile) : m_tile(tile) {}
 
   /// The boxes that rows are tested against.
   HWY_INLINE void setColumns(std::size_t place) {
-    for (std::size_t bound = 0; bound < 6; ++bound) m_columns[bound] = hn::LoadU(D(), &m_tile[bound][place]);
+    for (std::size_t vector = 0; vector < kVectors; ++vector) {
+      const std::size_t from = place + vector * kLanes;
+      for (std::size_t bound = 0; bound < 6; ++bound) m_columns[vector][bound] = hn::LoadU(D(), &m_tile[bound][from]);
+    }
   }
 
-  [[nodiscard]] HWY_INLINE hn::Mask<D> hits(std::size_t row) const {
-    const auto at = [&](std::size_t bound) HWY_ATTR { return hn::Set(D(), m_tile[bound][row]); };
-    const auto x = hn::Le(hn::Max(m_columns[0], at(0)), hn::Min(m_columns[3], at(3)));
-    const auto xy = meetsAlso(x, m_columns[1], m_columns[4], at(1), at(4));
-    return meetsAlso(xy, m_columns[2], m_columns[5], at(2), at(5));
+  /// Stores the hits of a row as a byte.
+  HWY_INLINE void storeHits(std::size_t row, std::uint8_t* byte) const {
+    hn::Vec<D> box[6];
+    for (std::size_t bound = 0; bound < 6; ++bound) box[bound] = hn::Set(D(), m_tile[bound][row]);
+    if constexpr (kVectors == 1) {
+      hn::StoreMaskBits(D(), hits(box, m_columns[0]), byte);
+    } else {
+      std::uint32_t bits = 0;
+      for (std::size_t vector = 0; vector < kVectors; ++vector) {
+        std::uint8_t part = 0;
+        hn::StoreMaskBits(D(), hits(box, m_columns[vector]), &part);
+        bits |= std::uint32_t{part} << (vector * kLanes);
+      }
+      *byte = static_cast<std::uint8_t>(bits);
+    }
   }
 
  private:
+  using D = WorldTag<T>;
+  static constexpr std::size_t kLanes = hn::MaxLanes(D());
+  static constexpr std::size_t kVectors = kColumnsAtOnce / kLanes;
+
+  [[nodiscard]] static HWY_INLINE hn::Mask<D> hits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
+    const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };
+    const auto to = [&](std::size_t axis) HWY_ATTR { return hn::Min(columns[axis + 3], box[axis + 3]); };
+    const auto xy = notAboveAlso<T>(hn::Le(from(0), to(0)), from(1), to(1));
+    return notAboveAlso<T>(xy, from(2), to(2));
+  }
+
   const WorldTile<T>& m_tile;
-  hn::Vec<D> m_columns[6];
+  hn::Vec<D> m_columns[kVectors][6];
 };
 
 /// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the two.
@@ -61,33 +106,44 @@ class BoundsTest {
 template <bool kPreceding>
 class WideTest {
  public:
-  using D = DoubleTag;
-
   HWY_INLINE explicit WideTest(const WideWorld& world) : m_world(world) {}
 
   HWY_INLINE void setColumns(std::size_t place) { m_place = place; }
 
-  [[nodiscard]] HWY_INLINE hn::Mask<D> hits(std::size_t row) const {
+  /// Stores the hits of a row as a byte.
+  HWY_INLINE void storeHits(std::size_t row, std::uint8_t* byte) const {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kColumnsAtOnce; i += hn::MaxLanes(D())) {
+      std::uint8_t part = 0;
+      hn::StoreMaskBits(D(), hits(row, m_place + i), &part);
+      bits |= std::uint32_t{part} << i;
+    }
+    *byte = static_cast<std::uint8_t>(bits);
+  }
+
+ private:
+  using D = DoubleTag;
+
+  [[nodiscard]] HWY_INLINE hn::Mask<D> hits(std::size_t row, std::size_t place) const {
     const D d;
-    const auto far = distance(row);
+    const auto far = distance(row, place);
     const auto apartOn = [&](std::size_t axis) HWY_ATTR {
       const WorldTile<double>& bound = m_world.tile;
-      const auto min = hn::LoadU(d, &bound[axis][m_place]);
-      const auto max = hn::LoadU(d, &bound[axis + 3][m_place]);
+      const auto min = hn::LoadU(d, &bound[axis][place]);
+      const auto max = hn::LoadU(d, &bound[axis + 3][place]);
       return hn::Or(hn::Gt(hn::Set(d, bound[axis][row]), hn::Add(max, far)),
                     hn::Gt(min, hn::Add(hn::Set(d, bound[axis + 3][row]), far)));
     };
     return hn::Not(hn::Or(hn::Or(apartOn(0), apartOn(1)), apartOn(2)));
   }
 
- private:
   /// The distance of the row and each column, margins added from the first box to the second.
-  [[nodiscard]] HWY_INLINE hn::Vec<D> distance(std::size_t row) const {
+  [[nodiscard]] HWY_INLINE hn::Vec<D> distance(std::size_t row, std::size_t place) const {
     const D d;
     const auto given = hn::Set(d, m_world.distance);
     if (!m_world.hasMargins) return given;
     const auto own = hn::Set(d, m_world.margins[row]);
-    const auto other = hn::LoadU(d, &m_world.margins[m_place]);
+    const auto other = hn::LoadU(d, &m_world.margins[place]);
     return kPreceding ? hn::Add(hn::Add(given, other), own) : hn::Add(hn::Add(given, own), other);
   }
 
@@ -95,52 +151,28 @@ class WideTest {
   std::size_t m_place = 0;
 };
 
-/// Stores the hits of a row among these columns, of a wide vector.
-template <class Test>
-HWY_INLINE void storeHits(Test& test, std::size_t row, std::size_t columns, std::uint8_t* bytes) {
-  using D = typename Test::D;
-  const D d;
-  if constexpr (hn::MaxLanes(D()) >= 8) {
-    hn::StoreMaskBits(d, test.hits(row), bytes);
-  } else {
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < 8; i += hn::MaxLanes(D())) {
-      test.setColumns(columns + i);
-      bits |= bitsOf(d, test.hits(row)) << i;
-    }
-    *bytes = static_cast<std::uint8_t>(bits);
-  }
-}
-
 /// The hits of the rows of a word from the one of `begin` on, by place, with the boxes that follow, or precede them. Hits
 /// with others are stored too, or what was there before, and so are those of a few rows before.
 template <bool kPreceding, class Test>
 HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin, WorldHits& hits) {
-  // Columns that a row is tested against at once: as many as a vector has, and no fewer than hits make a byte.
-  constexpr std::size_t kStep = std::max<std::size_t>(8, hn::MaxLanes(typename Test::D()));
   const std::size_t firstOfWord = begin / kWordBoxes * kWordBoxes;
   const std::size_t end = firstOfWord + kWordBoxes;
   const std::size_t stop = kPreceding ? end : places.end;
   const std::size_t rowBytes = places.words * sizeof(std::uint64_t);
   auto* const words = reinterpret_cast<std::uint8_t*>(hits.data());
-  for (std::size_t columns = (kPreceding ? places.first : begin) / kStep * kStep; columns < stop; columns += kStep) {
+  for (std::size_t columns = (kPreceding ? places.first : begin) / kColumnsAtOnce * kColumnsAtOnce; columns < stop;
+       columns += kColumnsAtOnce) {
     test.setColumns(columns);
     std::size_t row = (kPreceding ? std::max(begin, columns) : begin) / kRowsAtOnce * kRowsAtOnce;
-    const std::size_t endRow = kPreceding ? end : std::min(end, columns + kStep);
+    const std::size_t endRow = kPreceding ? end : std::min(end, columns + kColumnsAtOnce);
     std::uint8_t* bytes = words + (row - firstOfWord) * rowBytes + columns / 8;
     for (; row < endRow; row += kRowsAtOnce, bytes += kRowsAtOnce * rowBytes) {
-      storeHits(test, row, columns, bytes);
-      storeHits(test, row + 1, columns, bytes + rowBytes);
-      storeHits(test, row + 2, columns, bytes + 2 * rowBytes);
-      storeHits(test, row + 3, columns, bytes + 3 * rowBytes);
+      test.storeHits(row, bytes);
+      test.storeHits(row + 1, bytes + rowBytes);
+      test.storeHits(row + 2, bytes + 2 * rowBytes);
+      test.storeHits(row + 3, bytes + 3 * rowBytes);
     }
   }
-}
-
-/// A pair as one number, so that it is written at once.
-HWY_INLINE std::uint64_t packed(std::uint32_t first, std::uint32_t second) {
-  if (std::endian::native != std::endian::little) std::swap(first, second);
-  return std::uint64_t{second} << 32 | first;
 }
 
 /// The position of the lowest bit; any number if there is none.
@@ -158,13 +190,15 @@ template <bool kPreceding, std::size_t kUnasked>
 HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* pairs) {
   // Of the others: where there are many, a tenth of the time of all (few_benchmark).
   constexpr std::size_t kAtOnce = 4;
-  static_assert(std::max(kUnasked, kAtOnce) <= WorldSink::kSlack && sizeof(Pair) == sizeof(std::uint64_t));
+  static_assert(std::max(kUnasked, kAtOnce) <= WorldSink::kSlack);
   const auto count = static_cast<std::size_t>(std::popcount(bits));
   const auto writeNext = [&](std::size_t i) HWY_ATTR {
     const std::uint32_t other = firstOfWord + lowestBit(bits);
-    const std::uint64_t both = kPreceding ? packed(other, box) : packed(box, other);
-    std::memcpy(static_cast<void*>(pairs + i), &both, sizeof(both));
-    // Compilers would collect several in a vector, which takes longer; not across this, which is no instruction.
+    // Compilers would put both into a number, or several pairs into a vector, either of which takes longer; not across
+    // fences, which are no instructions.
+    pairs[i].first = kPreceding ? other : box;
+    std::atomic_signal_fence(std::memory_order_acq_rel);
+    pairs[i].second = kPreceding ? box : other;
     std::atomic_signal_fence(std::memory_order_acq_rel);
     bits &= bits - 1;
   };
@@ -249,37 +283,66 @@ HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, const Pa
                  : searchWorld<kPreceding, false>(test, places, partners, sink);
 }
 
-/// As many boxes as a vector has lanes, from corners that follow each other, as they are, to places from `at` on.
+#if HWY_TARGET != HWY_SCALAR
+
+/// Four values of a box of a row of six, and if there are lanes for them those of the fourth box after it.
+template <class D>
+HWY_INLINE hn::Vec<D> fourOfBoxes(D d, const float* values) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return hn::LoadU(d, values);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, hn::LoadU(half, values + 6 * 4), hn::LoadU(half, values));
+  }
+}
+
+#endif
+
+/// As many boxes as a vector has lanes, from rows of six that follow each other.
+HWY_INLINE void readRowsOfSix(const float* rows, WorldTile<float>& tile, std::size_t at) {
+  const WorldTag<float> d;
+#if HWY_TARGET == HWY_SCALAR
+  for (std::size_t bound = 0; bound < 6; ++bound) hn::StoreU(hn::LoadU(d, rows + bound), d, &tile[bound][at]);
+#else
+  const auto load = [&](std::size_t box, std::size_t bound) HWY_ATTR { return fourOfBoxes(d, rows + 6 * box + bound); };
+  const hn::Repartition<std::uint64_t, WorldTag<float>> twos;
+  // Two bounds of boxes 0 and 1, and of 2 and 3.
+  const auto store = [&](WorldFloats first, WorldFloats last, std::size_t bound) HWY_ATTR {
+    const auto lower = hn::InterleaveLower(twos, hn::BitCast(twos, first), hn::BitCast(twos, last));
+    const auto upper = hn::InterleaveUpper(twos, hn::BitCast(twos, first), hn::BitCast(twos, last));
+    hn::StoreU(hn::BitCast(d, lower), d, &tile[bound][at]);
+    hn::StoreU(hn::BitCast(d, upper), d, &tile[bound + 1][at]);
+  };
+  const WorldFloats fromFirst[4] = {load(0, 0), load(1, 0), load(2, 0), load(3, 0)};
+  const WorldFloats toLast[4] = {load(0, 2), load(1, 2), load(2, 2), load(3, 2)};
+  const auto lower = [&](const WorldFloats* boxes) HWY_ATTR { return hn::InterleaveLower(d, boxes[0], boxes[1]); };
+  const auto upper = [&](const WorldFloats* boxes) HWY_ATTR { return hn::InterleaveUpper(d, boxes[0], boxes[1]); };
+  store(lower(fromFirst), lower(fromFirst + 2), 0);
+  store(upper(fromFirst), upper(fromFirst + 2), 2);
+  store(upper(toLast), upper(toLast + 2), 4);
+#endif
+}
+
+/// The same of corners in an array of their own.
+HWY_INLINE void readCornersOfThree(const float* corners, WorldTile<float>& tile, std::size_t bound, std::size_t at) {
+  const WorldTag<float> d;
+#if HWY_TARGET == HWY_SCALAR
+  for (std::size_t axis = 0; axis < 3; ++axis) hn::StoreU(hn::LoadU(d, corners + axis), d, &tile[bound + axis][at]);
+#else
+  WorldFloats corner[3];
+  hn::LoadInterleaved3(d, corners, corner[0], corner[1], corner[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis) hn::StoreU(corner[axis], d, &tile[bound + axis][at]);
+#endif
+}
+
+/// As many boxes as a vector has lanes, as they are, to places from `at` on.
 HWY_INLINE void readCorners(const float* min, const float* max, std::size_t stride, WorldTile<float>& tile,
                             std::size_t at) {
-  const FloatTag d;
-  FloatVector lower[3];
-  FloatVector upper[3];
-#if HWY_TARGET == HWY_SCALAR
-  static_cast<void>(stride);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lower[axis] = hn::LoadU(d, min + axis);
-    upper[axis] = hn::LoadU(d, max + axis);
-  }
-#else
-  if (stride == 3) {
-    hn::LoadInterleaved3(d, min, lower[0], lower[1], lower[2]);
-    hn::LoadInterleaved3(d, max, upper[0], upper[1], upper[2]);
+  if (stride == 6) {
+    readRowsOfSix(min, tile, at);
   } else {
-    // Corners alternate between minimum and maximum.
-    FloatVector first[3];
-    FloatVector last[3];
-    hn::LoadInterleaved3(d, min, first[0], first[1], first[2]);
-    hn::LoadInterleaved3(d, min + 3 * hn::Lanes(d), last[0], last[1], last[2]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lower[axis] = hn::ConcatEven(d, last[axis], first[axis]);
-      upper[axis] = hn::ConcatOdd(d, last[axis], first[axis]);
-    }
-  }
-#endif
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::StoreU(lower[axis], d, &tile[axis][at]);
-    hn::StoreU(upper[axis], d, &tile[axis + 3][at]);
+    readCornersOfThree(min, tile, 0, at);
+    readCornersOfThree(max, tile, 3, at);
   }
 }
 
@@ -299,7 +362,7 @@ HWY_INLINE void readFirstCorners(const WorldsRun& run, std::size_t skipped, std:
 /// A world's boxes; what is in front of them in memory comes along.
 HWY_INLINE void readWorld(const WorldsRun& run, std::size_t firstBox, const WorldPlaces& places,
                           WorldTile<float>& tile) {
-  const std::size_t lanes = hn::Lanes(FloatTag());
+  const std::size_t lanes = hn::Lanes(WorldTag<float>());
   std::size_t at = places.first / lanes * lanes;
   const std::size_t skipped = places.first - at;
   if (firstBox < skipped) {

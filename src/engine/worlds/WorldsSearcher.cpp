@@ -21,11 +21,16 @@ std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
   return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
+/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, until a hierarchy is
+/// faster: it does not round, nor put pairs in order (worlds_benchmark).
+constexpr std::size_t kTimesFlat = 2;
+
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
 std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options) {
   if (options.strategy == Strategy::Bvh) return 0;
   if (options.strategy == Strategy::Exhaustive) return kMostInWorld;
-  return std::min(kMostInWorld, kernels.flatBoxes(options.order));
+  const std::size_t flat = kernels.flatBoxes(options.order);
+  return std::min(kMostInWorld, options.order == Order::Unordered ? flat : kTimesFlat * flat);
 }
 
 /// Whether the corners of boxes of float32 lie as the kernels read them.
