@@ -37,8 +37,6 @@ bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t cou
 WorldQueries::WorldQueries(const BoxStore& store, const WorldSearch& search, const QueryFilter& filter) noexcept
     : m_store(store),
       m_search(search),
-      m_dynamic(search.dynamicBoxes().levels().view()),
-      m_static(search.staticBoxes().levels().view()),
       m_filter(filter),
       m_everyBox(!store.filtered() && filter.mask != 0 && filter.category != 0) {}
 
@@ -54,33 +52,19 @@ Box WorldQueries::widenedBox(BoxId id, const LaneBox& lanes, bool exact) const n
 
 template <class Visit>
 void WorldQueries::eachBvh(const Visit& visit) const {
-  if (m_store.isNumbered()) {
-    eachTree(visit);
-    return;
-  }
-  if (m_filter.world != kEveryWorld && m_filter.world != 0) return;
-  if (m_filter.dynamicBoxes && m_dynamic.depth != 0) visit(m_dynamic, m_search.dynamicBoxes().exact());
-  if (m_filter.staticBoxes && m_static.depth != 0) visit(m_static, m_search.staticBoxes().exact());
-}
-
-/// The same of a numbered store: those of all worlds, or of the filter's and of the boxes of every world.
-template <class Visit>
-void WorldQueries::eachTree(const Visit& visit) const {
-  const auto show = [&](const WorldForest& trees, std::size_t world) {
-    const BvhView view = trees.view(world);
-    if (view.depth != 0) visit(view, trees.exact());
+  const auto show = [&](std::size_t world) {
+    m_search.eachTree(world, [&](const DynamicBvh& tree, bool isStatic) {
+      if (isStatic ? m_filter.staticBoxes : m_filter.dynamicBoxes) visit(tree.view(), tree.exact());
+    });
   };
-  const auto showWorld = [&](std::size_t world) {
-    if (m_filter.dynamicBoxes) show(m_search.dynamicTrees(), world);
-    if (m_filter.staticBoxes) show(m_search.staticTrees(), world);
-  };
+  // Those of all worlds, or of the filter's and of the boxes of every world.
   const WorldMembers& members = m_search.members();
   if (m_filter.world != kEveryWorld) {
-    showWorld(members.find(m_filter.world));
+    show(members.find(m_filter.world));
   } else {
-    for (std::size_t world = 0; world < members.everyWorld(); ++world) showWorld(world);
+    for (std::size_t world = 0; world < members.everyWorld(); ++world) show(world);
   }
-  showWorld(members.everyWorld());
+  show(members.everyWorld());
 }
 
 /// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.
