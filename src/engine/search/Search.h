@@ -17,9 +17,9 @@
 #include "input/Options.h"
 #include "input/Readers.h"
 #include "order/PairBuckets.h"
-#include "order/PairLists.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
+#include "search/PairLists.h"
 #include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {

@@ -10,7 +10,6 @@
 #include "bvh/CurveKey.h"
 #include "kernels/Lanes.h"
 #include "world/BoxStore.h"
-#include "world/Descent.h"
 #include "world/WorldSearch.h"
 
 namespace allpairs::engine {
