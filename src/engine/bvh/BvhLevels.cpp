@@ -6,28 +6,6 @@
 #include "input/Parts.h"
 
 namespace allpairs::engine {
-namespace {
-
-LaneBox boundsOf(const LaneBlock& block) noexcept {
-  LaneBox result = block.get(0);
-  for (std::size_t lane = 1; lane < kFanOut; ++lane) {
-    const LaneBox box = block.get(lane);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      result.bound[axis] = std::min(result.bound[axis], box.bound[axis]);
-      result.bound[axis + 3] = std::max(result.bound[axis + 3], box.bound[axis + 3]);
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
-void emptyBlock(LaneBlock& block) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    block.bound[axis].fill(kNever);
-    block.bound[axis + 3].fill(-kNever);
-  }
-}
 
 void BvhLevels::reset(std::size_t capacity) {
   m_capacity = capacity;
@@ -66,14 +44,14 @@ void BvhLevels::setPlaces(std::size_t places, const Clean& clean) {
 void BvhLevels::resize(std::size_t places) {
   const std::size_t before = m_clean[0] * kFanOut;
   setPlaces(places, [this](std::size_t level, std::size_t blocks) {
-    for (std::size_t& clean = m_clean[level]; clean < blocks; ++clean) emptyBlock(m_levels[level][clean]);
+    for (std::size_t& clean = m_clean[level]; clean < blocks; ++clean) m_levels[level][clean].clear();
   });
   for (std::size_t place = before; place < m_clean[0] * kFanOut; ++place) m_ids[place] = 0;
 }
 
 void BvhLevels::resizeUnwritten(std::size_t places) {
   setPlaces(places, [this](std::size_t level, std::size_t blocks) {
-    emptyBlock(m_levels[level][blocks - 1]);
+    m_levels[level][blocks - 1].clear();
     m_clean[level] = blocks;
   });
   for (std::size_t place = places; place < blockCount() * kFanOut; ++place) m_ids[place] = 0;
@@ -108,18 +86,6 @@ void BvhLevels::boundSome(std::span<std::uint32_t> blocks, const Kernels& kernel
     }
     count = parents;
   }
-}
-
-BvhView deepened(const BvhView& view, std::size_t depth, BvhTops& tops) {
-  BvhView result = view;
-  if (result.depth == 0) return result;
-  for (; result.depth < depth; ++result.depth) {
-    LaneBlock& top = tops[result.depth];
-    emptyBlock(top);
-    top.set(0, boundsOf(result.level[result.depth - 1].blocks[0]));
-    result.level[result.depth] = {&top, 1};
-  }
-  return result;
 }
 
 }  // namespace allpairs::engine

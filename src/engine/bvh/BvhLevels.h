@@ -20,9 +20,6 @@ inline constexpr std::size_t kPrefetchBoxes = 32;
 /// The blocks that so many boxes, or blocks of the level below, fill.
 [[nodiscard]] inline std::size_t blockCountFor(std::size_t size) noexcept { return (size + kFanOut - 1) / kFanOut; }
 
-/// Has a block hold lanes that overlap nothing.
-void emptyBlock(LaneBlock& block);
-
 /// The memory of a hierarchy: blocks of boxes and, level by level, their bounds. Boxes may be added and changed in
 /// place.
 class BvhLevels {
@@ -72,27 +69,6 @@ class BvhLevels {
   std::size_t m_capacity = 0;
   BvhView m_view;
   std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were last bounded.
-};
-
-/// The blocks of levels that are added on top of a hierarchy.
-using BvhTops = std::array<LaneBlock, kMaxLevels>;
-
-/// A hierarchy with levels of one node added on top until there are `depth`, in memory of the caller; one of depth 0 as it
-/// is.
-[[nodiscard]] BvhView deepened(const BvhView& view, std::size_t depth, BvhTops& tops);
-
-/// Two hierarchies of the same depth, as a join requires.
-struct BvhPair {
-  BvhPair(const BvhView& one, const BvhView& other)
-      : first(deepened(one, other.depth, firstTops)), second(deepened(other, one.depth, secondTops)) {}
-  BvhPair(const BvhLevels& one, const BvhLevels& other) : BvhPair(one.view(), other.view()) {}
-  BvhPair(const BvhPair&) = delete;
-  BvhPair& operator=(const BvhPair&) = delete;
-
-  BvhTops firstTops;
-  BvhTops secondTops;
-  BvhView first;
-  BvhView second;
 };
 
 }  // namespace allpairs::engine

@@ -178,8 +178,8 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
 
 /// Both hierarchies as one job.
 void Search::joinBoth(bool one, Plan& plan) {
-  const BvhPair& both = m_both.emplace(m_first.levels(), one ? m_first.levels() : m_second.levels());
-  plan.job = JoinRunner::Job::ofJoin(both.first, one ? both.first : both.second);
+  const BvhView& first = m_first.levels().view();
+  plan.job = one ? JoinRunner::Job::ofSelfJoin(first) : JoinRunner::Job::ofJoin(first, m_second.levels().view());
   plan.job.firstLarge = m_first.firstLarge() / kFanOut;
 }
 
@@ -308,7 +308,8 @@ bool Search::findInLists(const Sets& sets, Plan& plan) {
 
 bool Search::areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept) {
   if (job.isFlat) return shareOfOverlaps(job.flat) > kMuchOrdered;
-  if (job.units == 0 || job.first->depth < 2 || job.units * kFanOut < rows / kMostRowsPerBox) return false;
+  if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return false;
+  if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
   const bool keepsAll = kept == Columns::All || kept == Columns::Others;
   return m_runner.partnersPerBox(job) >= (keepsAll ? kDense : kDenseBothWays);
 }

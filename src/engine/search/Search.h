@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -154,7 +153,6 @@ class Search {
   BoxCull m_cull;
   BvhBuilder m_first;
   BvhBuilder m_second;
-  std::optional<BvhPair> m_both;
   JoinRunner m_runner;
   std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
   PairLists m_lists;

@@ -49,13 +49,19 @@ std::uint64_t WorldForest::update(const BoxStore& store, const WorldMembers& mem
   return builds;
 }
 
-const DynamicBvh& WorldForest::tree(std::size_t world, bool isStatic) const noexcept {
+std::uint32_t WorldForest::find(std::size_t world, bool isStatic) const noexcept {
   const std::size_t at = 2 * world + (isStatic ? 1 : 0);
-  return at < m_treeOf.size() && m_treeOf[at] != BoxHome::kNowhere ? m_trees[m_treeOf[at]] : m_none;
+  return at < m_treeOf.size() ? m_treeOf[at] : BoxHome::kNowhere;
+}
+
+const DynamicBvh& WorldForest::tree(std::size_t world, bool isStatic) const noexcept {
+  const std::uint32_t found = find(world, isStatic);
+  return found == BoxHome::kNowhere ? m_none : m_trees[found];
 }
 
 DynamicBvh& WorldForest::tree(std::size_t world, bool isStatic) noexcept {
-  return const_cast<DynamicBvh&>(std::as_const(*this).tree(world, isStatic));
+  const std::uint32_t found = find(world, isStatic);
+  return found == BoxHome::kNowhere ? m_none : m_trees[found];
 }
 
 std::uint32_t WorldForest::placeIn(const DynamicBvh& tree, BoxId id) const noexcept {

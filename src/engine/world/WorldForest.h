@@ -52,6 +52,7 @@ class WorldForest {
   [[nodiscard]] bool exact() const noexcept { return m_inexactTrees == 0; }
 
  private:
+  [[nodiscard]] std::uint32_t find(std::size_t world, bool isStatic) const noexcept;
   void plant(const BoxStore& store, const WorldMembers& members);
   void follow(const BoxStore& store, const WorldMembers& members);
   void findTrees(const WorldMembers& members);

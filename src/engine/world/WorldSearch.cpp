@@ -211,11 +211,10 @@ void WorldSearch::joinWorld(std::size_t world, const JoinOne& joinOne) {
   DynamicBvh& staticBoxes = m_forest.tree(world, true);
   const auto joinTwo = [&](const DynamicBvh& first, const DynamicBvh& second) -> std::uint64_t {
     if (first.size() == 0 || second.size() == 0) return 0;
-    const BvhPair both(first.view(), second.view());
-    return joinOne(JoinRunner::Job::ofJoin(both.first, both.second));
+    return joinOne(JoinRunner::Job::ofJoin(first.view(), second.view()));
   };
-  const BvhView& all = dynamicBoxes.view();
-  dynamicBoxes.rule().note(Joined::All, dynamicBoxes.size(), joinOne(JoinRunner::Job::ofJoin(all, all)));
+  const JoinRunner::Job selfJoin = JoinRunner::Job::ofSelfJoin(dynamicBoxes.view());
+  dynamicBoxes.rule().note(Joined::All, dynamicBoxes.size(), joinOne(selfJoin));
   const std::uint64_t tests = joinTwo(dynamicBoxes, staticBoxes);
   if (staticBoxes.size() != 0) staticBoxes.rule().note(Joined::All, dynamicBoxes.size(), tests);
   if (world == m_members.everyWorld()) return;
@@ -263,8 +262,7 @@ void WorldSearch::joinTouched(std::size_t world, std::span<const BoxId> touched)
   m_changedStatic.gather(touched, m_forest, staticBoxes, executor());
   const auto joinWith = [&](const ChangedBoxes& changed, const DynamicBvh& with) -> std::uint64_t {
     if (changed.size() == 0 || with.size() == 0) return 0;
-    const BvhPair both(changed.view(), with.view());
-    return run(JoinRunner::Job::ofJoin(both.first, both.second), m_runner);
+    return run(JoinRunner::Job::ofJoin(changed.view(), with.view()), m_runner);
   };
   const auto joinHere = [&](const ChangedBoxes& changed, DynamicBvh& with) {
     with.rule().note(Joined::Changed, changed.size(), joinWith(changed, with));
@@ -315,8 +313,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   const auto joinWith = [&](std::size_t world, std::size_t otherWorld) {
     eachTree(world, [&](const DynamicBvh& mine, bool) {
       other.eachTree(otherWorld, [&](const DynamicBvh& theirs, bool) {
-        const BvhPair both(mine.view(), theirs.view());
-        run(JoinRunner::Job::ofJoin(both.first, both.second), runner);
+        run(JoinRunner::Job::ofJoin(mine.view(), theirs.view()), runner);
       });
     });
   };
