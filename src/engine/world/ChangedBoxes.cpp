@@ -20,12 +20,13 @@ void ChangedBoxes::append(const BvhView& source, std::size_t place) {
 
 void ChangedBoxes::gather(std::span<const BoxId> changed, const WorldForest& forest, const DynamicBvh& from,
                           Executor& executor) {
+  m_size = 0;
+  if (from.size() == 0) return;
   const BvhView& source = from.view();
   const std::size_t words = (from.places() + 63) / 64;
   // Marks left by a call that threw.
   if (std::exchange(m_marking, true)) std::fill(m_marked.begin(), m_marked.end(), std::uint64_t{0});
   if (m_marked.size() < words) m_marked.resize(words + words / 4, 0);
-  m_size = 0;
   for (const BoxId id : changed) {
     const std::uint32_t place = forest.placeIn(from, id);
     if (place == BoxHome::kNowhere) continue;

@@ -223,8 +223,8 @@ void WorldSearch::joinWorld(std::size_t world, const JoinOne& joinOne) {
   joinTwo(staticBoxes, m_forest.tree(m_members.everyWorld(), false));
 }
 
-/// Joins the changed boxes of some worlds with all boxes there, one world after the other.
-void WorldSearch::joinPartly(const BoxStore& store) {
+/// Lists the changed boxes of the worlds in m_partly, in m_runs where those of each begin and in m_touchedIn where they end.
+void WorldSearch::listTouched(const BoxStore& store) {
   m_runs.clear();
   std::uint32_t size = 0;
   for (const std::uint32_t world : m_partly) {
@@ -237,6 +237,10 @@ void WorldSearch::joinPartly(const BoxStore& store) {
     const std::size_t world = m_members.worldOf(id);
     if (m_isChosen[world] == 0) m_touched[m_touchedIn[world]++] = id;
   }
+}
+
+/// Joins the changed boxes of some worlds with all boxes there, one world after the other.
+void WorldSearch::joinPartly(const BoxStore& store) {
   const PairTest test = testOf(store, m_options.distance, m_forest.exact());
   const PairTest bounds = test.boundsOfHits();
   const PairTest filter = test.withoutBounds();  // Asked once for each pair.
@@ -249,6 +253,11 @@ void WorldSearch::joinPartly(const BoxStore& store) {
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
   m_runner.start(sink, executor());
+  if (m_partly.size() == 1) {  // What is of other worlds is not in its hierarchies.
+    joinTouched(m_partly[0], store.touched());
+    return;
+  }
+  listTouched(store);
   for (std::size_t i = 0; i < m_partly.size(); ++i) {
     joinTouched(m_partly[i], std::span(m_touched).subspan(m_runs[i], m_touchedIn[m_partly[i]] - m_runs[i]));
   }

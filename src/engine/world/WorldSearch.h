@@ -94,6 +94,7 @@ class WorldSearch {
   void joinTrees();
   template <class JoinOne>
   void joinWorld(std::size_t world, const JoinOne& joinOne);
+  void listTouched(const BoxStore& store);
   void joinPartly(const BoxStore& store);
   void joinTouched(std::size_t world, std::span<const BoxId> touched);
   std::uint64_t run(const JoinRunner::Job& job, JoinRunner& runner) const;
