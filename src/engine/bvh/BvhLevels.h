@@ -20,15 +20,11 @@ inline constexpr std::size_t kPrefetchBoxes = 32;
 /// The blocks that so many boxes, or blocks of the level below, fill.
 [[nodiscard]] inline std::size_t blockCountFor(std::size_t size) noexcept { return (size + kFanOut - 1) / kFanOut; }
 
-/// Has a block hold lanes that overlap nothing.
-void emptyBlock(LaneBlock& block);
-
 /// The memory of a hierarchy: blocks of boxes and, level by level, their bounds. Boxes may be added and changed in
 /// place.
 class BvhLevels {
  public:
-  explicit BvhLevels(std::pmr::memory_resource* memory)
-      : m_levels(makeArray<Buffer<LaneBlock>, kMaxLevels>(memory)), m_ids(memory) {}
+  explicit BvhLevels(std::pmr::memory_resource* memory) : m_blocks(memory), m_ids(memory) {}
 
   /// Allocates a number of places and empties them: their lanes overlap nothing, their ids are 0.
   void reset(std::size_t capacity);
@@ -42,14 +38,13 @@ class BvhLevels {
 
   [[nodiscard]] std::size_t places() const noexcept { return m_places; }
   [[nodiscard]] std::size_t capacity() const noexcept { return m_capacity; }
-  [[nodiscard]] std::size_t blockCount() const noexcept { return (m_places + kFanOut - 1) / kFanOut; }
-  [[nodiscard]] std::size_t depth() const noexcept { return m_depth; }
+  [[nodiscard]] std::size_t blockCount() const noexcept { return blockCountFor(m_places); }
 
-  [[nodiscard]] LaneBlock& block(std::size_t b) const noexcept { return m_levels[0][b]; }
-  /// The memory of the blocks of boxes, before they are written or when the hierarchy is no longer needed.
+  [[nodiscard]] LaneBlock& block(std::size_t b) const noexcept { return m_blocks[b]; }
+  /// The memory of the blocks, before they are written or when the hierarchy is no longer needed.
   template <class T>
   [[nodiscard]] std::span<T> memory() const noexcept {
-    return {reinterpret_cast<T*>(m_levels[0].data()), m_levels[0].capacity() * sizeof(LaneBlock) / sizeof(T)};
+    return {reinterpret_cast<T*>(m_blocks.data()), m_blocks.capacity() * sizeof(LaneBlock) / sizeof(T)};
   }
   [[nodiscard]] std::uint32_t& id(std::size_t place) const noexcept { return m_ids[place]; }
 
@@ -60,39 +55,20 @@ class BvhLevels {
   void boundSome(std::span<std::uint32_t> blocks, const Kernels& kernels, Executor& executor);
 
   /// The hierarchy; of depth 0 if it is empty.
-  [[nodiscard]] BvhView view() const;
+  [[nodiscard]] const BvhView& view() const noexcept { return m_view; }
 
  private:
-  [[nodiscard]] std::size_t sizeOf(std::size_t level) const noexcept;
+  template <class Clean>
+  void setPlaces(std::size_t places, const Clean& clean);
 
-  std::array<Buffer<LaneBlock>, kMaxLevels> m_levels;
+  Buffer<LaneBlock> m_blocks;                     ///< Those of boxes, and then level by level.
+  std::array<LaneBlock*, kMaxLevels> m_levels{};  ///< Where those of each level begin.
   std::array<std::size_t, kMaxLevels> m_clean{};  ///< By level: blocks from here on hold lanes that overlap nothing.
   Buffer<std::uint32_t> m_ids;
   std::size_t m_places = 0;
   std::size_t m_capacity = 0;
-  std::size_t m_depth = 0;
+  BvhView m_view;
   std::size_t m_boundedDepth = 0;  ///< The depth when all blocks were last bounded.
-};
-
-/// The blocks of levels that are added on top of a hierarchy.
-using BvhTops = std::array<LaneBlock, kMaxLevels>;
-
-/// A hierarchy with levels of one node added on top until there are `depth`, in memory of the caller; one of depth 0 as it
-/// is.
-[[nodiscard]] BvhView deepened(const BvhView& view, std::size_t depth, BvhTops& tops);
-
-/// Two hierarchies of the same depth, as a join requires.
-struct BvhPair {
-  BvhPair(const BvhView& one, const BvhView& other)
-      : first(deepened(one, other.depth, firstTops)), second(deepened(other, one.depth, secondTops)) {}
-  BvhPair(const BvhLevels& one, const BvhLevels& other) : BvhPair(one.view(), other.view()) {}
-  BvhPair(const BvhPair&) = delete;
-  BvhPair& operator=(const BvhPair&) = delete;
-
-  BvhTops firstTops;
-  BvhTops secondTops;
-  BvhView first;
-  BvhView second;
 };
 
 }  // namespace allpairs::engine

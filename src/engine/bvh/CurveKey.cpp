@@ -21,22 +21,6 @@ constexpr float kLargeFactor = 6.0F;
 /// Values farther out than this many times the width of the middle four fifths are outliers.
 constexpr float kOutlierFactor = 64.0F;
 
-/// Centres and longest sides of some boxes.
-struct Sample {
-  std::size_t size = 0;
-  std::array<std::array<float, kMostSamples>, 3> centres;
-  std::array<float, kMostSamples> extents;
-
-  void take(const LaneBox& box) {
-    float longest = 0.0F;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      centres[axis][size] = 0.5F * box.bound[axis] + 0.5F * box.bound[axis + 3];
-      longest = std::max(longest, box.bound[axis + 3] - box.bound[axis]);
-    }
-    extents[size++] = longest;
-  }
-};
-
 /// About a sixteenth of the boxes, so that the cost of sampling is negligible.
 std::size_t sampleSize(std::size_t boxes) {
   return std::min(boxes, std::clamp<std::size_t>(boxes / 16, 32, kMostSamples));
@@ -45,6 +29,12 @@ std::size_t sampleSize(std::size_t boxes) {
 /// As many cells as boxes, and then four times as many along each axis, for sets with dense regions.
 unsigned bitsFor(std::size_t boxes) {
   return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 1, CurveGrid::kMaxBitsPerAxis);
+}
+
+float longestSide(const LaneBox& box) {
+  float longest = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, box.bound[axis + 3] - box.bound[axis]);
+  return longest;
 }
 
 float nth(std::span<float> values, std::size_t n) {
@@ -65,12 +55,16 @@ std::pair<float, float> rangeOf(std::span<float> values) {
 }
 
 /// The grid for a set of boxes of which these are a sample.
-CurveGrid fitTo(Sample& sample, std::size_t boxes) {
+CurveGrid fitTo(std::span<const LaneBox> sample, std::size_t boxes) {
   CurveGrid grid;
-  if (sample.size == 0) return grid;
+  if (sample.empty()) return grid;
+  std::array<float, kMostSamples> memory;
+  const std::span<float> values = std::span(memory).first(sample.size());
   std::array<float, 3> widths;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, range] = rangeOf({sample.centres[axis].data(), sample.size});
+    std::transform(sample.begin(), sample.end(), values.begin(),
+                   [=](const LaneBox& box) { return 0.5F * box.bound[axis] + 0.5F * box.bound[axis + 3]; });
+    const auto [least, range] = rangeOf(values);
     grid.origin[axis] = least;
     widths[axis] = range;
   }
@@ -82,28 +76,30 @@ CurveGrid fitTo(Sample& sample, std::size_t boxes) {
   grid.bitsPerAxis = bitsFor(boxes);
   const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
   if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
-  grid.largeExtent = kLargeFactor * nth({sample.extents.data(), sample.size}, sample.size / 2);
+  std::transform(sample.begin(), sample.end(), values.begin(), longestSide);
+  grid.largeExtent = kLargeFactor * nth(values, values.size() / 2);
   return grid;
 }
 
 }  // namespace
 
 CurveGrid fitCurveGrid(const BoxReader& reader) {
-  Sample sample;
-  sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample.take(box); });
-  return fitTo(sample, reader.size());
+  std::array<LaneBox, kMostSamples> sample;
+  std::size_t size = 0;
+  sampleBoxes(reader, sampleSize(reader.size()), [&](const LaneBox& box) { sample[size++] = box; });
+  return fitTo(std::span(sample).first(size), reader.size());
 }
 
 CurveGrid fitCurveGrid(const BoxReader& reader, std::span<const CurveKey> boxes) {
-  Sample sample;
+  std::array<LaneBox, kMostSamples> sample;
   const std::size_t size = sampleSize(boxes.size());
   LaneBlock block;
   for (std::size_t part = 0; part < size; ++part) {
     const std::uint32_t id = indexOf(boxes[sampleIndex(part, size, boxes.size())]);
     static_cast<void>(reader.read({&id, 0, 1}, block));
-    sample.take(block.get(0));
+    sample[part] = block.get(0);
   }
-  return fitTo(sample, boxes.size());
+  return fitTo(std::span(sample).first(size), boxes.size());
 }
 
 }  // namespace allpairs::engine

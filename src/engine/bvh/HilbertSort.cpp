@@ -42,38 +42,15 @@ void forEachDenseCell(std::span<CurveKey> boxes, Take&& take) {
   }
 }
 
-/// Orders boxes that share a cell by a grid of their own, and again those that share a cell of that one.
-// Each call goes one grid deeper, of kMostGrids.
-// NOLINTNEXTLINE(misc-no-recursion)
-void sortDenseCell(std::span<CurveKey> cell, CurveKey* spare, const BoxReader& reader, unsigned grids) {
-  const CurveGrid grid = fitCurveGrid(reader, cell);
-  KeyRun run{spare};
-  std::array<std::uint32_t, kBoxesAtOnce> ids;
-  for (std::size_t i = 0; i < cell.size(); i += ids.size()) {
-    const std::size_t size = std::min(ids.size(), cell.size() - i);
-    for (std::size_t k = 0; k < size; ++k) ids[k] = indexOf(cell[i + k]);
-    writeKeys(reader, grid, {ids.data(), 0, size}, true, run);
-  }
-  const CurveKey* sorted = radixSort(spare, cell.data(), cell.size(), kIndexBits, run.usedBits());
-  if (sorted != cell.data()) std::copy_n(sorted, cell.size(), cell.data());
-  if (grids == kMostGrids || keyOf(cell.front()) == keyOf(cell.back())) return;
-  CurveKey* const begin = cell.data();
-  forEachDenseCell(cell, [&](std::span<CurveKey> inner) {
-    sortDenseCell(inner, spare + (inner.data() - begin), reader, grids + 1);
-  });
-}
-
 }  // namespace
 
-void sortAlongCurve(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader& reader) {
-  if (!boxes.empty()) sortDenseCell(boxes, spare, reader, 1);
-}
-
-unsigned KeyRun::usedBits() const noexcept {
+unsigned HilbertSort::KeyRun::usedBits() const noexcept {
   return std::max(kIndexBits, kIndexBits + static_cast<unsigned>(std::bit_width(allKeys)));
 }
 
-void writeKeys(const BoxReader& reader, const CurveGrid& grid, const BoxList& boxes, bool emptyToo, KeyRun& run) {
+/// Writes the keys of boxes with their indices.
+void HilbertSort::writeKeys(const BoxReader& reader, const CurveGrid& grid, const BoxList& boxes, bool emptyToo,
+                            KeyRun& run) {
   std::array<LaneBlock, kBoxesAtOnce / kFanOut> blocks{};
   std::array<std::uint32_t, kBoxesAtOnce> keys;
   for (std::size_t i = 0; i < boxes.size; i += keys.size()) {
@@ -94,17 +71,29 @@ void writeKeys(const BoxReader& reader, const CurveGrid& grid, const BoxList& bo
   }
 }
 
-void sortDenseCells(std::span<CurveKey> boxes, CurveKey* spare, const BoxReader& reader, Executor& executor,
-                    std::pmr::vector<std::span<CurveKey>>& cells) {
-  cells.clear();
-  forEachDenseCell(boxes, [&](std::span<CurveKey> cell) { cells.push_back(cell); });
-  if (cells.empty()) return;
-  executor.run(cells.size(),
-               [&](std::size_t i) { sortDenseCell(cells[i], spare + (cells[i].data() - boxes.data()), reader, 1); });
+/// Orders boxes that share a cell by a grid of their own, and again those that share a cell of that one.
+// Each call goes one grid deeper, of kMostGrids.
+// NOLINTNEXTLINE(misc-no-recursion)
+void HilbertSort::sortDenseCell(std::span<CurveKey> cell, CurveKey* spare, const BoxReader& reader, unsigned grids) {
+  const CurveGrid grid = fitCurveGrid(reader, cell);
+  KeyRun run{spare};
+  std::array<std::uint32_t, kBoxesAtOnce> ids;
+  for (std::size_t i = 0; i < cell.size(); i += ids.size()) {
+    const std::size_t size = std::min(ids.size(), cell.size() - i);
+    for (std::size_t k = 0; k < size; ++k) ids[k] = indexOf(cell[i + k]);
+    writeKeys(reader, grid, {ids.data(), 0, size}, true, run);
+  }
+  const CurveKey* sorted = radixSort(spare, cell.data(), cell.size(), kIndexBits, run.usedBits());
+  if (sorted != cell.data()) std::copy_n(sorted, cell.size(), cell.data());
+  if (grids == kMostGrids || keyOf(cell.front()) == keyOf(cell.back())) return;
+  CurveKey* const begin = cell.data();
+  forEachDenseCell(cell, [&](std::span<CurveKey> inner) {
+    sortDenseCell(inner, spare + (inner.data() - begin), reader, grids + 1);
+  });
 }
 
 /// Writes the keys; returns their number.
-std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, Executor& executor) {
+std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, bool emptyToo, Executor& executor) {
   const CurveGrid grid = fitCurveGrid(reader);
   m_classShift = kIndexBits + grid.classShift();
   const std::size_t chunks = chunksFor(reader.size(), executor);
@@ -112,7 +101,7 @@ std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, Exec
   m_chunks.resize(chunks);
   executor.run(chunks, [&](std::size_t c) {
     m_chunks[c] = {keyed + beginOf(c)};
-    writeKeys(reader, grid, {nullptr, beginOf(c), beginOf(c + 1) - beginOf(c)}, false, m_chunks[c]);
+    writeKeys(reader, grid, {nullptr, beginOf(c), beginOf(c + 1) - beginOf(c)}, emptyToo, m_chunks[c]);
   });
   m_exact = true;
   std::size_t used = 0;
@@ -125,15 +114,22 @@ std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, Exec
   return used;
 }
 
-std::span<const CurveKey> HilbertSort::sort(const BoxReader& reader, std::span<CurveKey> spare, Executor& executor) {
+std::span<const CurveKey> HilbertSort::sort(const BoxReader& reader, std::span<CurveKey> spare, Executor& executor,
+                                            bool emptyToo) {
   m_boxes.require(reader.size());
-  const std::span<CurveKey> boxes(m_boxes.data(), readKeys(reader, spare.data(), executor));
+  const std::span<CurveKey> boxes(m_boxes.data(), readKeys(reader, spare.data(), emptyToo, executor));
   unsigned bits = kIndexBits;
   for (const KeyRun& chunk : m_chunks) bits = std::max(bits, chunk.usedBits());
   m_radix.sort(spare.data(), boxes.data(), boxes.size(), kIndexBits, bits, executor);
   const auto isUsual = [this](CurveKey box) { return box >> m_classShift == 0; };
   m_firstLarge = static_cast<std::size_t>(std::partition_point(boxes.begin(), boxes.end(), isUsual) - boxes.begin());
-  sortDenseCells(boxes, spare.data(), reader, executor, m_denseCells);
+  // Else the blocks of a dense cell would be as wide as it.
+  m_denseCells.clear();
+  forEachDenseCell(boxes, [&](std::span<CurveKey> cell) { m_denseCells.push_back(cell); });
+  executor.run(m_denseCells.size(), [&](std::size_t i) {
+    const std::span<CurveKey> cell = m_denseCells[i];
+    sortDenseCell(cell, spare.data() + (cell.data() - boxes.data()), reader, 1);
+  });
   return boxes;
 }
 

@@ -211,8 +211,8 @@ HWY_INLINE void emitColumns(const Query& q, const LaneList& columns, Range range
 HWY_INLINE std::size_t writeRow(const FlatSearch& search, std::size_t row, Range columns, PairStream& stream,
                                 Hits& hits) {
   const Query q = broadcast(search.rows.get(row));
-  const RoomForPairs room = hits.roomForPairs(hits.receiver, hits, columns.size());
-  stream.begin(room.pairs, room.before);
+  Pair* const to = hits.roomForPairs(hits.receiver, hits, columns.size());
+  stream.begin(to, hits.pairsBefore);
   PairWriter writer{stream, hn::Set(IdTag(), search.rows.id(row)), hits.rowSecond};
   emitColumns(q, search.columns, columns, writer);
   hits.takePairs(hits.receiver, writer.size);

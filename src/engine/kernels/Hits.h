@@ -24,12 +24,6 @@ enum class Columns : std::uint8_t {
   Preceding,  ///< One set, each pair at its larger index.
 };
 
-/// A destination for pairs: `before` pairs precede it, of which the first begins a cache line.
-struct RoomForPairs {
-  Pair* pairs;
-  std::size_t before;
-};
-
 /// Hits of the lane test, two ids each, buffered until there are enough to convert to pairs.
 ///
 /// Kernels flush when the next hits might not fit.
@@ -57,8 +51,10 @@ struct Hits {
   void* receiver = nullptr;
 
   /// If set, returns where that many pairs may be written at once, which is cheaper where there are many; what is
-  /// stored is taken first. takePairs() says how many there were. Pairs are of the sides that `rowSecond` says.
-  RoomForPairs (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
+  /// stored is taken first. `pairsBefore` others precede them, of which the first begins a cache line. takePairs() says how
+  /// many there were. Pairs are of the sides that `rowSecond` says.
+  Pair* (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
+  std::size_t pairsBefore = 0;
   void (*takePairs)(void* receiver, std::size_t count) = nullptr;
   bool rowSecond = false;
 

@@ -17,6 +17,7 @@
 #include <span>
 
 #include "kernels/Kernels.h"
+#include "kernels/ReadKernel-inl.h"
 #include "kernels/RowKernel-inl.h"
 #include "memory/Platform.h"
 
@@ -398,7 +399,32 @@ class JoinRun {
   Hits& m_hits;
 };
 
-void join(const JoinTask& task, Hits& hits) { JoinRun(task, hits).run(); }
+/// A hierarchy with levels of one node added on top, in other memory, until there are `depth`.
+BvhView deepened(const BvhView& view, std::size_t depth, std::array<LaneBlock, kMaxLevels>& tops) {
+  BvhView result = view;
+  for (; result.depth < depth; ++result.depth) {
+    LaneBlock& top = tops[result.depth];
+    top.clear();
+    boundBlocks(result.level[result.depth - 1].blocks, 0, 1, &top);
+    result.level[result.depth] = {&top, 1};
+  }
+  return result;
+}
+
+void join(const JoinTask& task, Hits& hits) {
+  if (task.first->depth == task.second->depth) {
+    JoinRun(task, hits).run();
+    return;
+  }
+  const bool isFirstLower = task.first->depth < task.second->depth;
+  const BvhView& higher = isFirstLower ? *task.second : *task.first;
+  std::array<LaneBlock, kMaxLevels> tops;
+  const BvhView lower = deepened(isFirstLower ? *task.first : *task.second, higher.depth, tops);
+  JoinTask same = task;
+  same.first = isFirstLower ? &lower : &higher;
+  same.second = isFirstLower ? &higher : &lower;
+  JoinRun(same, hits).run();
+}
 
 }  // namespace
 }  // namespace allpairs::engine::HWY_NAMESPACE

@@ -75,6 +75,14 @@ struct alignas(64) LaneBlock {
     for (std::size_t row = 0; row < 6; ++row) bound[row][lane] = box.bound[row];
   }
   [[nodiscard]] LaneBox get(std::size_t lane) const noexcept { return boxAt(bound, lane); }
+
+  /// Has all lanes overlap nothing.
+  void clear() noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bound[axis].fill(kNever);
+      bound[axis + 3].fill(-kNever);
+    }
+  }
 };
 
 /// Up to a fixed number of boxes with their ids, one array per bound, small enough to stay in the first-level cache.

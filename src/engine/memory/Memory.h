@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <memory>
 #include <memory_resource>
 #include <new>
 #include <type_traits>
@@ -22,31 +21,13 @@ namespace allpairs::engine {
   return memory != nullptr ? memory : defaultMemory();
 }
 
-/// Destroys an object and returns its memory to its resource.
-struct Deleter {
-  std::pmr::memory_resource* memory = nullptr;
-
-  template <class T>
-  void operator()(T* object) const noexcept {
-    std::pmr::polymorphic_allocator<>(memory).delete_object(object);
-  }
-};
-
-template <class T>
-using Owned = std::unique_ptr<T, Deleter>;
-
-/// An object in memory of a resource, from which the object also allocates.
-template <class T>
-[[nodiscard]] Owned<T> makeOwned(std::pmr::memory_resource* memory) {
-  return {std::pmr::polymorphic_allocator<>(memory).template new_object<T>(memory), Deleter{memory}};
-}
-
 /// An array of objects that allocate from a resource.
 template <class T, std::size_t kSize>
 [[nodiscard]] std::array<T, kSize> makeArray(std::pmr::memory_resource* memory) {
   return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
     return std::array<T, kSize>{(static_cast<void>(kIndex), T(memory))...};
-  }(std::make_index_sequence<kSize>());
+  }
+  (std::make_index_sequence<kSize>());
 }
 
 /// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.

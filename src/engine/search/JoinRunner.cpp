@@ -23,6 +23,12 @@ JoinRunner::Job JoinRunner::Job::ofJoin(const BvhView& first, const BvhView& sec
   return job;
 }
 
+JoinRunner::Job JoinRunner::Job::ofSelfJoin(const BvhView& bvh) {
+  Job job = ofJoin(bvh, bvh);
+  job.withItself = true;
+  return job;
+}
+
 std::size_t JoinRunner::start(const SinkOptions& options, const Executor& executor) {
   m_kernels = options.kernels;
   m_stop = options.stop;
@@ -83,7 +89,7 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
     part.lists = worker.lists;
     m_kernels->searchFlat(part, worker.sink.hits());
   } else {
-    const bool withItself = job.first == job.second && worker.lists == nullptr;
+    const bool withItself = job.withItself && worker.lists == nullptr;
     m_kernels->join({job.first, job.second, withItself, begin, end, &worker.scratch, worker.lists}, worker.sink.hits());
   }
 }

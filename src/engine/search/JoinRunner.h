@@ -25,7 +25,8 @@ class JoinRunner {
   /// What to run, divided into tasks by units: leaf blocks of `first`, or rows.
   struct Job {
     const BvhView* first = nullptr;
-    const BvhView* second = nullptr;  ///< The same as `first` in a join with itself; else of the same depth.
+    const BvhView* second = nullptr;
+    bool withItself = false;  ///< Whether both are the same, of which each pair is wanted once.
     std::size_t units = 0;
     std::size_t firstLarge = 0;  ///< Leaf blocks from here on hold boxes larger than most.
 
@@ -36,6 +37,7 @@ class JoinRunner {
     FlatSearch flat;
 
     static Job ofJoin(const BvhView& first, const BvhView& second);
+    static Job ofSelfJoin(const BvhView& bvh);
   };
 
   /// Where the pairs of a task are.

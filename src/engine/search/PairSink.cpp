@@ -67,10 +67,11 @@ void PairSink::makeRoom(std::size_t size) {
   m_pairs.grow(std::max(m_options->likelyPairs, size), [this] { checkStop(m_options->stop); });
 }
 
-RoomForPairs PairSink::roomFor(Hits& hits, std::size_t most) {
+Pair* PairSink::roomFor(Hits& hits, std::size_t most) {
   receive(hits);
   makeRoom(m_size + most + kVectorSlack);
-  return {m_pairs.data() + m_size, m_size};
+  hits.pairsBefore = m_size;
+  return m_pairs.data() + m_size;
 }
 
 void PairSink::take(std::size_t count) {

@@ -99,7 +99,7 @@ class PairSink {
   [[nodiscard]] bool isWhole() const noexcept;
   [[nodiscard]] bool isSelective() const noexcept;
   void makeRoom(std::size_t size);
-  RoomForPairs roomFor(Hits& hits, std::size_t most);
+  Pair* roomFor(Hits& hits, std::size_t most);
   void take(std::size_t count);
   void receive(Hits& hits);
   void selectTested(std::size_t begin, const Hits& hits);

@@ -40,49 +40,6 @@ constexpr std::size_t kFewForThreads = 2048;
 /// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
 
-/// What the lists of partners of a search have in common: where they get memory, and the tests of a pair.
-struct ListReceiver {
-  PairLists& memory;
-  const PairTest& test;
-  const SinkOptions& sink;
-  PairSide side;
-  std::size_t timesListed = 1;  ///< Each pair.
-
-  void attach(NeighborLists& lists) {
-    lists.receiver = this;
-    lists.slack = test.slack();
-    if (test.needed()) {
-      const bool onlyDoubts = test.leavesDoubts() && !test.isFiltered();
-      lists.tested = onlyDoubts ? NeighborLists::Tested::InDoubt : NeighborLists::Tested::All;
-    }
-    lists.select = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
-      return static_cast<const ListReceiver*>(of.receiver)->select(of, row, {partners, size});
-    };
-    lists.grow = [](NeighborLists& of, std::size_t more) {
-      const auto& self = *static_cast<const ListReceiver*>(of.receiver);
-      checkLimit(self.sink, of.size / self.timesListed);
-      const auto look = [&] { checkStop(self.sink.stop); };
-      look();
-      self.memory.grow(of, more, look);
-    };
-  }
-
-  std::size_t select(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const {
-    checkStop(sink.stop);
-    if (test.exactTestNeeded()) lists.exactTests += partners.size();
-    std::size_t kept = 0;
-    for (const std::uint32_t partner : partners) {
-      if (test.keeps(pairOf(row, partner))) partners[kept++] = partner;
-    }
-    return kept;
-  }
-
-  [[nodiscard]] Pair pairOf(std::uint32_t row, std::uint32_t partner) const noexcept {
-    const bool isRowFirst = side == PairSide::SmallerFirst ? row < partner : side == PairSide::RowFirst;
-    return isRowFirst ? Pair{row, partner} : Pair{partner, row};
-  }
-};
-
 /// Boxes of a sample: 276 pairs, of which a share of a tenth is told from one of a fifth.
 constexpr std::size_t kSample = 24;
 
@@ -221,8 +178,8 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
 
 /// Both hierarchies as one job.
 void Search::joinBoth(bool one, Plan& plan) {
-  const BvhPair& both = m_both.emplace(m_first.levels(), one ? m_first.levels() : m_second.levels());
-  plan.job = JoinRunner::Job::ofJoin(both.first, one ? both.first : both.second);
+  const BvhView& first = m_first.levels().view();
+  plan.job = one ? JoinRunner::Job::ofSelfJoin(first) : JoinRunner::Job::ofJoin(first, m_second.levels().view());
   plan.job.firstLarge = m_first.firstLarge() / kFanOut;
 }
 
@@ -351,7 +308,8 @@ bool Search::findInLists(const Sets& sets, Plan& plan) {
 
 bool Search::areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept) {
   if (job.isFlat) return shareOfOverlaps(job.flat) > kMuchOrdered;
-  if (job.units == 0 || job.first->depth < 2 || job.units * kFanOut < rows / kMostRowsPerBox) return false;
+  if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return false;
+  if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
   const bool keepsAll = kept == Columns::All || kept == Columns::Others;
   return m_runner.partnersPerBox(job) >= (keepsAll ? kDense : kDenseBothWays);
 }
@@ -367,20 +325,12 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
   }
   if (!areListsBetter(job, rows, kept)) return false;
   job.flat.tested = kept;
-  ListReceiver receiver{m_lists, plan.test, plan.sink, bySecond ? PairSide::RowSecond : PairSide::RowFirst};
-  if (kept == Columns::Others) {
-    receiver.side = PairSide::SmallerFirst;
-    receiver.timesListed = 2;
-  }
   m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers);
-  for (NeighborLists& lists : m_lists.ofWorkers()) {
-    lists.kept = kept;
-    receiver.attach(lists);
-  }
+  m_lists.select(kept, bySecond ? PairSide::RowSecond : PairSide::RowFirst, plan.sink);
   job.lists = m_lists.ofWorkers();
   m_runner.run(job, *m_executor);
   m_statistics = m_runner.totals();
-  m_statistics.pairs = m_lists.size() / receiver.timesListed;
+  m_statistics.pairs = m_lists.pairs();
   for (const NeighborLists& lists : m_lists.ofWorkers()) m_statistics.exactTests += lists.exactTests;
   checkLimit(plan.sink, m_statistics.pairs);
   return true;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,9 +16,9 @@
 #include "input/Options.h"
 #include "input/Readers.h"
 #include "order/PairBuckets.h"
-#include "order/PairLists.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
+#include "search/PairLists.h"
 #include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
@@ -154,7 +153,6 @@ class Search {
   BoxCull m_cull;
   BvhBuilder m_first;
   BvhBuilder m_second;
-  std::optional<BvhPair> m_both;
   JoinRunner m_runner;
   std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
   PairLists m_lists;

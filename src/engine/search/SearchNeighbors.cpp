@@ -1,12 +1,45 @@
 // SPDX-License-Identifier: MIT
 // Searches whose result is the partners of each box, in rows.
 #include <algorithm>
+#include <numeric>
 
-#include "order/PairRows.h"
 #include "search/FewBoxes.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
+namespace {
+
+/// Writes pairs that are ordered by (first, second) as rows, in memory for exactly these.
+void writeHalfRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (; row <= pairs[i].first; ++row) place.offsets[row] = i;
+    place.indices[i] = pairs[i].second;
+  }
+  std::fill(place.offsets.begin() + static_cast<std::ptrdiff_t>(row), place.offsets.end(), pairs.size());
+}
+
+/// The same with each pair in both rows. In the order of the pairs a box comes second to all that are less before it comes
+/// first to those that are greater: what is appended to its row ascends.
+void writeFullRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
+  const std::span<std::uint64_t> offsets = place.offsets;
+  std::fill(offsets.begin(), offsets.end(), 0);
+  // Only sums of what stands before stay between a row's offset and the next but one: the latter counts.
+  const auto count = [&](std::size_t row) {
+    if (row + 2 < offsets.size()) ++offsets[row + 2];
+  };
+  for (const Pair pair : pairs) {
+    count(pair.first);
+    count(pair.second);
+  }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  for (const Pair pair : pairs) {
+    place.indices[offsets[pair.first + std::size_t{1}]++] = pair.second;
+    place.indices[offsets[pair.second + std::size_t{1}]++] = pair.first;
+  }
+}
+
+}  // namespace
 
 NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
                                     const RowRoom* room) {
@@ -49,7 +82,7 @@ NeighborsMemory Search::roomForRows(std::size_t rows, std::size_t indices) {
 
 void Search::writePairsAsRows(const Sets& sets, NeighborRows kind) {
   m_rowsFound = roomForRows(sets.first.size(), (kind == NeighborRows::Full ? 2 : 1) * m_pairs.size());
-  writeRows(m_pairs, kind, m_rowsFound);
+  kind == NeighborRows::Full ? writeFullRows(m_pairs, m_rowsFound) : writeHalfRows(m_pairs, m_rowsFound);
   m_pairs = {};
 }
 

@@ -8,8 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "memory/Memory.h"
-
 namespace allpairs::engine {
 
 /// What the tasks of an executor work with, as many as it has threads; kept from run to run.
@@ -24,7 +22,8 @@ class Workers {
 
   /// Makes sure that there are so many.
   void require(std::size_t count) {
-    while (m_slots.size() < count) m_slots.push_back(makeOwned<Slot>(memory()));
+    const std::pmr::polymorphic_allocator<Slot> allocator(memory());
+    while (m_slots.size() < count) m_slots.push_back(std::allocate_shared<Slot>(allocator, memory()));
   }
 
   /// Calls use(index, worker) with a worker that no other task has meanwhile.
@@ -53,7 +52,7 @@ class Workers {
     }
   }
 
-  std::pmr::vector<Owned<Slot>> m_slots;
+  std::pmr::vector<std::shared_ptr<Slot>> m_slots;  ///< Shared with nobody: so they are in the memory of the resource.
 };
 
 }  // namespace allpairs::engine

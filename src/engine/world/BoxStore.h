@@ -74,7 +74,6 @@ class BoxStore {
   [[nodiscard]] bool contains(BoxId id) const noexcept { return id < m_flags.size() && (m_flags[id] & Live) != 0; }
   [[nodiscard]] bool isStatic(BoxId id) const noexcept { return (m_flags[id] & Static) != 0; }
   [[nodiscard]] bool isTouched(BoxId id) const noexcept { return (m_flags[id] & Touched) != 0; }
-  [[nodiscard]] bool isStale(BoxId id) const noexcept { return (m_flags[id] & Stale) != 0; }
   [[nodiscard]] Box box(BoxId id) const noexcept;
   [[nodiscard]] double margin(BoxId id) const noexcept { return m_margins.empty() ? 0.0 : m_margins[id]; }
   /// The number of the box's world; of a removed box, the one it had.

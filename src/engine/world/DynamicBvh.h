@@ -7,134 +7,93 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
+#include "allpairs/WorldTypes.h"
 #include "bvh/BvhLevels.h"
 #include "bvh/HilbertSort.h"
 #include "input/BoxReader.h"
-#include "kernels/CurveGrid.h"
-#include "kernels/Kernels.h"
 #include "memory/Memory.h"
-#include "world/BoxStore.h"
 #include "world/RebuildRule.h"
 
 namespace allpairs::engine {
 
-/// A hierarchy over the static or the dynamic boxes of a world, kept between steps.
+/// Where a box is: in which of several hierarchies, and at which of its places.
+struct BoxHome {
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;  ///< There are always fewer hierarchies, and places.
+
+  std::uint32_t tree = kNowhere;
+  std::uint32_t place = kNowhere;
+};
+
+/// A hierarchy over boxes that move, come and go.
 ///
-/// Each box has a place in curve order, as of the last rebuild. Boxes that move keep their places, and the bounds are
+/// Each box has a place in curve order, as of the last build. Boxes that move keep their places, and the bounds are
 /// updated; boxes that are added get places at the end, ordered among themselves; places of removed boxes stay empty.
-/// The hierarchy is rebuilt when RebuildRule says so, or when too many boxes have been added or removed.
+/// Changes are noted first, and take effect when the hierarchy is built or refitted. When one of these throws, it has to be
+/// built again.
 class DynamicBvh {
  public:
-  DynamicBvh(std::pmr::memory_resource* memory, bool ofStatic)
-      : m_ofStatic(ofStatic),
-        m_levels(memory),
-        m_places(memory),
+  explicit DynamicBvh(std::pmr::memory_resource* memory)
+      : m_levels(memory),
         m_used(memory),
-        m_inexact(memory),
         m_dirty(memory),
         m_blockList(memory),
         m_fresh(memory),
-        m_keyed(memory),
-        m_spare(memory),
-        m_radix(memory),
-        m_denseCells(memory) {}
+        m_order(memory),
+        m_spare(memory) {}
 
-  /// Applies the changes of the store since the last call. Returns whether the hierarchy was rebuilt.
-  ///
-  /// After an update that threw, only update() may be called; it rebuilds the hierarchy.
-  bool update(const BoxStore& store, const BoxReader& reader, Executor& executor);
+  /// Forgets all boxes and keeps the memory.
+  void clear() noexcept;
 
-  /// Releases all memory. Until the next update, which rebuilds the hierarchy, nothing else may be called.
-  void release() noexcept;
+  /// A box has come, which has no place yet.
+  void add(BoxId id) { m_fresh.push_back(id); }
 
-  /// Whether the last update completed, and no memory was released since.
-  [[nodiscard]] bool isWhole() const noexcept { return m_isWhole; }
+  /// The box at that place has gone, or has changed.
+  void remove(std::size_t place) noexcept;
+  void note(std::size_t place) noexcept;
 
-  [[nodiscard]] const BvhLevels& levels() const noexcept { return m_levels; }
+  /// All boxes may have changed.
+  void noteAll() noexcept { m_dirtyBoxes = m_size; }
+
+  /// Whether to build it: because there was no box, RebuildRule says so, or too many boxes have come or gone.
+  [[nodiscard]] bool isBuildDue() const noexcept;
+
+  /// Puts boxes that have been added since clear() in order.
+  void build(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor);
+
+  /// Applies what was noted; returns whether the order is still a good one, else it had better be built.
+  [[nodiscard]] bool refit(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor);
+
+  /// The hierarchy; of depth 0 if it is empty.
+  [[nodiscard]] const BvhView& view() const noexcept { return m_levels.view(); }
   [[nodiscard]] RebuildRule& rule() noexcept { return m_rule; }
 
-  /// The number of its boxes.
-  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
+  /// The number of its boxes, and of places, of which some may be empty.
+  [[nodiscard]] std::size_t size() const noexcept { return m_size + m_fresh.size(); }
+  [[nodiscard]] std::size_t places() const noexcept { return m_levels.places(); }
 
-  /// Whether the lanes of all boxes are exactly the boxes.
-  [[nodiscard]] bool exact() const noexcept { return m_inexactBlocks == 0; }
-
-  /// No place: there are fewer boxes.
-  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
-
-  /// The place of the box; kNowhere if it is not in this hierarchy.
-  [[nodiscard]] std::uint32_t placeOf(BoxId id) const noexcept {
-    return id < m_places.size() ? m_places[id] : kNowhere;
-  }
+  /// Whether the lanes of all boxes are exactly the boxes, for certain.
+  [[nodiscard]] bool exact() const noexcept { return m_isExact; }
 
  private:
-  [[nodiscard]] bool belongs(const BoxStore& store, BoxId id) const noexcept {
-    return store.contains(id) && store.isStatic(id) == m_ofStatic;
-  }
-  void sortOut(const BoxStore& store);
-  void leave(BoxId id);
-  void markBlock(std::size_t block);
-  [[nodiscard]] bool isRebuildDue() const noexcept;
-  void rebuild(const BoxStore& store, const BoxReader& reader, Executor& executor);
-  void placeFresh(const BoxReader& reader, Executor& executor);
-  void orderByCurve(std::span<const BoxId> ids, const BoxReader& reader, Executor& executor);
-  void append(std::span<const CurveKey> order);
-  void refit(const BoxReader& reader, Executor& executor);
-  void refitAll(const BoxReader& reader, Executor& executor);
-  void gather(std::size_t block, const BoxReader& reader);
+  void placeFresh(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor);
+  void readDirty(const BoxReader& reader, Executor& executor);
+  void readAll(const BoxReader& reader, Executor& executor);
+  bool read(std::size_t block, const BoxReader& reader);
+  [[nodiscard]] double spread() const noexcept;
 
-  bool m_ofStatic;
-  bool m_isWhole = true;  ///< The last update completed.
+  bool m_isExact = true;
+  bool m_isOrdered = false;  ///< Whether the boxes are in curve order.
+  double m_spread = 0.0;     ///< How wide the blocks were when they were put in order.
   BvhLevels m_levels;
   RebuildRule m_rule;
-  CurveGrid m_grid;
-  std::size_t m_size = 0;
-  std::pmr::vector<std::uint32_t> m_places;  ///< By id.
-  std::pmr::vector<std::uint16_t> m_used;    ///< By block: a bit for each place that holds a box.
-  std::pmr::vector<std::uint8_t> m_inexact;  ///< By block: whether the lanes of some box are not exactly the box.
-  std::size_t m_inexactBlocks = 0;
+  std::size_t m_size = 0;                   ///< Boxes that have a place.
+  std::pmr::vector<std::uint16_t> m_used;   ///< By block: a bit for each place that holds a box.
   std::pmr::vector<std::uint64_t> m_dirty;  ///< A bit for each block whose boxes changed.
   std::size_t m_dirtyBoxes = 0;
   std::pmr::vector<std::uint32_t> m_blockList;
   std::pmr::vector<BoxId> m_fresh;  ///< Boxes without a place.
-  Buffer<CurveKey> m_keyed;
+  HilbertSort m_order;
   Buffer<CurveKey> m_spare;
-  RadixSort m_radix;
-  std::pmr::vector<std::span<CurveKey>> m_denseCells;
-};
-
-/// Reads sixteen boxes, of which those with a bit in `used` exist, and are not empty, into lanes; the others become lanes
-/// that overlap nothing. Returns whether the lanes are exactly the boxes.
-[[nodiscard]] bool gatherLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t used, LaneBlock& lanes);
-
-/// A hierarchy over the changed boxes of another hierarchy, in the same order.
-///
-/// The changed boxes of one block form one block here, however few: if it were filled with distant boxes, its bounds
-/// would overlap as many boxes as all the blocks in between together.
-class ChangedBoxes {
- public:
-  explicit ChangedBoxes(std::pmr::memory_resource* memory) : m_marked(memory), m_levels(memory) {}
-
-  void gather(std::span<const BoxId> changed, DynamicBvh& from, const Kernels& kernels, Executor& executor);
-
-  /// The same of a hierarchy all of whose places have boxes.
-  void gather(const BoxStore& store, const BvhView& from, const Kernels& kernels, Executor& executor);
-
-  [[nodiscard]] BvhLevels& levels() noexcept { return m_levels; }
-
-  /// The number of its boxes.
-  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
-
- private:
-  void start(std::size_t boxes);
-  void append(const BvhView& source, std::size_t place);
-
-  std::pmr::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
-  bool m_marking = false;                    ///< Not all of them have been read.
-  BvhLevels m_levels;
-  std::size_t m_size = 0;
-  std::size_t m_next = 0;         ///< Where the next box goes.
-  std::size_t m_sourceBlock = 0;  ///< The block that the last one came from.
 };
 
 }  // namespace allpairs::engine

@@ -25,13 +25,13 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   m_boxes = store.tested().boxes;
   m_isPlain = !m_boxes->isFloat64() && !m_boxes->hasMargins() && m_options.distance == 0.0;
   m_mostBoxes = std::min({kMostInWorld, m_kernels.flatOrdered, m_isPlain ? kMostInWorld : kMostInDouble});
-  m_workers.require(threads);
+  if (store.isNumbered()) m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }
 
 bool SmallWorlds::takes(std::size_t world) const noexcept {
   const std::size_t shared = world == m_members.everyWorld() ? 0 : m_members.shared().size();
-  return shared <= kMostShared && m_members.boxes(world).size() + shared <= m_mostBoxes;
+  return m_store->isNumbered() && shared <= kMostShared && m_members.boxes(world).size() + shared <= m_mostBoxes;
 }
 
 std::uint64_t SmallWorlds::boxTests() const noexcept {

@@ -3,308 +3,169 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <utility>
-
-#include "bvh/BvhLevels.h"
-#include "bvh/HilbertSort.h"
-#include "world/DynamicBvh.h"
 
 namespace allpairs::engine {
 namespace {
 
-/// In worlds of up to this many boxes, eight blocks, most blocks overlap each other in any order (worlds_benchmark, whose worlds
-/// of 64 boxes have none and of 200 have one).
-constexpr std::size_t kFewInAnyOrder = 8 * kFanOut;
-
-/// If the blocks of a world have become this many times as wide as when its boxes were last ordered, there is no order left: so
-/// much wider are eight blocks in any order. Ordering the boxes and joining them then takes less time than joining them.
-constexpr double kMostSpread = 2.0;
-
-/// The blocks of all levels of a hierarchy.
-std::size_t allBlocksFor(std::size_t boxes) {
-  std::size_t blocks = 0;
-  for (std::size_t count = blockCountFor(boxes); count > 0; count = count == 1 ? 0 : blockCountFor(count)) {
-    blocks += count;
-  }
-  return blocks;
-}
+std::uint64_t keyOf(std::uint32_t number, bool isStatic) { return 2 * std::uint64_t{number} + (isStatic ? 1 : 0); }
 
 }  // namespace
 
 std::uint64_t WorldForest::update(const BoxStore& store, const WorldMembers& members, const BoxReader& reader,
                                   Executor& executor) {
-  const bool wasWhole = std::exchange(m_isWhole, false);
-  for (const std::uint32_t world : m_dirty) m_marked[world] = 0;
-  m_dirty.clear();
-  if (wasWhole && (m_membership == store.membership() || follow(store, members))) {
-    findDirty(store);
-  } else {
-    plant(store, members);
-  }
+  std::exchange(m_isWhole, false) ? follow(store, members) : plant(store, members);
   m_membership = store.membership();
-  cutIntoRuns(
-      m_dirty, [this](std::uint32_t world) { return m_trees[world].size; }, m_runs);
-  std::atomic<std::uint64_t> orders = 0;
-  executor.run(m_runs.size(), [&](std::size_t run) {
-    for (std::size_t i = run == 0 ? 0 : m_runs[run - 1]; i < m_runs[run]; ++i) {
-      if (refresh(m_dirty[i], store, reader)) ++orders;
-    }
-  });
-  m_isExact = std::none_of(m_trees.begin(), m_trees.end(), [](const Tree& tree) { return tree.isInexact; });
-  m_isWhole = true;
-  return orders;
-}
-
-/// Gives a tree room at the end; it may have had some.
-void WorldForest::giveRoom(Tree& tree) {
-  m_wasted += tree.room;
-  const bool hasOrder = tree.size > kFewInAnyOrder;
-  tree.room = blockCountFor(tree.size + (hasOrder ? tree.size / kShareOfChange : 0));
-  tree.firstBlock = m_endBlock;
-  tree.firstLeaf = m_endLeaf;
-  m_endBlock += allBlocksFor(tree.room * kFanOut);
-  m_endLeaf += tree.room;
-}
-
-/// Allocates the room that trees have been given, the largest of which has so many boxes.
-void WorldForest::requireRoom(std::size_t largest) {
-  m_blocks.grow(m_endBlock);
-  m_ids.grow(m_endLeaf * kFanOut);
-  if (largest <= kFewInAnyOrder) return;
-  m_keyed.require(m_ids.capacity());
-  m_spare.require(m_ids.capacity());
-}
-
-void WorldForest::markDirty(std::size_t world) {
-  if (std::exchange(m_marked[world], std::uint8_t{1}) == 0) m_dirty.push_back(static_cast<std::uint32_t>(world));
-}
-
-/// Lists all boxes, in the order of their ids.
-void WorldForest::plant(const BoxStore& store, const WorldMembers& members) {
-  const std::size_t worlds = members.everyWorld() + 1;
-  m_trees.assign(worlds, {});
-  m_marked.assign(worlds, 1);
-  m_dirty.resize(worlds);
-  std::iota(m_dirty.begin(), m_dirty.end(), 0U);
-  m_home.assign(store.idBound(), WorldMembers::kNoWorld);
-  m_endBlock = 0;
-  m_endLeaf = 0;
-  std::size_t largest = 0;
-  for (std::size_t world = 0; world < worlds; ++world) {
-    Tree& tree = m_trees[world];
-    const std::span<const BoxId> boxes = members.boxes(world);
-    const auto isMine = [&](BoxId id) { return belongs(store, id); };
-    tree.number = members.numberOf(world);
-    tree.size = static_cast<std::size_t>(std::count_if(boxes.begin(), boxes.end(), isMine));
-    tree.listed = tree.size;
-    giveRoom(tree);
-    largest = std::max(largest, tree.size);
-  }
-  m_wasted = 0;
-  requireRoom(largest);
-  std::fill_n(m_ids.data(), m_endLeaf * kFanOut, 0U);
-  for (std::size_t world = 0; world < worlds; ++world) {
-    std::uint32_t* to = m_ids.data() + m_trees[world].firstLeaf * kFanOut;
-    for (const BoxId id : members.boxes(world)) {
-      if (!belongs(store, id)) continue;
-      *to++ = id;
-      m_home[id] = static_cast<std::uint32_t>(world);
-    }
-  }
-}
-
-/// Removes boxes that have gone from the trees, and appends those that have come. Returns false if it is better to build all
-/// trees again: because many boxes came or went, or because trees that moved have left much memory unused.
-bool WorldForest::follow(const BoxStore& store, const WorldMembers& members) {
-  if (store.resettled().size() * kShareOfChange > store.size()) return false;
-  m_home.resize(std::max(m_home.size(), store.idBound()), WorldMembers::kNoWorld);
-  for (const BoxId id : store.resettled()) {
-    if (m_home[id] == WorldMembers::kNoWorld) continue;
-    Tree& tree = m_trees[m_home[id]];
-    if (belongs(store, id) && tree.number == store.worldOf(id)) continue;
-    m_home[id] = WorldMembers::kNoWorld;
-    tree.isChanged = true;
-    --tree.size;
-  }
-  renumber(members);
-  const auto isNew = [&](BoxId id) { return m_home[id] == WorldMembers::kNoWorld && belongs(store, id); };
-  for (const BoxId id : store.resettled()) {
-    if (!isNew(id)) continue;
-    Tree& tree = m_trees[members.worldOf(id)];
-    tree.isChanged = true;
-    ++tree.size;
-  }
-  std::size_t largest = 0;
-  for (std::size_t world = 0; world < m_trees.size(); ++world) {
-    Tree& tree = m_trees[world];
-    largest = std::max(largest, tree.size);
-    if (!tree.isChanged) continue;
-    markDirty(world);
-    const std::size_t before = tree.firstLeaf * kFanOut;
-    if (blockCountFor(tree.size) > tree.room) {
-      giveRoom(tree);
-      m_ids.grow(m_endLeaf * kFanOut);
-    }
-    const std::span<const std::uint32_t> ids(m_ids.data() + before, tree.listed);
-    std::uint32_t* const to = m_ids.data() + tree.firstLeaf * kFanOut;
-    tree.listed = 0;
-    for (const BoxId id : ids) {  // which may be where they go
-      if (m_home[id] == world) to[tree.listed++] = id;
-    }
-    std::fill_n(to + tree.listed, tree.room * kFanOut - tree.listed, 0U);
-  }
-  requireRoom(largest);
-  for (const BoxId id : store.resettled()) {
-    if (!isNew(id)) continue;
-    const std::size_t world = members.worldOf(id);
-    Tree& tree = m_trees[world];
-    m_ids[tree.firstLeaf * kFanOut + tree.listed++] = id;
-    m_home[id] = static_cast<std::uint32_t>(world);
-    ++tree.appended;
-  }
-  return m_wasted <= m_endLeaf / 2;
-}
-
-/// Has the trees follow the worlds, of which some may have come and others, without boxes now, gone.
-void WorldForest::renumber(const WorldMembers& members) {
-  const std::size_t worlds = members.everyWorld() + 1;
-  const auto isSame = [&](const Tree& tree) {
-    return tree.number == members.numberOf(static_cast<std::size_t>(&tree - m_trees.data()));
+  const auto countInexact = [this] {
+    return std::count_if(m_dirty.begin(), m_dirty.end(), [this](std::uint32_t tree) { return !m_trees[tree].exact(); });
   };
-  if (m_trees.size() == worlds && std::all_of(m_trees.begin(), m_trees.end(), isSame)) return;
-  m_nextTrees.assign(worlds, {});
-  std::size_t world = 0;
-  for (std::size_t old = 0; old < m_trees.size(); ++old) {
-    const Tree& tree = m_trees[old];
-    for (; world < worlds && members.numberOf(world) < tree.number; ++world) {
-      m_nextTrees[world].number = members.numberOf(world);
+  m_inexactTrees -= countInexact();
+  std::atomic<std::uint64_t> builds = 0;
+  const auto refresh = [&](std::uint32_t tree, Executor& with) {
+    DynamicBvh& bvh = m_trees[tree];
+    if (bvh.size() == 0) {
+      bvh.clear();
+      return;
     }
-    if (world == worlds || members.numberOf(world) != tree.number) {
-      m_wasted += tree.room;
+    if (!bvh.isBuildDue() && bvh.refit(m_homes, reader, with)) return;
+    list(tree, store, members);
+    bvh.build(m_homes, reader, with);
+    ++builds;
+  };
+  if (m_dirty.size() <= 2) {  // A world: its threads share each of the two.
+    for (const std::uint32_t tree : m_dirty) refresh(tree, executor);
+  } else {
+    cutIntoRuns(
+        m_dirty, [this](std::uint32_t tree) { return m_trees[tree].size(); }, m_runs);
+    executor.run(m_runs.size(), [&](std::size_t run) {
+      SerialExecutor serial;
+      for (std::size_t i = run == 0 ? 0 : m_runs[run - 1]; i < m_runs[run]; ++i) refresh(m_dirty[i], serial);
+    });
+  }
+  m_inexactTrees += countInexact();
+  for (const std::uint32_t tree : m_dirty) m_isDirty[tree] = 0;
+  m_dirty.clear();
+  m_isWhole = true;
+  return builds;
+}
+
+std::uint32_t WorldForest::find(std::size_t world, bool isStatic) const noexcept {
+  const std::size_t at = 2 * world + (isStatic ? 1 : 0);
+  return at < m_treeOf.size() ? m_treeOf[at] : BoxHome::kNowhere;
+}
+
+const DynamicBvh& WorldForest::tree(std::size_t world, bool isStatic) const noexcept {
+  const std::uint32_t found = find(world, isStatic);
+  return found == BoxHome::kNowhere ? m_none : m_trees[found];
+}
+
+DynamicBvh& WorldForest::tree(std::size_t world, bool isStatic) noexcept {
+  const std::uint32_t found = find(world, isStatic);
+  return found == BoxHome::kNowhere ? m_none : m_trees[found];
+}
+
+std::uint32_t WorldForest::placeIn(const DynamicBvh& tree, BoxId id) const noexcept {
+  const BoxHome home = id < m_homes.size() ? m_homes[id] : BoxHome();
+  return home.tree != BoxHome::kNowhere && &m_trees[home.tree] == &tree ? home.place : BoxHome::kNowhere;
+}
+
+/// Makes all trees.
+void WorldForest::plant(const BoxStore& store, const WorldMembers& members) {
+  release();
+  m_homes.resize(store.idBound());
+  findTrees(members);
+  for (BoxId id = 0; id < store.idBound(); ++id) enter(id, store, members);
+}
+
+/// Passes the changes of the store on to the trees.
+void WorldForest::follow(const BoxStore& store, const WorldMembers& members) {
+  if (m_membership != store.membership()) {
+    m_homes.resize(std::max(m_homes.size(), store.idBound()));
+    for (const BoxId id : store.resettled()) {
+      BoxHome& home = m_homes[id];
+      if (home.tree == BoxHome::kNowhere) continue;
+      if (store.contains(id) && m_keys[home.tree] == keyOf(store.worldOf(id), store.isStatic(id))) continue;
+      m_trees[home.tree].remove(home.place);
+      markDirty(home.tree);
+      home = BoxHome();
+    }
+    findTrees(members);
+    for (const BoxId id : store.resettled()) enter(id, store, members);
+  }
+  noteChanged(store);
+}
+
+/// Finds the trees of the worlds, of which some may have come; those without boxes are kept for others.
+void WorldForest::findTrees(const WorldMembers& members) {
+  m_treeOf.assign(2 * (members.everyWorld() + 1), BoxHome::kNowhere);
+  m_unused.clear();
+  for (std::size_t tree = 0; tree < m_trees.size(); ++tree) {
+    if (m_trees[tree].size() == 0) {
+      m_unused.push_back(static_cast<std::uint32_t>(tree));
       continue;
     }
-    m_nextTrees[world] = tree;
-    const std::span<const std::uint32_t> ids(m_ids.data() + tree.firstLeaf * kFanOut, tree.listed);
-    for (const BoxId id : ids) {
-      if (m_home[id] != WorldMembers::kNoWorld) m_home[id] = static_cast<std::uint32_t>(world);
-    }
-    ++world;
-  }
-  std::swap(m_trees, m_nextTrees);
-  m_marked.assign(worlds, 0);
-}
-
-/// Lists the worlds with boxes that have changed.
-void WorldForest::findDirty(const BoxStore& store) {
-  for (const BoxId id : store.stale()) {
-    if (id >= m_home.size() || m_home[id] == WorldMembers::kNoWorld) continue;
-    markDirty(m_home[id]);
-    ++m_trees[m_home[id]].moved;
+    const std::size_t world = members.find(static_cast<std::uint32_t>(m_keys[tree] / 2));
+    m_treeOf[2 * world + m_keys[tree] % 2] = static_cast<std::uint32_t>(tree);
   }
 }
 
-/// Reads a world's boxes; returns whether they were put in order.
-bool WorldForest::refresh(std::size_t world, const BoxStore& store, const BoxReader& reader) {
-  Tree& tree = m_trees[world];
-  const bool isSame = !std::exchange(tree.isChanged, false);
-  const bool isFew = std::exchange(tree.moved, 0) * kShareOfMoved < tree.size && isSame && tree.isOrdered;
-  const bool hasOrder = tree.size > kFewInAnyOrder;
-  const bool hasMany = tree.appended * kShareOfChange > tree.size;
-  bool isDue = hasOrder && (!tree.isOrdered || hasMany || tree.rule.isDue(tree.size));
-  if (!isDue) {
-    isFew ? gatherStale(tree, store, reader) : gather(world, reader);
-    isDue = hasOrder && spreadOf(tree) > kMostSpread * tree.spread;
+/// Adds a box of the store to its tree, unless it is there.
+void WorldForest::enter(BoxId id, const BoxStore& store, const WorldMembers& members) {
+  if (!store.contains(id) || m_homes[id].tree != BoxHome::kNowhere) return;
+  const bool isStatic = store.isStatic(id);
+  std::uint32_t& tree = m_treeOf[2 * members.worldOf(id) + (isStatic ? 1 : 0)];
+  if (tree == BoxHome::kNowhere) {
+    tree = takeUnused();
+    m_keys[tree] = keyOf(store.worldOf(id), isStatic);
   }
-  if (!isDue) return false;
-  orderByCurve(tree, reader);
-  gather(world, reader);
-  tree.spread = spreadOf(tree);
-  return true;
+  m_homes[id].tree = tree;
+  m_trees[tree].add(id);
+  markDirty(tree);
 }
 
-void WorldForest::orderByCurve(Tree& tree, const BoxReader& reader) {
-  tree.rule.start();
-  tree.isOrdered = true;
-  tree.appended = 0;
-  const std::size_t first = tree.firstLeaf * kFanOut;
-  const std::span<CurveKey> keyed(m_keyed.data() + first, tree.size);
-  std::uint32_t* const ids = m_ids.data() + first;
-  std::sort(ids, ids + tree.size);  // So that the order does not depend on the one before.
-  std::copy_n(ids, tree.size, keyed.begin());
-  sortAlongCurve(keyed, m_spare.data() + first, reader);
-  for (std::size_t i = 0; i < tree.size; ++i) ids[i] = indexOf(keyed[i]);
-}
-
-/// Reads a world's boxes, and bounds them.
-void WorldForest::gather(std::size_t world, const BoxReader& reader) {
-  Tree& tree = m_trees[world];
-  LaneBlock* blocks = m_blocks.data() + tree.firstBlock;
-  const std::uint32_t* const ids = m_ids.data() + tree.firstLeaf * kFanOut;
-  bool exact = true;
-  std::size_t count = blockCountFor(tree.size);
-  for (std::size_t b = 0; b < count; ++b) {
-    const std::size_t fill = std::min(kFanOut, tree.size - b * kFanOut);
-    exact &= gatherLanes(reader, ids + b * kFanOut, (1U << fill) - 1U, blocks[b]);
+/// A tree without boxes.
+std::uint32_t WorldForest::takeUnused() {
+  if (m_unused.empty()) {
+    m_unused.push_back(static_cast<std::uint32_t>(m_trees.size()));
+    m_trees.emplace_back(m_homes.get_allocator().resource());
+    m_keys.push_back(0);
+    m_isDirty.push_back(0);
   }
-  boundAbove(blocks, count, reader);
-  tree.isInexact = !exact;
+  const std::uint32_t tree = m_unused.back();
+  m_unused.pop_back();
+  return tree;
 }
 
-/// Reads the blocks again that have boxes which have changed, of a tree that has the same boxes as before.
-void WorldForest::gatherStale(Tree& tree, const BoxStore& store, const BoxReader& reader) {
-  LaneBlock* const blocks = m_blocks.data() + tree.firstBlock;
-  const std::uint32_t* const ids = m_ids.data() + tree.firstLeaf * kFanOut;
-  const std::size_t count = blockCountFor(tree.size);
-  for (std::size_t b = 0; b < count; ++b) {
-    const std::uint32_t* const first = ids + b * kFanOut;
-    const std::size_t fill = std::min(kFanOut, tree.size - b * kFanOut);
-    if (std::none_of(first, first + fill, [&](BoxId id) { return store.isStale(id); })) continue;
-    const bool exact = gatherLanes(reader, first, (1U << fill) - 1U, blocks[b]);
-    tree.isInexact = tree.isInexact || !exact;  // Until all are read again.
-    reader.kernels().boundBlocks(blocks, b, b + 1, blocks + count);
-  }
-  boundAbove(blocks + count, blockCountFor(count), reader);
-}
-
-/// Bounds so many blocks of a level, and all levels above.
-void WorldForest::boundAbove(LaneBlock* blocks, std::size_t count, const BoxReader& reader) const {
-  while (count > 1) {
-    LaneBlock* const parents = blocks + count;
-    emptyBlock(parents[blockCountFor(count) - 1]);
-    reader.kernels().boundBlocks(blocks, 0, count, parents);
-    blocks = parents;
-    count = blockCountFor(count);
-  }
-}
-
-/// The sum of the sides of a world's blocks of boxes.
-double WorldForest::spreadOf(const Tree& tree) const noexcept {
-  const LaneBlock* const bounds = m_blocks.data() + tree.firstBlock + blockCountFor(tree.size);
-  double spread = 0.0;
-  for (std::size_t b = 0; b < blockCountFor(tree.size); ++b) {
-    const LaneBox box = bounds[b / kFanOut].get(b % kFanOut);
-    if (box.bound[0] > box.bound[3]) continue;  // All its boxes are empty.
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      spread += static_cast<double>(box.bound[axis + 3]) - static_cast<double>(box.bound[axis]);
+/// Tells the trees which boxes have changed. If many have, all blocks are read again of trees that have some, without checking
+/// which; most would be anyway.
+void WorldForest::noteChanged(const BoxStore& store) {
+  const bool areMany = store.stale().size() * kShareOfMoved > store.size();
+  if (areMany && !store.isNumbered()) {
+    for (std::uint32_t tree = 0; tree < m_trees.size(); ++tree) markDirty(tree);
+  } else {
+    std::uint32_t last = BoxHome::kNowhere;  // Boxes of a world often follow each other.
+    for (const BoxId id : store.stale()) {
+      const BoxHome home = m_homes[id];
+      if (home.place == BoxHome::kNowhere) continue;
+      if (std::exchange(last, home.tree) != home.tree) markDirty(home.tree);
+      if (!areMany) m_trees[home.tree].note(home.place);
     }
   }
-  return spread;
+  if (!areMany) return;
+  for (const std::uint32_t tree : m_dirty) m_trees[tree].noteAll();
 }
 
-BvhView WorldForest::view(std::size_t world) const noexcept {
-  BvhView result;
-  if (world >= m_trees.size()) return result;
-  const Tree& tree = m_trees[world];
-  result.ids = m_ids.data() + tree.firstLeaf * kFanOut;
-  const LaneBlock* blocks = m_blocks.data() + tree.firstBlock;
-  for (std::size_t size = tree.size; size > 0; ++result.depth) {
-    result.level[result.depth] = {blocks, size};
-    const std::size_t count = blockCountFor(size);
-    blocks += count;
-    size = count == 1 ? 0 : count;
-  }
-  return result;
+void WorldForest::markDirty(std::uint32_t tree) {
+  if (std::exchange(m_isDirty[tree], std::uint8_t{1}) == 0) m_dirty.push_back(tree);
+}
+
+/// Has a tree that is to be built list all its boxes.
+void WorldForest::list(std::uint32_t tree, const BoxStore& store, const WorldMembers& members) {
+  m_trees[tree].clear();
+  const bool isStatic = m_keys[tree] % 2 != 0;
+  members.eachBox(members.find(static_cast<std::uint32_t>(m_keys[tree] / 2)), store, [&](BoxId id) {
+    if (store.isStatic(id) == isStatic) m_trees[tree].add(id);
+  });
 }
 
 }  // namespace allpairs::engine

@@ -23,6 +23,11 @@ std::span<const std::uint64_t> takeWorld(std::span<const std::uint64_t>& keys, s
 }  // namespace
 
 void WorldMembers::update(const BoxStore& store, Executor& executor) {
+  m_unlisted = store.isNumbered() ? 0 : store.size();
+  if (!store.isNumbered()) {
+    m_numbers.assign(1, 0);
+    return;
+  }
   const bool wasWhole = std::exchange(m_isWhole, false);
   if (!wasWhole || (m_membership != store.membership() && !follow(store))) list(store, executor);
   m_membership = store.membership();

@@ -16,7 +16,7 @@
 namespace allpairs::engine {
 
 /// The boxes of each world of a store, by ascending id; the worlds by ascending number. After the last one come the boxes
-/// of every world, as one more.
+/// of every world, as one more. A store without numbers is a single world, of which all boxes are, and has no lists.
 class WorldMembers {
  public:
   explicit WorldMembers(std::pmr::memory_resource* memory)
@@ -55,10 +55,25 @@ class WorldMembers {
     if (world + 1 >= m_begin.size()) return {};
     return std::span(m_boxes).subspan(m_begin[world], m_begin[world + 1] - m_begin[world]);
   }
+
+  /// The number of boxes of a world.
+  [[nodiscard]] std::size_t size(std::size_t world) const noexcept {
+    return boxes(world).size() + (world == 0 ? m_unlisted : 0);
+  }
   [[nodiscard]] std::span<const BoxId> shared() const noexcept { return boxes(everyWorld()); }
 
   /// The world of a box of the store.
-  [[nodiscard]] std::size_t worldOf(BoxId id) const noexcept { return m_worldOf[id]; }
+  [[nodiscard]] std::size_t worldOf(BoxId id) const noexcept { return m_worldOf.empty() ? 0 : m_worldOf[id]; }
+
+  /// Calls use(id) for the boxes of a world, by ascending id.
+  template <class Use>
+  void eachBox(std::size_t world, const BoxStore& store, const Use& use) const {
+    for (const BoxId id : boxes(world)) use(id);
+    if (world != 0 || m_unlisted == 0) return;
+    for (BoxId id = 0; id < store.idBound(); ++id) {
+      if (store.contains(id)) use(id);
+    }
+  }
 
  private:
   void list(const BoxStore& store, Executor& executor);
@@ -66,6 +81,7 @@ class WorldMembers {
   bool follow(const BoxStore& store);
   void copyWorlds(std::span<const std::uint64_t> gone, std::span<const std::uint64_t> come);
 
+  std::size_t m_unlisted = 0;  ///< The number of boxes of a store without numbers.
   std::pmr::vector<std::uint32_t> m_numbers;
   std::pmr::vector<std::size_t> m_begin;
   std::pmr::vector<BoxId> m_boxes;

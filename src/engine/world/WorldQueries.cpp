@@ -2,6 +2,7 @@
 #include "world/WorldQueries.h"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 #include "bvh/HilbertSort.h"
@@ -32,13 +33,57 @@ bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t cou
   return list.size() - begin == count;
 }
 
+/// Calls take(id, lanes) for all candidate boxes; lanesOf(block) has a bit for each candidate lane.
+template <class LanesOf, class Take>
+void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
+  // As deep as there are levels, at most kMaxLevels.
+  const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
+    const LaneBlock& lanes = view.level[level].blocks[block];
+    for (std::uint32_t bits = lanesOf(lanes); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const std::size_t child = block * kFanOut + lane;
+      level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
+    }
+  };
+  visit(visit, view.depth - 1, 0);
+}
+
+/// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
+std::size_t cheapestLane(std::uint32_t bits, const std::array<float, kFanOut>& costs) noexcept {
+  auto best = static_cast<std::size_t>(std::countr_zero(bits));
+  for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    best = costs[lane] < costs[best] ? lane : best;
+  }
+  return best;
+}
+
+/// Calls take(id, lanes) for boxes in approximate order of cost, up to a limit that take() may lower.
+///
+/// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
+/// lanes: lower bounds of the costs of their boxes, and not negative.
+template <class LanesOf, class Take>
+void descendByCost(const BvhView& view, const LanesOf& lanesOf, const float& limit, const Take& take) {
+  const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
+    std::array<float, kFanOut> costs;
+    const LaneBlock& lanes = view.level[level].blocks[block];
+    std::uint32_t bits = lanesOf(lanes, costs.data());
+    while (bits != 0) {
+      const std::size_t lane = cheapestLane(bits, costs);
+      if (costs[lane] > limit) return;
+      bits &= ~(1U << lane);
+      const std::size_t child = block * kFanOut + lane;
+      level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
+    }
+  };
+  visit(visit, view.depth - 1, 0);
+}
+
 }  // namespace
 
 WorldQueries::WorldQueries(const BoxStore& store, const WorldSearch& search, const QueryFilter& filter) noexcept
     : m_store(store),
       m_search(search),
-      m_dynamic(search.dynamicBoxes().levels().view()),
-      m_static(search.staticBoxes().levels().view()),
       m_filter(filter),
       m_everyBox(!store.filtered() && filter.mask != 0 && filter.category != 0) {}
 
@@ -54,33 +99,19 @@ Box WorldQueries::widenedBox(BoxId id, const LaneBox& lanes, bool exact) const n
 
 template <class Visit>
 void WorldQueries::eachBvh(const Visit& visit) const {
-  if (m_store.isNumbered()) {
-    eachTree(visit);
-    return;
-  }
-  if (m_filter.world != kEveryWorld && m_filter.world != 0) return;
-  if (m_filter.dynamicBoxes && m_dynamic.depth != 0) visit(m_dynamic, m_search.dynamicBoxes().exact());
-  if (m_filter.staticBoxes && m_static.depth != 0) visit(m_static, m_search.staticBoxes().exact());
-}
-
-/// The same of a numbered store: those of all worlds, or of the filter's and of the boxes of every world.
-template <class Visit>
-void WorldQueries::eachTree(const Visit& visit) const {
-  const auto show = [&](const WorldForest& trees, std::size_t world) {
-    const BvhView view = trees.view(world);
-    if (view.depth != 0) visit(view, trees.exact());
+  const auto show = [&](std::size_t world) {
+    m_search.eachTree(world, [&](const DynamicBvh& tree, bool isStatic) {
+      if (isStatic ? m_filter.staticBoxes : m_filter.dynamicBoxes) visit(tree.view(), tree.exact());
+    });
   };
-  const auto showWorld = [&](std::size_t world) {
-    if (m_filter.dynamicBoxes) show(m_search.dynamicTrees(), world);
-    if (m_filter.staticBoxes) show(m_search.staticTrees(), world);
-  };
+  // Those of all worlds, or of the filter's and of the boxes of every world.
   const WorldMembers& members = m_search.members();
   if (m_filter.world != kEveryWorld) {
-    showWorld(members.find(m_filter.world));
+    show(members.find(m_filter.world));
   } else {
-    for (std::size_t world = 0; world < members.everyWorld(); ++world) showWorld(world);
+    for (std::size_t world = 0; world < members.everyWorld(); ++world) show(world);
   }
-  showWorld(members.everyWorld());
+  show(members.everyWorld());
 }
 
 /// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.

@@ -10,7 +10,6 @@
 #include "bvh/CurveKey.h"
 #include "kernels/Lanes.h"
 #include "world/BoxStore.h"
-#include "world/Descent.h"
 #include "world/WorldSearch.h"
 
 namespace allpairs::engine {
@@ -44,19 +43,15 @@ class WorldQueries {
   template <class T, class PointOf, class Find>
   [[nodiscard]] ResultLists<T> findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const;
 
-  /// Calls visit(hierarchy, exact) for each of the two that is not empty and that the filter includes.
+  /// Calls visit(hierarchy, exact) for each that is not empty, of those that the filter includes.
   template <class Visit>
   void eachBvh(const Visit& visit) const;
-  template <class Visit>
-  void eachTree(const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id) const noexcept;
   [[nodiscard]] Box widenedBox(BoxId id, const LaneBox& lanes, bool exact) const noexcept;
   [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;
 
   const BoxStore& m_store;
   const WorldSearch& m_search;
-  BvhView m_dynamic;
-  BvhView m_static;
   QueryFilter m_filter;
   bool m_everyBox;  ///< All boxes pass the filter, so that none need be tested.
 };

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "input/BoxReader.h"
+#include "kernels/WorldsRun.h"
 #include "order/PairSort.h"
 
 namespace allpairs::engine {
@@ -30,67 +32,55 @@ std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
 }  // namespace
 
 void WorldSearch::update(BoxStore& store) {
-  followNumbering(store);
   const BoxView& boxes = store.set();
-  const bool isWhole = store.isNumbered() ? m_dynamicTrees.isWhole() && m_staticTrees.isWhole()
-                                          : m_dynamic.isWhole() && m_static.isWhole();
-  if (store.stale().empty() && isWhole) return;
+  if (store.stale().empty() && m_forest.isWhole()) return;
   OverlapOptions lanes;
   // Queries test the boxes themselves: lanes contain them.
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
-  if (store.isNumbered()) {
-    updateTrees(store, reader);
-  } else {
-    m_statistics.rebuilds += m_dynamic.update(store, reader, executor()) ? 1U : 0U;
-    m_statistics.rebuilds += m_static.update(store, reader, executor()) ? 1U : 0U;
-  }
+  m_members.update(store, executor());
+  m_statistics.rebuilds += m_forest.update(store, m_members, reader, executor());
   store.settle();
 }
 
 void WorldSearch::shrink() noexcept {
   std::pmr::memory_resource* const from = memory();
-  m_dynamic.release();
-  m_static.release();
-  releaseTrees();
-  m_changedDynamic = ChangedBoxes(from);
-  m_changedStatic = ChangedBoxes(from);
+  m_members.release();
+  m_forest.release();
+  m_small.release();
+  m_changedDynamic = ChangedBoxes(from, m_kernels);
+  m_changedStatic = ChangedBoxes(from, m_kernels);
   m_runner = JoinRunner(from);
   m_history.shrink();
   m_lists.shrink();
   const auto release = [](auto&... lists) { ((lists.clear(), lists.shrink_to_fit()), ...); };
-  release(m_isChosen, m_chosen, m_large, m_partly, m_touchedIn, m_runs);
-}
-
-/// Releases the hierarchies of the other kind when the store becomes numbered, or is no longer.
-void WorldSearch::followNumbering(const BoxStore& store) noexcept {
-  if (std::exchange(m_isNumbered, store.isNumbered()) == store.isNumbered()) return;
-  m_dynamic.release();
-  m_static.release();
-  releaseTrees();
-}
-
-void WorldSearch::releaseTrees() noexcept {
-  m_members.release();
-  m_dynamicTrees.release();
-  m_staticTrees.release();
-  m_small.release();
+  release(m_isChosen, m_chosen, m_large, m_partly, m_touchedIn, m_touched, m_runs);
 }
 
 StepResult WorldSearch::step(BoxStore& store) {
   m_history.dropChanges();
   m_lists.prepareStep(store);
-  followNumbering(store);
-  if (!m_isNumbered) update(store);
+  static_cast<void>(store.set());  // The tests read it.
+  m_members.update(store, executor());
+  const PairTest filter = testOf(store, 0.0, true);
+  m_small.start(store, filter, executor().concurrency());
+  m_statistics.changed = store.touched().size();
+  m_statistics.joinedAll = chooseWorlds(store);
+  moveLarge();
+  // Small worlds are searched without hierarchies; but `accept` may ask queries.
+  if (!m_large.empty() || !m_partly.empty() || m_options.accept || !store.isNumbered()) update(store);
   m_statistics.boxTests = 0;
   m_statistics.groupTests = 0;
   m_statistics.exactTests = 0;
-  m_statistics.changed = store.touched().size();
-  m_statistics.joinedAll = store.touched().size() > store.size() / kShareOfChanged;
-  if (m_isNumbered) {
-    joinWorlds(store);
+  join(store);
+  m_statistics.boxTests += m_small.boxTests();
+  if (m_statistics.joinedAll) {
+    m_history.finishAll(executor());
+  } else if (m_chosen.empty() && m_large.empty()) {
+    m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
+                            executor());
   } else {
-    m_statistics.joinedAll ? joinAll(store) : joinChanged(store);
+    m_history.finishChanged([&](Pair pair) { return isLookedFor(store, pair); }, executor());
   }
   m_lists.noteStep(store);
   store.endStep();
@@ -104,13 +94,198 @@ PairTest WorldSearch::testOf(const BoxStore& store, double distance, bool exact)
   return test;
 }
 
-/// Joins two hierarchies; returns the number of box tests.
-std::uint64_t WorldSearch::join(const BvhLevels& first, const BvhLevels& second, JoinRunner& runner) const {
-  const BvhPair both(first, second);
-  return join(JoinRunner::Job::ofJoin(both.first, both.second), runner);
+/// Counts the changed boxes of each world, and lists the worlds that have some.
+void WorldSearch::countTouched(const BoxStore& store) {
+  m_touchedIn.assign(m_members.everyWorld() + 1, 0);
+  m_chosen.clear();
+  if (!store.isNumbered()) {  // They are of one world, those that have gone included.
+    m_touchedIn[0] = static_cast<std::uint32_t>(store.touched().size());
+    if (m_touchedIn[0] != 0) m_chosen.push_back(0);
+    return;
+  }
+  for (const BoxId id : store.touched()) {
+    if (!store.contains(id)) continue;
+    const std::size_t world = m_members.worldOf(id);
+    if (m_touchedIn[world]++ == 0) m_chosen.push_back(static_cast<std::uint32_t>(world));
+  }
+  std::sort(m_chosen.begin(), m_chosen.end());
 }
 
-std::uint64_t WorldSearch::join(const JoinRunner::Job& job, JoinRunner& runner) const {
+/// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
+/// among those of the last step would then take longer than comparing the lists. Of large worlds with few changed boxes only
+/// these are joined. Returns whether all worlds are searched, as a whole.
+bool WorldSearch::chooseWorlds(const BoxStore& store) {
+  countTouched(store);
+  m_isChosen.assign(m_touchedIn.size(), 0);
+  m_partly.clear();
+  std::size_t boxes = 0;
+  std::size_t whole = 0;
+  for (const std::uint32_t world : m_chosen) {
+    const std::size_t size = m_members.size(world);
+    if (m_touchedIn[world] <= size / kShareOfChanged && !m_small.takes(world)) {
+      m_partly.push_back(world);
+      boxes += m_touchedIn[world];
+    } else {
+      m_chosen[whole++] = world;
+      m_isChosen[world] = 1;
+      boxes += size;
+    }
+  }
+  const std::size_t most = store.size() / kShareOfChanged;
+  const bool all = std::max(boxes, store.touched().size()) > most || m_touchedIn[m_members.everyWorld()] != 0;
+  m_chosen.resize(all ? m_isChosen.size() : whole);
+  if (!all) return false;
+  m_partly.clear();
+  std::iota(m_chosen.begin(), m_chosen.end(), 0U);
+  std::fill(m_isChosen.begin(), m_isChosen.end(), std::uint8_t{1});
+  return true;
+}
+
+/// Moves the chosen worlds that are too large for an exhaustive search to a list of their own.
+void WorldSearch::moveLarge() {
+  m_large.clear();
+  std::size_t kept = 0;
+  for (const std::uint32_t world : m_chosen) {
+    if (m_small.takes(world)) {
+      m_chosen[kept++] = world;
+    } else if (m_members.size(world) != 0) {
+      m_large.push_back(world);
+    }
+  }
+  m_chosen.resize(kept);
+}
+
+/// Whether the pairs of two boxes of the last step were looked for.
+bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
+  if (store.isTouched(pair.first) || store.isTouched(pair.second)) return true;
+  return (m_isChosen[m_members.worldOf(pair.first)] | m_isChosen[m_members.worldOf(pair.second)]) != 0;
+}
+
+/// Finds the pairs of the chosen worlds.
+void WorldSearch::join(const BoxStore& store) {
+  const PairTest test = testOf(store, m_options.distance, m_forest.exact());
+  const auto take = [&](std::span<const Pair> pairs, std::size_t worker) {
+    m_history.take(pairs, worker);
+    return pairs.size();
+  };
+  const auto takeHits = [&](std::span<Pair> pairs, std::size_t worker) { return take(pairs, worker); };
+  SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
+  sink.stop = m_options.stop;
+  sink.emit.emplace(takeHits);
+  const std::size_t workers = std::max(m_runner.start(sink, executor()), executor().concurrency());
+  m_history.begin(store.idBound(), workers, m_statistics.joinedAll ? Joined::All : Joined::Changed);
+  cutIntoRuns(
+      m_chosen, [&](std::uint32_t world) { return m_members.size(world); }, m_runs);
+  executor().run(m_runs.size(), [&](std::size_t run) {
+    const std::size_t begin = run == 0 ? 0 : m_runs[run - 1];
+    m_small.search(std::span(m_chosen).subspan(begin, m_runs[run] - begin), take);
+  });
+  joinTrees();
+  noteTotals();
+  if (m_partly.empty()) return;
+  joinPartly(store);
+  noteTotals();
+}
+
+/// Finds the pairs of the large worlds in their hierarchies: a task has some worlds, or a part of a huge or the only one.
+void WorldSearch::joinTrees() {
+  const std::span<const std::uint32_t> worlds = m_large;
+  const auto sizeOf = [&](std::uint32_t world) { return m_members.size(world); };
+  const auto isHuge = [&](std::uint32_t world) { return worlds.size() == 1 || sizeOf(world) > kHugeWorld; };
+  cutIntoRuns(worlds, sizeOf, m_runs);
+  m_runner.runTasks(m_runs.size(), executor(), [&](std::size_t task, const auto& joinPart) {
+    for (std::size_t i = task == 0 ? 0 : m_runs[task - 1]; i < m_runs[task]; ++i) {
+      if (!isHuge(worlds[i])) joinWorld(worlds[i], joinPart);
+    }
+  });
+  for (const std::uint32_t world : worlds) {
+    if (isHuge(world)) joinWorld(world, [&](const JoinRunner::Job& job) { return run(job, m_runner); });
+  }
+}
+
+/// The pairs of a world's boxes with each other and with those of every world; joinOne(job) returns the number of box
+/// tests.
+template <class JoinOne>
+void WorldSearch::joinWorld(std::size_t world, const JoinOne& joinOne) {
+  DynamicBvh& dynamicBoxes = m_forest.tree(world, false);
+  DynamicBvh& staticBoxes = m_forest.tree(world, true);
+  const auto joinTwo = [&](const DynamicBvh& first, const DynamicBvh& second) -> std::uint64_t {
+    if (first.size() == 0 || second.size() == 0) return 0;
+    return joinOne(JoinRunner::Job::ofJoin(first.view(), second.view()));
+  };
+  const JoinRunner::Job selfJoin = JoinRunner::Job::ofSelfJoin(dynamicBoxes.view());
+  dynamicBoxes.rule().note(Joined::All, dynamicBoxes.size(), joinOne(selfJoin));
+  const std::uint64_t tests = joinTwo(dynamicBoxes, staticBoxes);
+  if (staticBoxes.size() != 0) staticBoxes.rule().note(Joined::All, dynamicBoxes.size(), tests);
+  if (world == m_members.everyWorld()) return;
+  joinTwo(dynamicBoxes, m_forest.tree(m_members.everyWorld(), false));
+  joinTwo(dynamicBoxes, m_forest.tree(m_members.everyWorld(), true));
+  joinTwo(staticBoxes, m_forest.tree(m_members.everyWorld(), false));
+}
+
+/// Lists the changed boxes of the worlds in m_partly, in m_runs where those of each begin and in m_touchedIn where they end.
+void WorldSearch::listTouched(const BoxStore& store) {
+  m_runs.clear();
+  std::uint32_t size = 0;
+  for (const std::uint32_t world : m_partly) {
+    m_runs.push_back(size);
+    size += std::exchange(m_touchedIn[world], size);
+  }
+  m_touched.resize(size);
+  for (const BoxId id : store.touched()) {
+    if (!store.contains(id)) continue;
+    const std::size_t world = m_members.worldOf(id);
+    if (m_isChosen[world] == 0) m_touched[m_touchedIn[world]++] = id;
+  }
+}
+
+/// Joins the changed boxes of some worlds with all boxes there, one world after the other.
+void WorldSearch::joinPartly(const BoxStore& store) {
+  const PairTest test = testOf(store, m_options.distance, m_forest.exact());
+  const PairTest bounds = test.boundsOfHits();
+  const PairTest filter = test.withoutBounds();  // Asked once for each pair.
+  const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
+    const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
+    m_history.take(once.first(filter.select(once)), worker);
+    return pairs.size();
+  };
+  SinkOptions sink{&m_kernels, &bounds};
+  sink.stop = m_options.stop;
+  sink.emit.emplace(take);
+  m_runner.start(sink, executor());
+  if (m_partly.size() == 1) {  // What is of other worlds is not in its hierarchies.
+    joinTouched(m_partly[0], store.touched());
+    return;
+  }
+  listTouched(store);
+  for (std::size_t i = 0; i < m_partly.size(); ++i) {
+    joinTouched(m_partly[i], std::span(m_touched).subspan(m_runs[i], m_touchedIn[m_partly[i]] - m_runs[i]));
+  }
+}
+
+void WorldSearch::joinTouched(std::size_t world, std::span<const BoxId> touched) {
+  const std::size_t shared = m_members.everyWorld();
+  DynamicBvh& dynamicBoxes = m_forest.tree(world, false);
+  DynamicBvh& staticBoxes = m_forest.tree(world, true);
+  m_changedDynamic.gather(touched, m_forest, dynamicBoxes, executor());
+  m_changedStatic.gather(touched, m_forest, staticBoxes, executor());
+  const auto joinWith = [&](const ChangedBoxes& changed, const DynamicBvh& with) -> std::uint64_t {
+    if (changed.size() == 0 || with.size() == 0) return 0;
+    return run(JoinRunner::Job::ofJoin(changed.view(), with.view()), m_runner);
+  };
+  const auto joinHere = [&](const ChangedBoxes& changed, DynamicBvh& with) {
+    with.rule().note(Joined::Changed, changed.size(), joinWith(changed, with));
+  };
+  joinHere(m_changedDynamic, dynamicBoxes);
+  joinHere(m_changedDynamic, staticBoxes);
+  joinHere(m_changedStatic, dynamicBoxes);
+  joinWith(m_changedDynamic, m_forest.tree(shared, false));
+  joinWith(m_changedDynamic, m_forest.tree(shared, true));
+  joinWith(m_changedStatic, m_forest.tree(shared, false));
+}
+
+/// Runs a join on all threads; returns the number of box tests.
+std::uint64_t WorldSearch::run(const JoinRunner::Job& job, JoinRunner& runner) const {
   const std::uint64_t before = runner.totals().boxTests;
   runner.run(job, executor());
   return runner.totals().boxTests - before;
@@ -123,121 +298,10 @@ void WorldSearch::noteTotals() {
   m_statistics.exactTests += totals.exactTests;
 }
 
-void WorldSearch::joinAll(const BoxStore& store) {
-  const PairTest test = testOf(store, m_options.distance, isExact());
-  const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
-    m_history.take(pairs, worker);
-    return pairs.size();
-  };
-  SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
-  sink.stop = m_options.stop;
-  sink.emit.emplace(take);
-  m_history.begin(store.idBound(), m_runner.start(sink, executor()), Joined::All);
-  const BvhView all = m_dynamic.levels().view();
-  m_dynamic.rule().note(Joined::All, m_dynamic.size(), join(JoinRunner::Job::ofJoin(all, all), m_runner));
-  m_static.rule().note(Joined::All, m_dynamic.size(), join(m_dynamic.levels(), m_static.levels(), m_runner));
-  noteTotals();
-  m_history.finishAll(executor());
-}
-
-/// Starts a join of changed boxes with all and calls use().
-template <class Use>
-void WorldSearch::withTouchedSink(const BoxStore& store, const Use& use) {
-  const PairTest test = testOf(store, m_options.distance, isExact());
-  const PairTest bounds = test.boundsOfHits();
-  const PairTest filter = test.withoutBounds();  // Asked once for each pair.
-  const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
-    const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
-    m_history.take(once.first(filter.select(once)), worker);
-    return pairs.size();
-  };
-  SinkOptions sink{&m_kernels, &bounds};
-  sink.stop = m_options.stop;
-  sink.emit.emplace(take);
-  use(m_runner.start(sink, executor()));
-}
-
-void WorldSearch::joinChanged(const BoxStore& store) {
-  withTouchedSink(store, [&](std::size_t workers) {
-    m_history.begin(store.idBound(), workers, Joined::Changed);
-    joinChangedTrees(store);
-  });
-  noteTotals();
-  m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
-                          executor());
-}
-
-void WorldSearch::joinChangedTrees(const BoxStore& store) {
-  m_changedDynamic.gather(store.touched(), m_dynamic, m_kernels, executor());
-  m_changedStatic.gather(store.touched(), m_static, m_kernels, executor());
-  const auto joinWith = [&](ChangedBoxes& changed, DynamicBvh& with) {
-    with.rule().note(Joined::Changed, changed.size(), join(changed.levels(), with.levels(), m_runner));
-  };
-  joinWith(m_changedDynamic, m_dynamic);
-  joinWith(m_changedDynamic, m_static);
-  joinWith(m_changedStatic, m_dynamic);
-}
-
-/// Joins the changed boxes of some large worlds with all boxes there, one world after the other.
-void WorldSearch::joinPartly(const BoxStore& store) {
-  withTouchedSink(store, [&](std::size_t) {
-    for (const std::uint32_t world : m_partly) joinTouched(store, world);
-  });
-}
-
-void WorldSearch::joinTouched(const BoxStore& store, std::size_t world) {
-  const std::size_t shared = m_members.everyWorld();
-  m_changedDynamic.gather(store, m_dynamicTrees.view(world), m_kernels, executor());
-  m_changedStatic.gather(store, m_staticTrees.view(world), m_kernels, executor());
-  const auto joinWith = [&](ChangedBoxes& changed, const WorldForest& trees, std::size_t with) -> std::uint64_t {
-    const BvhView view = trees.view(with);
-    if (changed.size() == 0 || view.depth == 0) return 0;
-    const BvhPair both(changed.levels().view(), view);
-    return join(JoinRunner::Job::ofJoin(both.first, both.second), m_runner);
-  };
-  const auto joinHere = [&](ChangedBoxes& changed, WorldForest& trees) {
-    trees.rule(world).note(Joined::Changed, changed.size(), joinWith(changed, trees, world));
-  };
-  joinHere(m_changedDynamic, m_dynamicTrees);
-  joinHere(m_changedDynamic, m_staticTrees);
-  joinHere(m_changedStatic, m_dynamicTrees);
-  joinWith(m_changedDynamic, m_dynamicTrees, shared);
-  joinWith(m_changedDynamic, m_staticTrees, shared);
-  joinWith(m_changedStatic, m_dynamicTrees, shared);
-}
-
-/// Calls visit(number, hierarchy) for all hierarchies that are not empty.
-template <class Visit>
-void WorldSearch::eachTree(const BoxStore& store, const Visit& visit) const {
-  if (!store.isNumbered()) {
-    treesOf(store, 0, [&](const BvhView& view) { visit(0, view); });
-    return;
-  }
-  for (std::size_t world = 0; world <= m_members.everyWorld(); ++world) {
-    const std::uint32_t number = m_members.numberOf(world);
-    treesOf(store, number, [&](const BvhView& view) { visit(number, view); });
-  }
-}
-
-/// Calls visit(hierarchy) for those of one world, or of the boxes of every world.
-template <class Visit>
-void WorldSearch::treesOf(const BoxStore& store, std::uint32_t number, const Visit& visit) const {
-  const auto show = [&](const BvhView& view) {
-    if (view.depth != 0) visit(view);
-  };
-  if (store.isNumbered()) {
-    const std::size_t world = m_members.find(number);
-    show(m_dynamicTrees.view(world));
-    show(m_staticTrees.view(world));
-  } else if (number == 0) {
-    show(m_dynamic.levels().view());
-    show(m_static.levels().view());
-  }
-}
-
 std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSearch& other,
                                            const BoxStore& otherStore) const {
-  const bool exact = isExact() && other.isExact() && m_options.distance == 0.0 && other.m_options.distance == 0.0;
+  const bool exact =
+      m_forest.exact() && other.m_forest.exact() && m_options.distance == 0.0 && other.m_options.distance == 0.0;
   // Half of each: the lanes of the two worlds have been enlarged by that.
   const double distance = 0.5 * m_options.distance + 0.5 * other.m_options.distance;
   PairTest test(store.tested(), otherStore.tested(), distance, m_options.accept);
@@ -254,18 +318,19 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   sink.emit.emplace(take);
   JoinRunner runner(defaultMemory());
   runner.start(sink, executor());
-  eachTree(store, [&](std::uint32_t number, const BvhView& mine) {
-    const auto joinWith = [&](const BvhView& theirs) {
-      const BvhPair both(mine, theirs);
-      join(JoinRunner::Job::ofJoin(both.first, both.second), runner);
-    };
-    if (number == kEveryWorld) {
-      other.eachTree(otherStore, [&](std::uint32_t, const BvhView& theirs) { joinWith(theirs); });
-    } else {
-      other.treesOf(otherStore, number, joinWith);
-      other.treesOf(otherStore, kEveryWorld, joinWith);
-    }
-  });
+  const WorldMembers& others = other.m_members;
+  const auto joinWith = [&](std::size_t world, std::size_t otherWorld) {
+    eachTree(world, [&](const DynamicBvh& mine, bool) {
+      other.eachTree(otherWorld, [&](const DynamicBvh& theirs, bool) {
+        run(JoinRunner::Job::ofJoin(mine.view(), theirs.view()), runner);
+      });
+    });
+  };
+  for (std::size_t world = 0; world < m_members.everyWorld(); ++world) {
+    joinWith(world, others.find(m_members.numberOf(world)));
+    joinWith(world, others.everyWorld());
+  }
+  for (std::size_t world = 0; world <= others.everyWorld(); ++world) joinWith(m_members.everyWorld(), world);
   PairSort::Task task;
   task.firsts = std::max<std::size_t>(1, store.idBound());
   task.seconds = std::max<std::size_t>(1, otherStore.idBound());

@@ -8,32 +8,34 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
-#include "allpairs/FunctionRef.h"
 #include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "kernels/Hits.h"
 #include "memory/Memory.h"
+#include "search/PairSink.h"
 
 namespace allpairs::engine {
 
-/// The partners of each box as a join lists them, by worker, and what they are put together to: pairs in order, or rows.
+/// The partners of each box as a join lists them, by worker, and what they are put together to: pairs in order, or rows. What
+/// PairSink does with hits this does with lists: it applies the exact test and the filters, and keeps to the limit.
 class PairLists {
  public:
   explicit PairLists(std::pmr::memory_resource* memory)
       : m_ofWorkers(memory), m_partners(memory), m_begin(memory), m_length(memory), m_places(memory) {}
 
-  /// Empties the lists of so many rows, for a search with so many workers, and sets what of theirs concerns memory and order;
-  /// memory is kept.
+  /// Empties the lists of so many rows, for a search with so many workers; memory is kept.
   void start(std::size_t rows, std::size_t columns, std::size_t workers);
+
+  /// Which partners the lists have: by their ids, and by the test of pairs, in which rows are on that side if a pair is listed
+  /// once. The options must outlive the search.
+  void select(Columns kept, PairSide side, const SinkOptions& options);
 
   [[nodiscard]] std::span<NeighborLists> ofWorkers() noexcept { return m_ofWorkers; }
 
-  /// Provides more memory for the lists of a worker; keeps what is there. Calls look() now and then, which may throw.
-  void grow(NeighborLists& lists, std::size_t more, FunctionRef<void()> look);
-
-  /// The length of all lists.
+  /// The length of all lists, and of how many pairs they are.
   [[nodiscard]] std::size_t size() const noexcept;
+  [[nodiscard]] std::size_t pairs() const noexcept { return size() / m_timesListed; }
 
   /// Writes the pairs in the order of the rows, of which each is first in its pairs, or second.
   void expand(std::span<Pair> to, bool bySecond, Executor& executor);
@@ -42,8 +44,14 @@ class PairLists {
   void gather(const NeighborsMemory& to, Executor& executor);
 
  private:
+  void grow(NeighborLists& lists, std::size_t more);
+  std::size_t selectTested(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const;
   template <class Use>
   void forEachList(Executor& executor, const Use& use);
+
+  const SinkOptions* m_options = nullptr;
+  PairSide m_side = PairSide::RowFirst;
+  std::size_t m_timesListed = 1;  ///< Each pair.
 
   std::pmr::vector<NeighborLists> m_ofWorkers;
   std::pmr::vector<Buffer<std::uint32_t>> m_partners;  ///< By worker.

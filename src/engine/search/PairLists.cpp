@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "order/PairLists.h"
+#include "search/PairLists.h"
 
 #include <algorithm>
 #include <bit>
@@ -45,7 +45,44 @@ void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers
   }
 }
 
-void PairLists::grow(NeighborLists& lists, std::size_t more, FunctionRef<void()> look) {
+void PairLists::select(Columns kept, PairSide side, const SinkOptions& options) {
+  const PairTest& test = *options.test;
+  m_options = &options;
+  m_side = kept == Columns::Others ? PairSide::SmallerFirst : side;
+  m_timesListed = kept == Columns::Others ? 2 : 1;
+  for (NeighborLists& lists : m_ofWorkers) {
+    lists.kept = kept;
+    lists.slack = test.slack();
+    if (test.needed()) {
+      const bool onlyDoubts = test.leavesDoubts() && !test.isFiltered();
+      lists.tested = onlyDoubts ? NeighborLists::Tested::InDoubt : NeighborLists::Tested::All;
+    }
+    lists.receiver = this;
+    lists.select = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
+      return static_cast<const PairLists*>(of.receiver)->selectTested(of, row, {partners, size});
+    };
+    lists.grow = [](NeighborLists& of, std::size_t more) { static_cast<PairLists*>(of.receiver)->grow(of, more); };
+  }
+}
+
+/// Moves the partners of a row that the test keeps to the front; returns their number.
+std::size_t PairLists::selectTested(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const {
+  const PairTest& test = *m_options->test;
+  checkStop(m_options->stop);
+  if (test.exactTestNeeded()) lists.exactTests += partners.size();
+  std::size_t kept = 0;
+  for (const std::uint32_t partner : partners) {
+    const bool isRowFirst = m_side == PairSide::SmallerFirst ? row < partner : m_side == PairSide::RowFirst;
+    if (test.keeps(isRowFirst ? Pair{row, partner} : Pair{partner, row})) partners[kept++] = partner;
+  }
+  return kept;
+}
+
+/// Provides more memory for the lists of a worker; keeps what is there.
+void PairLists::grow(NeighborLists& lists, std::size_t more) {
+  checkLimit(*m_options, lists.size / m_timesListed);
+  const auto look = [this] { checkStop(m_options->stop); };
+  look();
   Buffer<std::uint32_t>& partners = m_partners[lists.base >> kPlaceBits];
   partners.grow(lists.size + more, look);
   lists.partners = partners.data();
