@@ -194,6 +194,8 @@ TEST(Models, ConesMergeAroundTheMiddleOfTheirAxes) {
 
 TEST(Models, WithoutANormalOrBetweenOppositeOnesNothingIsKnown) {
   EXPECT_EQ(NormalCone::of({0.0, 0.0, 0.0}).halfAngle, 2.0 * std::numbers::pi);
+  EXPECT_EQ(NormalCone::ofTurning({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}).halfAngle, 2.0 * std::numbers::pi);
+  EXPECT_EQ(NormalCone::ofTurning({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}).halfAngle, 2.0 * std::numbers::pi);
   NormalCone cone = NormalCone::of({0.0, 2.0, 0.0});
   cone.merge(NormalCone::of({0.0, -3.0, 0.0}));
   EXPECT_EQ(cone.halfAngle, 2.0 * std::numbers::pi);
@@ -227,6 +229,15 @@ TEST(Models, NegativeSizesAreRefused) {
     thin.halfExtents[axis] = -1.0;
     EXPECT_NE(messageOf([&] { OrientedBoxModel("bad", {thin}); }).find("negative"), std::string::npos) << axis;
   }
+}
+
+TEST(Models, SizesOfZeroArePointsAndRefuseNothing) {
+  EXPECT_EQ(SphereModel("s", {{1.0, 2.0, 3.0}}, {0.0}).elementBox(0), (Box{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}));
+  EXPECT_EQ(CapsuleModel("c", {Capsule{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}, 0.0}}).elementBox(0),
+            (Box{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}));
+  OrientedBox point{{1.0, 2.0, 3.0}};
+  point.halfExtents = {0.0, 0.0, 0.0};
+  EXPECT_EQ(OrientedBoxModel("o", {point}).elementBox(0), (Box{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}));
 }
 
 TEST(Models, MoreRadiiThanSpheresAreRefused) { EXPECT_THROW(SphereModel("bad", {{}}, {1.0, 1.0}), InvalidArgument); }

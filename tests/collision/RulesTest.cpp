@@ -244,6 +244,7 @@ TEST_F(Rules, AnAlarmDistanceMayBeInfiniteButNotNanOrMinusInfinity) {
   EXPECT_THROW(m_method.setAlarmDistance(kNan), InvalidArgument);
   EXPECT_THROW(m_method.setAlarmDistance(-kInfinity), InvalidArgument);
   EXPECT_EQ(detect(), Numbers{});
+  add({{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}});  // empty: no distance makes it touch
   m_method.setAlarmDistance(kInfinity);
   EXPECT_EQ(detect(), (Numbers{{1, 0}}));
 }
