@@ -260,6 +260,50 @@ TYPED_TEST(WorldsOf, EqualSizeTakeAFilterAndIgnoredPairsOfOneWorldForAll) {
   }
 }
 
+TYPED_TEST(WorldsOf, EqualSizeTakeValuesOfOneWorldOrOfAllBoxesInAnyMix) {
+  constexpr std::size_t kSize = 20;
+  const Scene<TypeParam> scene(std::vector<std::size_t>(4, kSize), 61);
+  const auto categories = values(scene.boxes.size(), 3, 7, 1);
+  const auto masks = values(scene.boxes.size(), 5, 6, 2);
+  const auto groups = values(scene.boxes.size(), 7, 5, 0);
+  // None, those of one world, or those of all boxes; what world k then has of them.
+  const auto given = [](const std::vector<std::uint32_t>& all, std::size_t kind) {
+    return std::span(all).first(kind == 2 ? all.size() : kind * kSize);
+  };
+  const auto partOf = [](std::span<const std::uint32_t> some, std::size_t k) {
+    return some.size() > kSize ? some.subspan(k * kSize, kSize) : some;
+  };
+  for (std::size_t mix = 0; mix < 27; ++mix) {
+    SCOPED_TRACE(mix);
+    const FilterBits bits{given(categories, mix % 3), given(masks, mix / 3 % 3), given(groups, mix / 9)};
+    OverlapOptions options;
+    options.filter.first = bits;
+    const auto bitsOf = [&](std::size_t k) {
+      return FilterBits{partOf(bits.categories, k), partOf(bits.masks, k), partOf(bits.groups, k)};
+    };
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone(scene.worlds(), options, {}, bitsOf));
+  }
+}
+
+TYPED_TEST(WorldsOf, ADistanceARegionOrMarginsCountEachAlone) {
+  const Scene<TypeParam> scene(mixedSizes(20, 67), 71);
+  OverlapOptions distance;
+  distance.distance = 0.25;
+  OverlapOptions region;
+  region.region = Box{{0, 0, 0}, {0.5, 1, 1}};
+  const std::vector<double> margins(scene.boxes.size(), 0.125);
+  BoxView wide(scene.boxes);
+  wide.setMargins(margins);
+  for (const std::string_view instructionSet : instructionSets()) {
+    distance.instructionSet = region.instructionSet = instructionSet;
+    OverlapOptions plain;
+    plain.instructionSet = instructionSet;
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone(scene.worlds(), distance));
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone(scene.worlds(), region));
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone({wide, scene.begin}, plain));
+  }
+}
+
 TYPED_TEST(WorldsOf, UnequalSizeIgnorePairsToo) {
   const Scene<TypeParam> scene(mixedSizes(50, 31), 19);
   std::vector<Pair> ignored;
@@ -328,8 +372,12 @@ TYPED_TEST(WorldsOf, AnySizeMeetSharedBoxesAsTwoSetsDo) {
         ASSERT_EQ(found.begin, wanted.begin) << sharedBoxes;
         ASSERT_EQ(found.pairs, wanted.pairs) << sharedBoxes;
         ASSERT_EQ(countOverlapsInWorlds(worlds, ground.boxes, options), wanted.begin);
-        std::vector<Pair> listed(wanted.pairs.size());
+        // Memory for more pairs keeps what it holds behind them.
+        const Pair mark{7, 7};
+        std::vector<Pair> listed(wanted.pairs.size() + 3, mark);
         WorldsSearch(options).list(worlds, ground.boxes, wanted.begin, listed);
+        ASSERT_EQ(std::count(listed.end() - 3, listed.end(), mark), 3);
+        listed.resize(wanted.pairs.size());
         ASSERT_EQ(listed, wanted.pairs);
       }
     }
