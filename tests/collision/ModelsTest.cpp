@@ -192,6 +192,13 @@ TEST(Models, ConesMergeAroundTheMiddleOfTheirAxes) {
   EXPECT_EQ(cone.halfAngle, 2.0 * std::numbers::pi);
 }
 
+TEST(Models, AConeOfAQuarterTurnStaysOneAndAnglesCountEveryAxis) {
+  NormalCone wide{{0.0, 0.0, 1.0}, std::numbers::pi / 2.0};
+  wide.merge(NormalCone::of({0.0, 0.0, 1.0}));
+  EXPECT_EQ(wide.halfAngle, std::numbers::pi / 2.0);
+  EXPECT_NEAR(NormalCone::ofTurning({0.0, 3.0, 4.0}, {0.0, 4.0, 3.0}).halfAngle, std::acos(0.96), 1e-12);
+}
+
 TEST(Models, WithoutANormalOrBetweenOppositeOnesNothingIsKnown) {
   EXPECT_EQ(NormalCone::of({0.0, 0.0, 0.0}).halfAngle, 2.0 * std::numbers::pi);
   EXPECT_EQ(NormalCone::ofTurning({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}).halfAngle, 2.0 * std::numbers::pi);

@@ -136,6 +136,26 @@ TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
   }
 }
 
+TEST(Statistics, GroupTestsOfSeveralTasksAddUp) {
+  const std::vector<BoxF> boxes = test::randomBoxes(4000, 75);
+  ManyInTurn many;
+  OverlapOptions options;
+  options.strategy = Strategy::Bvh;
+  options.executor = &many;
+  OverlapSearch search(options);
+  static_cast<void>(search.find(boxes));
+  EXPECT_GT(search.statistics().groupTests, 0U);
+  EXPECT_LT(search.statistics().groupTests, search.statistics().boxTests);
+}
+
+TEST(Statistics, AWorldCountsItsExactTests) {
+  World world;
+  const std::vector<Box> boxes = aHairApart(200, 400);
+  static_cast<void>(world.add(BoxView(boxes)));
+  EXPECT_EQ(world.step().pairs.size(), 200U * 199U / 2U + 200U * 399U);
+  EXPECT_EQ(world.statistics().exactTests, 200U * 400U);
+}
+
 TEST(Statistics, RebuildsOfNumberedWorldsAreCountedForMovingAndForStaticBoxes) {
   const std::vector<BoxF> boxes = test::randomBoxes(1000, 73);
   for (const bool isStatic : {false, true}) {

@@ -292,6 +292,7 @@ TEST(World, PairsBetweenTwoWorldsAreExactIfOneOfThemIsRounded) {
   // Half of each distance counts.
   const Box apart{{1.25, 0, 0}, {2, 1, 1}};
   EXPECT_EQ(between(first, 0.5, apart, 0.0), 1U);
+  EXPECT_EQ(between(first, 0.25, apart, 0.25), 1U);
   EXPECT_EQ(between(first, 0.5 - 0x1p-50, apart, 0.0), 0U);
   EXPECT_EQ(between(first, 0.0, apart, 0.5 - 0x1p-50), 0U);
 }
