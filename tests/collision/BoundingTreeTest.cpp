@@ -82,6 +82,19 @@ TEST(BoundingTree, EachLevelBoundsTheNextAndTheLastBoundsEachElementOnce) {
   EXPECT_EQ(seen.size(), model.getSize());
 }
 
+TEST(BoundingTree, ANodeIsSplitAtTheMiddleOfItsLongestAxisAndByNumberWhereElementsAreEqual) {
+  const auto childrenOf = [](const std::vector<double>& places) {
+    std::vector<Box> boxes;
+    for (const double y : places) boxes.push_back(cube(0.0, y, 0.0));
+    BoxModel model("m", boxes);
+    model.computeBoundingTree(1);
+    const Span<const std::uint32_t> order = dynamic_cast<BoundingBoxModel&>(*model.getPrevious()).elementOrder();
+    return std::vector<std::uint32_t>(order.begin(), order.end());
+  };
+  EXPECT_EQ(childrenOf({5.0, 1.0, 4.0, 0.0, 3.0, 2.0}), (std::vector<std::uint32_t>{1, 3, 5, 0, 2, 4}));
+  EXPECT_EQ(childrenOf({2.0, 0.0, 1.0, 1.0, 1.0, 0.0}), (std::vector<std::uint32_t>{1, 2, 5, 0, 3, 4}));
+}
+
 TEST(BoundingTree, ADeepTreeCanBecomeShallowAgain) {
   BoxModel model("m", toDouble(randomBoxes(30, 12)));
   model.computeBoundingTree(4);

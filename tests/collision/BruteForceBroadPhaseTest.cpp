@@ -5,6 +5,7 @@
 
 #include "Fixture.h"
 #include "SceneWorld.h"
+#include "allpairs/Overlaps.h"
 #include "support/Numbers.h"
 
 namespace allpairs::test {
@@ -125,7 +126,28 @@ TEST_F(Component, TheExhaustiveStrategyMakesEveryTestAndCountsThem) {
   EXPECT_EQ(m_phase.statistics().models, 50U);
   EXPECT_EQ(m_phase.statistics().testsMade, 50U * 49U / 2U);
   EXPECT_EQ(m_phase.statistics().testsOfAllPairs, 50U * 49U / 2U);
+  EXPECT_EQ(m_phase.statistics().candidates, 50U * 49U / 2U);
   EXPECT_EQ(m_phase.statistics().pairs, 0U);
+}
+
+TEST_F(Component, AMethodWithoutBoundIsAskedAboutEveryPairAndEachIsCounted) {
+  for (int i = 0; i < 50; ++i) add(unitBoxAt(10.0 * i));
+  UserUnboundedMethod method;
+  m_phase.setIntersectionMethod(&method);
+  step();
+  EXPECT_EQ(m_phase.statistics().testsMade, 50U * 49U / 2U);
+  EXPECT_EQ(m_phase.statistics().candidates, 50U * 49U / 2U);
+}
+
+TEST_F(Component, TestsAreThoseOfTheSearchOfTheirBoxes) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 3000; ++i) boxes.push_back(unitBoxAt(10.0 * i));
+  for (const Box& box : boxes) add(box);
+  step();
+  OverlapSearch search(OverlapOptions{.order = Order::BySecond});
+  static_cast<void>(search.find(BoxView(boxes)));
+  EXPECT_GT(search.statistics().groupTests, 0U);
+  EXPECT_EQ(m_phase.statistics().testsMade, search.statistics().boxTests + search.statistics().groupTests);
 }
 
 TEST_F(Component, OnlyPairsWhoseBoxesAreNearAreAsked) {
@@ -145,6 +167,20 @@ TEST_F(Component, ReadingAfterEachAdditionPaysForOneRow) {
   EXPECT_EQ(m_phase.statistics().pairs, 199U);
   EXPECT_EQ(m_phase.statistics().candidates, 199U);
   EXPECT_LE(m_phase.statistics().testsMade, 2U * m_phase.statistics().testsOfAllPairs);
+}
+
+TEST_F(Component, ReadingHalfWayChangesNothing) {
+  for (int i = 0; i < 200; ++i) add(unitBoxAt(0.9 * (i % 100)));
+  const Numbers expected = step();
+  ASSERT_EQ(expected.size(), 99U + 99U + 100U + 99U + 99U);
+  m_phase.beginBroadPhase();
+  for (std::size_t i = 0; i < m_models.size(); ++i) {
+    m_phase.addCollisionModel(m_models[i]);
+    if (i == 99) {
+      EXPECT_EQ(m_phase.getCollisionModelPairs().size(), 99U);
+    }
+  }
+  EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), expected);
 }
 
 TEST_F(Component, ModelsOutsideOfTheRegionTakeNoPart) {

@@ -59,6 +59,13 @@ TEST_F(Pipeline, InactiveModelsAreLeftOut) {
   EXPECT_EQ(m_counting[1]->computed, 0);
 }
 
+TEST_F(Pipeline, NullAndEmptyModelsAreLeftOut) {
+  CountingModel empty("empty", std::vector<Box>{});
+  m_models.insert(m_models.begin() + 1, {nullptr, &empty});
+  EXPECT_EQ(numbers(m_pipeline.step(m_models)), (Numbers{{3, 0}, {4, 0}, {4, 3}}));
+  EXPECT_EQ(empty.computed, 0);
+}
+
 TEST_F(Pipeline, TreesOfModelsThatDoNotMoveAreMadeOnce) {
   m_counting[0]->setMoving(false);
   for (int i = 0; i < 3; ++i) m_pipeline.step(m_models);
@@ -78,6 +85,9 @@ TEST_F(Pipeline, TreesAreDeepOnlyIfAPhaseNeedsIt) {
   m_pipeline.init();
   m_pipeline.step(m_models);
   EXPECT_EQ(m_counting[0]->depth, 4);
+  m_pipeline.setDepth(0);
+  m_pipeline.step(m_models);
+  EXPECT_EQ(m_counting[0]->depth, 0);
 }
 
 TEST_F(Pipeline, AContinuousMethodSeesTheWholeStep) {
@@ -103,6 +113,19 @@ TEST_F(Pipeline, TheNarrowPhaseIsGivenThePairsOfTheBroadPhase) {
 TEST_F(Pipeline, ARegionCountsAlsoIfThePhaseHadItsMethodAlready) {
   m_phase.setIntersectionMethod(&m_method);
   m_phase.setBox(Box{{100, 100, 100}, {101, 101, 101}});
+  EXPECT_EQ(numbers(m_pipeline.step(m_models)), Numbers{});
+  CollisionPipeline methodLast;
+  methodLast.setBroadPhase(&m_phase);
+  methodLast.setIntersectionMethod(&m_method);
+  m_phase.setBox(Box{{0, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(numbers(methodLast.step(m_models)), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
+}
+
+TEST_F(Pipeline, ARegionThatIsSetAfterAStepWaitsForInit) {
+  EXPECT_EQ(numbers(m_pipeline.step(m_models)), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
+  m_phase.setBox(Box{{100, 100, 100}, {101, 101, 101}});
+  EXPECT_EQ(numbers(m_pipeline.step(m_models)), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
+  m_pipeline.init();
   EXPECT_EQ(numbers(m_pipeline.step(m_models)), Numbers{});
 }
 

@@ -9,6 +9,7 @@
 
 #include "Fixture.h"
 #include "allpairs/collision/CollisionPipeline.h"
+#include "allpairs/collision/DiscreteIntersection.h"
 
 namespace allpairs::test {
 namespace {
@@ -17,6 +18,7 @@ using collision::BoxModel;
 using collision::BruteForceBroadPhase;
 using collision::CollisionModel;
 using collision::CollisionModelPair;
+using collision::DiscreteIntersection;
 using collision::MinProximityIntersection;
 
 /// What happens to a scene before a step.
@@ -191,6 +193,16 @@ TEST_F(KeptStep, OneModelThatMovesCostsAFewTestsAndNotThoseOfAll) {
   dynamic_cast<BoxModel&>(*m_models[100]).setBox(0, {{200.5, 0.0, 0.0}, {201.25, 1.0, 1.0}});
   EXPECT_LT(testsOfStep(), first / 4);
   EXPECT_EQ(m_phase.getCollisionModelPairs().size(), 299U);
+}
+
+TEST_F(KeptStep, ContactDistancesDoNotCountWhereTheMethodDoesNotAddThem) {
+  DiscreteIntersection discrete;
+  m_phase.setIntersectionMethod(&discrete);
+  for (int i = 0; i < 300; ++i) add(unitBoxAt(1.25 * i)).setContactDistance(0.5);
+  for (int i = 0; i < 8; ++i) {
+    testsOfStep();
+    EXPECT_TRUE(m_phase.getCollisionModelPairs().empty()) << "step " << i;
+  }
 }
 
 TEST_F(KeptStep, RulesAreAskedAgainThoughNothingMoves) {

@@ -101,6 +101,25 @@ TEST(Models, AQuarterTurnAboutZTakesXToY) {
   EXPECT_NEAR(box.axes[1][0], -1.0, 1e-12);
 }
 
+/// What a unit quaternion (x, y, z, w) makes of a vector: v + 2 q x (q x v + w v).
+Vec3 turned(const std::array<double, 4>& quaternion, const Vec3& v) {
+  const auto [x, y, z, w] = quaternion;
+  const Vec3 inner{y * v[2] - z * v[1] + w * v[0], z * v[0] - x * v[2] + w * v[1], x * v[1] - y * v[0] + w * v[2]};
+  return {v[0] + 2.0 * (y * inner[2] - z * inner[1]), v[1] + 2.0 * (z * inner[0] - x * inner[2]),
+          v[2] + 2.0 * (x * inner[1] - y * inner[0])};
+}
+
+TEST(Models, AQuaternionTurnsEachAxisOfAnOrientedBox) {
+  const std::array<double, 4> quaternion{0.1, 0.3, -0.5, std::sqrt(0.65)};
+  const OrientedBox box = OrientedBox::turned({}, quaternion, {1.0, 1.0, 1.0});
+  for (std::size_t a = 0; a < 3; ++a) {
+    Vec3 axis{};
+    axis[a] = 1.0;
+    const Vec3 expected = turned(quaternion, axis);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(box.axes[a][i], expected[i], 1e-12) << "axis " << a << ", " << i;
+  }
+}
+
 TEST(Models, QuadsAreTwoTrianglesEachAfterTheTriangles) {
   const TriangleModel model("q", kPoints, {{1, 2, 3}}, {{0, 1, 2, 3}});
   EXPECT_EQ(model.triangles(), (std::vector<TriangleModel::Triangle>{{1, 2, 3}, {0, 1, 2}, {0, 2, 3}}));
@@ -130,6 +149,18 @@ TEST(Models, ContinuousBoxesHoldStartAndEndOfTheStep) {
   EXPECT_EQ(line.getFirst()->elementBox(0), (Box{{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}}));
 }
 
+TEST(Models, ContinuousBoxesOfSolidsHoldStartAndEndOfTheStep) {
+  SphereModel sphere("s", {{0.0, 0.0, 0.0}});
+  CapsuleModel capsule("c", {Capsule{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0}});
+  OrientedBoxModel box("o", {OrientedBox{}});
+  for (SolidModel* model :
+       {static_cast<SolidModel*>(&sphere), static_cast<SolidModel*>(&capsule), static_cast<SolidModel*>(&box)}) {
+    model->setVelocities({{4.0, -2.0, 0.0}});
+    model->computeContinuousBoundingTree(0.5);
+    EXPECT_EQ(model->getFirst()->elementBox(0), (Box{{-1.0, -2.0, -1.0}, {3.0, 1.0, 1.0}})) << model->typeName();
+  }
+}
+
 TEST(Models, WithoutCurvatureNothingIsKnownOfNormals) {
   TriangleModel model("t", kPoints, {{0, 1, 2}});
   EXPECT_EQ(model.elementCone(0).halfAngle, 2.0 * std::numbers::pi);
@@ -150,10 +181,30 @@ TEST(Models, ConesMergeAroundTheMiddleOfTheirAxes) {
   NormalCone cone = NormalCone::of({1.0, 0.0, 0.0});
   cone.merge(NormalCone::of({0.0, 5.0, 0.0}));
   EXPECT_NEAR(cone.halfAngle, std::numbers::pi / 4.0, 1e-12);
-  EXPECT_NEAR(cone.axis[0], std::sqrt(0.5), 1e-12);
+  const auto expectAxis = [&cone](const Vec3& expected) {
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(cone.axis[i], expected[i], 1e-12) << i;
+  };
+  expectAxis({std::sqrt(0.5), std::sqrt(0.5), 0.0});
   cone.merge(NormalCone::of({0.0, 0.0, 1.0}));
+  expectAxis({0.5, 0.5, std::sqrt(0.5)});
   EXPECT_NEAR(cone.halfAngle, std::numbers::pi / 4.0 + std::numbers::pi / 4.0, 1e-12);
   cone.merge(NormalCone{});
+  EXPECT_EQ(cone.halfAngle, 2.0 * std::numbers::pi);
+}
+
+TEST(Models, AConeOfAQuarterTurnStaysOneAndAnglesCountEveryAxis) {
+  NormalCone wide{{0.0, 0.0, 1.0}, std::numbers::pi / 2.0};
+  wide.merge(NormalCone::of({0.0, 0.0, 1.0}));
+  EXPECT_EQ(wide.halfAngle, std::numbers::pi / 2.0);
+  EXPECT_NEAR(NormalCone::ofTurning({0.0, 3.0, 4.0}, {0.0, 4.0, 3.0}).halfAngle, std::acos(0.96), 1e-12);
+}
+
+TEST(Models, WithoutANormalOrBetweenOppositeOnesNothingIsKnown) {
+  EXPECT_EQ(NormalCone::of({0.0, 0.0, 0.0}).halfAngle, 2.0 * std::numbers::pi);
+  EXPECT_EQ(NormalCone::ofTurning({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}).halfAngle, 2.0 * std::numbers::pi);
+  EXPECT_EQ(NormalCone::ofTurning({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}).halfAngle, 2.0 * std::numbers::pi);
+  NormalCone cone = NormalCone::of({0.0, 2.0, 0.0});
+  cone.merge(NormalCone::of({0.0, -3.0, 0.0}));
   EXPECT_EQ(cone.halfAngle, 2.0 * std::numbers::pi);
 }
 
@@ -180,9 +231,20 @@ TEST(Models, NumbersThatAreNotFiniteAreRefusedByModelAndElement) {
 TEST(Models, NegativeSizesAreRefused) {
   EXPECT_NE(messageOf([] { SphereModel("bad", {{}, {}}, {1.0, -1.0}); }).find("sphere 1"), std::string::npos);
   EXPECT_NE(messageOf([] { CapsuleModel("bad", {Capsule{{}, {}, -1.0}}); }).find("capsule 0"), std::string::npos);
-  OrientedBox thin;
-  thin.halfExtents[2] = -1.0;
-  EXPECT_NE(messageOf([&] { OrientedBoxModel("bad", {thin}); }).find("negative"), std::string::npos);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    OrientedBox thin;
+    thin.halfExtents[axis] = -1.0;
+    EXPECT_NE(messageOf([&] { OrientedBoxModel("bad", {thin}); }).find("negative"), std::string::npos) << axis;
+  }
+}
+
+TEST(Models, SizesOfZeroArePointsAndRefuseNothing) {
+  EXPECT_EQ(SphereModel("s", {{1.0, 2.0, 3.0}}, {0.0}).elementBox(0), (Box{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}));
+  EXPECT_EQ(CapsuleModel("c", {Capsule{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}, 0.0}}).elementBox(0),
+            (Box{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}));
+  OrientedBox point{{1.0, 2.0, 3.0}};
+  point.halfExtents = {0.0, 0.0, 0.0};
+  EXPECT_EQ(OrientedBoxModel("o", {point}).elementBox(0), (Box{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}));
 }
 
 TEST(Models, MoreRadiiThanSpheresAreRefused) { EXPECT_THROW(SphereModel("bad", {{}}, {1.0, 1.0}), InvalidArgument); }

@@ -217,6 +217,56 @@ TEST_F(Rules, AnIntersectorThatSwapsTurnsThePairAround) {
   EXPECT_EQ(detect(), (Numbers{{1, 0}}));
 }
 
+TEST_F(Rules, AnIntersectorForOneWayServesOnlyThatOne) {
+  m_method.add<OddModel, BoundingBoxModel>(std::make_shared<BoxIntersector>(), false);
+  m_others.push_back(std::make_unique<OddModel>(unitBoxAt(0.0)));
+  m_others.back()->setOwner(this);
+  m_models.push_back(m_others.back().get());
+  addTouching(1);
+  EXPECT_EQ(detect(), Numbers{});
+  std::swap(m_models[0], m_models[1]);
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
+}
+
+TEST_F(Rules, AnIntersectorOfTwoEqualTypesLeavesThePairAsItIs) {
+  m_method.add<OddModel, OddModel>(std::make_shared<BoxIntersector>());
+  for (int i = 0; i < 2; ++i) {
+    m_others.push_back(std::make_unique<OddModel>(unitBoxAt(0.0)));
+    m_others.back()->setOwner(m_others.back().get());
+    m_models.push_back(m_others.back().get());
+  }
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
+}
+
+TEST_F(Rules, AnAlarmDistanceMayBeInfiniteButNotNanOrMinusInfinity) {
+  add(unitBoxAt(0.0));
+  add(unitBoxAt(1e6));
+  EXPECT_THROW(m_method.setAlarmDistance(kNan), InvalidArgument);
+  EXPECT_THROW(m_method.setAlarmDistance(-kInfinity), InvalidArgument);
+  EXPECT_EQ(detect(), Numbers{});
+  add({{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}});  // empty: no distance makes it touch
+  m_method.setAlarmDistance(kInfinity);
+  EXPECT_EQ(detect(), (Numbers{{1, 0}}));
+}
+
+/// Finds none for models of the name "ghost".
+class MethodThatReadsNames : public collision::DiscreteIntersection {
+ public:
+  collision::ElementIntersector* findIntersector(collision::CollisionModel* first, collision::CollisionModel* second,
+                                                 bool& swapModels) override {
+    const auto isGhost = [](collision::CollisionModel* model) { return model->getLast()->getName() == "ghost"; };
+    if (isGhost(first) || isGhost(second)) return nullptr;
+    return DiscreteIntersection::findIntersector(first, second, swapModels);
+  }
+};
+
+TEST_F(Rules, AUsersMethodMayFindAnIntersectorByMoreThanTypes) {
+  MethodThatReadsNames method;
+  addTouching(3);
+  m_owned[1]->setName("ghost");
+  EXPECT_EQ(detect(method), (Numbers{{2, 0}}));
+}
+
 TEST_F(Rules, TypesWithoutIntersectorAreNoPair) {
   m_others.push_back(std::make_unique<OddModel>(unitBoxAt(0.0)));
   m_others.back()->setOwner(this);

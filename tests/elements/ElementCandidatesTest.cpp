@@ -145,6 +145,16 @@ TEST(ElementCandidates, ThatOnlyTouchAreCandidates) {
   EXPECT_EQ(toVector(apart.find(CandidateKind::FaceFace)), std::vector<Pair>());
 }
 
+TEST(ElementCandidates, AreExactWhereOnlyUpperBoundsAreRounded) {
+  const double below = 1.0 - 0x1p-53;  // float32 makes it 1, where the triangle begins
+  const double odd = 3.0 + 0x1p-40;
+  const MovingMesh point{{0.0, 0.0, 0.0}, {below, below, below}, {}};
+  const MovingMesh triangle{{1, 0, 0, 2, 0, 0, 1, 1, 0}, {odd, odd, odd, odd, odd, odd, odd, odd, odd}, {0, 1, 2}};
+  ElementCandidates candidates = candidatesOf({point, triangle});
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::VertexFace)), std::vector<Pair>());
+  expectEqual(candidates, ElementOracle({point, triangle}));
+}
+
 TEST(ElementCandidates, SeeWhatHappensBetweenStartAndEnd) {
   MovingMesh point{{0.25, 0.25, 5.0}, {0.25, 0.25, -5.0}, {}};
   ElementCandidates candidates = candidatesOf({kTriangle, point});

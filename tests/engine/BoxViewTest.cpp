@@ -96,6 +96,27 @@ TEST(BoxView, FindsANanInEachOfTheSixBoundsInBothPrecisions) {
   }
 }
 
+TEST(BoxView, FindsANanHoweverBoxesLieInMemory) {
+  struct Strides {
+    std::ptrdiff_t box;
+    std::ptrdiff_t axis;
+  };
+  for (const auto& [box, axis] : {Strides{3, 1}, Strides{1, 5}, Strides{4, 1}, Strides{3, 16}}) {
+    for (std::ptrdiff_t bound = 0; bound < 6; ++bound) {
+      std::vector<double> values(96, 0.0);
+      const std::ptrdiff_t corner = bound < 3 ? 0 : 48;
+      values[static_cast<std::size_t>(corner + box + bound % 3 * axis)] = kNan;
+      try {
+        static_cast<void>(
+            BoxView::fromStrided(2, CornerView<double>{values.data(), box, axis}, {values.data() + 48, box, axis}));
+        ADD_FAILURE() << "a NaN was taken: " << box << ", " << axis << ", " << bound;
+      } catch (const InvalidBox& error) {
+        EXPECT_EQ(error.index(), 1U) << box << ", " << axis << ", " << bound;
+      }
+    }
+  }
+}
+
 TEST(BoxView, TakesInfiniteAndEmptyBoxes) {
   const std::vector<Box> boxes{{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}}, kEmptyBox};
   EXPECT_EQ(BoxView(boxes).size(), 2U);

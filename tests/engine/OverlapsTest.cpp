@@ -160,6 +160,23 @@ TEST_P(Overlaps_, FilterBitsLeavePairsOut) {
   EXPECT_THAT(pairsOf(boxes, with), ElementsAre(Pair{0, 1}, Pair{0, 3}, Pair{1, 2}, Pair{2, 3}));
 }
 
+TEST_P(Overlaps_, CategoriesOrMasksOfOneSetAloneLeavePairsOut) {
+  const std::vector<Box> boxes(3, cube(0, 0, 0));
+  const std::vector<Box> one(1, cube(0, 0, 0));
+  const std::vector<std::uint32_t> bits{1, 0, 1};
+  OverlapOptions categories = options();
+  categories.filter.first.categories = bits;
+  OverlapOptions masks = options();
+  masks.filter.first.masks = bits;
+  OverlapOptions ofSecond = options();
+  ofSecond.filter.second.masks = bits;
+  for (const OverlapOptions& with : {categories, masks}) {
+    EXPECT_THAT(pairsOf(boxes, with), ElementsAre(Pair{0, 2}));
+    EXPECT_THAT(overlaps(boxes, one, with), ElementsAre(Pair{0, 0}, Pair{2, 0}));
+  }
+  EXPECT_THAT(overlaps(one, boxes, ofSecond), ElementsAre(Pair{0, 0}, Pair{0, 2}));
+}
+
 TEST_P(Overlaps_, BoxesOfOneGroupAreNoPairAndGroupZeroIsNone) {
   const std::vector<Box> boxes(4, cube(0, 0, 0));
   const std::vector<std::uint32_t> groups{7, 7, 0, 0};

@@ -12,6 +12,7 @@
 
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
+#include "allpairs/Worlds.h"
 #include "support/Boxes.h"
 #include "support/Oracle.h"
 
@@ -134,6 +135,45 @@ TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
     search.setOptions(options);
     EXPECT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes, 0.3));
   }
+}
+
+TEST(Statistics, GroupTestsOfSeveralTasksAddUp) {
+  const std::vector<BoxF> boxes = test::randomBoxes(4000, 75);
+  ManyInTurn many;
+  OverlapOptions options;
+  options.strategy = Strategy::Bvh;
+  options.executor = &many;
+  OverlapSearch search(options);
+  static_cast<void>(search.find(boxes));
+  EXPECT_GT(search.statistics().groupTests, 0U);
+  EXPECT_LT(search.statistics().groupTests, search.statistics().boxTests);
+}
+
+TEST(Statistics, AWorldCountsItsExactTests) {
+  World world;
+  const std::vector<Box> boxes = aHairApart(200, 400);
+  static_cast<void>(world.add(BoxView(boxes)));
+  EXPECT_EQ(world.step().pairs.size(), 200U * 199U / 2U + 200U * 399U);
+  EXPECT_EQ(world.statistics().exactTests, 200U * 400U);
+}
+
+TEST(Statistics, RebuildsOfNumberedWorldsAreCountedForMovingAndForStaticBoxes) {
+  const std::vector<BoxF> boxes = test::randomBoxes(1000, 73);
+  for (const bool isStatic : {false, true}) {
+    World world;
+    static_cast<void>(world.add(BoxView(boxes), {.isStatic = isStatic, .world = 3}));
+    static_cast<void>(world.step());
+    EXPECT_EQ(world.statistics().rebuilds, 1U) << isStatic;
+  }
+}
+
+TEST(Statistics, SmallWorldsOfDoublesCountATestForEachPairOfBoxes) {
+  std::vector<Box> boxes(3 * 20, Box{{0, 0, 0}, {1, 1, 1}});
+  for (Box& box : boxes) box.max[0] += 0x1p-40;
+  WorldsSearch search;
+  static_cast<void>(search.find(Worlds::ofEqualSize(boxes, 3)));
+  EXPECT_EQ(search.statistics().pairs, 3U * 190U);
+  EXPECT_EQ(search.statistics().boxTests, 3U * 190U);
 }
 
 TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {

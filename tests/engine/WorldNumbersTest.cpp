@@ -132,6 +132,21 @@ TEST(WorldNumbers, QueriesFindTheBoxesOfOneWorldAndOfEveryWorld) {
   EXPECT_EQ(nearest[1].id, ground);
 }
 
+TEST(WorldNumbers, ABoxThatMovesToWhereFloat32RoundsItIsComparedExactly) {
+  World world;
+  std::vector<BoxId> ids;
+  for (int i = 0; i < 300; ++i) ids.push_back(world.add(cube(2.0 * i, 0, 0), inWorld(3)));
+  EXPECT_THAT(world.step().pairs, IsEmpty());
+  const double below = 22.0 - 0x1p-40;  // float32 makes it 22, where the next box begins
+  world.move(ids[10], Box{{20, 0, 0}, {below, 1, 1}});
+  EXPECT_THAT(world.step().pairs, IsEmpty());
+  world.move(ids[200], Box{{400, 0, 0}, {402, 1, 1}});
+  EXPECT_THAT(world.step().pairs, ElementsAre(Pair{ids[200], ids[201]}));
+  QueryFilter three;
+  three.world = 3;
+  EXPECT_THAT(world.findOverlapping(Box{{22, 0, 0}, {23, 1, 1}}, three), ElementsAre(ids[11]));
+}
+
 TEST(WorldNumbers, FindBetweenFindsPairsOfBoxesOfTheSameWorld) {
   World one;
   World other;

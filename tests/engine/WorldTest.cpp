@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <random>
 #include <string>
@@ -192,6 +193,7 @@ TEST(World, ArgumentsThatMakeNoSenseAreRefused) {
   const std::vector<BoxId> ids{world.add(cube(0, 0, 0))};
   EXPECT_THROW(world.move(ids, test::lent(std::vector<Box>(2))), InvalidArgument);
   EXPECT_THROW(world.moveSwept(ids, test::lent(std::vector<Box>(1)), test::lent(std::vector<Box>(2))), InvalidArgument);
+  EXPECT_THROW(world.setProperties(ids, std::vector<BoxProperties>()), InvalidArgument);
   EXPECT_THROW(static_cast<void>(world.findFirst(Ray{{kNan, 0, 0}, {1, 0, 0}})), InvalidArgument);
   EXPECT_THROW(static_cast<void>(world.findAll(Ray{{0, 0, 0}, {1, 0, 0}, -1.0})), InvalidArgument);
   EXPECT_THROW(static_cast<void>(world.findNearest({kNan, 0, 0}, 1)), InvalidArgument);
@@ -202,6 +204,97 @@ TEST(World, ArgumentsThatMakeNoSenseAreRefused) {
   options = {};
   options.instructionSet = "abacus";
   EXPECT_THROW(World{options}, InvalidArgument);
+}
+
+TEST(World, MotionsThatAreNotOneForEachBoxAreRefused) {
+  World world;
+  const std::vector<BoxId> ids{world.add(cube(0, 0, 0))};
+  const std::vector<Box> one(1);
+  const std::vector<Box> two(2);
+  const std::vector<double> three(3);
+  const std::vector<double> six(6);
+  EXPECT_THROW(world.moveSwept(ids, two, one), InvalidArgument);
+  EXPECT_THROW(world.moveSwept(ids, one, two), InvalidArgument);
+  EXPECT_THROW(world.moveSwept(ids, two, three, 1.0), InvalidArgument);
+  EXPECT_THROW(world.moveSwept(ids, one, six, 1.0), InvalidArgument);
+  EXPECT_EQ(world.box(ids[0]), cube(0, 0, 0));
+}
+
+TEST(World, RaysAndSweepsThatMakeNoSenseAreNamed) {
+  const World world;
+  const std::vector<Ray> rays{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {kInfinity, 0, 0}}};
+  const std::vector<BoxSweep> sweeps{{cube(0, 0, 0), {1, 0, 0}, 1.0}, {cube(0, 0, 0), {1, 0, 0}, kNan}};
+  const auto messageOf = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const InvalidArgument& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  const std::string ray = "ray 0: its direction is not finite";
+  EXPECT_EQ(messageOf([&] { static_cast<void>(world.findFirst(rays[1])); }), ray);
+  EXPECT_EQ(messageOf([&] { static_cast<void>(world.findAll(rays[1])); }), ray);
+  EXPECT_EQ(messageOf([&] { static_cast<void>(world.findAll(rays)); }), "ray 1: its direction is not finite");
+  const std::string sweep = "sweep 0: its length is NaN or negative";
+  EXPECT_EQ(messageOf([&] { static_cast<void>(world.findFirst(sweeps[1])); }), sweep);
+  EXPECT_EQ(messageOf([&] { static_cast<void>(world.findAll(sweeps[1])); }), sweep);
+  EXPECT_EQ(messageOf([&] { static_cast<void>(world.findAll(sweeps)); }), "sweep 1: its length is NaN or negative");
+  EXPECT_EQ(messageOf([&] {
+              static_cast<void>(world.findFirst(Ray{{kInfinity, 0, 0}, {1, 0, 0}}));
+            }),
+            "ray 0: its origin is not finite");
+  EXPECT_EQ(messageOf([&] {
+              static_cast<void>(world.findFirst(BoxSweep{{{0, kNan, 0}, {1, 1, 1}}, {1, 0, 0}}));
+            }),
+            "sweep 0: its box has a NaN");
+  std::vector<SweepHit> hits(1);
+  EXPECT_EQ(messageOf([&] { world.findFirst(rays, hits); }), "as many hits as rays are needed");
+  EXPECT_EQ(messageOf([&] { world.findFirst(sweeps, hits); }), "as many hits as sweeps are needed");
+}
+
+TEST(World, AQueryOfNoCategoryOrNoMaskFindsNothing) {
+  World world;
+  static_cast<void>(world.add(cube(0, 0, 0)));
+  for (const bool hasFilters : {false, true}) {
+    for (const QueryFilter& filter : {QueryFilter{.category = 0}, QueryFilter{.mask = 0}}) {
+      EXPECT_THAT(world.findOverlapping(cube(0, 0, 0), filter), IsEmpty());
+      EXPECT_EQ(world.findFirst(Ray{{-1, 0.5, 0.5}, {1, 0, 0}}, filter), SweepHit{});
+      EXPECT_THAT(world.findNearest({0, 0, 0}, 1, filter), IsEmpty());
+    }
+    EXPECT_EQ(world.findOverlapping(cube(0, 0, 0)).size(), 1U + (hasFilters ? 1U : 0U));
+    if (!hasFilters) static_cast<void>(world.add(cube(0, 0, 0), {.category = 2}));
+  }
+}
+
+TEST(World, AQueryIsExactWhereFloat32RoundsItsBox) {
+  World world;
+  const BoxId box = world.add(cube(0, 0, 0));
+  EXPECT_THAT(world.findOverlapping(Box{{1, 0, 0}, {2, 1, 1}}), ElementsAre(box));
+  EXPECT_THAT(world.findOverlapping(Box{{std::nextafter(1.0, 2.0), 0, 0}, {2, 1, 1}}), IsEmpty());
+}
+
+TEST(World, PairsBetweenTwoWorldsAreExactIfOneOfThemIsRounded) {
+  const double below = std::nextafter(1.0, 0.0);  // float32 makes it 1
+  const Box first{{0, 0, 0}, {1, 1, 1}};
+  const Box near{{1, 0, 0}, {2, 1, 1}};
+  const Box rounded{{0, 0, 0}, {below, 1, 1}};
+  const auto between = [](const Box& mine, double distance, const Box& theirs, double theirDistance) {
+    World world({.distance = distance});
+    World other({.distance = theirDistance});
+    static_cast<void>(world.add(mine));
+    static_cast<void>(other.add(theirs));
+    return world.findBetween(other).size();
+  };
+  EXPECT_EQ(between(first, 0.0, near, 0.0), 1U);
+  EXPECT_EQ(between(rounded, 0.0, near, 0.0), 0U);
+  EXPECT_EQ(between(near, 0.0, rounded, 0.0), 0U);
+  // Half of each distance counts.
+  const Box apart{{1.25, 0, 0}, {2, 1, 1}};
+  EXPECT_EQ(between(first, 0.5, apart, 0.0), 1U);
+  EXPECT_EQ(between(first, 0.25, apart, 0.25), 1U);
+  EXPECT_EQ(between(first, 0.5 - 0x1p-50, apart, 0.0), 0U);
+  EXPECT_EQ(between(first, 0.0, apart, 0.5 - 0x1p-50), 0U);
 }
 
 TEST(World, QueriesSeeWhatHasChangedSinceTheLastStep) {

@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <random>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "WorldsScene.h"
 #include "allpairs/Error.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
@@ -24,53 +24,7 @@
 namespace allpairs {
 namespace {
 
-template <class T, class From>
-BasicBox<T> as(const BasicBox<From>& box) {
-  BasicBox<T> result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.min[axis] = static_cast<T>(box.min[axis]);
-    result.max[axis] = static_cast<T>(box.max[axis]);
-  }
-  return result;
-}
-
-/// Worlds of given sizes, with empty, infinite and touching boxes among them.
-template <class T>
-struct Scene {
-  std::vector<BasicBox<T>> boxes;
-  std::vector<std::uint64_t> begin{0};
-
-  explicit Scene(const std::vector<std::size_t>& sizes, unsigned seed = 1, float boxSize = 1.0F) {
-    for (std::size_t k = 0; k < sizes.size(); ++k) add(sizes[k], seed + static_cast<unsigned>(k), boxSize);
-  }
-
-  void add(std::size_t size, unsigned seed, float boxSize) {
-    const std::size_t first = boxes.size();
-    for (const BoxF& box : test::randomBoxes(size, seed, boxSize)) {
-      Box precise = test::toDouble(box);
-      for (double& bound : precise.min) bound /= 3.0;
-      for (double& bound : precise.max) bound /= 3.0;
-      boxes.push_back(as<T>(precise));
-    }
-    const T infinity = std::numeric_limits<T>::infinity();
-    for (std::size_t i = first; i < boxes.size(); ++i) {
-      if (i % 13 == 3) std::swap(boxes[i].min[i % 3], boxes[i].max[i % 3]);
-      if (i % 17 == 5) boxes[i].min[i % 3] = -infinity;
-      if (i % 19 == 5) boxes[i].max[i % 3] = infinity;
-      if (i % 11 == 6 && i > first) boxes[i].min[0] = boxes[i - 1].max[0];
-      if (i % 101 == 50) boxes[i].min[1] = boxes[i].max[1] = infinity;
-    }
-    begin.push_back(boxes.size());
-  }
-
-  [[nodiscard]] Worlds worlds() const { return {BoxView(boxes), begin}; }
-  [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
-  [[nodiscard]] std::vector<Box> world(std::size_t k) const {
-    std::vector<Box> result;
-    for (std::uint64_t i = begin[k]; i < begin[k + 1]; ++i) result.push_back(as<double>(boxes[i]));
-    return result;
-  }
-};
+using test::WorldsScene;
 
 const std::vector<std::size_t> kSizes{0, 1, 2, 15, 16, 17, 33, 63, 64, 65, 128, 129, 200, 400, 449, 1000};
 
@@ -126,7 +80,7 @@ TYPED_TEST_SUITE(WorldsOf, Precisions);
 
 TYPED_TEST(WorldsOf, EverySizeGiveTheDoubleLoopsPairs) {
   for (std::size_t size = 0; size <= 130; ++size) {
-    const Scene<TypeParam> scene({size, 3, size}, static_cast<unsigned>(10 * size), 1.5F);
+    const WorldsScene<TypeParam> scene({size, 3, size}, static_cast<unsigned>(10 * size), 1.5F);
     const WorldPairs found = overlapsInWorlds(scene.worlds());
     for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(part(found, k), test::oracle(scene.world(k))) << size << " boxes";
   }
@@ -138,7 +92,7 @@ TYPED_TEST(WorldsOf, MixedSizesGiveWhatEachGivesAloneInEveryOrderOnEveryInstruct
       for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
         SCOPED_TRACE(std::string(instructionSet) + ' ' + std::to_string(static_cast<int>(order)) + ' ' +
                      std::to_string(static_cast<int>(strategy)));
-        const Scene<TypeParam> scene(mixedSizes(60, static_cast<unsigned>(order)), 7);
+        const WorldsScene<TypeParam> scene(mixedSizes(60, static_cast<unsigned>(order)), 7);
         OverlapOptions options;
         options.instructionSet = instructionSet;
         options.order = order;
@@ -153,7 +107,7 @@ TYPED_TEST(WorldsOf, MixedSizesGiveWhatEachGivesAloneInEveryOrderOnEveryInstruct
 TYPED_TEST(WorldsOf, OneToEightThreadsGiveTheSame) {
   std::vector<std::size_t> sizes = mixedSizes(400, 3);
   sizes[17] = 5000;  // searched by all threads
-  const Scene<TypeParam> scene(sizes, 5);
+  const WorldsScene<TypeParam> scene(sizes, 5);
   OverlapOptions serial;
   for (std::size_t threads = 1; threads <= 8; ++threads) {
     test::PoolExecutor executor(threads);
@@ -165,7 +119,7 @@ TYPED_TEST(WorldsOf, OneToEightThreadsGiveTheSame) {
 }
 
 TYPED_TEST(WorldsOf, MarginsDistanceAndRegionHoldInEachWorld) {
-  const Scene<TypeParam> scene(mixedSizes(16, 9), 11);
+  const WorldsScene<TypeParam> scene(mixedSizes(16, 9), 11);
   std::vector<double> margins(scene.boxes.size());
   for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 0.07 * static_cast<double>(i % 5) - 0.1;
   margins[4] = test::kInfinity;
@@ -190,7 +144,7 @@ TYPED_TEST(WorldsOf, MarginsDistanceAndRegionHoldInEachWorld) {
 }
 
 TYPED_TEST(WorldsOf, MarginsGiveTheDoubleLoopsPairs) {
-  const Scene<TypeParam> scene(mixedSizes(40, 19), 12);
+  const WorldsScene<TypeParam> scene(mixedSizes(40, 19), 12);
   std::vector<double> margins(scene.boxes.size());
   for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 0.1 / static_cast<double>(1 + i % 7);
   BoxView view(scene.boxes);
@@ -213,7 +167,7 @@ std::vector<std::uint32_t> values(std::size_t size, std::uint32_t step, std::uin
 }
 
 TYPED_TEST(WorldsOf, FiltersOfAllBoxesHoldInEachWorld) {
-  const Scene<TypeParam> scene(mixedSizes(50, 29), 13);
+  const WorldsScene<TypeParam> scene(mixedSizes(50, 29), 13);
   const auto groups = values(scene.boxes.size(), 7, 5, 0);
   const auto categories = values(scene.boxes.size(), 3, 7, 1);
   const auto masks = values(scene.boxes.size(), 5, 6, 2);
@@ -236,7 +190,7 @@ TYPED_TEST(WorldsOf, FiltersOfAllBoxesHoldInEachWorld) {
 TYPED_TEST(WorldsOf, EqualSizeTakeAFilterAndIgnoredPairsOfOneWorldForAll) {
   for (const std::size_t size : {2U, 20U, 64U, 65U, 130U, 460U}) {
     for (const std::string_view instructionSet : instructionSets()) {
-      const Scene<TypeParam> scene(std::vector<std::size_t>(9, size), 17);
+      const WorldsScene<TypeParam> scene(std::vector<std::size_t>(9, size), 17);
       const auto groups = values(size, 7, 5, 0);
       const auto masks = values(size, 5, 6, 2);
       std::vector<Pair> ignored;
@@ -260,8 +214,52 @@ TYPED_TEST(WorldsOf, EqualSizeTakeAFilterAndIgnoredPairsOfOneWorldForAll) {
   }
 }
 
+TYPED_TEST(WorldsOf, EqualSizeTakeValuesOfOneWorldOrOfAllBoxesInAnyMix) {
+  constexpr std::size_t kSize = 20;
+  const WorldsScene<TypeParam> scene(std::vector<std::size_t>(4, kSize), 61);
+  const auto categories = values(scene.boxes.size(), 3, 7, 1);
+  const auto masks = values(scene.boxes.size(), 5, 6, 2);
+  const auto groups = values(scene.boxes.size(), 7, 5, 0);
+  // None, those of one world, or those of all boxes; what world k then has of them.
+  const auto given = [](const std::vector<std::uint32_t>& all, std::size_t kind) {
+    return std::span(all).first(kind == 2 ? all.size() : kind * kSize);
+  };
+  const auto partOf = [](std::span<const std::uint32_t> some, std::size_t k) {
+    return some.size() > kSize ? some.subspan(k * kSize, kSize) : some;
+  };
+  for (std::size_t mix = 0; mix < 27; ++mix) {
+    SCOPED_TRACE(mix);
+    const FilterBits bits{given(categories, mix % 3), given(masks, mix / 3 % 3), given(groups, mix / 9)};
+    OverlapOptions options;
+    options.filter.first = bits;
+    const auto bitsOf = [&](std::size_t k) {
+      return FilterBits{partOf(bits.categories, k), partOf(bits.masks, k), partOf(bits.groups, k)};
+    };
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone(scene.worlds(), options, {}, bitsOf));
+  }
+}
+
+TYPED_TEST(WorldsOf, ADistanceARegionOrMarginsCountEachAlone) {
+  const WorldsScene<TypeParam> scene(mixedSizes(20, 67), 71);
+  OverlapOptions distance;
+  distance.distance = 0.25;
+  OverlapOptions region;
+  region.region = Box{{0, 0, 0}, {0.5, 1, 1}};
+  const std::vector<double> margins(scene.boxes.size(), 0.125);
+  BoxView wide(scene.boxes);
+  wide.setMargins(margins);
+  for (const std::string_view instructionSet : instructionSets()) {
+    distance.instructionSet = region.instructionSet = instructionSet;
+    OverlapOptions plain;
+    plain.instructionSet = instructionSet;
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone(scene.worlds(), distance));
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone(scene.worlds(), region));
+    ASSERT_NO_FATAL_FAILURE(expectLikeEachAlone({wide, scene.begin}, plain));
+  }
+}
+
 TYPED_TEST(WorldsOf, UnequalSizeIgnorePairsToo) {
-  const Scene<TypeParam> scene(mixedSizes(50, 31), 19);
+  const WorldsScene<TypeParam> scene(mixedSizes(50, 31), 19);
   std::vector<Pair> ignored;
   for (std::uint32_t i = 1; i < 12; ++i) ignored.push_back({i, i - 1});
   Worlds worlds = scene.worlds();
@@ -276,7 +274,7 @@ TYPED_TEST(WorldsOf, UnequalSizeIgnorePairsToo) {
 }
 
 TYPED_TEST(WorldsOf, AnyLayoutGiveTheSame) {
-  const Scene<TypeParam> scene(mixedSizes(30, 37), 23);
+  const WorldsScene<TypeParam> scene(mixedSizes(30, 37), 23);
   const WorldPairs wanted = overlapsInWorlds(scene.worlds());
   std::vector<TypeParam> min;
   std::vector<TypeParam> max;
@@ -305,9 +303,9 @@ TYPED_TEST(WorldsOf, AnyLayoutGiveTheSame) {
 }
 
 TYPED_TEST(WorldsOf, AnySizeMeetSharedBoxesAsTwoSetsDo) {
-  const Scene<TypeParam> scene(mixedSizes(40, 41), 29);
+  const WorldsScene<TypeParam> scene(mixedSizes(40, 41), 29);
   for (const std::size_t sharedBoxes : {0U, 1U, 12U, 300U}) {
-    const Scene<TypeParam> ground({sharedBoxes}, 31);
+    const WorldsScene<TypeParam> ground({sharedBoxes}, 31);
     for (const Order order : {Order::ByFirst, Order::BySecond}) {
       OverlapOptions options;
       options.order = order;
@@ -328,8 +326,12 @@ TYPED_TEST(WorldsOf, AnySizeMeetSharedBoxesAsTwoSetsDo) {
         ASSERT_EQ(found.begin, wanted.begin) << sharedBoxes;
         ASSERT_EQ(found.pairs, wanted.pairs) << sharedBoxes;
         ASSERT_EQ(countOverlapsInWorlds(worlds, ground.boxes, options), wanted.begin);
-        std::vector<Pair> listed(wanted.pairs.size());
+        // Memory for more pairs keeps what it holds behind them.
+        const Pair mark{7, 7};
+        std::vector<Pair> listed(wanted.pairs.size() + 3, mark);
         WorldsSearch(options).list(worlds, ground.boxes, wanted.begin, listed);
+        ASSERT_EQ(std::count(listed.end() - 3, listed.end(), mark), 3);
+        listed.resize(wanted.pairs.size());
         ASSERT_EQ(listed, wanted.pairs);
       }
     }
@@ -337,8 +339,8 @@ TYPED_TEST(WorldsOf, AnySizeMeetSharedBoxesAsTwoSetsDo) {
 }
 
 TYPED_TEST(WorldsOf, EqualSizeMeetSharedBoxesWithAFilterOfOneWorld) {
-  const Scene<TypeParam> scene(std::vector<std::size_t>(7, 20), 43);
-  const Scene<TypeParam> ground({30}, 47);
+  const WorldsScene<TypeParam> scene(std::vector<std::size_t>(7, 20), 43);
+  const WorldsScene<TypeParam> ground({30}, 47);
   const auto groups = values(20, 7, 5, 0);
   const auto groundGroups = values(30, 3, 5, 0);
   OverlapOptions options;
@@ -352,7 +354,7 @@ TYPED_TEST(WorldsOf, EqualSizeMeetSharedBoxesWithAFilterOfOneWorld) {
 TEST(Worlds, OfOneLargeAndAThousandSmallGiveWhatEachGivesAlone) {
   std::vector<std::size_t> sizes(1001, 10);
   sizes[500] = 100000;
-  const Scene<float> scene(sizes, 53, 0.9F);
+  const WorldsScene<float> scene(sizes, 53, 0.9F);
   test::PoolExecutor executor(2);
   OverlapOptions options;
   options.executor = &executor;
@@ -371,7 +373,7 @@ TEST(Worlds, CountMorePairsThan32BitsHold) {
 }
 
 TEST(Worlds, OfEqualSizeAreThoseOfTheirOffsets) {
-  const Scene<float> scene(std::vector<std::size_t>(8, 21), 59);
+  const WorldsScene<float> scene(std::vector<std::size_t>(8, 21), 59);
   const WorldPairs found = overlapsInWorlds(Worlds::ofEqualSize(scene.boxes, 8));
   const WorldPairs wanted = overlapsInWorlds(scene.worlds());
   EXPECT_EQ(found.begin, wanted.begin);
