@@ -107,7 +107,7 @@ void expectPairs(OverlapSearch& search, const std::vector<BasicBox<T>>& first, c
   ASSERT_EQ(search.statistics().pairs, expected.size());
   const std::size_t few = std::min(first.size(), second.size());
   const std::size_t many = std::max(first.size(), second.size());
-  if (many <= 64 || (few > 4 && many <= 96)) {  // Else the few may be beside many, or boxes in a hierarchy.
+  if (many <= 64 || (few > 4 && many <= 96)) {  // Else a few may be beside many, or boxes in a hierarchy.
     ASSERT_EQ(search.statistics().boxTests, first.size() * second.size());
   }
   std::vector<Pair> memory(expected.size());
@@ -156,6 +156,29 @@ TYPED_TEST(FewBoxes, OfTwoSetsThatAllOverlapFitTheResult) {
       const std::vector<BasicBox<TypeParam>> second(m, {{1, 1, 1}, {2, 2, 2}});
       ASSERT_EQ(overlaps(first, second).size(), n * m);
       ASSERT_EQ(overlaps(second, first, {.order = Order::BySecond}).size(), n * m);
+    }
+  }
+}
+
+/// Around the most that are compared as they lie in memory, sparse and dense ones.
+TYPED_TEST(FewBoxes, OfSeveralWordsGiveTheOraclesPairsWithEveryInstructionSet) {
+  for (const std::size_t n : {129U, 191U, 192U, 193U, 256U, 257U, 383U, 384U, 385U}) {
+    auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+    for (std::size_t i = 0; i < n / 2; ++i) {  // Half of them overlap many.
+      for (std::size_t axis = 0; axis < 3; ++axis) boxes[i].max[axis] += n % 2 == 0 ? 0 : 2;
+    }
+    const auto others = someBoxes<TypeParam>(n / 3, static_cast<unsigned>(300 + n));
+    const std::vector<Pair> expected = test::oracle(inDouble(boxes));
+    const std::vector<Pair> between = test::oracleBetween(inDouble(boxes), inDouble(others));
+    for (const std::string_view instructionSet : instructionSets()) {
+      for (const Order order : {Order::ByFirst, Order::BySecond}) {
+        for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive}) {
+          OverlapSearch search({.strategy = strategy, .order = order, .instructionSet = instructionSet});
+          ASSERT_EQ(test::toVector(search.find(boxes)), test::inOrder(expected, order)) << n << ", " << instructionSet;
+          ASSERT_EQ(search.count(boxes), expected.size()) << n << ", " << instructionSet;
+          ASSERT_EQ(overlaps(boxes, others, search.options()), test::inOrder(between, order)) << n << instructionSet;
+        }
+      }
     }
   }
 }

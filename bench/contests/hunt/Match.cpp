@@ -285,7 +285,8 @@ class Match {
 const Entry* MatchResult::best() const {
   const Entry* least = nullptr;
   for (std::size_t i = 2; i < entries.size(); ++i) {
-    if (!entries[i].leftOut && (least == nullptr || entries[i].ns < least->ns)) least = &entries[i];
+    if (entries[i].leftOut || !entries[i].mistake.empty()) continue;
+    if (least == nullptr || entries[i].ns < least->ns) least = &entries[i];
   }
   return least;
 }

@@ -26,7 +26,7 @@ struct MatchResult {
   double pairs = 0.0;  ///< In a scene, the mean.
   std::vector<Entry> entries;
 
-  /// The fastest of those that were measured besides us; null if there is none.
+  /// The fastest of those that were measured besides us and found the same pairs; null if there is none.
   [[nodiscard]] const Entry* best() const;
 
   /// Its time divided by that of our ordered call, or of our unordered one; infinite without any.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,6 +23,9 @@ namespace {  // Each file that compiles the kernels has its own.
 
 /// Pairs of a row that are written unasked: most rows of few boxes have no more (few_benchmark).
 constexpr std::size_t kUnaskedOfFew = 2;
+
+/// From so many pairs in a word on they are selected by vectors, which takes the same time for any number (few_benchmark).
+constexpr int kManyBits = 8;
 
 /// Boxes as they are, of float32 or of float64, an array for each bound.
 template <class T>
@@ -87,6 +91,27 @@ HWY_INLINE std::uint64_t testedOfOwnWord(std::size_t row) {
   return kTested == Columns::Preceding ? lowBits(row % kWordBoxes) : ~std::uint64_t{0};
 }
 
+/// Writes the pairs of a row with a word of which many bits are set; returns how many there are.
+template <bool kRowSecond>
+HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std::uint32_t firstOfWord, Pair* pairs) {
+  const IdTag d;
+  const auto rows = hn::Set(d, row);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < kWordBoxes; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
+    const std::uint64_t some = bits & lowBits(hn::Lanes(d));
+    const std::array<std::uint8_t, 8> bytes{static_cast<std::uint8_t>(some), static_cast<std::uint8_t>(some >> 8)};
+    const auto partners = selectedLanes(d, numbersFrom(firstOfWord + i), hn::LoadMaskBits(d, bytes.data()));
+    auto* const to = reinterpret_cast<std::uint32_t*>(pairs + size);
+    if (kRowSecond) {
+      hn::StoreInterleaved2(partners, rows, d, to);
+    } else {
+      hn::StoreInterleaved2(rows, partners, d, to);
+    }
+    size += static_cast<std::size_t>(std::popcount(some));
+  }
+  return size;
+}
+
 template <class T, Columns kTested, bool kRowSecond, bool kOneWord>
 HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
   alignas(64) FewColumns<T> columns;
@@ -106,7 +131,10 @@ HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
       if (word == lastWord) bits &= lastBits;
       if (kOneWord || word == row / kWordBoxes) bits &= testedOfOwnWord<kTested>(row);
       const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes);
-      size += writeBits<kRowSecond, kUnaskedOfFew>(bits, static_cast<std::uint32_t>(row), firstOfWord, pairs + size);
+      const auto number = static_cast<std::uint32_t>(row);
+      size += std::popcount(bits) > kManyBits
+                  ? writeManyBits<kRowSecond>(bits, number, firstOfWord, pairs + size)
+                  : writeBits<kRowSecond, kUnaskedOfFew>(bits, number, firstOfWord, pairs + size);
     }
   }
   search.rowBegin = row;

@@ -41,8 +41,8 @@ struct FewSearch {
   Columns tested = Columns::All;
 };
 
-/// So many boxes are compared as they lie in memory.
-inline constexpr std::size_t kMostPlain = FewTile::kCapacity;
+/// So many boxes are compared as they lie in memory: as many as any instruction set tests exhaustively.
+inline constexpr std::size_t kMostPlain = 384;
 
 /// The same of boxes as they lie in memory, rows of six that follow each other.
 template <class T>
@@ -206,7 +206,7 @@ struct Kernels {
   void (*searchFew)(const FewSearch& search, Hits& hits);
 
   /// The same for boxes that are not rounded: writes the pairs, by row, of as many of the rows that are left as there is room
-  /// for, and up to WorldSink::kSlack past the last one. Returns how many there are.
+  /// for, and up to kVectorSlack past the last one. Returns how many there are.
   std::size_t (*searchFew32)(FewBoxesSearch<float>& search, Pair* pairs);
   std::size_t (*searchFew64)(FewBoxesSearch<double>& search, Pair* pairs);
 

@@ -15,7 +15,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "hwy/cache_control.h"
 #include "kernels/Kernels.h"
@@ -184,6 +183,23 @@ HWY_INLINE std::uint32_t lowestBit(std::uint64_t bits) {
 #endif
 }
 
+/// Writes a box's pairs with the lowest so many bits of a word, and clears these. A function, not a lambda: GCC does not inline a
+/// lambda that is called several times.
+template <bool kPreceding, std::size_t kCount>
+HWY_INLINE void writeLowest(std::uint64_t& bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* to) {
+  if constexpr (kCount != 0) {
+    const std::uint32_t other = firstOfWord + lowestBit(bits);
+    // Compilers would put both into a number, or several pairs into a vector, either of which takes longer; not across
+    // fences, which are no instructions.
+    to->first = kPreceding ? other : box;
+    std::atomic_signal_fence(std::memory_order_acq_rel);
+    to->second = kPreceding ? box : other;
+    std::atomic_signal_fence(std::memory_order_acq_rel);
+    bits &= bits - 1;
+    writeLowest<kPreceding, kCount - 1>(bits, box, firstOfWord, to + 1);
+  }
+}
+
 /// Writes the pairs of a box with those of a word: the first few without asking whether there are as many, which would be
 /// mispredicted too often. Returns how many there are.
 template <bool kPreceding, std::size_t kUnasked>
@@ -192,21 +208,10 @@ HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uin
   constexpr std::size_t kAtOnce = 4;
   static_assert(std::max(kUnasked, kAtOnce) <= WorldSink::kSlack);
   const auto count = static_cast<std::size_t>(std::popcount(bits));
-  const auto writeNext = [&](std::size_t i) HWY_ATTR {
-    const std::uint32_t other = firstOfWord + lowestBit(bits);
-    // Compilers would put both into a number, or several pairs into a vector, either of which takes longer; not across
-    // fences, which are no instructions.
-    pairs[i].first = kPreceding ? other : box;
-    std::atomic_signal_fence(std::memory_order_acq_rel);
-    pairs[i].second = kPreceding ? box : other;
-    std::atomic_signal_fence(std::memory_order_acq_rel);
-    bits &= bits - 1;
-  };
-  const auto writeSeveral = [&]<std::size_t... kIndex>(std::size_t begin, std::index_sequence<kIndex...>) HWY_ATTR {
-    (writeNext(begin + kIndex), ...);
-  };
-  writeSeveral(0, std::make_index_sequence<kUnasked>());
-  for (std::size_t i = kUnasked; i < count; i += kAtOnce) writeSeveral(i, std::make_index_sequence<kAtOnce>());
+  writeLowest<kPreceding, kUnasked>(bits, box, firstOfWord, pairs);
+  for (std::size_t i = kUnasked; i < count; i += kAtOnce) {
+    writeLowest<kPreceding, kAtOnce>(bits, box, firstOfWord, pairs + i);
+  }
   return count;
 }
 

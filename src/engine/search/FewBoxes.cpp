@@ -152,7 +152,7 @@ template <class T>
 OverlapStatistics findPlain(FewBoxesSearch<T>&& search, std::size_t most, const OverlapOptions& options,
                             FunctionRef<void(std::span<const Pair>)> take) {
   static_assert(kPlainRoom >= kMostPlain && kPlainRoom >= kTestedPairs);
-  PairsOnStack<kPlainRoom + WorldSink::kSlack> pairs;
+  PairsOnStack<kPlainRoom + kVectorSlack> pairs;
   search.room = kPlainRoom;
   // An instruction set that is asked for has to be there, and is used.
   const bool isTested = most <= kTestedPairs && options.instructionSet.empty();
@@ -210,7 +210,8 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
 bool areFew(const Sets& sets, const OverlapOptions& options) {
   const std::size_t size = std::max(sets.first.size(), sets.second.size());
   if (areFewBesideMany(sets, options)) return true;
-  if (size > FewTile::kCapacity || options.strategy == Strategy::Bvh) return false;
+  if (options.strategy == Strategy::Bvh || size > kMostPlain) return false;
+  if (size > FewTile::kCapacity && !arePlain(sets, options)) return false;
   if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
   return kernels == nullptr || options.strategy == Strategy::Exhaustive || size <= kernels->flatBoxes(options.order);
