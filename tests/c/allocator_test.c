@@ -76,7 +76,7 @@ static void aWorldGivesBackWhatItTook(const allpairs_set* set) {
 
 static void candidatesGiveBackWhatTheyTook(void) {
   // Too many triangles for a search that needs no memory.
-  enum { TRIANGLES = 200 };
+  enum { TRIANGLES = 800 };
   static uint32_t triangles[3 * TRIANGLES];
   static float places[9 * TRIANGLES];
   for (uint32_t i = 0; i < 3 * TRIANGLES; ++i) {

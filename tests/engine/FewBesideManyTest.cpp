@@ -16,6 +16,7 @@
 
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
 #include "support/Oracle.h"
 
@@ -146,6 +147,52 @@ TYPED_TEST(FewBesideMany, ThatAllOverlapGiveAllPairs) {
     search.setOptions({.order = order, .maxPairs = 19999});
     EXPECT_THROW((void)search.find(BoxView::fromRows(few), BoxView::fromRows(many)), LimitExceeded);
     EXPECT_EQ(search.statistics().pairs, 0U);
+  }
+}
+
+std::vector<Pair> streamed(const BoxView& first, const BoxView& second) {
+  std::vector<Pair> pairs;
+  const auto append = [&](Span<const Pair> some) { pairs.insert(pairs.end(), some.begin(), some.end()); };
+  streamOverlaps(first, second, append, {.order = Order::Unordered});
+  return pairs;
+}
+
+/// The same boxes as six columns, which are searched as any two sets are.
+template <class T>
+struct ColumnsOf {
+  std::vector<T> values;
+  std::size_t size;
+
+  explicit ColumnsOf(const std::vector<T>& rows) : values(rows.size()), size(rows.size() / 6) {
+    for (std::size_t i = 0; i < rows.size(); ++i) values[i % 6 * size + i / 6] = rows[i];
+  }
+  [[nodiscard]] BoxView view() const {
+    const auto stride = static_cast<std::ptrdiff_t>(size);
+    return BoxView::fromStrided(size, CornerView<T>{values.data(), 1, stride},
+                                CornerView<T>{values.data() + 3 * size, 1, stride});
+  }
+};
+
+TYPED_TEST(FewBesideMany, GiveTheSameUnorderedListWhateverTheExecutorTheCallAndTheLayout) {
+  parallel::TbbExecutor two(2);
+  for (const std::size_t many : {107U, 5000U, 70000U}) {
+    for (const std::size_t few : {1U, 2U, 4U}) {
+      SCOPED_TRACE(std::to_string(few) + " beside " + std::to_string(many));
+      const std::vector<TypeParam> a = someRows<TypeParam>(few, 100, 1.5);
+      const std::vector<TypeParam> b = someRows<TypeParam>(many, 101, 0.1);
+      const ColumnsOf<TypeParam> aColumns(a);
+      const ColumnsOf<TypeParam> bColumns(b);
+      for (const bool fewFirst : {true, false}) {
+        const BoxView first = BoxView::fromRows(fewFirst ? a : b);
+        const BoxView second = BoxView::fromRows(fewFirst ? b : a);
+        const std::vector<Pair> expected = overlaps(first, second, {.order = Order::Unordered});
+        ASSERT_EQ(overlaps(first, second, {.order = Order::Unordered, .executor = &two}), expected);
+        ASSERT_EQ(streamed(first, second), expected);
+        ASSERT_EQ(overlaps((fewFirst ? aColumns : bColumns).view(), (fewFirst ? bColumns : aColumns).view(),
+                           {.order = Order::Unordered}),
+                  expected);
+      }
+    }
   }
 }
 

@@ -18,9 +18,16 @@
 namespace allpairs::engine {
 namespace {
 
-/// Each of the few takes a pass over the many, or a test of all that touch their bounds: up to so many take less time than reading
-/// the many for the search of any two sets (few_benchmark).
+/// Each of the few takes a pass over the many: up to so many take less time than reading the many for the search of any two sets
+/// (few_benchmark).
 constexpr std::size_t kMostFew = 4;
+
+/// Of the many at once: their numbers are kept on the stack, for each of the few.
+constexpr std::size_t kAtOnce = 1024;
+static_assert(kPartSize % kAtOnce == 0);
+
+/// The number that follows the last one in a list.
+constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
 
 /// From so many boxes on, several threads share the passes of the search of any two sets.
 constexpr std::size_t kManyForThreads = std::size_t{1} << 16;
@@ -41,21 +48,6 @@ bool isEmptyRow(const Row<T>& row) {
   return row[0] > row[3] || row[1] > row[4] || row[2] > row[5];
 }
 
-/// The bounds of all rows that are not empty; empty if there are none.
-template <class T>
-Row<T> boundsOf(std::span<const Row<T>> rows) {
-  constexpr T kInfinity = std::numeric_limits<T>::infinity();
-  Row<T> bounds{kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
-  for (const Row<T>& row : rows) {
-    if (isEmptyRow(row)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bounds[axis] = std::min(bounds[axis], row[axis]);
-      bounds[axis + 3] = std::max(bounds[axis + 3], row[axis + 3]);
-    }
-  }
-  return bounds;
-}
-
 /// Compares the few with parts of the many.
 template <class T>
 class PartSearch {
@@ -67,21 +59,21 @@ class PartSearch {
   /// All pairs of some of the many, from `begin` on, with some of the few, which are numbered from `firstFew` on; ordered by the
   /// many.
   void run(std::size_t begin, std::span<const Row<T>> few, std::uint32_t firstFew) {
-    checkStop(m_options.stop);
-    const Row<T> bounds = boundsOf(few);
-    if (isEmptyRow(bounds)) return;
-    const BoxRun<T> part = m_many.part(begin, kPartSize);
-    const std::size_t touching = touchingBoxes(part, bounds);
-    m_statistics.boxTests += part.size + touching * few.size();
-    for (std::size_t i = 0; i < touching; ++i) {
-      const Row<T> row = rowOf(part, m_touching[i]);
-      const auto many = static_cast<std::uint32_t>(begin + m_touching[i]);
-      for (std::uint32_t j = 0; j < few.size(); ++j) {
-        // Written whether they overlap or not, which is not guessed right often enough.
-        m_pairs.data()[m_found] = m_manySecond ? Pair{firstFew + j, many} : Pair{many, firstFew + j};
-        m_found += static_cast<std::size_t>(areHit(row.data(), few[j].data()));
-      }
-      if (m_found + kMostFew > kRoom) give();
+    if (begin % kPartSize == 0) checkStop(m_options.stop);
+    const BoxRun<T> part = m_many.part(begin, kAtOnce);
+    m_statistics.boxTests += part.size * few.size();
+    std::array<const std::uint32_t*, kMostFew> next;
+    for (std::size_t j = 0; j < few.size(); ++j) next[j] = touchingBoxes(part, few[j], m_touching[j]);
+    for (;;) {
+      std::uint32_t j = 0;
+      for (std::uint32_t k = 1; k < few.size(); ++k) j = *next[k] < *next[j] ? k : j;
+      const std::uint32_t number = *next[j];
+      if (number == kEnd) break;
+      ++next[j];
+      const auto many = static_cast<std::uint32_t>(begin + number);
+      m_pairs.data()[m_found] = m_manySecond ? Pair{firstFew + j, many} : Pair{many, firstFew + j};
+      m_found += isEmptyRow(rowOf(part, number)) ? 0U : 1U;
+      if (m_found == kRoom) give();
     }
     give();
   }
@@ -91,12 +83,20 @@ class PartSearch {
  private:
   static constexpr std::size_t kRoom = 1024;
 
-  std::size_t touchingBoxes(const BoxRun<T>& part, const Row<T>& bounds) {
-    if constexpr (std::is_same_v<T, float>) {
-      return m_kernels.touchingBoxes32(part, bounds, m_touching.data());
-    } else {
-      return m_kernels.touchingBoxes64(part, bounds, m_touching.data());
+  using Numbers = std::array<std::uint32_t, kAtOnce + 1>;
+
+  /// The numbers of the boxes of a part that touch a box, or are empty and would.
+  const std::uint32_t* touchingBoxes(const BoxRun<T>& part, const Row<T>& box, Numbers& numbers) {
+    std::size_t size = 0;
+    if (!isEmptyRow(box)) {
+      if constexpr (std::is_same_v<T, float>) {
+        size = m_kernels.touchingBoxes32(part, box, numbers.data());
+      } else {
+        size = m_kernels.touchingBoxes64(part, box, numbers.data());
+      }
     }
+    numbers[size] = kEnd;
+    return numbers.data();
   }
 
   /// Passes on the pairs that were found since the last time.
@@ -114,16 +114,15 @@ class PartSearch {
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
   std::size_t m_found = 0;
-  std::array<std::uint32_t, kPartSize> m_touching;
+  std::array<Numbers, kMostFew> m_touching;
   PairsOnStack<kRoom> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
 
-/// Whether pairs come in the order of the few.
-bool areByFew(const Sets& sets, Order order) {
-  return order != Order::Unordered && (order == Order::BySecond) == isFewSecond(sets);
-}
+/// Whether pairs come in the order of the few. Unordered ones come by first box, as from the search of any two sets with so few:
+/// the result does not depend on which of the two searches it was.
+bool areByFew(const Sets& sets, Order order) { return (order == Order::BySecond) == isFewSecond(sets); }
 
 template <class T>
 OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order order,
@@ -134,18 +133,12 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
   for (std::size_t i = 0; i < run.size; ++i) few[i] = rowOf(run, i);
   const BoxRun<T> many = runOf<T>(fewSecond ? sets.first : sets.second);
   PartSearch<T> search(many, !fewSecond, options, take);
-  const auto runOne = [&](std::size_t begin, std::uint32_t i) { search.run(begin, {&few[i], 1}, i); };
-  const auto ofFew = static_cast<std::uint32_t>(run.size);
-  if (areByFew(sets, order)) {
-    for (std::uint32_t i = 0; i < ofFew; ++i) {
-      for (std::size_t begin = 0; begin < many.size; begin += kPartSize) runOne(begin, i);
+  const std::span<const Row<T>> all(few.data(), run.size);
+  const std::size_t together = areByFew(sets, order) ? 1 : all.size();
+  for (std::size_t i = 0; i < all.size(); i += together) {
+    for (std::size_t begin = 0; begin < many.size; begin += kAtOnce) {
+      search.run(begin, all.subspan(i, together), static_cast<std::uint32_t>(i));
     }
-  } else if (order == Order::Unordered) {
-    for (std::size_t begin = 0; begin < many.size; begin += kPartSize) {
-      for (std::uint32_t i = 0; i < ofFew; ++i) runOne(begin, i);
-    }
-  } else {
-    for (std::size_t begin = 0; begin < many.size; begin += kPartSize) search.run(begin, {few.data(), run.size}, 0);
   }
   return search.statistics();
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <type_traits>
 
+#include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
 #include "input/Readers.h"
 #include "kernels/Kernels.h"
@@ -160,6 +161,7 @@ OverlapStatistics findPlain(FewBoxesSearch<T>&& search, std::size_t most, const 
   OverlapStatistics statistics;
   statistics.boxTests = most;
   while (most != 0 && search.rowBegin < search.rowCount) {
+    checkStop(options.stop);
     const std::size_t found = searchSome(search, kernels, pairs.data());
     statistics.pairs += found;
     checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
@@ -214,7 +216,9 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   if (size > FewTile::kCapacity && !arePlain(sets, options)) return false;
   if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
-  return kernels == nullptr || options.strategy == Strategy::Exhaustive || size <= kernels->flatBoxes(options.order);
+  if (kernels == nullptr || options.strategy == Strategy::Exhaustive) return true;
+  const std::size_t few = kernels->flatBoxes(options.order);
+  return sets.first.size() * sets.second.size() <= few * few;
 }
 
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,

@@ -12,8 +12,8 @@
 
 namespace allpairs::engine {
 
-/// Whether findFew() takes these sets: at most FewTile::kCapacity boxes each, not to be searched by a hierarchy, or a few beside
-/// many. An unknown instruction set is refused by findFew().
+/// Whether findFew() takes these sets: at most kMostPlain boxes each, of which only the bounds matter, FewTile::kCapacity with other
+/// options, not to be searched by a hierarchy; or up to four of them beside any number. An unknown instruction set is refused by findFew().
 [[nodiscard]] bool areFew(const Sets& sets, const OverlapOptions& options);
 
 /// Calls take(pairs) with the pairs of a few boxes, in an order that may be another than that of the options, and in parts; an
