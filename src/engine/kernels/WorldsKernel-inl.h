@@ -297,7 +297,7 @@ HWY_INLINE hn::Vec<D> fourOfBoxes(D d, const float* values) {
     return hn::LoadU(d, values);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, hn::LoadU(half, values + 6 * 4), hn::LoadU(half, values));
+    return hn::Combine(d, hn::LoadU(half, values + std::size_t{6} * 4), hn::LoadU(half, values));
   }
 }
 

@@ -26,8 +26,7 @@ template <class T, std::size_t kSize>
 [[nodiscard]] std::array<T, kSize> makeArray(std::pmr::memory_resource* memory) {
   return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
     return std::array<T, kSize>{(static_cast<void>(kIndex), T(memory))...};
-  }
-  (std::make_index_sequence<kSize>());
+  }(std::make_index_sequence<kSize>());
 }
 
 /// Uninitialised memory for n values, aligned to a cache line, that is kept until more is needed.
