@@ -52,9 +52,9 @@ struct FewBoxesSearch {
   std::size_t rowCount = 0;
   std::size_t columnCount = 0;  ///< From 1 to kMostPlain.
   Columns tested = Columns::All;
-  bool rowSecond = false;    ///< In pairs; of one set where rows are tested against what precedes them, and only there.
+  bool rowSecond = false;    ///< Whether the row is second in its pairs; of one set, if columns precede rows.
   std::size_t room = 0;      ///< For pairs: no fewer than there are columns.
-  std::size_t rowBegin = 0;  ///< The first row that is left.
+  std::size_t rowBegin = 0;  ///< The next row to search; all rows before it have been.
 };
 
 /// Boxes one after the other in memory, as rows of six, or as rows of three in two arrays.

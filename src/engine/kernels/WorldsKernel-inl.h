@@ -189,8 +189,8 @@ template <bool kPreceding, std::size_t kCount>
 HWY_INLINE void writeLowest(std::uint64_t& bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* to) {
   if constexpr (kCount != 0) {
     const std::uint32_t other = firstOfWord + lowestBit(bits);
-    // Compilers would put both into a number, or several pairs into a vector, either of which takes longer; not across
-    // fences, which are no instructions.
+    // Without the fences, which cost no instruction, compilers combine both into one number, or several pairs into a
+    // vector, and either takes longer.
     to->first = kPreceding ? other : box;
     std::atomic_signal_fence(std::memory_order_acq_rel);
     to->second = kPreceding ? box : other;

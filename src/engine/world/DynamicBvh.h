@@ -60,7 +60,7 @@ class DynamicBvh {
   /// Puts boxes that have been added since clear() in order.
   void build(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor);
 
-  /// Applies what was noted; returns whether the order is still a good one, else it had better be built.
+  /// Applies what was noted; returns whether the order is still good; if not, build it again.
   [[nodiscard]] bool refit(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor);
 
   /// The hierarchy; of depth 0 if it is empty.
