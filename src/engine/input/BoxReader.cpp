@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <type_traits>
 
@@ -75,6 +76,25 @@ BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
   BlockRead result = readListed(boxes, block);
   result.exact &= !m_isMoved;
   return result;
+}
+
+bool BoxReader::readAll(const LaneList& list) const {
+  bool exact = true;
+  const BoxList all{nullptr, 0, m_size};
+  for (std::size_t begin = 0; begin < m_size; begin += kFanOut) {
+    const BoxList boxes = all.part(begin, kFanOut);
+    LaneBlock block;
+    const BlockRead result = read(boxes, block);
+    exact &= result.exact;
+    LaneTile& tile = list.tileOf(begin);
+    const std::size_t place = begin % LaneTile::kCapacity;
+    for (std::uint32_t empty = result.emptyLanes; empty != 0; empty &= empty - 1) {
+      block.set(static_cast<std::size_t>(std::countr_zero(empty)), kNeverLanes);
+    }
+    for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), kFanOut, &tile.bound[row][place]);
+    for (std::size_t lane = 0; lane < boxes.size; ++lane) tile.id[place + lane] = idOf(boxes[lane]);
+  }
+  return exact;
 }
 
 BlockRead BoxReader::readListed(const BoxList& boxes, LaneBlock& block) const {

@@ -63,20 +63,9 @@ class BoxReader {
   /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.
   BlockRead read(const BoxList& boxes, LaneBlock& block) const;
 
-  /// Reads up to sixteen boxes into a tile, from a place on, with their ids; boxes that can overlap nothing become lanes
+  /// Reads all boxes, in their order, into a list that is as long, with their ids; boxes that can overlap nothing become lanes
   /// that never overlap. Returns whether the lanes are exactly the boxes.
-  template <std::size_t kBoxes>
-  bool read(const BoxList& boxes, LaneTileOf<kBoxes>& tile, std::size_t place) const {
-    LaneBlock block;
-    const BlockRead result = read(boxes, block);
-    for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), boxes.size, &tile.bound[row][place]);
-    for (std::size_t lane = 0; lane < boxes.size; ++lane) tile.id[place + lane] = idOf(boxes[lane]);
-    for (std::uint32_t empty = result.emptyLanes; empty != 0; empty &= empty - 1) {
-      const std::size_t lane = place + static_cast<std::size_t>(std::countr_zero(empty));
-      tile.set(lane, kNeverLanes, tile.id[lane]);
-    }
-    return result.exact;
-  }
+  bool readAll(const LaneList& list) const;
 
   /// Prefetches the memory of box i.
   void prefetch(std::size_t i) const noexcept {

@@ -68,14 +68,7 @@ constexpr std::size_t kFewValues = 64;
 /// Whether any of the values is a NaN.
 template <class T>
 bool anyNan(const T* values, std::size_t count) {
-  if (count > kFewValues) {
-    const engine::Kernels& kernels = *engine::findKernels({});
-    if constexpr (std::is_same_v<T, float>) {
-      return kernels.anyNan32(values, count);
-    } else {
-      return kernels.anyNan64(values, count);
-    }
-  }
+  if (count > kFewValues) return engine::findKernels({})->plain<T>().anyNan(values, count);
   // A loop that compilers vectorise, with flags as wide as the values.
   std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t> nans = 0;
   for (std::size_t i = 0; i < count; ++i) nans |= values[i] != values[i] ? 1U : 0U;

@@ -29,7 +29,7 @@ constexpr int kManyBits = 8;
 
 /// Boxes as they are, of float32 or of float64, an array for each bound.
 template <class T>
-using FewColumns = std::array<std::array<T, kMostPlain>, 6>;
+using FewColumns = std::array<std::array<T, kMostFew>, 6>;
 
 /// As many boxes as a vector has lanes, from rows of six that follow each other.
 template <class T>
@@ -113,7 +113,7 @@ HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std:
 }
 
 template <class T, Columns kTested, bool kRowSecond, bool kOneWord>
-HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
+HWY_INLINE std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
   alignas(64) FewColumns<T> columns;
   readAllColumns(search.columns, search.columnCount, columns);
   const std::size_t lanes = hn::Lanes(hn::CappedTag<T, kFanOut>());
@@ -143,21 +143,21 @@ HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
 
 /// The same, for what is known of a search only now.
 template <class T, Columns kTested, bool kRowSecond>
-HWY_INLINE std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
-  return search.columnCount <= kWordBoxes ? searchFewBoxes<T, kTested, kRowSecond, true>(search, pairs)
-                                          : searchFewBoxes<T, kTested, kRowSecond, false>(search, pairs);
+HWY_INLINE std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
+  return search.columnCount <= kWordBoxes ? searchFew<T, kTested, kRowSecond, true>(search, pairs)
+                                          : searchFew<T, kTested, kRowSecond, false>(search, pairs);
 }
 
 template <class T>
-std::size_t searchFewBoxes(FewBoxesSearch<T>& search, Pair* pairs) {
+std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
   switch (search.tested) {
     case Columns::Following:
-      return searchFewBoxes<T, Columns::Following, false>(search, pairs);
+      return searchFew<T, Columns::Following, false>(search, pairs);
     case Columns::Preceding:
-      return searchFewBoxes<T, Columns::Preceding, true>(search, pairs);
+      return searchFew<T, Columns::Preceding, true>(search, pairs);
     default:
-      return search.rowSecond ? searchFewBoxes<T, Columns::All, true>(search, pairs)
-                              : searchFewBoxes<T, Columns::All, false>(search, pairs);
+      return search.rowSecond ? searchFew<T, Columns::All, true>(search, pairs)
+                              : searchFew<T, Columns::All, false>(search, pairs);
   }
 }
 

@@ -42,8 +42,8 @@ HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
 }
 
 /// One row against the columns [begin, end) of a tile.
-template <Density kDensity, class Emitter, class Tile>
-HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const Tile& tile, Range columns, Hits& hits) {
+template <Density kDensity, class Emitter>
+HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const LaneTile& tile, Range columns, Hits& hits) {
   Emitter emitter = Emitter::ofRow(hits, id);
   emitRow<kDensity>(q, tile, columns.begin, columns.end, emitter);
   emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q, hits.slack), tile.bound, i); });
@@ -296,21 +296,6 @@ void searchFlat(const FlatSearch& search, Hits& hits) {
     dense ? searchRows<Density::Dense, HitWriter>(search, begin, hits)
           : searchRows<Density::Sparse, HitWriter>(search, begin, hits);
   }
-}
-
-template <class Emitter>
-void searchFewRows(const FewSearch& search, Hits& hits) {
-  for (std::size_t row = 0; row < search.rowCount; ++row) {
-    const Range columns = columnsOf(search.tested, row, search.columnCount);
-    hits.require(FewTile::kCapacity);
-    searchTile<Density::Dense, Emitter>(broadcast(search.rows->get(row)), search.rows->id[row], *search.columns,
-                                        columns, hits);
-    hits.boxTests += columns.size();
-  }
-}
-
-void searchFew(const FewSearch& search, Hits& hits) {
-  hits.doubt != nullptr ? searchFewRows<DoubtWriter>(search, hits) : searchFewRows<HitWriter>(search, hits);
 }
 
 }  // namespace

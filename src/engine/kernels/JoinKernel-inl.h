@@ -80,7 +80,6 @@ HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
 /// Testing rows of the leaf against a list of candidates would require gathering the candidates' bounds first.
 template <class Emitter>
 HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<const std::uint32_t> places, Hits& hits) {
-  constexpr std::size_t kStretch = 64;  // Hits of so many boxes fit the buffer, and the tests those in doubt remember.
   const LaneBlock* blocks = other.level[0].blocks;
   const auto queryAt = [&](std::size_t place)
                            HWY_ATTR { return broadcast(blocks[place / kFanOut].get(place % kFanOut)); };
@@ -112,7 +111,7 @@ HWY_INLINE void prefetchBlock(const LaneBlock& block) {
 
 /// A tile that is being filled.
 struct TileFiller {
-  CandidateTile& tile;
+  LaneTile& tile;
   std::size_t size = 0;
 
   /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole leaf.
@@ -192,7 +191,7 @@ class JoinRun {
       TileFiller filler{scratch.nextTile()};
       if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++]);
       // A tile is full when another block might not fit.
-      for (; i < count && filler.size + kFanOut <= CandidateTile::kCapacity; ++i) {
+      for (; i < count && filler.size + kFanOut <= LaneTile::kCapacity; ++i) {
         filler.appendTouching(q, source, partners[i]);
       }
       scratch.sizes[scratch.tileCount - 1] = filler.size;
@@ -206,7 +205,7 @@ class JoinRun {
     JoinScratch::PerLevel& scratch = m_task.scratch->level[level];
     const LaneBox bounds = m_task.first->level[level].blocks[node].get(child - node * kFanOut);
     const Query q = broadcast(bounds);
-    PartnerWriter partners{scratch.roomFor(scratch.tileCount * CandidateTile::kCapacity + 1 + kVectorSlack), 0};
+    PartnerWriter partners{scratch.roomFor(scratch.tileCount * LaneTile::kCapacity + 1 + kVectorSlack), 0};
     std::size_t begin = 0;
     if (m_task.withItself) {
       partners.partners[partners.size++] = static_cast<std::uint32_t>(child);

@@ -8,6 +8,8 @@
 #define ALLPAIRS_KERNEL_TABLE_INL_H
 #endif
 
+#include <algorithm>
+
 #include "kernels/CullKernel-inl.h"
 #include "kernels/FewKernel-inl.h"
 #include "kernels/FlatKernel-inl.h"
@@ -28,19 +30,15 @@ constexpr std::size_t kFlatOrdered = HWY_TARGET <= HWY_AVX3   ? 384
                                      : HWY_TARGET <= HWY_SSE4 ? 176
                                                               : 96;
 constexpr std::size_t kFlatUnordered = HWY_TARGET <= HWY_AVX3 ? 256 : kFlatOrdered;
+static_assert(std::max(kFlatOrdered, kFlatUnordered) <= kMostFew);
 
 const Kernels* kernelTable() {
   static const Kernels table{hwy::TargetName(HWY_TARGET),
                              kFlatOrdered,
                              kFlatUnordered,
                              &searchFlat,
-                             &searchFew,
-                             &searchFewBoxes<float>,
-                             &searchFewBoxes<double>,
-                             &touchingBoxes<float>,
-                             &touchingBoxes<double>,
-                             &anyNan<float>,
-                             &anyNan<double>,
+                             {&searchFew<float>, &touchingBoxes<float>, &anyNan<float>},
+                             {&searchFew<double>, &touchingBoxes<double>, &anyNan<double>},
                              &searchWorlds,
                              &searchWideWorld,
                              &join,

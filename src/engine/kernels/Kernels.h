@@ -8,6 +8,7 @@
 #include <memory_resource>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "allpairs/OverlapOptions.h"
@@ -32,25 +33,17 @@ struct FlatSearch {
   NeighborLists* lists = nullptr;
 };
 
-/// Every row of one tile against its columns of another, or of the same.
-struct FewSearch {
-  const FewTile* rows = nullptr;
-  const FewTile* columns = nullptr;
-  std::size_t rowCount = 0;
-  std::size_t columnCount = 0;
-  Columns tested = Columns::All;
-};
+/// So many boxes are searched on the stack: as many as any instruction set tests exhaustively.
+inline constexpr std::size_t kMostFew = 384;
+static_assert(kMostFew <= LaneTile::kCapacity);
 
-/// So many boxes are compared as they lie in memory: as many as any instruction set tests exhaustively.
-inline constexpr std::size_t kMostPlain = 384;
-
-/// The same of boxes as they lie in memory, rows of six that follow each other.
+/// Every row against its columns, of boxes as they lie in memory, rows of six that follow each other.
 template <class T>
-struct FewBoxesSearch {
+struct PlainSearch {
   const T* rows = nullptr;
   const T* columns = nullptr;
   std::size_t rowCount = 0;
-  std::size_t columnCount = 0;  ///< From 1 to kMostPlain.
+  std::size_t columnCount = 0;  ///< From 1 to kMostFew.
   Columns tested = Columns::All;
   bool rowSecond = false;    ///< Whether the row is second in its pairs; of one set, if columns precede rows.
   std::size_t room = 0;      ///< For pairs: no fewer than there are columns.
@@ -116,7 +109,7 @@ struct JoinScratch {
   struct PerLevel {
     explicit PerLevel(std::pmr::memory_resource* memory) : tiles(memory), sizes(memory), partners(memory) {}
 
-    std::pmr::vector<Buffer<CandidateTile>> tiles;
+    std::pmr::vector<Buffer<LaneTile>> tiles;
     std::pmr::vector<std::size_t> sizes;  ///< How many candidates are in each tile.
     std::size_t tileCount = 0;
     Buffer<std::uint32_t> partners;
@@ -127,7 +120,7 @@ struct JoinScratch {
       return partners.data();
     }
 
-    CandidateTile& nextTile() {
+    LaneTile& nextTile() {
       if (tileCount == tiles.size()) tiles.emplace_back(tiles.get_allocator().resource());
       if (sizes.size() < tiles.size()) sizes.resize(tiles.size());
       tiles[tileCount].require(1);  // There, unless it is new or there was no memory for it.
@@ -186,6 +179,21 @@ struct BlockRead {
   std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
 };
 
+/// The functions for boxes as they lie in memory, which are not rounded.
+template <class T>
+struct PlainKernels {
+  /// Writes the pairs, by row, of as many of the rows that are left as there is room for, and up to kVectorSlack past the last
+  /// one. Returns how many there are.
+  std::size_t (*searchFew)(PlainSearch<T>& search, Pair* pairs);
+
+  /// Writes the numbers of the boxes of a run that touch a box, if their minimum is not above their maximum; there is room for all
+  /// of them. Returns how many there are.
+  std::size_t (*touchingBoxes)(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint32_t* numbers);
+
+  /// Whether any value is a NaN.
+  bool (*anyNan)(const T* values, std::size_t size);
+};
+
 /// The functions compiled once per instruction set. The results do not depend on which one runs.
 struct Kernels {
   std::string_view name;
@@ -202,22 +210,17 @@ struct Kernels {
   /// Tests rows of a list against a range of columns each, without any hierarchy; against all but their own only for lists.
   void (*searchFlat)(const FlatSearch& search, Hits& hits);
 
-  /// The same for a few boxes.
-  void (*searchFew)(const FewSearch& search, Hits& hits);
+  PlainKernels<float> plain32;
+  PlainKernels<double> plain64;
 
-  /// The same for boxes that are not rounded: writes the pairs, by row, of as many of the rows that are left as there is room
-  /// for, and up to kVectorSlack past the last one. Returns how many there are.
-  std::size_t (*searchFew32)(FewBoxesSearch<float>& search, Pair* pairs);
-  std::size_t (*searchFew64)(FewBoxesSearch<double>& search, Pair* pairs);
-
-  /// Writes the numbers of the boxes of a run that touch a box, if their minimum is not above their maximum; there is room for all
-  /// of them. Returns how many there are.
-  std::size_t (*touchingBoxes32)(const BoxRun<float>& run, const std::array<float, 6>& box, std::uint32_t* numbers);
-  std::size_t (*touchingBoxes64)(const BoxRun<double>& run, const std::array<double, 6>& box, std::uint32_t* numbers);
-
-  /// Whether any value is a NaN.
-  bool (*anyNan32)(const float* values, std::size_t size);
-  bool (*anyNan64)(const double* values, std::size_t size);
+  template <class T>
+  [[nodiscard]] const PlainKernels<T>& plain() const noexcept {
+    if constexpr (std::is_same_v<T, float>) {
+      return plain32;
+    } else {
+      return plain64;
+    }
+  }
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
   void (*searchWorlds)(WorldsRun& run);

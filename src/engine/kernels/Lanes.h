@@ -85,12 +85,11 @@ struct alignas(64) LaneBlock {
   }
 };
 
-/// Up to a fixed number of boxes with their ids, one array per bound, small enough to stay in the first-level cache.
+/// Up to a fixed number of boxes with their ids, one array per bound, small enough for the first-level cache and for the stack.
 ///
 /// The distance between the arrays is a constant, so that kernels reach them all from one register.
-template <std::size_t kBoxes>
-struct alignas(64) LaneTileOf {
-  static constexpr std::size_t kCapacity = kBoxes;
+struct alignas(64) LaneTile {
+  static constexpr std::size_t kCapacity = 512;
 
   std::array<std::array<float, kCapacity + kVectorSlack>, 6> bound;
   std::array<std::uint32_t, kCapacity + kVectorSlack> id;
@@ -101,12 +100,6 @@ struct alignas(64) LaneTileOf {
   }
   [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 };
-
-/// A tile of an exhaustive search, a smaller one for the candidates of a join, which are seldom many, and one that is
-/// small enough for the stack.
-using LaneTile = LaneTileOf<1024>;
-using CandidateTile = LaneTileOf<512>;
-using FewTile = LaneTileOf<128>;
 
 /// Any number of boxes, in tiles of which only the last may be partly filled.
 struct LaneList {

@@ -8,6 +8,7 @@
 #define ALLPAIRS_ROW_KERNEL_INL_H
 #endif
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -53,6 +54,9 @@ struct HitWriter {
   }
 };
 
+/// Boxes of a hierarchy that a leaf is compared with at once: their hits fit the buffer.
+constexpr std::size_t kStretch = 64;
+
 /// Emits hits, and then the positions of those that need a test in double. It keeps the vectors with hits until the end: a
 /// branch for each would be mispredicted too often.
 class DoubtWriter {
@@ -96,8 +100,8 @@ class DoubtWriter {
 
   HitWriter m_writer;
   std::size_t m_count = 0;
-  /// Not initialised: few are used. At most a tile of an exhaustive search, in vectors of one lane.
-  std::array<Touched, LaneTile::kCapacity + 1> m_touched;
+  /// Not initialised: few are used. At most the columns of a tile, or a leaf against a stretch, in vectors of one lane.
+  std::array<Touched, std::max(LaneTile::kCapacity, kStretch* kFanOut) + 1> m_touched;
 };
 
 /// Counts hits.

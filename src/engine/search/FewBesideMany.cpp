@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "allpairs/StopFlag.h"
@@ -20,9 +19,9 @@ namespace {
 
 /// Each of the few takes a pass over the many: up to so many take less time than reading the many for the search of any two sets
 /// (few_benchmark).
-constexpr std::size_t kMostFew = 4;
+constexpr std::size_t kFew = 4;
 
-/// Of the many at once: their numbers are kept on the stack, for each of the few.
+/// Of the many at once: their numbers are kept on the stack, for each of the few; and pairs at once.
 constexpr std::size_t kAtOnce = 1024;
 static_assert(kPartSize % kAtOnce == 0);
 
@@ -62,7 +61,7 @@ class PartSearch {
     if (begin % kPartSize == 0) checkStop(m_options.stop);
     const BoxRun<T> part = m_many.part(begin, kAtOnce);
     m_statistics.boxTests += part.size * few.size();
-    std::array<const std::uint32_t*, kMostFew> next;
+    std::array<const std::uint32_t*, kFew> next;
     for (std::size_t j = 0; j < few.size(); ++j) next[j] = touchingBoxes(part, few[j], m_touching[j]);
     for (;;) {
       std::uint32_t j = 0;
@@ -73,7 +72,7 @@ class PartSearch {
       const auto many = static_cast<std::uint32_t>(begin + number);
       m_pairs.data()[m_found] = m_manySecond ? Pair{firstFew + j, many} : Pair{many, firstFew + j};
       m_found += isEmptyRow(rowOf(part, number)) ? 0U : 1U;
-      if (m_found == kRoom) give();
+      if (m_found == kAtOnce) give();
     }
     give();
   }
@@ -81,21 +80,12 @@ class PartSearch {
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
-  static constexpr std::size_t kRoom = 1024;
-
   using Numbers = std::array<std::uint32_t, kAtOnce + 1>;
 
   /// The numbers of the boxes of a part that touch a box, or are empty and would.
   const std::uint32_t* touchingBoxes(const BoxRun<T>& part, const Row<T>& box, Numbers& numbers) {
-    std::size_t size = 0;
-    if (!isEmptyRow(box)) {
-      if constexpr (std::is_same_v<T, float>) {
-        size = m_kernels.touchingBoxes32(part, box, numbers.data());
-      } else {
-        size = m_kernels.touchingBoxes64(part, box, numbers.data());
-      }
-    }
-    numbers[size] = kEnd;
+    const bool any = !isEmptyRow(box);
+    numbers[any ? m_kernels.plain<T>().touchingBoxes(part, box, numbers.data()) : 0] = kEnd;
     return numbers.data();
   }
 
@@ -114,8 +104,8 @@ class PartSearch {
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
   std::size_t m_found = 0;
-  std::array<Numbers, kMostFew> m_touching;
-  PairsOnStack<kRoom> m_pairs;
+  std::array<Numbers, kFew> m_touching;
+  PairsOnStack<kAtOnce> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
@@ -129,7 +119,7 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
                        FunctionRef<void(std::span<const Pair>)> take) {
   const bool fewSecond = isFewSecond(sets);
   const BoxRun<T> run = runOf<T>(fewSecond ? sets.second : sets.first);
-  std::array<Row<T>, kMostFew> few;
+  std::array<Row<T>, kFew> few;
   for (std::size_t i = 0; i < run.size; ++i) few[i] = rowOf(run, i);
   const BoxRun<T> many = runOf<T>(fewSecond ? sets.first : sets.second);
   PartSearch<T> search(many, !fewSecond, options, take);
@@ -149,7 +139,7 @@ bool areFewBesideMany(const Sets& sets, const OverlapOptions& options) {
   if (sets.one) return false;
   const std::size_t few = std::min(sets.first.size(), sets.second.size());
   const std::size_t many = std::max(sets.first.size(), sets.second.size());
-  if (few > kMostFew || many <= kWordBoxes) return false;
+  if (few > kFew || many <= kWordBoxes) return false;
   if (options.strategy != Strategy::Automatic || !onlyBoundsMatter(sets, options)) return false;
   if (many >= kManyForThreads && options.executor != nullptr) return false;
   const auto areRuns = [](const BoxView& a, const BoxView& b) {

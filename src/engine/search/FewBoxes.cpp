@@ -24,8 +24,8 @@ constexpr std::size_t kTestedPairs = 24;
 /// Pairs that are collected on the stack before they are passed on.
 constexpr std::size_t kPlainRoom = 4096;
 
-/// Hits that are buffered: a few times those of one box.
-constexpr std::size_t kHits = 4 * FewTile::kCapacity;
+/// Hits that are buffered: more than those of one box.
+constexpr std::size_t kHits = 2 * LaneTile::kCapacity;
 
 /// Turns hits into pairs, and passes on those that the test keeps.
 class Receiver {
@@ -77,19 +77,9 @@ class Receiver {
   alignas(64) std::array<Pair, kHits + kVectorSlack> m_pairs;
 };
 
-/// Reads all boxes; returns whether their lanes are exactly the boxes.
-bool readFew(const BoxReader& reader, FewTile& tile) {
-  bool exact = true;
-  const BoxList all{nullptr, 0, reader.size()};
-  for (std::size_t begin = 0; begin < all.size; begin += kFanOut) {
-    exact &= reader.read(all.part(begin, kFanOut), tile, begin);
-  }
-  return exact;
-}
-
 /// All pairs, by row; returns their number.
 template <class T>
-std::size_t testAll(FewBoxesSearch<T>& search, Pair* pairs) {
+std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < search.rowCount; ++i) {
     const std::uint32_t begin = search.tested == Columns::Following ? i + 1 : 0;
@@ -125,7 +115,7 @@ bool arePlain(const Sets& sets, const OverlapOptions& options) {
 /// The search of two sets of rows, or of one twice, by the index that pairs are ordered by. All boxes against a single one are
 /// in its order too if that is the row, which takes fewer tests of a vector.
 template <class T>
-FewBoxesSearch<T> plainSearch(const Sets& sets, Order order, const T* first, const T* second) {
+PlainSearch<T> plainSearch(const Sets& sets, Order order, const T* first, const T* second) {
   const std::size_t firstSize = sets.first.size();
   const std::size_t secondSize = sets.second.size();
   const bool bySecond = order == Order::BySecond;
@@ -140,19 +130,14 @@ FewBoxesSearch<T> plainSearch(const Sets& sets, Order order, const T* first, con
 
 /// Finds the pairs of the rows that are left, or of some of them if there are many; without kernels, tests one pair after the other.
 template <class T>
-std::size_t searchSome(FewBoxesSearch<T>& search, const Kernels* kernels, Pair* pairs) {
-  if (kernels == nullptr) return testAll(search, pairs);
-  if constexpr (std::is_same_v<T, float>) {
-    return kernels->searchFew32(search, pairs);
-  } else {
-    return kernels->searchFew64(search, pairs);
-  }
+std::size_t searchSome(PlainSearch<T>& search, const Kernels* kernels, Pair* pairs) {
+  return kernels == nullptr ? testAll(search, pairs) : kernels->plain<T>().searchFew(search, pairs);
 }
 
 template <class T>
-OverlapStatistics findPlain(FewBoxesSearch<T>&& search, std::size_t most, const OverlapOptions& options,
+OverlapStatistics findPlain(PlainSearch<T>&& search, std::size_t most, const OverlapOptions& options,
                             FunctionRef<void(std::span<const Pair>)> take) {
-  static_assert(kPlainRoom >= kMostPlain && kPlainRoom >= kTestedPairs);
+  static_assert(kPlainRoom >= kMostFew && kPlainRoom >= kTestedPairs);
   PairsOnStack<kPlainRoom + kVectorSlack> pairs;
   search.room = kPlainRoom;
   // An instruction set that is asked for has to be there, and is used.
@@ -191,19 +176,21 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
   const Readers readers = Readers::of(sets, options, kernels);
   const BoxReader& rowSet = bySecond ? readers.second : readers.first;
   const BoxReader& columnSet = bySecond ? readers.first : readers.second;
-  FewTile columns;
-  FewTile rows;
-  FewSearch search{&columns, &columns, rowSet.size(), columnSet.size(),
-                   bySecond ? Columns::Preceding : Columns::Following};
-  bool exact = readFew(columnSet, columns);
-  if (!sets.one) {
-    exact &= readFew(rowSet, rows);
-    search.rows = &rows;
-    search.tested = Columns::All;
+  LaneTile columns;
+  LaneTile rows;
+  FlatSearch search;
+  search.columns = {&columns, columnSet.size()};
+  search.rows = sets.one ? search.columns : LaneList{&rows, rowSet.size()};
+  search.rowEnd = rowSet.size();
+  bool exact = columnSet.readAll(search.columns);
+  if (sets.one) {
+    search.tested = bySecond ? Columns::Preceding : Columns::Following;
+  } else {
+    exact &= rowSet.readAll(search.rows);
   }
   test.requireExactTestInDoubt(!exact, readers.first.origin());
   Receiver receiver(kernels, bySecond ? PairSide::RowSecond : PairSide::RowFirst, test, options.maxPairs, take);
-  kernels.searchFew(search, receiver.hits());
+  kernels.searchFlat(search, receiver.hits());
   return receiver.finish();
 }
 
@@ -212,8 +199,7 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
 bool areFew(const Sets& sets, const OverlapOptions& options) {
   const std::size_t size = std::max(sets.first.size(), sets.second.size());
   if (areFewBesideMany(sets, options)) return true;
-  if (options.strategy == Strategy::Bvh || size > kMostPlain) return false;
-  if (size > FewTile::kCapacity && !arePlain(sets, options)) return false;
+  if (options.strategy == Strategy::Bvh || size > kMostFew) return false;
   if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
   if (kernels == nullptr || options.strategy == Strategy::Exhaustive) return true;

@@ -78,12 +78,7 @@ double shareOfOverlaps(const FlatSearch& flat) {
 bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
   buffer.require(LaneList::tilesFor(reader.size()));
   list = {buffer.data(), reader.size()};
-  bool exact = true;
-  const BoxList all{nullptr, 0, reader.size()};
-  for (std::size_t begin = 0; begin < all.size; begin += kFanOut) {
-    exact &= reader.read(all.part(begin, kFanOut), list.tileOf(begin), begin % LaneTile::kCapacity);
-  }
-  return exact;
+  return reader.readAll(list);
 }
 
 }  // namespace

@@ -14,26 +14,25 @@
 
 namespace allpairs::engine {
 
-/// How a mark is counted: const members of some objects run on several threads at once.
-enum class Users : std::uint8_t { One, Many };
-
 /// Marks an object as running. Calls from its own callbacks would then change the data that it works on.
 ///
 /// Threads: tasks of the running work may call check().
-template <Users kUsers>
-class InUseBy {
+class InUse {
  public:
   /// Marks the object as running while the scope exists.
   class Scope {
    public:
-    explicit Scope(InUseBy& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
+    explicit Scope(InUse& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
     ~Scope() { m_inUse.add(-1); }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
    private:
-    InUseBy& m_inUse;
+    InUse& m_inUse;
   };
+
+  /// Whether several threads may call the object at once, as const members: then a mark takes as long as a search of two boxes.
+  explicit InUse(bool isShared = false) noexcept : m_isShared(isShared) {}
 
   /// Throws InvalidArgument, which names the kind of object, if the object is running.
   void check(const char* object) const {
@@ -42,9 +41,8 @@ class InUseBy {
   }
 
  private:
-  /// A locked addition would cost more than a search of a few boxes.
   void add(int scopes) noexcept {
-    if constexpr (kUsers == Users::Many) {
+    if (m_isShared) {
       m_scopes.fetch_add(scopes, std::memory_order_relaxed);
     } else {
       m_scopes.store(m_scopes.load(std::memory_order_relaxed) + scopes, std::memory_order_relaxed);
@@ -52,9 +50,8 @@ class InUseBy {
   }
 
   std::atomic<int> m_scopes = 0;
+  bool m_isShared;
 };
-
-using InUse = InUseBy<Users::One>;
 
 /// The value that a moved-from object returns a reference to.
 template <class T>

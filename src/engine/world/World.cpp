@@ -61,8 +61,6 @@ void checkPoint(const std::array<double, 3>& point, std::size_t index) {
 
 }  // namespace
 
-using InUseScope = engine::InUseBy<engine::Users::Many>::Scope;
-
 struct World::State {
   State(WorldOptions given, const engine::Kernels& chosen)
       : options(std::move(given)),
@@ -74,7 +72,7 @@ struct World::State {
   engine::BoxStore store;
   engine::WorldSearch search;
   std::pmr::vector<Box> swept;
-  engine::InUseBy<engine::Users::Many> inUse;
+  engine::InUse inUse{true};
 
   /// What const members read: a world without boxes if it has been moved from.
   static State& of(const World& world) {
@@ -235,7 +233,7 @@ BoxProperties World::properties(BoxId id) const {
 
 StepResult World::step() {
   State& state = this->state();
-  const InUseScope scope(state.inUse);
+  const engine::InUse::Scope scope(state.inUse);
   // `accept` may group the lists of the step before.
   const struct Ungroup {
     std::atomic<bool>& isGrouped;
@@ -259,8 +257,8 @@ std::vector<Pair> World::findBetween(const World& other) const {
   if (m_state == nullptr || other.m_state == nullptr) return {};
   m_state->settle();
   other.m_state->settle();
-  const InUseScope myScope(m_state->inUse);
-  const InUseScope theirScope(other.m_state->inUse);
+  const engine::InUse::Scope myScope(m_state->inUse);
+  const engine::InUse::Scope theirScope(other.m_state->inUse);
   return m_state->search.findBetween(m_state->store, other.m_state->search, other.m_state->store);
 }
 
