@@ -63,15 +63,18 @@ class PartSearch {
     m_statistics.boxTests += part.size * few.size();
     std::array<const std::uint32_t*, kFew> next;
     for (std::size_t j = 0; j < few.size(); ++j) next[j] = touchingBoxes(part, few[j], m_touching[j]);
+    if (few.size() == 1) {
+      for (const std::uint32_t* number = next[0]; *number != kEnd; ++number) add(part, begin, *number, firstFew);
+      give();
+      return;
+    }
     for (;;) {
       std::uint32_t j = 0;
       for (std::uint32_t k = 1; k < few.size(); ++k) j = *next[k] < *next[j] ? k : j;
       const std::uint32_t number = *next[j];
       if (number == kEnd) break;
       ++next[j];
-      const auto many = static_cast<std::uint32_t>(begin + number);
-      m_pairs.data()[m_found] = m_manySecond ? Pair{firstFew + j, many} : Pair{many, firstFew + j};
-      m_found += isEmptyRow(rowOf(part, number)) ? 0U : 1U;
+      add(part, begin, number, firstFew + j);
       if (m_found == kAtOnce) give();
     }
     give();
@@ -87,6 +90,15 @@ class PartSearch {
     const bool any = !isEmptyRow(box);
     numbers[any ? m_kernels.plain<T>().touchingBoxes(part, box, numbers.data()) : 0] = kEnd;
     return numbers.data();
+  }
+
+  /// Adds the pair of a box of a part and one of the few, unless the former is empty.
+  void add(const BoxRun<T>& part, std::size_t begin, std::uint32_t number, std::uint32_t few) {
+    const auto many = static_cast<std::uint32_t>(begin + number);
+    m_pairs.data()[m_found] = m_manySecond ? Pair{few, many} : Pair{many, few};
+    const T* const min = part.min + number * part.stride;
+    const T* const max = part.max + number * part.stride;
+    m_found += static_cast<std::size_t>((min[0] <= max[0]) & (min[1] <= max[1]) & (min[2] <= max[2]));
   }
 
   /// Passes on the pairs that were found since the last time.
