@@ -19,13 +19,19 @@ template <class T>
   }
 }
 
+/// Whether boxes are of this precision and lie one after the other as rows of six.
+template <class T>
+[[nodiscard]] bool areRows(const BoxView& boxes) noexcept {
+  return boxes.isFloat64() == std::is_same_v<T, double> && cornersOf<T>(boxes).isPacked();
+}
+
 /// Whether boxes of this precision lie one after the other, as rows of six or of three.
 template <class T>
 [[nodiscard]] bool areRun(const BoxView& boxes) noexcept {
   const auto isRow = [](const CornerView<T>& corner) { return corner.boxStride == 3 && corner.axisStride == 1; };
+  if (boxes.isFloat64() != std::is_same_v<T, double>) return false;
   const BoxView::Corners<T>& corners = cornersOf<T>(boxes);
-  return boxes.isFloat64() == std::is_same_v<T, double> &&
-         (corners.isPacked() || (isRow(corners.min) && isRow(corners.max)));
+  return corners.isPacked() || (isRow(corners.min) && isRow(corners.max));
 }
 
 /// Those boxes.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,20 +47,6 @@ struct PlainSearch {
   bool rowSecond = false;    ///< Whether the row is second in its pairs; of one set, if columns precede rows.
   std::size_t room = 0;      ///< For pairs: no fewer than there are columns.
   std::size_t rowBegin = 0;  ///< The next row to search; all rows before it have been.
-};
-
-/// Boxes one after the other in memory, as rows of six, or as rows of three in two arrays.
-template <class T>
-struct BoxRun {
-  const T* min = nullptr;
-  const T* max = nullptr;
-  std::size_t stride = 6;  ///< From a box to the next: 6 or 3.
-  std::size_t size = 0;
-
-  /// From box `begin` on, at most as many as requested.
-  [[nodiscard]] BoxRun part(std::size_t begin, std::size_t most) const noexcept {
-    return {min + begin * stride, max + begin * stride, stride, std::min(most, size - begin)};
-  }
 };
 
 /// Working memory of a join that lists neighbors: the boxes near a node, with their ids, in an array for each bound.

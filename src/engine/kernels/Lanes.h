@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -157,6 +158,20 @@ struct SweepLanes {
   std::array<float, 3> max;
   std::array<float, 3> inverse{};  ///< Of the speed.
   std::array<Axis, 3> axis{};
+};
+
+/// Boxes one after the other in memory, as rows of six, or as rows of three in two arrays.
+template <class T>
+struct BoxRun {
+  const T* min = nullptr;
+  const T* max = nullptr;
+  std::size_t stride = 6;  ///< From a box to the next: 6 or 3.
+  std::size_t size = 0;
+
+  /// From box `begin` on, at most as many as requested.
+  [[nodiscard]] BoxRun part(std::size_t begin, std::size_t most) const noexcept {
+    return {min + begin * stride, max + begin * stride, stride, std::min(most, size - begin)};
+  }
 };
 
 /// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What follows

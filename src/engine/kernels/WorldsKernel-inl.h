@@ -356,12 +356,12 @@ HWY_INLINE void readFirstCorners(const WorldsRun& run, std::size_t skipped, std:
                                  std::size_t at) {
   std::array<float, 6 * kFanOut> copy{};
   float* const min = copy.data();
-  float* const max = run.stride == 3 ? min + 3 * kFanOut : min + 3;
+  float* const max = run.boxes.stride == 3 ? min + 3 * kFanOut : min + 3;
   for (std::size_t i = 0; i < boxes; ++i) {
-    std::copy_n(run.min + i * run.stride, 3, min + (skipped + i) * run.stride);
-    std::copy_n(run.max + i * run.stride, 3, max + (skipped + i) * run.stride);
+    std::copy_n(run.boxes.min + i * run.boxes.stride, 3, min + (skipped + i) * run.boxes.stride);
+    std::copy_n(run.boxes.max + i * run.boxes.stride, 3, max + (skipped + i) * run.boxes.stride);
   }
-  readCorners(min, max, run.stride, tile, at);
+  readCorners(min, max, run.boxes.stride, tile, at);
 }
 
 /// A world's boxes; what is in front of them in memory comes along.
@@ -376,18 +376,18 @@ HWY_INLINE void readWorld(const WorldsRun& run, std::size_t firstBox, const Worl
     at += lanes;
   }
   for (; at < places.end; at += lanes) {
-    const std::size_t from = (firstBox + at - places.first) * run.stride;
-    readCorners(run.min + from, run.max + from, run.stride, tile, at);
+    const std::size_t from = (firstBox + at - places.first) * run.boxes.stride;
+    readCorners(run.boxes.min + from, run.boxes.max + from, run.boxes.stride, tile, at);
   }
 }
 
 /// Prefetches, line by line, what is read a page later: the processor's own prefetching ends with a page.
 HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t boxes) {
-  const std::size_t begin = box * run.stride + 4096 / sizeof(float);
-  const std::size_t end = std::min(begin + boxes * run.stride, run.worlds->begin(run.end) * run.stride);
+  const std::size_t begin = box * run.boxes.stride + 4096 / sizeof(float);
+  const std::size_t end = std::min(begin + boxes * run.boxes.stride, run.worlds->begin(run.end) * run.boxes.stride);
   for (std::size_t i = begin; i < end; i += 64 / sizeof(float)) {
-    hwy::Prefetch(run.min + i);
-    if (run.stride == 3) hwy::Prefetch(run.max + i);
+    hwy::Prefetch(run.boxes.min + i);
+    if (run.boxes.stride == 3) hwy::Prefetch(run.boxes.max + i);
   }
 }
 

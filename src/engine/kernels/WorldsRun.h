@@ -7,6 +7,7 @@
 
 #include "allpairs/Pair.h"
 #include "allpairs/Worlds.h"
+#include "kernels/Lanes.h"
 #include "memory/Memory.h"
 
 namespace allpairs::engine {
@@ -90,12 +91,7 @@ struct WorldSink {
 /// Worlds of float32 boxes, one after the other, all pairs of each tested, up to a world that is too large or that there
 /// may be no room for.
 struct WorldsRun {
-  /// The corners of box 0: values of a corner follow each other, corners are `stride` values apart: 3, or 6 if `max`
-  /// follows `min`.
-  const float* min = nullptr;
-  const float* max = nullptr;
-  std::size_t stride = 6;
-
+  BoxRun<float> boxes;
   const Worlds* worlds = nullptr;
   std::size_t world = 0;  ///< The next one; the one that it stopped at.
   std::size_t end = 0;

@@ -99,23 +99,18 @@ std::size_t pairsOf(const Sets& sets) {
   return sets.one ? WorldSink::pairsOf(size) : size * sets.second.size();
 }
 
-template <class T>
-bool areRows(const BoxView::Corners<T>& first, const BoxView::Corners<T>& second) {
-  return first.isPacked() && second.isPacked();
-}
-
 /// Whether boxes are compared as they are: only their bounds matter, which are rows.
 bool arePlain(const Sets& sets, const OverlapOptions& options) {
-  const BoxView& first = sets.first;
-  const BoxView& second = sets.second;
-  return first.isFloat64() == second.isFloat64() && onlyBoundsMatter(sets, options) &&
-         (first.isFloat64() ? areRows(first.float64(), second.float64()) : areRows(first.float32(), second.float32()));
+  return onlyBoundsMatter(sets, options) && ((areRows<float>(sets.first) && areRows<float>(sets.second)) ||
+                                             (areRows<double>(sets.first) && areRows<double>(sets.second)));
 }
 
 /// The search of two sets of rows, or of one twice, by the index that pairs are ordered by. All boxes against a single one are
 /// in its order too if that is the row, which takes fewer tests of a vector.
 template <class T>
-PlainSearch<T> plainSearch(const Sets& sets, Order order, const T* first, const T* second) {
+PlainSearch<T> plainSearch(const Sets& sets, Order order) {
+  const T* const first = cornersOf<T>(sets.first).min.data;
+  const T* const second = cornersOf<T>(sets.second).min.data;
   const std::size_t firstSize = sets.first.size();
   const std::size_t secondSize = sets.second.size();
   const bool bySecond = order == Order::BySecond;
@@ -135,11 +130,13 @@ std::size_t searchSome(PlainSearch<T>& search, const Kernels* kernels, Pair* pai
 }
 
 template <class T>
-OverlapStatistics findPlain(PlainSearch<T>&& search, std::size_t most, const OverlapOptions& options,
+OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
                             FunctionRef<void(std::span<const Pair>)> take) {
   static_assert(kPlainRoom >= kMostFew && kPlainRoom >= kTestedPairs);
   PairsOnStack<kPlainRoom + kVectorSlack> pairs;
+  PlainSearch<T> search = plainSearch<T>(sets, order);
   search.room = kPlainRoom;
+  const std::size_t most = pairsOf(sets);
   // An instruction set that is asked for has to be there, and is used.
   const bool isTested = most <= kTestedPairs && options.instructionSet.empty();
   const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
@@ -153,18 +150,6 @@ OverlapStatistics findPlain(PlainSearch<T>&& search, std::size_t most, const Ove
     if (found != 0) take({pairs.data(), found});
   }
   return statistics;
-}
-
-OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
-                            FunctionRef<void(std::span<const Pair>)> take) {
-  const std::size_t most = pairsOf(sets);
-  const BoxView& first = sets.first;
-  const BoxView& second = sets.second;
-  if (first.isFloat64()) {
-    return findPlain(plainSearch(sets, order, first.float64().min.data, second.float64().min.data), most, options,
-                     take);
-  }
-  return findPlain(plainSearch(sets, order, first.float32().min.data, second.float32().min.data), most, options, take);
 }
 
 OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order,
@@ -210,7 +195,9 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
   if (areFewBesideMany(sets, options)) return findFewBesideMany(sets, options, order, take);
-  return arePlain(sets, options) ? findPlain(sets, options, order, take) : findInTiles(sets, options, order, take);
+  if (!arePlain(sets, options)) return findInTiles(sets, options, order, take);
+  return sets.first.isFloat64() ? findPlain<double>(sets, options, order, take)
+                                : findPlain<float>(sets, options, order, take);
 }
 
 }  // namespace allpairs::engine

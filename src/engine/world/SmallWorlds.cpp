@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "allpairs/Worlds.h"
+#include "input/BoxRuns.h"
 
 namespace allpairs::engine {
 namespace {
@@ -75,8 +76,7 @@ std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done,
   worker.pairs.require(std::max(kPairsAtOnce, WorldSink::roomFor(begin[done + 2] - begin[done + 1])));
   WorldsRun run;
   run.sink = sinkOf(worker);
-  run.min = m_boxes->float32().min.data;
-  run.max = run.min + 3;
+  run.boxes = runOf<float>(*m_boxes);
   run.worlds = &worlds;
   run.world = done + 1;
   run.end = row + 1;
@@ -121,8 +121,7 @@ std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) 
   std::uint64_t pairEnd = 0;
   WorldsRun run;
   run.sink = sinkOf(worker);
-  run.min = worker.rows.data();
-  run.max = run.min + 3;
+  run.boxes = {worker.rows.data(), worker.rows.data() + 3, 6, ids.size()};
   run.worlds = &worlds;
   run.end = 1;
   run.pairEnd = &pairEnd;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "allpairs/Error.h"
+#include "input/BoxRuns.h"
 #include "input/Options.h"
 #include "input/Parts.h"
 #include "search/PairSink.h"
@@ -33,14 +34,6 @@ std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options) {
   return std::min(kMostInWorld, options.order == Order::Unordered ? flat : kTimesFlat * flat);
 }
 
-/// Whether the corners of boxes of float32 lie as the kernels read them.
-bool haveReadableCorners(const BoxView& boxes) {
-  if (boxes.isFloat64()) return false;
-  const auto& [min, max] = boxes.float32();
-  if (min.axisStride != 1 || max.axisStride != 1) return false;
-  return boxes.float32().isPacked() || (min.boxStride == 3 && max.boxStride == 3);
-}
-
 /// Whether the pairs of a world can be written to the sink at once.
 bool hasRoom(WorldSink& sink, std::size_t boxes) { return sink.countOnly || sink.makeRoom(WorldSink::roomFor(boxes)); }
 
@@ -62,7 +55,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   checkStop(options.stop);
   m_executor = &m_stoppable.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
-  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && haveReadableCorners(boxes);
+  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && areRun<float>(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
   if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, kMostInDouble);
   m_filter.prepare(worlds, options, m_mostBoxes);
@@ -205,11 +198,8 @@ void WorldsSearcher::searchPart(const Part& part, Worker& worker, WorldSink& sin
 
 /// Worlds that the kernel reads itself, as many as there is room for; returns the one that follows them.
 std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink) {
-  const auto& [min, max] = m_worlds->boxes().float32();
   WorldsRun run;
-  run.min = min.data;
-  run.max = max.data;
-  run.stride = static_cast<std::size_t>(min.boxStride);
+  run.boxes = runOf<float>(m_worlds->boxes());
   run.worlds = m_worlds;
   run.world = world;
   run.end = end;
