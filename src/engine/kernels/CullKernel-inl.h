@@ -20,13 +20,15 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Whether no bound of box i lies beyond the box.
+/// Whether no bound of box i lies beyond the box, and box i is not empty.
 template <class T>
-HWY_INLINE bool mayTouch(const BoxRun<T>& run, std::size_t i, const std::array<T, 6>& box) {
+HWY_INLINE bool touches(const BoxRun<T>& run, std::size_t i, const std::array<T, 6>& box) {
   const T* const min = run.min + i * run.stride;
   const T* const max = run.max + i * run.stride;
   bool inside = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) inside &= (min[axis] <= box[axis + 3]) & (max[axis] >= box[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    inside &= (min[axis] <= box[axis + 3]) & (max[axis] >= box[axis]) & (min[axis] <= max[axis]);
+  }
   return inside;
 }
 
@@ -67,24 +69,44 @@ struct CornerLimits {
   }
 };
 
-/// A bit at every so many places.
-template <std::size_t kStep>
-inline constexpr std::uint64_t kEvery = [] {
+/// A bit for each three values that are not above those at the same places of another corner, at the place of the first.
+template <class T>
+HWY_INLINE std::uint64_t areBelow(const T* min, const T* max) {
+  const hn::CappedTag<T, kFanOut> d;
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < 64; i += kStep) bits |= std::uint64_t{1} << i;
-  return bits;
-}();
+  for (std::size_t k = 0; k < 3 * hn::Lanes(d); k += hn::Lanes(d)) {
+    bits |= std::uint64_t{allBitsOf(d, hn::Le(hn::LoadU(d, min + k), hn::LoadU(d, max + k)))} << k;
+  }
+  return bits & bits >> 1 & bits >> 2;
+}
 
-/// Writes the numbers of boxes whose bits are set, one at every kStep places; returns where they end.
+/// A bit for each of so many boxes, one at every so many places.
 template <std::size_t kStep>
-HWY_INLINE std::uint32_t* writeNumbers(std::uint64_t bits, std::size_t first, std::uint32_t* numbers) {
-  for (bits &= kEvery<kStep>; bits != 0; bits &= bits - 1) {
+HWY_INLINE std::uint64_t bitsOfAll(std::size_t boxes) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < boxes; ++i) bits |= std::uint64_t{1} << (i * kStep);
+  return bits;
+}
+
+/// Writes the numbers of boxes whose bits are set, those of `all` or some of them, one at every kStep places; returns where they
+/// end.
+template <std::size_t kStep>
+HWY_INLINE std::uint32_t* writeNumbers(std::uint64_t bits, std::uint64_t all, std::size_t first,
+                                       std::uint32_t* numbers) {
+  bits &= all;
+  if (bits == all) {
+    const IdTag d;
+    const auto count = static_cast<std::size_t>(std::popcount(all));
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) hn::StoreU(numbersFrom(first + i), d, numbers + i);
+    return numbers + count;
+  }
+  for (; bits != 0; bits &= bits - 1) {
     *numbers++ = static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(bits)) / kStep);
   }
   return numbers;
 }
 
-/// Those of whole vectors; `end` is the box that follows the last one.
+/// Those of whole vectors, which other boxes follow where three values more are read; `end` is the box that follows the last one.
 template <class T>
 HWY_INLINE std::uint32_t* touchingWhole(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint32_t* numbers,
                                         std::size_t& end) {
@@ -92,16 +114,23 @@ HWY_INLINE std::uint32_t* touchingWhole(const BoxRun<T>& run, const std::array<T
   const std::size_t lanes = hn::Lanes(typename Limits::Tag());
   if (run.stride == 6) {
     const Limits both(box, Limits::Corners::Both);
-    for (; end + lanes / 2 <= run.size; end += lanes / 2) {
-      const std::uint64_t bits = both.within(run.min + 6 * end);
-      numbers = writeNumbers<6>(bits & bits >> 3, end, numbers);
+    const std::uint64_t all = bitsOfAll<6>(lanes / 2);
+    for (; end + lanes / 2 < run.size; end += lanes / 2) {
+      const T* const values = run.min + 6 * end;
+      const std::uint64_t corners = both.within(values);
+      const std::uint64_t bits = corners & corners >> 3 & all;
+      if (bits != 0) numbers = writeNumbers<6>(bits & areBelow(values, values + 3), all, end, numbers);
     }
     return numbers;
   }
   const Limits lower(box, Limits::Corners::Min);
   const Limits upper(box, Limits::Corners::Max);
+  const std::uint64_t all = bitsOfAll<3>(lanes);
   for (; end + lanes <= run.size; end += lanes) {
-    numbers = writeNumbers<3>(lower.within(run.min + 3 * end) & upper.within(run.max + 3 * end), end, numbers);
+    const T* const min = run.min + 3 * end;
+    const T* const max = run.max + 3 * end;
+    const std::uint64_t bits = lower.within(min) & upper.within(max) & all;
+    if (bits != 0) numbers = writeNumbers<3>(bits & areBelow(min, max), all, end, numbers);
   }
   return numbers;
 }
@@ -117,7 +146,7 @@ std::size_t touchingBoxes(const BoxRun<T>& run, const std::array<T, 6>& box, std
 #endif
   for (; i < run.size; ++i) {
     *last = static_cast<std::uint32_t>(i);
-    last += mayTouch(run, i, box) ? 1 : 0;
+    last += touches(run, i, box) ? 1 : 0;
   }
   return static_cast<std::size_t>(last - numbers);
 }

@@ -171,8 +171,8 @@ struct PlainKernels {
   /// one. Returns how many there are.
   std::size_t (*searchFew)(PlainSearch<T>& search, Pair* pairs);
 
-  /// Writes the numbers of the boxes of a run that touch a box, if their minimum is not above their maximum; there is room for all
-  /// of them. Returns how many there are.
+  /// Writes the numbers of the boxes of a run, those that are not empty, that touch a box, which is not empty either; there is room
+  /// for all of them and kVectorSlack more. Returns how many there are.
   std::size_t (*touchingBoxes)(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint32_t* numbers);
 
   /// Whether any value is a NaN.

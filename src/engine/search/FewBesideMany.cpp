@@ -21,7 +21,7 @@ namespace {
 /// (few_benchmark).
 constexpr std::size_t kFew = 4;
 
-/// Of the many at once: their numbers are kept on the stack, for each of the few; and pairs at once.
+/// Of the many at once: their numbers are kept on the stack, for each of the few, and all their pairs.
 constexpr std::size_t kAtOnce = 1024;
 static_assert(kPartSize % kAtOnce == 0);
 
@@ -61,21 +61,16 @@ class PartSearch {
     if (begin % kPartSize == 0) checkStop(m_options.stop);
     const BoxRun<T> part = m_many.part(begin, kAtOnce);
     m_statistics.boxTests += part.size * few.size();
-    std::array<const std::uint32_t*, kFew> next;
-    for (std::size_t j = 0; j < few.size(); ++j) next[j] = touchingBoxes(part, few[j], m_touching[j]);
+    std::size_t touching = 0;
+    for (std::size_t j = 0; j < few.size(); ++j) touching += findTouching(part, few[j], m_touching[j]);
     if (few.size() == 1) {
-      for (const std::uint32_t* number = next[0]; *number != kEnd; ++number) add(part, begin, *number, firstFew);
-      give();
-      return;
-    }
-    for (;;) {
-      std::uint32_t j = 0;
-      for (std::uint32_t k = 1; k < few.size(); ++k) j = *next[k] < *next[j] ? k : j;
-      const std::uint32_t number = *next[j];
-      if (number == kEnd) break;
-      ++next[j];
-      add(part, begin, number, firstFew + j);
-      if (m_found == kAtOnce) give();
+      for (std::size_t i = 0; i < touching; ++i) add(begin + m_touching[0][i], firstFew);
+    } else if (touching == part.size * few.size()) {
+      for (std::size_t i = 0; i < part.size; ++i) {
+        for (std::uint32_t j = 0; j < few.size(); ++j) add(begin + i, firstFew + j);
+      }
+    } else {
+      merge(begin, few.size(), firstFew);
     }
     give();
   }
@@ -83,22 +78,33 @@ class PartSearch {
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
-  using Numbers = std::array<std::uint32_t, kAtOnce + 1>;
+  using Numbers = std::array<std::uint32_t, kAtOnce + kVectorSlack>;
 
-  /// The numbers of the boxes of a part that touch a box, or are empty and would.
-  const std::uint32_t* touchingBoxes(const BoxRun<T>& part, const Row<T>& box, Numbers& numbers) {
-    const bool any = !isEmptyRow(box);
-    numbers[any ? m_kernels.plain<T>().touchingBoxes(part, box, numbers.data()) : 0] = kEnd;
-    return numbers.data();
+  /// The numbers of the boxes of a part that touch a box; returns how many there are.
+  std::size_t findTouching(const BoxRun<T>& part, const Row<T>& box, Numbers& numbers) const {
+    const std::size_t size = isEmptyRow(box) ? 0 : m_kernels.plain<T>().touchingBoxes(part, box, numbers.data());
+    numbers[size] = kEnd;
+    return size;
   }
 
-  /// Adds the pair of a box of a part and one of the few, unless the former is empty.
-  void add(const BoxRun<T>& part, std::size_t begin, std::uint32_t number, std::uint32_t few) {
-    const auto many = static_cast<std::uint32_t>(begin + number);
-    m_pairs.data()[m_found] = m_manySecond ? Pair{few, many} : Pair{many, few};
-    const T* const min = part.min + number * part.stride;
-    const T* const max = part.max + number * part.stride;
-    m_found += static_cast<std::size_t>((min[0] <= max[0]) & (min[1] <= max[1]) & (min[2] <= max[2]));
+  /// The lists of some of the few, as one in the order of the many.
+  void merge(std::size_t begin, std::size_t few, std::uint32_t firstFew) {
+    std::array<const std::uint32_t*, kFew> next;
+    for (std::size_t j = 0; j < few; ++j) next[j] = m_touching[j].data();
+    for (;;) {
+      std::uint32_t j = 0;
+      for (std::uint32_t k = 1; k < few; ++k) j = *next[k] < *next[j] ? k : j;
+      const std::uint32_t number = *next[j];
+      if (number == kEnd) return;
+      ++next[j];
+      add(begin + number, firstFew + j);
+    }
+  }
+
+  /// Adds the pair of one of the many and one of the few. There is room for all of a part.
+  void add(std::size_t many, std::uint32_t few) {
+    const auto index = static_cast<std::uint32_t>(many);
+    m_pairs.data()[m_found++] = m_manySecond ? Pair{few, index} : Pair{index, few};
   }
 
   /// Passes on the pairs that were found since the last time.
@@ -117,7 +123,7 @@ class PartSearch {
   OverlapStatistics m_statistics;
   std::size_t m_found = 0;
   std::array<Numbers, kFew> m_touching;
-  PairsOnStack<kAtOnce> m_pairs;
+  PairsOnStack<kAtOnce * kFew> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
