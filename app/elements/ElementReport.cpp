@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/JsonText.h"
+#include "JsonText.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
+
+using view::JsonText;
 
 std::string countsText(const elements::ElementCounts& counts) {
   return fmt::format("{}, {}, {}", counted(counts.vertices, "vertex", "vertices"), counted(counts.edges, "edge"),

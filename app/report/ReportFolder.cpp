@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "report/ReportFolder.h"
 
+#include <dirent.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstddef>
+#include <memory>
+#include <new>
 #include <string_view>
-#include <utility>
 
 #include "Report.h"
 #include "allpairs/scene/FileError.h"
@@ -22,6 +27,16 @@ namespace {
 bool holdsReport(const fs::path& folder) {
   std::error_code ignored;
   return fs::exists(folder / "index.html", ignored) && fs::exists(folder / "clashes.csv", ignored);
+}
+
+/// Whether it is a folder that is not empty, as far as it can be read. The iterator of the C++ library ends the program
+/// where there is no memory.
+bool isFull(const fs::path& folder) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
+  if (!entries && errno == ENOMEM) throw std::bad_alloc();
+  std::size_t count = 0;
+  while (entries && count <= 2 && ::readdir(entries.get()) != nullptr) ++count;
+  return count > 2;  // more than itself and the one above
 }
 
 /// Whether a name is that of a file such as a report consists of, and so hardly that of a folder.
@@ -42,14 +57,15 @@ void checkReportFolder(const fs::path& folder, bool force) {
       throw FileError(folder, "cannot create this folder: '" + above.string() + "' is a file");
     }
   }
-  const bool isFull = fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored) && !ignored;
-  if (isFull && !force && !holdsReport(folder)) {
+  if (isFull(folder) && !force && !holdsReport(folder)) {
     throw FileError(folder, "is not empty and holds no report; --force writes one into it all the same");
   }
 }
 
-ReportFolder::ReportFolder(fs::path folder)
-    : m_folder(std::move(folder)), m_hadReport(fs::exists(m_folder / "clashes.csv")) {
+/// What the first constructor has made is destroyed where the second one throws.
+ReportFolder::ReportFolder(const fs::path& folder) : ReportFolder() {
+  m_folder = folder;
+  m_hadReport = fs::exists(m_folder / "clashes.csv");
   makeFolder(m_folder);
   makeFolder(m_folder / "pictures");
 }
@@ -65,7 +81,8 @@ void ReportFolder::makeFolder(const fs::path& folder) {
   if (fs::is_directory(folder, problem)) return;
   const fs::path above = folder.has_filename() ? folder.parent_path() : folder.parent_path().parent_path();
   if (!above.empty()) makeFolder(above);
-  if (fs::create_directory(folder, problem)) m_new.push_back(folder);
+  m_new.push_back(folder);  // before it is there: there may be no memory then
+  if (!fs::create_directory(folder, problem)) m_new.pop_back();
   if (problem) throw FileError(folder, "cannot create this folder: " + problem.message());
 }
 
@@ -79,8 +96,8 @@ void ReportFolder::write(const fs::path& name, const std::function<void(scene::B
   const bool isNew = !fs::exists(path, ignored);
   Output output(path);
   writer([&output](std::string_view bytes) { output.write(bytes); });
+  if (isNew) m_new.push_back(path);  // before it is there: there may be no memory then
   output.commit();
-  if (isNew) m_new.push_back(path);
 }
 
 void ReportFolder::commit(std::size_t pictures, bool hasPage) {

@@ -22,7 +22,7 @@ void checkReportFolder(const std::filesystem::path& folder, bool force);
 /// Bad input: a folder or file that cannot be made throws FileError.
 class ReportFolder {
  public:
-  explicit ReportFolder(std::filesystem::path folder);
+  explicit ReportFolder(const std::filesystem::path& folder);
   ~ReportFolder();
   ReportFolder(const ReportFolder&) = delete;
   ReportFolder& operator=(const ReportFolder&) = delete;
@@ -36,10 +36,13 @@ class ReportFolder {
   void commit(std::size_t pictures, bool hasPage);
 
  private:
+  /// Of nothing yet.
+  ReportFolder() = default;
+
   void makeFolder(const std::filesystem::path& folder);
 
   std::filesystem::path m_folder;
-  bool m_hadReport;
+  bool m_hadReport = false;
   std::vector<std::filesystem::path> m_new;  ///< In the order in which they were made.
 };
 

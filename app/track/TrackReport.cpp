@@ -5,12 +5,14 @@
 
 #include <algorithm>
 
-#include "cli/JsonText.h"
+#include "JsonText.h"
 #include "cli/NpyOutput.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
+
+using view::JsonText;
 
 struct Totals {
   std::uint64_t fewest = 0;

@@ -36,7 +36,7 @@ ElementIntersector* Intersection::findIntersector(CollisionModel* first, Collisi
 
 void Intersection::add(std::type_index first, std::type_index second, std::shared_ptr<ElementIntersector> intersector,
                        bool bothWays) {
-  if (bothWays && first != second) m_intersectors[{second, first}] = {intersector, true};
+  if (bothWays) m_intersectors[{second, first}] = {intersector, true};
   m_intersectors[{first, second}] = {std::move(intersector), false};
   settingsChanged();
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "DiskJoin.h"
 
+#include <dirent.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <chrono>
+#include <memory>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -44,6 +49,17 @@ void releaseFreedMemory() {
 }
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; }
+
+/// Whether a folder has no entry but itself and the one above. The iterator of the C++ library ends the program where there
+/// is no memory.
+bool isEmptyFolder(const fs::path& folder) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
+  if (!entries && errno == ENOMEM) throw std::bad_alloc();
+  if (!entries) throw FileError(folder, "cannot be read: " + std::generic_category().message(errno));
+  std::size_t count = 0;
+  while (count <= 2 && ::readdir(entries.get()) != nullptr) ++count;
+  return count <= 2;
+}
 
 }  // namespace
 
@@ -98,10 +114,10 @@ void DiskJoin::openFolder() {
   fs::create_directories(m_options.work, problem);
   if (problem) throw FileError(m_options.work, "cannot be made: " + problem.message());
   const bool isOurs = fs::exists(file(kLock), problem);
-  if (!isOurs && !fs::is_empty(m_options.work, problem)) {
+  if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message());
+  if (!isOurs && !isEmptyFolder(m_options.work)) {
     throw FileError(m_options.work, "is not empty, and not the work folder of a join");
   }
-  if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message());
   m_lock = WorkFile(file(kLock), isOurs ? WorkFile::Mode::Open : WorkFile::Mode::Create);
   if (!m_lock.lock()) throw FileError(m_options.work, "is in use by another join");
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <new>
 #include <pugixml.hpp>
-#include <sstream>
+#include <string>
 #include <vector>
 
 #include "ClashPicture.h"
@@ -20,26 +22,48 @@ using Node = pugi::xml_node;
 
 std::string viewpointGuid(const Clash& clash) { return guidOf({clash.guid, "viewpoint"}); }
 
+/// Where there is no memory, pugixml says so instead of throwing.
+void requireMade(bool isMade) {
+  if (!isMade) throw std::bad_alloc();
+}
+
+Node addNode(Node parent, const char* name) {
+  Node node = parent.append_child(name);
+  requireMade(!node.empty());
+  return node;
+}
+
+void addAttribute(Node element, const char* name, const std::string& value) {
+  requireMade(element.append_attribute(name).set_value(value.c_str()));
+}
+
 void addText(Node parent, const char* name, const std::string& text) {
-  parent.append_child(name).text().set(printable(text).c_str());
+  requireMade(addNode(parent, name).text().set(printable(text).c_str()));
 }
 
 void addNumber(Node parent, const char* name, double value) { addText(parent, name, fmt::to_string(value)); }
 
 /// Appends an element with one attribute.
 Node addElement(Node parent, const char* name, const char* attribute, const std::string& value) {
-  Node element = parent.append_child(name);
-  element.append_attribute(attribute).set_value(value.c_str());
+  Node element = addNode(parent, name);
+  addAttribute(element, attribute, value);
   return element;
 }
 
+/// A stream would drop what there is no memory for.
+struct TextWriter final : pugi::xml_writer {
+  void write(const void* data, std::size_t size) override { text.append(static_cast<const char*>(data), size); }
+
+  std::string text{};
+};
+
 std::string textOf(pugi::xml_document& document) {
   Node declaration = document.prepend_child(pugi::node_declaration);
-  declaration.append_attribute("version").set_value("1.0");
-  declaration.append_attribute("encoding").set_value("UTF-8");
-  std::ostringstream text;
-  document.save(text, "  ");
-  return text.str();
+  addAttribute(declaration, "version", "1.0");
+  addAttribute(declaration, "encoding", "UTF-8");
+  TextWriter writer;
+  document.save(writer, "  ");
+  return writer.text;
 }
 
 std::string version(BcfVersion version) {
@@ -55,12 +79,12 @@ std::string version(BcfVersion version) {
 /// The words that topics use, which 3.0 wants declared.
 std::string extensions() {
   pugi::xml_document document;
-  Node root = document.append_child("Extensions");
-  addText(root.append_child("TopicTypes"), "TopicType", "Clash");
-  Node statuses = root.append_child("TopicStatuses");
+  Node root = addNode(document.root(), "Extensions");
+  addText(addNode(root, "TopicTypes"), "TopicType", "Clash");
+  Node statuses = addNode(root, "TopicStatuses");
   for (const char* status : {"Open", "In progress", "Accepted", "Closed"})  // as in web/src/notes.js
     addText(statuses, "TopicStatus", status);
-  Node labels = root.append_child("TopicLabels");
+  Node labels = addNode(root, "TopicLabels");
   addText(labels, "TopicLabel", "new");
   addText(labels, "TopicLabel", "persisting");
   addText(labels, "TopicLabel", "resolved");
@@ -92,20 +116,20 @@ TopicText topicOf(const EarlierClash& clash) {
 }
 
 void addHeader(Node root, const ViewScene& scene, bool isThree) {
-  Node header = root.append_child("Header");
-  Node files = isThree ? header.append_child("Files") : header;
+  Node header = addNode(root, "Header");
+  Node files = isThree ? addNode(header, "Files") : header;
   addText(addElement(files, "File", isThree ? "IsExternal" : "isExternal", "true"), "Filename", scene.title);
 }
 
 Node addTopic(Node root, const TopicText& text, const BcfOptions& options) {
   const bool isThree = options.version == BcfVersion::V30;
   Node topic = addElement(root, "Topic", "Guid", text.guid);
-  topic.append_attribute("TopicType").set_value("Clash");
-  topic.append_attribute("TopicStatus").set_value(text.status.c_str());
+  addAttribute(topic, "TopicType", "Clash");
+  addAttribute(topic, "TopicStatus", text.status);
   addText(topic, "Title", text.title);
   if (text.number != 0) addText(topic, "Index", std::to_string(text.number));
   if (!text.label.empty())
-    isThree ? addText(topic.append_child("Labels"), "Label", text.label) : addText(topic, "Labels", text.label);
+    isThree ? addText(addNode(topic, "Labels"), "Label", text.label) : addText(topic, "Labels", text.label);
   addText(topic, "CreationDate", options.date);
   addText(topic, "CreationAuthor", "Allpairs");
   addText(topic, "Description", text.description);
@@ -122,24 +146,23 @@ void addViewpoint(Node parent, const char* name, const Clash& clash) {
 std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
   const bool isThree = options.version == BcfVersion::V30;
   pugi::xml_document document;
-  Node root = document.append_child("Markup");
+  Node root = addNode(document.root(), "Markup");
   addHeader(root, scene, isThree);
   Node topic = addTopic(root, topicOf(scene, clash), options);
-  isThree ? addViewpoint(topic.append_child("Viewpoints"), "ViewPoint", clash)
-          : addViewpoint(root, "Viewpoints", clash);
+  isThree ? addViewpoint(addNode(topic, "Viewpoints"), "ViewPoint", clash) : addViewpoint(root, "Viewpoints", clash);
   return textOf(document);
 }
 
 std::string markup(const ViewScene& scene, const EarlierClash& clash, const BcfOptions& options) {
   pugi::xml_document document;
-  Node root = document.append_child("Markup");
+  Node root = addNode(document.root(), "Markup");
   addHeader(root, scene, options.version == BcfVersion::V30);
   addTopic(root, topicOf(clash), options);
   return textOf(document);
 }
 
 void addVector(Node parent, const char* name, const std::array<double, 3>& v) {
-  Node vector = parent.append_child(name);
+  Node vector = addNode(parent, name);
   addNumber(vector, "X", v[0]);
   addNumber(vector, "Y", v[1]);
   addNumber(vector, "Z", v[2]);
@@ -153,9 +176,8 @@ bool isIfcGuid(const std::string& id) {
 }
 
 void addComponent(Node parent, const ViewScene& scene, std::uint32_t model) {
-  Node component = parent.append_child("Component");
-  if (!scene.ids.empty() && isIfcGuid(scene.ids[model]))
-    component.append_attribute("IfcGuid").set_value(scene.ids[model].c_str());
+  Node component = addNode(parent, "Component");
+  if (!scene.ids.empty() && isIfcGuid(scene.ids[model])) addAttribute(component, "IfcGuid", scene.ids[model]);
   addText(component, "OriginatingSystem", "Allpairs");
   const std::string name = printable(scene.name(model));
   const bool isBlank = name.find_first_not_of(' ') == std::string::npos;
@@ -165,10 +187,10 @@ void addComponent(Node parent, const ViewScene& scene, std::uint32_t model) {
 /// The two models of a row in the colours of its picture.
 void addColouring(Node components, const ViewScene& scene, const Clash& clash, bool isThree) {
   constexpr std::array<const char*, 2> kColours{"FF0072B2", "FFE69F00"};  // opaque blue and orange
-  Node colouring = components.append_child("Coloring");
+  Node colouring = addNode(components, "Coloring");
   for (std::size_t i = 0; i < (clash.isSelf() ? 1U : 2U); ++i) {
     Node colour = addElement(colouring, "Color", "Color", kColours[i]);
-    addComponent(isThree ? colour.append_child("Components") : colour, scene, i == 0 ? clash.first : clash.second);
+    addComponent(isThree ? addNode(colour, "Components") : colour, scene, i == 0 ? clash.first : clash.second);
   }
 }
 
@@ -197,7 +219,7 @@ void addCamera(Node parent, const ParallelCamera& camera, const BcfOptions& opti
   for (std::size_t axis = 0; axis < 3; ++axis) {
     eye[axis] = (camera.centre[axis] - 2.0 * camera.height * camera.direction[axis]) * options.metresPerUnit;
   }
-  Node element = parent.append_child("OrthogonalCamera");
+  Node element = addNode(parent, "OrthogonalCamera");
   addVector(element, "CameraViewPoint", eye);
   addVector(element, "CameraDirection", camera.direction);
   addVector(element, "CameraUpVector", camera.up);
@@ -208,8 +230,8 @@ void addCamera(Node parent, const ParallelCamera& camera, const BcfOptions& opti
 std::string viewpoint(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
   pugi::xml_document document;
   Node root = addElement(document.root(), "VisualizationInfo", "Guid", viewpointGuid(clash));
-  Node components = root.append_child("Components");
-  Node selection = components.append_child("Selection");
+  Node components = addNode(root, "Components");
+  Node selection = addNode(components, "Selection");
   for (const std::uint32_t model : modelsOf(scene, clash)) addComponent(selection, scene, model);
   addElement(components, "Visibility", "DefaultVisibility", "true");
   addColouring(components, scene, clash, options.version == BcfVersion::V30);
@@ -220,7 +242,7 @@ std::string viewpoint(const ViewScene& scene, const Clash& clash, const BcfOptio
 }  // namespace
 
 std::string makeBcf(const ViewScene& scene, std::span<const Clash> clashes, const BcfOptions& options) {
-  Zip archive;
+  Zip archive(options.date);
   archive.add("bcf.version", version(options.version));
   if (options.version == BcfVersion::V30) archive.add("extensions.xml", extensions());
   for (const Clash& clash : clashes) {

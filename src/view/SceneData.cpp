@@ -7,19 +7,17 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 
 #include "Base64.h"
 #include "ClashPicture.h"
+#include "JsonText.h"
 #include "PageSize.h"
 #include "VectorMath.h"
 
 namespace allpairs::view {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "the page reads its arrays as little-endian");
 
@@ -28,7 +26,7 @@ class ArrayWriter {
  public:
   template <class T>
   void add(const char* name, const char* type, std::span<const T> values) {
-    m_list.push_back({{"name", name}, {"type", type}, {"offset", m_bytes.size()}, {"length", values.size()}});
+    m_list.push_back({name, type, m_bytes.size(), values.size()});
     if (!values.empty()) {
       const std::size_t offset = m_bytes.size();
       m_bytes.resize(offset + values.size_bytes());
@@ -42,11 +40,30 @@ class ArrayWriter {
   void add(const char* name, const std::vector<std::uint32_t>& values) { add<std::uint32_t>(name, "Uint32", values); }
   void add(const char* name, const std::vector<std::uint8_t>& values) { add<std::uint8_t>(name, "Uint8", values); }
 
-  [[nodiscard]] Json list() { return std::move(m_list); }
+  void addListTo(JsonText& json) const {
+    json.beginList("arrays");
+    for (const Entry& entry : m_list) {
+      json.beginObject();
+      json.add("name", entry.name);
+      json.add("type", entry.type);
+      json.add("offset", entry.offset);
+      json.add("length", entry.length);
+      json.endObject();
+    }
+    json.endList();
+  }
+
   [[nodiscard]] std::string bytes() { return std::move(m_bytes); }
 
  private:
-  Json m_list = Json::array();
+  struct Entry {
+    const char* name;
+    const char* type;
+    std::size_t offset;
+    std::size_t length;
+  };
+
+  std::vector<Entry> m_list;
   std::string m_bytes;
 };
 
@@ -191,29 +208,76 @@ void addModels(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("contactDistances", scene.contactDistances);
 }
 
-Json statisticsOf(const ViewScene& scene) {
-  const scene::DetectionStatistics& from = scene.statistics;
-  return {{"strategy", from.strategy},       {"threads", from.threads},
-          {"verified", from.verified},       {"testsOfAllPairs", from.testsOfAllPairs},
-          {"testsMade", from.testsMade},     {"candidates", from.candidates},
-          {"readSeconds", from.readSeconds}, {"detectSeconds", from.detectSeconds}};
+void addStatistics(const scene::DetectionStatistics& from, JsonText& json) {
+  json.beginObject("statistics");
+  json.add("strategy", from.strategy);
+  json.add("threads", from.threads);
+  json.add("verified", from.verified);
+  json.add("testsOfAllPairs", from.testsOfAllPairs);
+  json.add("testsMade", from.testsMade);
+  json.add("candidates", from.candidates);
+  json.add("readSeconds", from.readSeconds);
+  json.add("detectSeconds", from.detectSeconds);
+  json.endObject();
 }
 
-Json ignoredOf(const ViewScene& scene) {
-  Json list = Json::array();
-  for (const scene::Remark& remark : scene.ignored) {
-    list.push_back({{"file", remark.file.filename().string()},
-                    {"line", remark.line},
-                    {"subject", remark.subject},
-                    {"reason", remark.reason}});
+void addIgnored(const std::vector<scene::Remark>& remarks, JsonText& json) {
+  json.beginList("ignored");
+  for (const scene::Remark& remark : remarks) {
+    json.beginObject();
+    json.add("file", remark.file.filename().string());
+    json.add("line", remark.line);
+    json.add("subject", remark.subject);
+    json.add("reason", remark.reason);
+    json.endObject();
   }
-  return list;
+  json.endList();
+}
+
+void addList(const char* key, const std::vector<std::string>& texts, JsonText& json) {
+  json.beginList(key);
+  for (const std::string& text : texts) json.add({}, text);
+  json.endList();
+}
+
+void addGroupSets(const ViewScene& scene, JsonText& json) {
+  json.beginList("groupSets");
+  for (const std::vector<int>& groups : scene.groupSets) {
+    json.beginList();
+    for (const int group : groups) json.add({}, group);
+    json.endList();
+  }
+  json.endList();
+}
+
+/// All but the arrays.
+void addScene(const ViewScene& scene, JsonText& json) {
+  json.add("format", 1);
+  json.add("version", ALLPAIRS_VERSION);
+  json.add("title", scene.title);
+  json.add("method", scene.method);
+  json.add("addsContactDistances", scene.addsContactDistances);
+  json.add("models", scene.modelCount);
+  json.add("isExact", scene.isExact);
+  json.add("exactSeconds", scene.exactSeconds);
+  json.add("clearance", scene.clearance);
+  json.add("up", scene.up);
+  json.add("frames", scene.frames.size());
+  json.add("meshIsShortened", scene.mesh.isShortened);
+  addList("names", scene.names, json);
+  addList("bodyNames", scene.bodyNames, json);
+  addList("kinds", scene.kinds, json);
+  addList("ids", scene.ids, json);
+  addList("typeNames", scene.typeNames, json);
+  addGroupSets(scene, json);
+  addStatistics(scene.statistics, json);
+  addIgnored(scene.ignored, json);
 }
 
 /// JSON that an HTML parser takes for text to its end: it has no "<", which would begin "</script" or "<!--".
-std::string scriptSafe(const Json& json) {
+std::string scriptSafe(const std::string& json) {
   std::string result;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : json) {
     if (c == '<') {
       result += "\\u003c";
     } else {
@@ -238,28 +302,12 @@ SceneData::SceneData(const ViewScene& scene) {
   addFrames(scene, arrays);
   addMesh(scene.mesh, origin, arrays);
   addPositions(scene, arrays);
-  Json json{{"format", 1},
-            {"version", ALLPAIRS_VERSION},
-            {"title", scene.title},
-            {"method", scene.method},
-            {"addsContactDistances", scene.addsContactDistances},
-            {"models", scene.modelCount},
-            {"isExact", scene.isExact},
-            {"exactSeconds", scene.exactSeconds},
-            {"clearance", scene.clearance},
-            {"up", scene.up},
-            {"frames", scene.frames.size()},
-            {"meshIsShortened", scene.mesh.isShortened},
-            {"names", scene.names},
-            {"bodyNames", scene.bodyNames},
-            {"kinds", scene.kinds},
-            {"ids", scene.ids},
-            {"typeNames", scene.typeNames},
-            {"groupSets", scene.groupSets},
-            {"statistics", statisticsOf(scene)},
-            {"ignored", ignoredOf(scene)},
-            {"arrays", arrays.list()}};
-  m_json = scriptSafe(json);
+  JsonText json(JsonText::Layout::Compact);
+  json.beginObject();
+  addScene(scene, json);
+  arrays.addListTo(json);
+  json.endObject();
+  m_json = scriptSafe(json.text());
   m_bytes = arrays.bytes();
   checkPageSize(scene, m_json.size() + m_bytes.size());
 }

@@ -3,13 +3,35 @@
 
 #include <zip.h>
 
+#include <charconv>
+#include <cstddef>
 #include <utility>
 
 #include "allpairs/Error.h"
 
 namespace allpairs::view {
 
-Zip::Zip() {
+namespace {
+
+/// A number of a date, at a place of its text; 0 where there is none.
+unsigned numberAt(const std::string& date, std::size_t place, std::size_t digits) {
+  unsigned number = 0;
+  if (date.size() >= place + digits) std::from_chars(date.data() + place, date.data() + place + digits, number);
+  return number;
+}
+
+}  // namespace
+
+Zip::Zip(const std::string& date) {
+  constexpr unsigned kFirstYear = 1980;
+  constexpr std::uint16_t kFirstDay = 1U << 5 | 1U;
+  if (const unsigned year = numberAt(date, 0, 4); year >= kFirstYear) {
+    m_day = static_cast<std::uint16_t>((year - kFirstYear) << 9 | numberAt(date, 5, 2) << 5 | numberAt(date, 8, 2));
+    m_time = static_cast<std::uint16_t>(numberAt(date, 11, 2) << 11 | numberAt(date, 14, 2) << 5 |
+                                        numberAt(date, 17, 2) / 2);
+  } else {
+    m_day = kFirstDay;
+  }
   m_source = zip_source_buffer_create(nullptr, 0, 0, nullptr);
   if (m_source == nullptr) throw Error("cannot make a zip archive in memory");
   zip_source_keep(m_source);
@@ -29,7 +51,10 @@ void Zip::add(const std::string& name, std::string bytes) {
   m_kept.push_back(std::make_unique<std::string>(std::move(bytes)));
   zip_source* content = zip_source_buffer(m_archive, m_kept.back()->data(), m_kept.back()->size(), 0);
   const zip_int64_t index = content == nullptr ? -1 : zip_file_add(m_archive, name.c_str(), content, ZIP_FL_ENC_UTF_8);
-  if (index >= 0) return;
+  if (index >= 0) {
+    zip_file_set_dostime(m_archive, static_cast<zip_uint64_t>(index), m_time, m_day, 0);
+    return;
+  }
   zip_source_free(content);
   throw Error("cannot put " + name + " into the archive: " + zip_strerror(m_archive));
 }

@@ -192,6 +192,24 @@ TEST(Models, ConesMergeAroundTheMiddleOfTheirAxes) {
   EXPECT_EQ(cone.halfAngle, 2.0 * std::numbers::pi);
 }
 
+TEST(Models, EachAxisOfTwoConesCountsWhenTheyMerge) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3 lower{3.0, 3.0, 3.0};
+    Vec3 higher = lower;
+    lower[axis] = 1.0;
+    higher[axis] = 5.0;
+    NormalCone cone = NormalCone::of(lower);
+    cone.merge(NormalCone::of(higher));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double sum = lower[i] / std::sqrt(19.0) + higher[i] / std::sqrt(43.0);
+      const double along = 1.0 / std::sqrt(19.0) + 5.0 / std::sqrt(43.0);
+      const double across = 3.0 / std::sqrt(19.0) + 3.0 / std::sqrt(43.0);
+      EXPECT_NEAR(cone.axis[i], sum / std::sqrt(along * along + 2.0 * across * across), 1e-12) << axis << i;
+    }
+    EXPECT_NEAR(cone.halfAngle, std::acos(23.0 / std::sqrt(19.0 * 43.0)) / 2.0, 1e-12) << axis;
+  }
+}
+
 TEST(Models, AConeOfAQuarterTurnStaysOneAndAnglesCountEveryAxis) {
   NormalCone wide{{0.0, 0.0, 1.0}, std::numbers::pi / 2.0};
   wide.merge(NormalCone::of({0.0, 0.0, 1.0}));

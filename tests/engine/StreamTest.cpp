@@ -101,6 +101,28 @@ TEST_P(Stream, HoldsAnExplosionOfPairsInRanges) {
   }
 }
 
+TEST(OrderedStream, HoldsABoxWithMorePairsThanARange) {
+  constexpr std::uint32_t kMany = (1U << 22) + 1;  // a range has one less
+  const Box one = test::cube(0, 0, 0);
+  const BoxView many =
+      BoxView::fromStrided(kMany, CornerView<double>{one.min.data(), 0, 1}, CornerView<double>{one.max.data(), 0, 1});
+  const std::vector<Box> few{test::cube(5, 0, 0), test::cube(0.5, 0, 0), test::cube(5, 0, 0)};
+  for (const Order order : {Order::ByFirst, Order::BySecond}) {
+    const bool bySecond = order == Order::BySecond;
+    OverlapOptions options;
+    options.strategy = Strategy::Bvh;
+    options.order = order;
+    std::uint32_t next = 0;
+    bool isRight = true;
+    const auto look = [&](std::span<const Pair> pairs) {
+      for (const Pair pair : pairs) isRight = isRight && pair == (bySecond ? Pair{next++, 1} : Pair{1, next++});
+    };
+    bySecond ? streamOverlaps(many, few, look, options) : streamOverlaps(few, many, look, options);
+    EXPECT_TRUE(isRight) << bySecond;
+    EXPECT_EQ(next, kMany) << bySecond;
+  }
+}
+
 TEST_P(Stream, EndsWithALimitThatTheFilterPasses) {
   const std::vector<BoxF> boxes = test::randomBoxes(5000, 26);
   OverlapOptions with = options();

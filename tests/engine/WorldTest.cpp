@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <random>
@@ -15,6 +16,7 @@
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
+#include "support/Oracle.h"
 
 namespace allpairs {
 namespace {
@@ -295,6 +297,24 @@ TEST(World, PairsBetweenTwoWorldsAreExactIfOneOfThemIsRounded) {
   EXPECT_EQ(between(first, 0.25, apart, 0.25), 1U);
   EXPECT_EQ(between(first, 0.5 - 0x1p-50, apart, 0.0), 0U);
   EXPECT_EQ(between(first, 0.0, apart, 0.5 - 0x1p-50), 0U);
+}
+
+TEST(World, PairsBetweenTwoWorldsAreAtTheMeanOfTheirDistancesWhateverTheirSigns) {
+  const std::vector<Box> mine =
+      test::toDouble(test::randomBoxes(400, 5));  // float32 has them exactly, as hierarchies do
+  const std::vector<Box> theirs = test::toDouble(test::randomBoxes(300, 6));
+  const std::array kDistances{-0.5, -0.25, 0.0, 0.25, 0.5};
+  for (const double distance : kDistances) {
+    for (const double theirDistance : kDistances) {
+      World first({.distance = distance});
+      World second({.distance = theirDistance});
+      static_cast<void>(first.add(mine));
+      static_cast<void>(second.add(theirs));
+      EXPECT_EQ(test::toVector(first.findBetween(second)),
+                test::oracleBetween(mine, theirs, (distance + theirDistance) / 2))
+          << distance << ' ' << theirDistance;
+    }
+  }
 }
 
 TEST(World, QueriesSeeWhatHasChangedSinceTheLastStep) {

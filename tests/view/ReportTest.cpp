@@ -286,6 +286,29 @@ TEST(Report, SaysWhenItWasMadeByWhatAndHow) {
             std::string::npos);
 }
 
+/// When the first file of an archive was made, as its bytes say it: the time and the day, in two bytes each.
+std::array<unsigned, 2> momentOfZip(const std::string& bytes) {
+  constexpr std::size_t kTime = 10, kDay = 12;
+  const auto number = [&bytes](std::size_t at) {
+    return static_cast<unsigned char>(bytes.at(at)) + 256U * static_cast<unsigned char>(bytes.at(at + 1));
+  };
+  return {number(kTime), number(kDay)};
+}
+
+TEST(Report, FilesInItsBcfAreAsOldAsTheReportSaysThatItIs) {
+  const TempFolder folder;
+  const std::string input = folder.write("a.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n");
+  const std::string out = folder.path() / "out";
+  const auto momentAt = [&](const std::string& seconds) {
+    expectSuccess(runScript("SOURCE_DATE_EPOCH=" + seconds + " \"$0\" report '" + input + "' -o '" + out + "'"));
+    return momentOfZip(readBytes(out + "/clashes.bcf"));
+  };
+  const std::array first{22U << 11 | 13U << 5 | 21U / 2, 43U << 9 | 11U << 5 | 14U};
+  EXPECT_EQ(momentAt("1700000001"), first);  // 2023-11-14T22:13:21Z
+  const std::array oldest{0U, 1U << 5 | 1U};
+  EXPECT_EQ(momentAt("86400"), oldest);  // an archive knows no year before 1980
+}
+
 TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
   const TempFolder folder;
   const std::string out = folder.path() / "out";

@@ -2,6 +2,7 @@
 #include "ExactPart.h"
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -66,6 +67,7 @@ void build(Hierarchy& hierarchy, const std::vector<Corners>& triangles) {
     if (problem == ::fcl::BVH_OK) problem = hierarchy.addTriangle(corners[0], corners[1], corners[2]);
   }
   if (problem == ::fcl::BVH_OK) problem = hierarchy.endModel();
+  if (problem == ::fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
   if (problem != ::fcl::BVH_OK) throw Error("FCL can't build a hierarchy: its error " + std::to_string(problem));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace allpairs::scene {
 
@@ -80,6 +81,14 @@ template <class Number>
   // from_chars leaves the value alone where it is too large or too small for a double.
   if (problem == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
   return value;
+}
+
+/// All words of a text in which lines mean nothing. A stream would end early where there is no memory for one.
+[[nodiscard]] inline std::vector<std::string> allWords(std::string_view text) {
+  std::vector<std::string> words;
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd))
+    words.emplace_back(word);
+  return words;
 }
 
 }  // namespace allpairs::scene

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <dirent.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <memory>
+#include <new>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -93,13 +98,19 @@ bool isMeshFile(const fs::path& path) {
   return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
 }
 
+/// The iterator of the C++ library ends the program where there is no memory.
 std::vector<fs::path> sortedEntries(const fs::path& folder) {
-  std::error_code problem;
+  const std::unique_ptr<DIR, int (*)(DIR*)> list(::opendir(folder.c_str()), ::closedir);
+  if (!list && errno == ENOMEM) throw std::bad_alloc();
+  if (!list) throw FileError(folder, "cannot be listed: " + std::generic_category().message(errno));
   std::vector<fs::path> entries;
-  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
-    entries.push_back(entry->path());
+  errno = 0;  // readdir() sets it where it fails
+  while (const dirent* const entry = ::readdir(list.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") entries.push_back(folder / name);
+    errno = 0;
   }
-  if (problem) throw FileError(folder, "cannot be listed: " + problem.message());
+  if (errno != 0) throw FileError(folder, "cannot be listed: " + std::generic_category().message(errno));
   std::sort(entries.begin(), entries.end());
   return entries;
 }

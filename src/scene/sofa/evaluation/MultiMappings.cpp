@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
 
+#include "input/Words.h"
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
 #include "sofa/graph/Links.h"
@@ -19,8 +19,8 @@ const State& stateAt(Evaluation& evaluation, const Component& mapping, const std
 std::vector<const State*> inputsOf(Evaluation& evaluation, const Component& mapping) {
   std::vector<const State*> inputs;
   const auto* text = mapping.attributes.find("input");
-  std::istringstream links(text != nullptr ? *text : std::string{});
-  for (std::string link; links >> link;) inputs.push_back(&stateAt(evaluation, mapping, link));
+  for (const std::string& link : allWords(text != nullptr ? *text : std::string_view()))
+    inputs.push_back(&stateAt(evaluation, mapping, link));
   if (inputs.empty()) throw Unplaceable(mapping, "it names no state that it reads");
   return inputs;
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
+#include "input/Words.h"
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
 
@@ -45,10 +45,8 @@ Vec3 rolledUp(const Vec3& p, double curvature) {
 
 bool hasTag(const Component& component, std::string_view wanted) {
   const auto* text = component.attributes.find("tags");
-  std::istringstream tags(text != nullptr ? *text : std::string{});
-  for (std::string tag; tags >> tag;)
-    if (tag == wanted) return true;
-  return false;
+  const std::vector<std::string> tags = allWords(text != nullptr ? *text : std::string_view());
+  return std::find(tags.begin(), tags.end(), wanted) != tags.end();
 }
 
 void add(const std::vector<Vec3>& points, std::vector<Vec3>& sums) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <new>
 #include <pugixml.hpp>
-#include <sstream>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
@@ -278,8 +277,8 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   if (const auto* gravity = element.attributes.find("gravity")) node->gravity = *gravity;
   if (const auto* activated = element.attributes.find("activated")) node->active = parseBool(*activated).value_or(true);
   if (const auto* depend = element.attributes.find("depend")) {
-    std::istringstream names(*depend);
-    for (std::string first, second; names >> first >> second;) node->order.emplace_back(first, second);
+    const std::vector<std::string> names = allWords(*depend);
+    for (std::size_t i = 0; i + 1 < names.size(); i += 2) node->order.emplace_back(names[i], names[i + 1]);
   }
   for (auto& child : element.children) {
     if (child.isNode)

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
+#include "input/Words.h"
 #include "sofa/graph/Links.h"
 
 namespace allpairs::scene::sofa {
@@ -48,8 +48,7 @@ std::vector<const Component*> linked(const Component& pipeline, std::string_view
   std::vector<const Component*> components;
   std::set<const Component*> seen;
   const auto* text = pipeline.attributes.find(name);
-  std::istringstream links(text != nullptr ? *text : std::string{});
-  for (std::string link; links >> link;) {
+  for (const std::string& link : allWords(text != nullptr ? *text : std::string_view())) {
     const auto* component = followTo(pipeline, link, wanted);
     if (component == nullptr)
       throw Unplaceable(pipeline, std::string{name} + ": '" + link.substr(0, 80) + "' leads to no such component");

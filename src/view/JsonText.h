@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace allpairs::app {
+namespace allpairs::view {
 
 /// JSON that is text from the start. The library's documents ask for memory where they are destroyed, and end the program
 /// where there is none; only single values are left to it.
@@ -68,4 +68,4 @@ class JsonText {
   std::size_t m_depth = 0;
 };
 
-}  // namespace allpairs::app
+}  // namespace allpairs::view
