@@ -198,6 +198,20 @@ def test_a_join_leaves_out_what_a_search_leaves_out(tmp_path, dtype):
     assert done.copies == 0
 
 
+TYPES_OF_LABELS = ["?", "i1", "u1", "<i2", ">u2", "<i4", ">u4", "<i8", ">u8"]
+TYPES_OF_MARGINS = [*TYPES_OF_LABELS, "<f2", ">f2", ">f4", "<f8"]
+
+
+@pytest.mark.parametrize("name, types", [("margin", TYPES_OF_MARGINS), ("group", TYPES_OF_LABELS), ("mask", TYPES_OF_LABELS)])
+def test_files_of_values_have_the_types_that_arrays_have(tmp_path, name, types):
+    boxes = some_boxes(100, 15)
+    boxes_file = saved(tmp_path, "boxes", boxes)
+    for type_name in types:
+        values = (np.arange(100) % 3).astype(type_name)
+        expected = len(allpairs.overlaps(boxes, **{name: values}))
+        assert allpairs.join(boxes_file, **{name: saved(tmp_path, "values", values)}).pairs == expected > 0, type_name
+
+
 def test_a_join_of_two_sets_leaves_out_what_a_search_leaves_out(tmp_path):
     first, second = some_boxes(400, 13), some_boxes(300, 14, np.float64)
     owns = [what_boxes_may_have(400, 13), what_boxes_may_have(300, 14)]
