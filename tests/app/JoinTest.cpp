@@ -104,7 +104,10 @@ TEST_F(JoinCommand, TakesASecondSet) {
   expectFailure(runProgram({"plan", "--threads", "1", "--with", second, few, few}), kWrongUsage, kOrder);
   const ProgramRun plan = runProgram({"plan", few, "--with", second, "--ranks", "2"});
   expectSuccess(plan);
-  EXPECT_TRUE(plan.out.starts_with("boxes    700, ")) << plan.out;
+  EXPECT_TRUE(plan.out.starts_with("boxes    400 and 300, 350 on each rank\n")) << plan.out;
+  const ProgramRun here = runProgram({"plan", few, "--with", second, "--work", folder.path()});
+  expectSuccess(here);
+  EXPECT_TRUE(here.out.starts_with("boxes    400 and 300\n")) << here.out;
   expectFailure(runProgram({"join", few, "--with", in("gone.npy"), "--count"}), kBadInput, "gone.npy: no such file");
 }
 

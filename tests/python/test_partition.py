@@ -172,7 +172,7 @@ def test_a_join_of_two_sets_is_the_search_in_memory(tmp_path, dtype, distance):
     expected = every_pair_between(corners(first), corners(second), distance)
     assert pairs.tolist() == expected.tolist()
     assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
-    assert summary.boxes == 450 and summary.pairs == len(expected)
+    assert summary.boxes == 450 and summary.second_boxes == 200 and summary.pairs == len(expected)
     assert allpairs.join(tmp_path / "a.npy", second=others, distance=distance).pairs == len(expected)
     np.save(tmp_path / "none.npy", first[:0])
     assert allpairs.join(tmp_path / "a.npy", second=tmp_path / "none.npy").pairs == 0
