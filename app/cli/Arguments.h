@@ -64,6 +64,10 @@ struct BoxSetArguments {
 ///            command is parsed.
 void addBoxSets(CLI::App& command, BoxSetArguments& arguments);
 
+/// What a message says of the place of BOXES where one of the options that were given takes all files that follow it:
+/// "come before --with, which takes all files that follow it"; else nothing.
+[[nodiscard]] std::string placeOfBoxes(const CLI::App& command);
+
 /// Declares --box, and --margins, --groups, --categories and --masks, which take files, and the same of the second set:
 /// --with-margins and so on.
 void addBoxValues(CLI::App& command, BoxSetArguments& arguments);

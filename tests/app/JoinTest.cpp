@@ -159,6 +159,15 @@ TEST_F(JoinCommand, WhatIsWrongWithValuesIsNamed) {
   expectFailure(runProgram({"join", few, "--count", "--with-groups", margins}), kWrongUsage,
                 "--with-groups requires --with");
   expectFailure(runProgram({"join", "--count", "--margins", margins, margins, "--", few}), kWrongUsage, "BOXES");
+  expectFailure(runProgram({"join", few, "--margins", "--count"}), kWrongUsage, "--margins: FILE is missing");
+  expectFailure(runProgram({"join", few, "--with", "--margins", margins, "--count"}), kWrongUsage,
+                "--with: FILE is missing");
+  expectFailure(runProgram({"join", "--margins", margins, few, "--count"}), kWrongUsage,
+                "no BOXES given; they come before --margins, which takes all files that follow it");
+  expectFailure(runProgram({"plan", "--with", few, few}), kWrongUsage,
+                "BOXES come before --with, which takes all files that follow it");
+  expectFailure(runProgram({"join", "--margins", margins, "--count", few}), kWrongUsage,
+                "BOXES come before --margins, which takes all files that follow it");
   expectFailure(runProgram({"join", few, "--count", "--box", "1,1,1,0,2,2"}), kWrongUsage, "--box: '1,1,1,0,2,2': ");
   expectFailure(runProgram({"plan", few, "--box", "1,2"}), kWrongUsage, "--box: '1,2' has 2 numbers");
   EXPECT_FALSE(fs::exists(few + ".work"));
