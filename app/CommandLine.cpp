@@ -69,7 +69,7 @@ std::string countProblem(const CLI::ArgumentMismatch& problem) {
 
 /// What CLI11 says of an argument that is missing: "no INPUT given" for "INPUT is required".
 std::string missingProblem(const CLI::RequiredError& problem, const CLI::App& command) {
-  const std::string text = problem.what();
+  std::string text = problem.what();
   const std::size_t end = text.rfind(" is required");
   if (end == std::string::npos) return text;
   const std::string name = text.substr(0, end);
