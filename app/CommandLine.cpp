@@ -68,10 +68,13 @@ std::string countProblem(const CLI::ArgumentMismatch& problem) {
 }
 
 /// What CLI11 says of an argument that is missing: "no INPUT given" for "INPUT is required".
-std::string missingProblem(const CLI::RequiredError& problem) {
-  const std::string text = problem.what();
+std::string missingProblem(const CLI::RequiredError& problem, const CLI::App& command) {
+  std::string text = problem.what();
   const std::size_t end = text.rfind(" is required");
-  return end == std::string::npos ? text : "no " + text.substr(0, end) + " given";
+  if (end == std::string::npos) return text;
+  const std::string name = text.substr(0, end);
+  const std::string place = name == "BOXES" ? allpairs::app::placeOfBoxes(command) : "";
+  return "no " + name + " given" + (place.empty() ? "" : "; they " + place);
 }
 
 ExitStatus fail(ExitStatus status, const std::string& message) {
@@ -148,7 +151,8 @@ void parse(CLI::App& program, const std::vector<std::string>& given) {
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + '\n');
   } catch (const CLI::RequiredError& problem) {
-    if (!program.get_subcommands().empty()) throw allpairs::app::UsageError(missingProblem(problem));
+    const auto chosen = program.get_subcommands();
+    if (!chosen.empty()) throw allpairs::app::UsageError(missingProblem(problem, *chosen.front()));
     if (arguments.empty()) {
       print(program.help());
       throw allpairs::app::UsageError("no command given");

@@ -28,8 +28,8 @@ std::optional<double> parseNumber(std::string_view text) {
 
 std::string describeOrder(const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (box.min[axis] < box.max[axis]) continue;
-    return std::string("its min must be less than its max on every axis, and is not in ") + "xyz"[axis];
+    if (box.min[axis] <= box.max[axis]) continue;
+    return std::string("its min is above its max in ") + "xyz"[axis];
   }
   return {};
 }
@@ -44,10 +44,18 @@ std::string byTodaysName(std::string_view argument) {
 /// What stands behind "--" is no option, though it begins like one. CLI11 knows that before the first input only.
 std::string asPath(std::string_view word) { return (word.starts_with('-') ? "./" : "") + std::string(word); }
 
+/// Of an option that another one follows, which CLI11 takes for its file; "./" before it makes it one.
+std::string isMissing(const std::string& file) {
+  return file.size() > 1 && file.starts_with('-') ? "FILE is missing" : "";
+}
+
+/// Whether it takes all files that follow it.
+bool isOfFiles(const CLI::Option& option) { return !option.get_positional() && option.get_expected_max() > 1; }
+
 std::array<CLI::Option*, 4> addValues(CLI::App& command, const std::string& prefix, ValueArguments& values) {
   const std::string start = prefix == "--" ? "Files: " : "Files of the second set: ";
   const auto add = [&](const char* name, std::vector<std::string>& files, const char* what) {
-    return command.add_option(prefix + name, files, start + what)->type_name("FILE");
+    return command.add_option(prefix + name, files, start + what)->type_name("FILE")->check(isMissing);
   };
   return {add("margins", values.margins, "how far each box extends beyond its bounds"),
           add("groups", values.groups, "each box's group; boxes of one group form no pair, except those of group 0"),
@@ -116,16 +124,21 @@ void addBoxSets(CLI::App& command, BoxSetArguments& arguments) {
   const CLI::Option* boxes =
       command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
   command.add_option("--with", arguments.with, "Files of a second set: pairs of a box of BOXES and a box of these")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(isMissing);
   command.parse_complete_callback([&command, boxes] {
-    const CLI::Option* before = nullptr;  // that takes all files that follow it
-    for (const CLI::Option* option : command.parse_order()) {
-      if (option == boxes && before != nullptr) {
-        throw UsageError("BOXES come before " + before->get_name() + ", which takes all files that follow it");
-      }
-      if (option != boxes && option->get_expected_max() > 1) before = option;
-    }
+    const std::vector<CLI::Option*>& given = command.parse_order();
+    const auto ofFiles =
+        std::find_if(given.begin(), given.end(), [](const auto* option) { return isOfFiles(*option); });
+    if (std::find(ofFiles, given.end(), boxes) != given.end()) throw UsageError("BOXES " + placeOfBoxes(command));
   });
+}
+
+std::string placeOfBoxes(const CLI::App& command) {
+  for (const CLI::Option* option : command.parse_order()) {
+    if (isOfFiles(*option)) return "come before " + option->get_name() + ", which takes all files that follow it";
+  }
+  return {};
 }
 
 void addBoxValues(CLI::App& command, BoxSetArguments& arguments) {

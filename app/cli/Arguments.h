@@ -64,6 +64,10 @@ struct BoxSetArguments {
 ///            command is parsed.
 void addBoxSets(CLI::App& command, BoxSetArguments& arguments);
 
+/// What a message says of the place of BOXES where one of the options that were given takes all files that follow it:
+/// "come before --with, which takes all files that follow it"; else nothing.
+[[nodiscard]] std::string placeOfBoxes(const CLI::App& command);
+
 /// Declares --box, and --margins, --groups, --categories and --masks, which take files, and the same of the second set:
 /// --with-margins and so on.
 void addBoxValues(CLI::App& command, BoxSetArguments& arguments);
@@ -71,7 +75,7 @@ void addBoxValues(CLI::App& command, BoxSetArguments& arguments);
 [[nodiscard]] std::vector<std::filesystem::path> pathsOf(const std::vector<std::string>& names);
 [[nodiscard]] scene::BoxValueFiles filesOf(const ValueArguments& arguments);
 
-/// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
+/// The region that follows --box: x0,y0,z0,x1,y1,z1 with min <= max on every axis.
 ///
 /// Bad input: throws UsageError.
 [[nodiscard]] Box parseRegion(const std::string& text);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <system_error>
@@ -22,7 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBoxes = 2'000'000;  // more than caches hold, and a second of work
+constexpr std::uint64_t kLeastBoxes = 2'000'000;  // more than caches hold, and a second of work
+constexpr std::uint64_t kMostBoxes = 8'000'000;   // some seconds of work
+
+/// Boxes and pairs cost a quarter more each among 100 million than among 2: the nearer their numbers, the nearer the time.
+/// It takes a tenth of what the join takes, and of the memory less than a half, for 24 bytes a box.
+std::size_t boxesFor(const join::JoinSummary& plan, std::uint64_t memory) {
+  const std::uint64_t most = memory == 0 ? kMostBoxes : std::clamp(memory / 64, kLeastBoxes, kMostBoxes);
+  return static_cast<std::size_t>(std::clamp(plan.boxes / 16, kLeastBoxes, most));
+}
 
 /// A folder that is gone in the end.
 class Folder {
@@ -45,9 +54,9 @@ class Folder {
   std::string m_path;
 };
 
-void writeBoxes(const fs::path& path) {
+void writeBoxes(const fs::path& path, std::size_t count) {
   Output output(path);
-  NpyOutput(output, "<f4", {kBoxes, 6}).add(generate::makeBoxes({.count = kBoxes}));
+  NpyOutput(output, "<f4", {count, 6}).add(generate::makeBoxes({.count = count}));
   output.commit();
 }
 
@@ -58,10 +67,10 @@ double JoinCost::secondsFor(const join::JoinSummary& plan) const {
 }
 
 /// Counting has no pairs to write, so that the difference is theirs.
-JoinCost measureJoinCost(const fs::path& place, join::JoinOptions options) {
+JoinCost measureJoinCost(const fs::path& place, const join::JoinSummary& plan, join::JoinOptions options) {
   const Folder folder(place);
   const std::array<fs::path, 1> input{folder.file("boxes.npy")};
-  writeBoxes(input[0]);
+  writeBoxes(input[0], boxesFor(plan, options.memory));
   options.work = folder.file("work");
   options.second.clear();
   options.region.reset();

@@ -16,7 +16,9 @@ struct JoinCost {
   [[nodiscard]] double secondsFor(const join::JoinSummary& plan) const;
 };
 
-/// Measures it in some seconds, by joins of generated boxes in a folder within `place`, which is gone afterwards.
-[[nodiscard]] JoinCost measureJoinCost(const std::filesystem::path& place, join::JoinOptions options);
+/// Measures it in some seconds, by joins of generated boxes in a folder within `place`, which is gone afterwards. The more
+/// boxes the plan has, the more are joined.
+[[nodiscard]] JoinCost measureJoinCost(const std::filesystem::path& place, const join::JoinSummary& plan,
+                                       join::JoinOptions options);
 
 }  // namespace allpairs::app

@@ -42,8 +42,9 @@ array (m, 2), uint32, or uint64 of more than 2^32 boxes in a set, ordered by
 With --with the pairs are those of a box of BOXES, first, and a box of a second
 set of files, second; both sets are numbered by themselves. --with comes after
 BOXES: it takes all files up to the next option.
-Margins are .npy arrays (n,) of float32 or float64, groups, categories and masks
-of integers: one number for each box, in one file or several, numbered on.
+Margins are .npy arrays (n,) of floats or integers, groups, categories and masks
+of integers or bools: one number for each box, in one file or several, numbered
+on.
 
 Examples:
   allpairs join boxes.npy -o pairs.npy --memory 4G

@@ -29,7 +29,7 @@ struct PlanSettings {
 
 constexpr const char* kPlanExamples =
     R"(Reads the boxes. Cells, copies and room for boxes are exact; the number of
-pairs is estimated from a sample, and the time from two million boxes that are
+pairs is estimated from a sample, and the time from 2 to 8 million boxes that are
 joined for it in a folder within --work, which is gone afterwards.
 
 With --ranks it says what 'allpairs-mpi join' would send over the network instead.
@@ -40,8 +40,14 @@ Examples:
   allpairs plan part*.npy --memory 4G --work /scratch
   allpairs plan parts.npy --with obstacles.npy)";
 
-std::string planText(const join::JoinSummary& plan, double seconds) {
-  std::string text = fmt::format("boxes    {}\n", grouped(plan.boxes));
+/// The boxes of each set.
+std::string boxesText(std::uint64_t all, std::uint64_t second, const JoinArguments& arguments) {
+  if (arguments.sets.with.empty()) return grouped(all);
+  return grouped(all - second) + " and " + grouped(second);
+}
+
+std::string planText(const join::JoinSummary& plan, double seconds, const JoinArguments& arguments) {
+  std::string text = fmt::format("boxes    {}\n", boxesText(plan.boxes, plan.secondBoxes, arguments));
   text += fmt::format("cells    {}\n", grouped(plan.cells));
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
   text += fmt::format("wide     {} in many cells, kept apart\n", grouped(plan.wideBoxes));
@@ -54,8 +60,10 @@ std::string planText(const join::JoinSummary& plan, double seconds) {
 
 std::string mebibytes(std::uint64_t bytes) { return grouped((bytes >> 20) + 1) + " MiB"; }
 
-std::string ranksText(const join::RanksPlan& plan, std::size_t ranks) {
-  std::string text = fmt::format("boxes    {}, {} on each rank\n", grouped(plan.boxes), grouped(plan.boxes / ranks));
+std::string ranksText(const join::RanksPlan& plan, const PlanSettings& settings) {
+  std::string text =
+      fmt::format("boxes    {}, {} on each rank\n", boxesText(plan.boxes, plan.secondBoxes, settings.shared),
+                  grouped(plan.boxes / settings.ranks));
   text += fmt::format("cells    {}\n", grouped(plan.cells));
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
   text += fmt::format("wide     {} in many cells, sent to all ranks\n", grouped(plan.wideBoxes));
@@ -72,14 +80,14 @@ void runPlan(const PlanSettings& settings) {
   if (settings.ranks != 0) {
     const join::RanksPlan plan = join::planRanks(inputsOf(settings.shared), settings.ranks, options);
     clock.reset();
-    Output(std::nullopt).write(ranksText(plan, settings.ranks));
+    Output(std::nullopt).write(ranksText(plan, settings));
     return;
   }
   const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
   clock.emplace("measuring the time of a join");
-  const JoinCost cost = measureJoinCost(settings.work.empty() ? "." : settings.work, options);
+  const JoinCost cost = measureJoinCost(settings.work.empty() ? "." : settings.work, plan, options);
   clock.reset();
-  Output(std::nullopt).write(planText(plan, cost.secondsFor(plan)));
+  Output(std::nullopt).write(planText(plan, cost.secondsFor(plan), settings.shared));
 }
 
 }  // namespace

@@ -38,8 +38,9 @@ them. The result is the file that 'allpairs detect -o' and 'allpairs join' write
 With --with the pairs are those of a box of BOXES, first, and a box of a second
 set of files, second; both sets are numbered by themselves. --with comes after
 BOXES: it takes all files up to the next option.
-Margins are .npy arrays (n,) of float32 or float64, groups, categories and masks
-of integers: one number for each box, in one file or several, numbered on.
+Margins are .npy arrays (n,) of floats or integers, groups, categories and masks
+of integers or bools: one number for each box, in one file or several, numbered
+on.
 
 Examples:
   mpirun allpairs-mpi join boxes.npy -o pairs.npy

@@ -116,7 +116,7 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
         return array.astype(native, copy=False)
-    if array.dtype == np.float16:
+    if native == np.float16:
         return array.astype(np.float32)
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)

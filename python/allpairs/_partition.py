@@ -42,6 +42,8 @@ class JoinSummary(NamedTuple):
     pair_bytes: int
     resumed_cells: int
     """Cells whose pairs were found before, by a join that was resumed."""
+    second_boxes: int
+    """How many of the boxes are those of the second set."""
 
 
 def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:

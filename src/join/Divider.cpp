@@ -23,6 +23,10 @@ constexpr std::uint64_t kWorthCutting = 100'000;  // boxes; fewer are searched s
 /// A sample with fewer pairs says little about the whole.
 constexpr std::uint64_t kEnoughPairs = 2'000;
 
+/// Where every so many boxes of a set are taken from. Not the same boxes of two sets: each may overlap the one with its
+/// number, as where the sets are one, or the same objects at two times.
+std::uint64_t beginOf(std::size_t set, std::uint64_t step) { return set * (step / 2); }
+
 std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
   const double full = kLoad * static_cast<double>(std::max<std::size_t>(budget.cellBoxes, 1));
   const auto forMemory = boxes <= budget.cellBoxes
@@ -124,7 +128,7 @@ void Divider::count(Division& division) {
       for (const std::uint32_t cell : finder.cellsOf(block, i)) {
         ++division.counts[partOf(division.cells, block.set, cell)];
       }
-      if ((block.begin + i) % step == 0) m_evenSamples[block.set].add(block, i);
+      if ((block.begin + i) % step == beginOf(block.set, step)) m_evenSamples[block.set].add(block, i);
     }
     if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
@@ -152,7 +156,7 @@ std::uint64_t Divider::estimatePairs(const Division& division) const {
     for (std::size_t set = 0; set < m_input.sets(); ++set) {
       parts[set] = {.type = m_input.recordType()};
       const BoxBlock block = m_evenSamples[set].block();
-      for (std::size_t i = 0; i < block.boxes.size(); i += step) parts[set].add(block, i);
+      for (std::size_t i = beginOf(set, step); i < block.boxes.size(); i += step) parts[set].add(block, i);
     }
     pairs = pairsOf(std::span(parts).first(m_input.sets()));
   }

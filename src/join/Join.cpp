@@ -154,7 +154,8 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
           .copies = division.copies(),
           .wideBoxes = wide,
           .boxBytes = leaving((division.records() - wide) * recordSize) + (ranks - 1) * wide * recordSize,
-          .pairBytes = leaving(division.pairs * pairSizeFor(input.largestSize()))};
+          .pairBytes = leaving(division.pairs * pairSizeFor(input.largestSize())),
+          .secondBoxes = input.size(1)};
 }
 
 }  // namespace allpairs::join

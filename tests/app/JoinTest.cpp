@@ -104,7 +104,10 @@ TEST_F(JoinCommand, TakesASecondSet) {
   expectFailure(runProgram({"plan", "--threads", "1", "--with", second, few, few}), kWrongUsage, kOrder);
   const ProgramRun plan = runProgram({"plan", few, "--with", second, "--ranks", "2"});
   expectSuccess(plan);
-  EXPECT_TRUE(plan.out.starts_with("boxes    700, ")) << plan.out;
+  EXPECT_TRUE(plan.out.starts_with("boxes    400 and 300, 350 on each rank\n")) << plan.out;
+  const ProgramRun here = runProgram({"plan", few, "--with", second, "--work", folder.path()});
+  expectSuccess(here);
+  EXPECT_TRUE(here.out.starts_with("boxes    400 and 300\n")) << here.out;
   expectFailure(runProgram({"join", few, "--with", in("gone.npy"), "--count"}), kBadInput, "gone.npy: no such file");
 }
 
@@ -156,6 +159,15 @@ TEST_F(JoinCommand, WhatIsWrongWithValuesIsNamed) {
   expectFailure(runProgram({"join", few, "--count", "--with-groups", margins}), kWrongUsage,
                 "--with-groups requires --with");
   expectFailure(runProgram({"join", "--count", "--margins", margins, margins, "--", few}), kWrongUsage, "BOXES");
+  expectFailure(runProgram({"join", few, "--margins", "--count"}), kWrongUsage, "--margins: FILE is missing");
+  expectFailure(runProgram({"join", few, "--with", "--margins", margins, "--count"}), kWrongUsage,
+                "--with: FILE is missing");
+  expectFailure(runProgram({"join", "--margins", margins, few, "--count"}), kWrongUsage,
+                "no BOXES given; they come before --margins, which takes all files that follow it");
+  expectFailure(runProgram({"plan", "--with", few, few}), kWrongUsage,
+                "BOXES come before --with, which takes all files that follow it");
+  expectFailure(runProgram({"join", "--margins", margins, "--count", few}), kWrongUsage,
+                "BOXES come before --margins, which takes all files that follow it");
   expectFailure(runProgram({"join", few, "--count", "--box", "1,1,1,0,2,2"}), kWrongUsage, "--box: '1,1,1,0,2,2': ");
   expectFailure(runProgram({"plan", few, "--box", "1,2"}), kWrongUsage, "--box: '1,2' has 2 numbers");
   EXPECT_FALSE(fs::exists(few + ".work"));

@@ -170,6 +170,15 @@ TEST(TwoSets, InTheLeastMemoryTheyAreTheSearchInMemory) {
   EXPECT_NEAR(static_cast<double>(plan.pairs), static_cast<double>(done.pairs), 0.1 * static_cast<double>(done.pairs));
 }
 
+TEST(TwoSets, APlanOfASetWithItselfIsNotOfItsBoxesWithThemselves) {
+  const std::vector<Box> boxes = some(200'000, 19);
+  const TwoSetsCase with({boxes, boxes});
+  join::JoinOptions options = with.options();
+  options.memory = join::kLeastMemory;
+  const auto pairs = static_cast<double>(join::countFiles(with.paths, options).pairs);
+  EXPECT_NEAR(static_cast<double>(join::planFiles(with.paths, options).pairs), pairs, 0.3 * pairs);
+}
+
 TEST(TwoSets, AfterAKillAtAnyStepTheBytesAreTheSame) {
   const Sets sets{withGiants(250, 21, 9), withGiants(300, 22, 9)};
   TwoSetsCase with(sets);

@@ -172,7 +172,7 @@ def test_a_join_of_two_sets_is_the_search_in_memory(tmp_path, dtype, distance):
     expected = every_pair_between(corners(first), corners(second), distance)
     assert pairs.tolist() == expected.tolist()
     assert pairs.tobytes() == allpairs.overlaps_between(first, second, distance=distance).tobytes()
-    assert summary.boxes == 450 and summary.pairs == len(expected)
+    assert summary.boxes == 450 and summary.second_boxes == 200 and summary.pairs == len(expected)
     assert allpairs.join(tmp_path / "a.npy", second=others, distance=distance).pairs == len(expected)
     np.save(tmp_path / "none.npy", first[:0])
     assert allpairs.join(tmp_path / "a.npy", second=tmp_path / "none.npy").pairs == 0
@@ -196,6 +196,20 @@ def test_a_join_leaves_out_what_a_search_leaves_out(tmp_path, dtype):
     assert np.load(tmp_path / "pairs.npy").tobytes() == expected.tobytes() and len(expected) > 20
     assert done.pairs == allpairs.join(boxes_file, **options, **files).pairs == len(expected)
     assert done.copies == 0
+
+
+TYPES_OF_LABELS = ["?", "i1", "u1", "<i2", ">u2", "<i4", ">u4", "<i8", ">u8"]
+TYPES_OF_MARGINS = [*TYPES_OF_LABELS, "<f2", ">f2", ">f4", "<f8"]
+
+
+@pytest.mark.parametrize("name, types", [("margin", TYPES_OF_MARGINS), ("group", TYPES_OF_LABELS), ("mask", TYPES_OF_LABELS)])
+def test_files_of_values_have_the_types_that_arrays_have(tmp_path, name, types):
+    boxes = some_boxes(100, 15)
+    boxes_file = saved(tmp_path, "boxes", boxes)
+    for type_name in types:
+        values = (np.arange(100) % 3).astype(type_name)
+        expected = len(allpairs.overlaps(boxes, **{name: values}))
+        assert allpairs.join(boxes_file, **{name: saved(tmp_path, "values", values)}).pairs == expected > 0, type_name
 
 
 def test_a_join_of_two_sets_leaves_out_what_a_search_leaves_out(tmp_path):

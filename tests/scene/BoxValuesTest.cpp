@@ -81,6 +81,38 @@ TEST_F(BoxValuesOf, LabelsAreIntegersOfAnyWidth) {
   EXPECT_EQ(read<std::uint32_t>({file("k.npy", greatest, "<u4")}, BoxValue::Mask, 3), greatest);
 }
 
+TEST_F(BoxValuesOf, MarginsMayBeIntegersOfAnyWidth) {
+  const std::vector<double> expected{0, 7, -120};
+  const auto same = [&](auto number, const char* descr) {
+    const std::vector<decltype(number)> numbers{0, 7, -120};
+    EXPECT_EQ(read<double>({file("m.npy", numbers, descr)}, BoxValue::Margin, 3), expected) << descr;
+  };
+  same(std::int8_t{}, "|i1");
+  same(std::int16_t{}, ">i2");
+  same(std::int32_t{}, "<i4");
+  same(std::int64_t{}, "<i8");
+  const std::vector<double> greatest{0, 9007199254740992.0, 1};
+  const std::vector<std::uint64_t> numbers{0, std::uint64_t{1} << 53, 1};
+  EXPECT_EQ(read<double>({file("m.npy", numbers, ">u8")}, BoxValue::Margin, 3), greatest);
+}
+
+TEST_F(BoxValuesOf, BoolsAreZeroAndOne) {
+  const std::vector<std::uint8_t> bytes{0, 1, 1};
+  const std::vector<std::uint32_t> labels{0, 1, 1};
+  for (const BoxValue kind : {BoxValue::Group, BoxValue::Category, BoxValue::Mask}) {
+    EXPECT_EQ(read<std::uint32_t>({file("b.npy", bytes, "|b1")}, kind, 3), labels);
+  }
+  EXPECT_EQ(read<double>({file("b.npy", bytes, "|b1")}, BoxValue::Margin, 3), (std::vector<double>{0, 1, 1}));
+}
+
+TEST_F(BoxValuesOf, MarginsMayBeFloat16) {
+  const std::vector<std::uint16_t> bits{0x0000, 0x0001, 0x83ff, 0x0400, 0x3c00, 0xc100, 0x7bff, 0x7c00};
+  const std::vector<double> expected{0, 0x1p-24, -1023 * 0x1p-24, 0x1p-14, 1, -2.5, 65504, kInfinity};
+  for (const char* descr : {"<f2", ">f2"}) {
+    EXPECT_EQ(read<double>({file("m.npy", bits, descr)}, BoxValue::Margin, 8), expected) << descr;
+  }
+}
+
 TEST_F(BoxValuesOf, SeveralFilesAreOneWhereverReadingBegins) {
   const std::vector<double> all{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
   const Paths paths{file("a.npy", std::vector<double>{0, 1, 2}, "<f8"), file("b.npy", std::vector<float>{}, "<f4"),
@@ -113,8 +145,16 @@ TEST_F(BoxValuesOf, WhatIsWrongIsNamed) {
   expectProblem(npyNumbers<std::int64_t>({0, 0, -1}, "<i8"), BoxValue::Group,
                 "number 2 is -1; 0 to 4294967295 are taken");
   expectProblem(npyNumbers<std::uint64_t>({4294967296, 0, 0}, "<u8"), BoxValue::Mask, "number 0 is 4294967296; ");
-  expectProblem(npyNumbers<std::int64_t>({1, 2, 3}, "<i8"), BoxValue::Margin,
-                "holds numbers of type '<i8'; margins are float32 ('<f4') or float64 ('<f8')");
+  expectProblem(npyNumbers<double>({1, 2, 3}, "<c8"), BoxValue::Margin,
+                "holds numbers of type '<c8'; margins are floats or integers");
+  expectProblem(npyNumbers<std::int64_t>({1, 2, (std::int64_t{1} << 53) + 1}, "<i8"), BoxValue::Margin,
+                "margin 2 is 9007199254740993; float64 holds integers up to 2^53");
+  expectProblem(npyNumbers<std::int64_t>({-(std::int64_t{1} << 53) - 1, 2, 3}, "<i8"), BoxValue::Margin,
+                "margin 0 is -9007199254740993; ");
+  expectProblem(npyNumbers<std::uint16_t>({0, 0x7e00, 0}, "<f2"), BoxValue::Margin, "margin 1 is a NaN");
+  expectProblem(npyNumbers<std::uint16_t>({0, 0, 0xfc00}, "<f2"), BoxValue::Margin, "margin 2 is -infinity");
+  expectProblem(npyNumbers<std::uint16_t>({0, 0, 0}, "<f2"), BoxValue::Mask,
+                "holds numbers of type '<f2'; masks are integers");
   expectProblem(npyNumbers<double>({1, 2, 3}, "<f8"), BoxValue::Category,
                 "holds numbers of type '<f8'; categories are integers");
   expectProblem(npyBytes({{}, {}, {}}), BoxValue::Margin, "has shape (3, 6); margins are (n,)");

@@ -22,7 +22,8 @@ struct BoxValueFiles {
 };
 
 /// NumPy files of one number for each box that are read a part at a time: arrays of shape (n,), in either byte order, taken
-/// one after the other. Margins are float32 or float64, all else are integers of any width.
+/// one after the other. Margins are float16, float32, float64 or integers, all else are integers of any width;
+/// bools count as 0 and 1.
 ///
 /// Bad input: anything else, and more or fewer numbers than boxes, throw FileError.
 /// Cost:      one file is open at a time; nothing is kept but the headers' sizes.
@@ -38,7 +39,7 @@ class BoxValues {
   /// Reads the numbers from that of box `begin` on, as many as fit.
   ///
   /// Bad input: a range that is not within the files, or numbers of the other kind, throws InvalidArgument; a margin that
-  ///            is a NaN or -infinity, an integer beyond 32 bits, and a file that cannot be read or has changed, throw
+  ///            is a NaN or -infinity, a label beyond 32 bits, an integer margin beyond 2^53, and a file that cannot be read or has changed, throw
   ///            FileError, which names the file and the number in it.
   void read(std::uint64_t begin, Span<double> margins);
   void read(std::uint64_t begin, Span<std::uint32_t> labels);

@@ -34,6 +34,16 @@ Words wordsOf(BoxValue kind) {
   return kWords.at(static_cast<std::size_t>(kind));
 }
 
+/// A number of 16 bits, for which C++20 has no type.
+struct Half {
+  std::uint16_t bits = 0;
+};
+
+/// A NumPy bool.
+struct Truth {
+  std::uint8_t byte = 0;
+};
+
 /// Calls use(a number of the stored type), or says that it is none that is taken.
 template <class Use>
 bool withStoredType(std::string_view type, BoxValue kind, const Use& use) {
@@ -42,32 +52,57 @@ bool withStoredType(std::string_view type, BoxValue kind, const Use& use) {
     use(number);
     return true;
   };
-  if (kind == BoxValue::Margin) return calledIf("f4", float{}) || calledIf("f8", double{});
-  return calledIf("u1", std::uint8_t{}) || calledIf("u2", std::uint16_t{}) || calledIf("u4", std::uint32_t{}) ||
-         calledIf("u8", std::uint64_t{}) || calledIf("i1", std::int8_t{}) || calledIf("i2", std::int16_t{}) ||
-         calledIf("i4", std::int32_t{}) || calledIf("i8", std::int64_t{});
+  if (kind == BoxValue::Margin && (calledIf("f2", Half{}) || calledIf("f4", float{}) || calledIf("f8", double{})))
+    return true;
+  return calledIf("b1", Truth{}) || calledIf("u1", std::uint8_t{}) || calledIf("u2", std::uint16_t{}) ||
+         calledIf("u4", std::uint32_t{}) || calledIf("u8", std::uint64_t{}) || calledIf("i1", std::int8_t{}) ||
+         calledIf("i2", std::int16_t{}) || calledIf("i4", std::int32_t{}) || calledIf("i8", std::int64_t{});
 }
 
-/// What holds each number of a stored type.
+/// A stored number in a type that holds each of its kind.
 template <class Stored>
-using Widest = std::conditional_t<std::is_floating_point_v<Stored>, double,
-                                  std::conditional_t<std::is_signed_v<Stored>, std::int64_t, std::uint64_t>>;
-
-bool isTaken(double margin) { return margin > -std::numeric_limits<double>::infinity(); }  // no NaN is
-
-template <class Number, class = std::enable_if_t<std::is_integral_v<Number>>>
-bool isTaken(Number label) {
-  return std::in_range<std::uint32_t>(label);
+auto widest(Stored number) {
+  if constexpr (std::is_floating_point_v<Stored>) {
+    return static_cast<double>(number);
+  } else {
+    return static_cast<std::conditional_t<std::is_signed_v<Stored>, std::int64_t, std::uint64_t>>(number);
+  }
 }
 
-[[noreturn]] void failAt(const Path& path, std::uint64_t row, double margin) {
-  throw FileError(path, "margin " + std::to_string(row) + (std::isnan(margin) ? " is a NaN" : " is -infinity"));
+std::uint64_t widest(Truth truth) { return truth.byte != 0 ? 1 : 0; }
+
+double widest(Half half) {
+  const int exponent = half.bits >> 10 & 31;
+  const int fraction = half.bits & 1023;
+  double magnitude = std::ldexp(exponent == 0 ? fraction : fraction + 1024, std::max(exponent, 1) - 25);
+  if (exponent == 31) magnitude = fraction == 0 ? std::numeric_limits<double>::infinity() : std::nan("");
+  return (half.bits >> 15) != 0 ? -magnitude : magnitude;
 }
 
-template <class Number, class = std::enable_if_t<std::is_integral_v<Number>>>
-[[noreturn]] void failAt(const Path& path, std::uint64_t row, Number label) {
-  throw FileError(path,
-                  "number " + std::to_string(row) + " is " + std::to_string(label) + "; 0 to 4294967295 are taken");
+constexpr std::int64_t kExactIntegers = std::int64_t{1} << 53;  // up to here float64 holds every integer
+
+/// Whether a number of a file can be the Number of a box.
+template <class Number, class Value>
+bool isTaken(Value value) {
+  if constexpr (std::is_floating_point_v<Value>) {
+    return value > -std::numeric_limits<double>::infinity();  // no NaN is
+  } else if constexpr (std::is_floating_point_v<Number>) {
+    return std::cmp_less_equal(value, kExactIntegers) && std::cmp_greater_equal(value, -kExactIntegers);
+  } else {
+    return std::in_range<std::uint32_t>(value);
+  }
+}
+
+template <class Number, class Value>
+[[noreturn]] void failAt(const Path& path, std::uint64_t row, Value value) {
+  const std::string number = std::to_string(row) + " is ";
+  if constexpr (std::is_floating_point_v<Value>) {
+    throw FileError(path, "margin " + number + (std::isnan(value) ? "a NaN" : "-infinity"));
+  } else if constexpr (std::is_floating_point_v<Number>) {
+    throw FileError(path, "margin " + number + std::to_string(value) + "; float64 holds integers up to 2^53");
+  } else {
+    throw FileError(path, "number " + number + std::to_string(value) + "; 0 to 4294967295 are taken");
+  }
 }
 
 /// One file, of which the header has been read.
@@ -80,9 +115,8 @@ class ValueFile {
     if (!descr.empty())
       m_type = descr.substr(std::string_view("<>|=").find(descr[0]) == std::string_view::npos ? 0 : 1);
     if (!withStoredType(m_type, kind, [this](auto number) { m_itemSize = sizeof(number); })) {
-      throw FileError(path,
-                      "holds numbers of type '" + m_header.descr + "'; " + std::string(wordsOf(kind).many) +
-                          (kind == BoxValue::Margin ? " are float32 ('<f4') or float64 ('<f8')" : " are integers"));
+      throw FileError(path, "holds numbers of type '" + m_header.descr + "'; " + std::string(wordsOf(kind).many) +
+                                (kind == BoxValue::Margin ? " are floats or integers" : " are integers"));
     }
     checkShape();
   }
@@ -118,8 +152,8 @@ class ValueFile {
     m_file.read(stored, m_bytes.size());
     toNativeOrder(m_header, stored, numbers.size());
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const auto value = static_cast<Widest<Stored>>(stored[i]);  // NOLINT(bugprone-signed-char-misuse): a number
-      if (!isTaken(value)) failAt(m_path, begin + i, value);
+      const auto value = widest(stored[i]);
+      if (!isTaken<Number>(value)) failAt<Number>(m_path, begin + i, value);
       numbers[i] = static_cast<Number>(value);
     }
   }
