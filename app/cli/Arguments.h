@@ -75,7 +75,7 @@ void addBoxValues(CLI::App& command, BoxSetArguments& arguments);
 [[nodiscard]] std::vector<std::filesystem::path> pathsOf(const std::vector<std::string>& names);
 [[nodiscard]] scene::BoxValueFiles filesOf(const ValueArguments& arguments);
 
-/// The region that follows --box: x0,y0,z0,x1,y1,z1 with min <= max on every axis.
+/// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///
 /// Bad input: throws UsageError.
 [[nodiscard]] Box parseRegion(const std::string& text);

@@ -15,8 +15,8 @@ namespace {
 
 void checkRegion(const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!(box.min[axis] <= box.max[axis])) {
-      throw InvalidArgument("the region box does not have min <= max on the " + std::string(1, "xyz"[axis]) +
+    if (!(box.min[axis] < box.max[axis])) {
+      throw InvalidArgument("the region box does not have min < max on the " + std::string(1, "xyz"[axis]) +
                             " axis: " + std::to_string(box.min[axis]) + " to " + std::to_string(box.max[axis]));
     }
   }

@@ -134,17 +134,6 @@ TEST(DetectBoxes, ARegionLeavesOutWhatDoesNotTouchIt) {
   EXPECT_EQ(pairsOfNpy(runProgram({"detect", path, "--format", "npy", "--box=-1,-1,-1,3,3,3"}).out), expected);
 }
 
-TEST(DetectBoxes, AFlatRegionLeavesOutWhatDoesNotTouchIt) {
-  const TempFolder folder;
-  const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), cube(0.5, 0, 0), cube(1, 0, 0)}));
-  const auto pairs = [&path](const char* region) {
-    return pairsOfNpy(runProgram({"detect", path, "--format", "npy", "--box", region}).out);
-  };
-  EXPECT_EQ(pairs("1.5,0,0,1.5,1,1"), (std::vector<Pair>{{1, 2}}));
-  EXPECT_EQ(pairs("1,1,1,1,1,1"), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
-  EXPECT_EQ(pairs("0,2,0,9,2,9"), std::vector<Pair>{});
-}
-
 TEST(DetectBoxes, SeveralInputsAreOneListInTheOrderGiven) {
   const TempFolder folder;
   const std::vector<Box> boxes = someBoxes(60);

@@ -58,7 +58,7 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
 
   /// Reads the region.
   ///
-  /// Bad input: a box with a NaN, or one that does not have min <= max on every axis, throws InvalidArgument.
+  /// Bad input: a box with a NaN, or one that does not have min < max on every axis, throws InvalidArgument.
   void init() override;
 
   /// Reads the region again.
