@@ -138,14 +138,18 @@ allpairs_status allpairs_search_shrink(allpairs_search* search) {
 }
 
 allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs) {
-  return guarded([&] { required(pairs, "pairs") = toC(prepared(search, set, nullptr).find(set->boxes)); });
+  return guarded([&] {
+    allpairs_pairs& to = required(pairs, "pairs");
+    to = toC(prepared(search, set, nullptr).find(set->boxes));
+  });
 }
 
 allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
                                       allpairs_pairs* pairs) {
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
-    required(pairs, "pairs") = toC(prepared(search, first, second).find(first->boxes, others));
+    allpairs_pairs& to = required(pairs, "pairs");
+    to = toC(prepared(search, first, second).find(first->boxes, others));
   });
 }
 
@@ -197,7 +201,8 @@ allpairs_status allpairs_find_neighbors(allpairs_search* search, const allpairs_
                                         allpairs_rows* rows) {
   return guarded([&] {
     const allpairs::NeighborRows known = rowsOf(numberIn(kind));
-    required(rows, "rows") = toC(prepared(search, set, nullptr).findNeighbors(set->boxes, known));
+    allpairs_rows& to = required(rows, "rows");
+    to = toC(prepared(search, set, nullptr).findNeighbors(set->boxes, known));
   });
 }
 
@@ -205,19 +210,24 @@ allpairs_status allpairs_find_neighbors_between(allpairs_search* search, const a
                                                 const allpairs_set* second, allpairs_rows* rows) {
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
-    required(rows, "rows") = toC(prepared(search, first, second).findNeighbors(first->boxes, others));
+    allpairs_rows& to = required(rows, "rows");
+    to = toC(prepared(search, first, second).findNeighbors(first->boxes, others));
   });
 }
 
 allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set, uint64_t* count) {
-  return guarded([&] { required(count, "count") = prepared(search, set, nullptr).count(set->boxes); });
+  return guarded([&] {
+    std::uint64_t& to = required(count, "count");
+    to = prepared(search, set, nullptr).count(set->boxes);
+  });
 }
 
 allpairs_status allpairs_count_between(allpairs_search* search, const allpairs_set* first, const allpairs_set* second,
                                        uint64_t* count) {
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
-    required(count, "count") = prepared(search, first, second).count(first->boxes, others);
+    std::uint64_t& to = required(count, "count");
+    to = prepared(search, first, second).count(first->boxes, others);
   });
 }
 

@@ -65,6 +65,13 @@ static void settingsThatMakeNoSenseAreRefused(void) {
   options.distance = 0;
   ALLPAIRS_CHECK(allpairs_search_set_options(search, &options) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_find(search, set, &pairs) == ALLPAIRS_LIMIT_EXCEEDED && allpairs_error_index() == 3);
+  // Where a result would be written is looked at before anything is searched.
+  ALLPAIRS_CHECK(allpairs_find(search, set, NULL) == ALLPAIRS_INVALID_ARGUMENT && says("pairs is null"));
+  ALLPAIRS_CHECK(allpairs_find_between(search, set, set, NULL) == ALLPAIRS_INVALID_ARGUMENT && says("pairs is null"));
+  ALLPAIRS_CHECK(allpairs_find_neighbors(search, set, ALLPAIRS_HALF_ROWS, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_find_neighbors_between(search, set, set, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_count(search, set, NULL) == ALLPAIRS_INVALID_ARGUMENT && says("count is null"));
+  ALLPAIRS_CHECK(allpairs_count_between(search, set, set, NULL) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(allpairs_set_margin(set, NAN) == ALLPAIRS_INVALID_ARGUMENT);
   allpairs_search_destroy(search);
   allpairs_set_destroy(set);

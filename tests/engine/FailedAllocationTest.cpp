@@ -74,8 +74,8 @@ class FailedAllocation : public ::testing::TestWithParam<SearchCase> {
 
 INSTANTIATE_TEST_SUITE_P(
     OfEachSearch, FailedAllocation,
-    ::testing::Values(SearchCase{"exhaustive", 300, 1.0F, Strategy::Exhaustive, Order::ByFirst},
-                      SearchCase{"exhaustive by second", 300, 1.0F, Strategy::Exhaustive, Order::BySecond},
+    ::testing::Values(SearchCase{"exhaustive", 400, 1.0F, Strategy::Exhaustive, Order::ByFirst},
+                      SearchCase{"exhaustive by second", 400, 1.0F, Strategy::Exhaustive, Order::BySecond},
                       SearchCase{"many pairs, exhaustive", 500, 50.0F, Strategy::Exhaustive, Order::ByFirst},
                       SearchCase{"bvh", 2100, 1.0F, Strategy::Bvh, Order::ByFirst},
                       SearchCase{"bvh by second", 2100, 1.0F, Strategy::Bvh, Order::BySecond},
