@@ -304,5 +304,25 @@ TEST(Stop, OfWhatIsReceivedComesBeforeMany) {
   EXPECT_LT(calls, 10'000U);  // of 4.5 million
 }
 
+TEST(Stop, OfAFewBoxesIsHeededWhereTheirPairsAreTested) {
+  const std::vector<BoxF> boxes = manyBoxes(384, 0);
+  StopFlag stop;
+  std::size_t calls = 0;
+  OverlapOptions options;
+  options.strategy = Strategy::Exhaustive;
+  options.stop = &stop;
+  options.filter.accept = [&](std::uint32_t, std::uint32_t) {
+    if (++calls == 10) stop.set();
+    return true;
+  };
+  EXPECT_THROW(static_cast<void>(overlaps(boxes, options)), Stopped);
+  EXPECT_LT(calls, 2'000U);  // of 73,536
+  options.filter.accept = {};
+  options.distance = 0.1;
+  for (const std::size_t size : {8U, 128U, 129U, 384U}) {
+    EXPECT_THROW(static_cast<void>(overlaps(std::span(boxes).first(size), options)), Stopped) << size;
+  }
+}
+
 }  // namespace
 }  // namespace allpairs

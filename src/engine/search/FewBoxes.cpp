@@ -30,9 +30,9 @@ constexpr std::size_t kHits = 2 * LaneTile::kCapacity;
 /// Turns hits into pairs, and passes on those that the test keeps.
 class Receiver {
  public:
-  Receiver(const Kernels& kernels, PairSide side, const PairTest& test, std::uint64_t maxPairs,
+  Receiver(const Kernels& kernels, PairSide side, const PairTest& test, const OverlapOptions& options,
            FunctionRef<void(std::span<const Pair>)> take)
-      : m_kernels(kernels), m_side(side), m_test(test), m_maxPairs(maxPairs), m_take(take) {
+      : m_kernels(kernels), m_side(side), m_test(test), m_options(options), m_take(take) {
     m_hits.row = m_rows.data();
     m_hits.partner = m_partners.data();
     if (test.leavesDoubts()) m_hits.doubt = m_doubts.data();
@@ -53,6 +53,7 @@ class Receiver {
  private:
   void flush() {
     if (m_hits.size == 0) return;
+    checkStop(m_options.stop);
     m_kernels.writePairs(m_hits, m_side, m_pairs.data());
     const std::span<Pair> pairs(m_pairs.data(), m_hits.size);
     m_statistics.exactTests += m_test.exactTestsOf(m_hits);
@@ -60,14 +61,14 @@ class Receiver {
     m_hits.size = 0;
     m_hits.doubts = 0;
     m_statistics.pairs += kept;
-    checkLimit({.maxPairs = m_maxPairs}, m_statistics.pairs);
+    checkLimit({.maxPairs = m_options.maxPairs}, m_statistics.pairs);
     m_take({m_pairs.data(), kept});
   }
 
   const Kernels& m_kernels;
   PairSide m_side;
   const PairTest& m_test;
-  std::uint64_t m_maxPairs;
+  const OverlapOptions& m_options;
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
   Hits m_hits;
@@ -155,6 +156,7 @@ OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Ord
 OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order,
                               FunctionRef<void(std::span<const Pair>)> take) {
   checkOptions(sets, options);
+  checkStop(options.stop);
   const Kernels& kernels = chooseKernels(options);
   PairTest test = PairTest::of(sets, options);
   const bool bySecond = order == Order::BySecond;
@@ -174,7 +176,7 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
     exact &= rowSet.readAll(search.rows);
   }
   test.requireExactTestInDoubt(!exact, readers.first.origin());
-  Receiver receiver(kernels, bySecond ? PairSide::RowSecond : PairSide::RowFirst, test, options.maxPairs, take);
+  Receiver receiver(kernels, bySecond ? PairSide::RowSecond : PairSide::RowFirst, test, options, take);
   kernels.searchFlat(search, receiver.hits());
   return receiver.finish();
 }
