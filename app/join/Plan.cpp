@@ -30,7 +30,8 @@ struct PlanSettings {
 constexpr const char* kPlanExamples =
     R"(Reads the boxes. Cells, copies and room for boxes are exact; the number of
 pairs is estimated from a sample, and the time from 2 to 8 million boxes that are
-joined for it in a folder within --work, which is gone afterwards.
+joined for it (fewer with less --memory) in a folder within --work, which is gone
+afterwards.
 
 With --ranks it says what 'allpairs-mpi join' would send over the network instead.
 
@@ -46,7 +47,7 @@ std::string boxesText(std::uint64_t all, std::uint64_t second, const JoinArgumen
   return grouped(all - second) + " and " + grouped(second);
 }
 
-std::string planText(const join::JoinSummary& plan, double seconds, const JoinArguments& arguments) {
+std::string planText(const join::JoinSummary& plan, const JoinArguments& arguments) {
   std::string text = fmt::format("boxes    {}\n", boxesText(plan.boxes, plan.secondBoxes, arguments));
   text += fmt::format("cells    {}\n", grouped(plan.cells));
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
@@ -54,8 +55,7 @@ std::string planText(const join::JoinSummary& plan, double seconds, const JoinAr
   text += fmt::format("pairs    about {}\n", grouped(plan.pairs));
   text += fmt::format("disk     {} MiB for boxes, about {} MiB for pairs\n", grouped((plan.boxBytes >> 20) + 1),
                       grouped((plan.pairBytes >> 20) + 1));
-  text += fmt::format("result   about {} MiB\n", grouped((plan.pairBytes >> 20) + 1));
-  return text + fmt::format("time     about {:.{}f} s\n", seconds, seconds < 10.0 ? 1 : 0);
+  return text + fmt::format("result   about {} MiB\n", grouped((plan.pairBytes >> 20) + 1));
 }
 
 std::string mebibytes(std::uint64_t bytes) { return grouped((bytes >> 20) + 1) + " MiB"; }
@@ -84,10 +84,14 @@ void runPlan(const PlanSettings& settings) {
     return;
   }
   const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
+  clock.reset();
+  // What is known is said before what may fail, as where the disk is too small.
+  Output(std::nullopt).write(planText(plan, settings.shared));
   clock.emplace("measuring the time of a join");
   const JoinCost cost = measureJoinCost(settings.work.empty() ? "." : settings.work, plan, options);
   clock.reset();
-  Output(std::nullopt).write(planText(plan, cost.secondsFor(plan), settings.shared));
+  const double seconds = cost.secondsFor(plan);
+  Output(std::nullopt).write(fmt::format("time     about {:.{}f} s\n", seconds, seconds < 10.0 ? 1 : 0));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -56,9 +57,13 @@ bool isEmptyFolder(const fs::path& folder) {
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
   if (!entries && errno == ENOMEM) throw std::bad_alloc();
   if (!entries) throw FileError(folder, "cannot be read: " + std::generic_category().message(errno));
-  std::size_t count = 0;
-  while (count <= 2 && ::readdir(entries.get()) != nullptr) ++count;
-  return count <= 2;
+  errno = 0;  // readdir() sets it where it fails
+  while (const dirent* const entry = ::readdir(entries.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") return false;
+  }
+  if (errno != 0) throw FileError(folder, "cannot be read: " + std::generic_category().message(errno));
+  return true;
 }
 
 }  // namespace

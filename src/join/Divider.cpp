@@ -23,10 +23,6 @@ constexpr std::uint64_t kWorthCutting = 100'000;  // boxes; fewer are searched s
 /// A sample with fewer pairs says little about the whole.
 constexpr std::uint64_t kEnoughPairs = 2'000;
 
-/// Where every so many boxes of a set are taken from. Not the same boxes of two sets: each may overlap the one with its
-/// number, as where the sets are one, or the same objects at two times.
-std::uint64_t beginOf(std::size_t set, std::uint64_t step) { return set * (step / 2); }
-
 std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
   const double full = kLoad * static_cast<double>(std::max<std::size_t>(budget.cellBoxes, 1));
   const auto forMemory = boxes <= budget.cellBoxes
@@ -115,20 +111,22 @@ BoxSample Divider::keptOf(const BoxSample& all) const {
 
 void Divider::count(Division& division) {
   division.counts.assign(m_input.sets() * (division.cells.size() + 1), 0);
-  const std::uint64_t most = std::max<std::uint64_t>(m_budget.sampleBoxes / m_input.sets(), 1);
   division.kept = {};
   for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
+  m_evenNumbers = {};
   CellFinder finder(division, m_options);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
-    const std::uint64_t step = m_input.size(block.set) / most + 1;
+    const std::uint64_t step = stepOf(block.set);
     for (std::size_t i = 0; i < block.boxes.size(); ++i) {
       if (!isKept(block, i, m_options)) continue;
       ++division.kept[block.set];
       for (const std::uint32_t cell : finder.cellsOf(block, i)) {
         ++division.counts[partOf(division.cells, block.set, cell)];
       }
-      if ((block.begin + i) % step == beginOf(block.set, step)) m_evenSamples[block.set].add(block, i);
+      if ((block.begin + i) % step != 0) continue;
+      m_evenSamples[block.set].add(block, i);
+      m_evenNumbers[block.set].push_back(block.begin + i);
     }
     if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
@@ -148,34 +146,58 @@ bool Divider::cutFullCells(Division& division, const BoxSample& sample) const {
   return isCut;
 }
 
-/// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long.
+/// Every so many boxes of a set are in its sample; of two sets of about the same size those with the same numbers.
+std::uint64_t Divider::stepOf(std::size_t set) const {
+  const std::uint64_t most = std::max<std::uint64_t>(m_budget.sampleBoxes / m_input.sets(), 1);
+  const std::uint64_t own = m_input.size(set) / most + 1;
+  const std::uint64_t others = m_input.size(m_input.sets() - 1 - set) / most + 1;
+  return others <= 2 * own ? std::max(own, others) : own;
+}
+
+/// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long. Boxes of two sets
+/// with the same number may be the same object, so that their pairs say nothing of those of other numbers.
 std::uint64_t Divider::estimatePairs(const Division& division) const {
-  std::uint64_t pairs = 0;
+  SamplePairs pairs;
   std::array<BoxSample, 2> parts;
-  for (std::size_t step = 256; step > 0 && pairs < kEnoughPairs; step /= 4) {
+  for (std::size_t step = 256; step > 0 && pairs.others < kEnoughPairs; step /= 4) {
+    std::array<std::vector<std::uint64_t>, 2> numbers;
     for (std::size_t set = 0; set < m_input.sets(); ++set) {
       parts[set] = {.type = m_input.recordType()};
       const BoxBlock block = m_evenSamples[set].block();
-      for (std::size_t i = beginOf(set, step); i < block.boxes.size(); i += step) parts[set].add(block, i);
+      const std::uint64_t stepOfNumbers = step * stepOf(set);
+      for (std::size_t i = 0; i < block.boxes.size(); ++i) {
+        const std::uint64_t number = m_evenNumbers[set][i];
+        if (number % stepOfNumbers != 0) continue;
+        parts[set].add(block, i);
+        numbers[set].push_back(number);
+      }
     }
-    pairs = pairsOf(std::span(parts).first(m_input.sets()));
+    pairs = pairsOf(std::span(parts).first(m_input.sets()), numbers);
   }
   const bool isOneSet = m_input.sets() == 1;
   const auto shareOf = [&](std::size_t set, std::size_t less) {  // of how many boxes one of the sample stands for
     const auto all = static_cast<double>(division.kept[set] - less);
     return all / static_cast<double>(parts[set].boxes.size() - less);
   };
-  if (pairs == 0) return 0;
+  if (pairs.others + pairs.ofOneNumber == 0) return 0;
   const double share = shareOf(0, 0) * (isOneSet ? shareOf(0, 1) : shareOf(1, 0));
-  return static_cast<std::uint64_t>(static_cast<double>(pairs) * share);
+  return static_cast<std::uint64_t>(static_cast<double>(pairs.others) * share +
+                                    static_cast<double>(pairs.ofOneNumber) * shareOf(0, 0));
 }
 
-std::uint64_t Divider::pairsOf(std::span<const BoxSample> parts) const {
+Divider::SamplePairs Divider::pairsOf(std::span<const BoxSample> parts,
+                                      const std::array<std::vector<std::uint64_t>, 2>& numbers) const {
   OverlapOptions options{.distance = m_options.distance, .stop = m_options.stop};
   options.filter.first = parts[0].bits();
-  if (parts.size() == 1) return countOverlaps(parts[0].view(), options);
+  if (parts.size() == 1) return {.others = countOverlaps(parts[0].view(), options)};
   options.filter.second = parts[1].bits();
-  return countOverlaps(parts[0].view(), parts[1].view(), options);
+  SamplePairs pairs;
+  options.filter.accept = [&](std::uint32_t first, std::uint32_t second) {
+    pairs.ofOneNumber += numbers[0][first] == numbers[1][second] ? 1U : 0U;
+    return true;
+  };
+  pairs.others = countOverlaps(parts[0].view(), parts[1].view(), options) - pairs.ofOneNumber;
+  return pairs;
 }
 
 }  // namespace allpairs::join

@@ -54,12 +54,20 @@ class Divider {
   [[nodiscard]] BoxSample keptOf(const BoxSample& all) const;
   [[nodiscard]] bool cutFullCells(Division& division, const BoxSample& sample) const;
   [[nodiscard]] std::uint64_t estimatePairs(const Division& division) const;
-  [[nodiscard]] std::uint64_t pairsOf(std::span<const BoxSample> parts) const;
+  /// Pairs of a sample: of two sets those of boxes with the same number, and others.
+  struct SamplePairs {
+    std::uint64_t others = 0;
+    std::uint64_t ofOneNumber = 0;
+  };
+  [[nodiscard]] SamplePairs pairsOf(std::span<const BoxSample> parts,
+                                    const std::array<std::vector<std::uint64_t>, 2>& numbers) const;
+  [[nodiscard]] std::uint64_t stepOf(std::size_t set) const;
 
   BoxInput& m_input;
   const JoinOptions& m_options;
   const Budget& m_budget;
   std::array<BoxSample, 2> m_evenSamples;  ///< Boxes at equal distances in each set, taken while counting.
+  std::array<std::vector<std::uint64_t>, 2> m_evenNumbers;  ///< In their set.
 };
 
 /// Whether the region does not leave a box out.

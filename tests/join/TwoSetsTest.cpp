@@ -179,6 +179,25 @@ TEST(TwoSets, APlanOfASetWithItselfIsNotOfItsBoxesWithThemselves) {
   EXPECT_NEAR(static_cast<double>(join::planFiles(with.paths, options).pairs), pairs, 0.3 * pairs);
 }
 
+/// Each box overlaps only the one with its number: the same objects, that is, at two times.
+TEST(TwoSets, APlanOfTheSameObjectsAtTwoTimesHasThem) {
+  std::vector<Box> before;
+  std::vector<Box> after;
+  for (std::size_t i = 0; i < 200'000; ++i) {
+    const auto x = static_cast<double>(2 * (i % 500));
+    const auto y = static_cast<double>(2 * (i / 500));
+    before.push_back({{x, y, 0}, {x + 1, y + 1, 1}});
+    after.push_back({{x + 0.1, y, 0}, {x + 1.1, y + 1, 1}});
+  }
+  for (const std::vector<Box>& second : {after, before}) {
+    const TwoSetsCase with({before, second});
+    join::JoinOptions options = with.options();
+    options.memory = join::kLeastMemory;
+    ASSERT_EQ(join::countFiles(with.paths, options).pairs, 200'000U);
+    EXPECT_NEAR(static_cast<double>(join::planFiles(with.paths, options).pairs), 200'000.0, 20'000.0);
+  }
+}
+
 TEST(TwoSets, AfterAKillAtAnyStepTheBytesAreTheSame) {
   const Sets sets{withGiants(250, 21, 9), withGiants(300, 22, 9)};
   TwoSetsCase with(sets);
