@@ -34,9 +34,13 @@ bool holdsReport(const fs::path& folder) {
 bool isFull(const fs::path& folder) {
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
   if (!entries && errno == ENOMEM) throw std::bad_alloc();
-  std::size_t count = 0;
-  while (entries && count <= 2 && ::readdir(entries.get()) != nullptr) ++count;
-  return count > 2;  // more than itself and the one above
+  while (entries) {
+    const dirent* const entry = ::readdir(entries.get());
+    if (entry == nullptr) return false;
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") return true;
+  }
+  return false;
 }
 
 /// Whether a name is that of a file such as a report consists of, and so hardly that of a folder.

@@ -3,6 +3,7 @@
 
 #include <zip.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <utility>
@@ -25,7 +26,8 @@ unsigned numberAt(const std::string& date, std::size_t place, std::size_t digits
 Zip::Zip(const std::string& date) {
   constexpr unsigned kFirstYear = 1980;
   constexpr std::uint16_t kFirstDay = 1U << 5 | 1U;
-  if (const unsigned year = numberAt(date, 0, 4); year >= kFirstYear) {
+  constexpr unsigned kLastYear = 2107;
+  if (const unsigned year = std::min(numberAt(date, 0, 4), kLastYear); year >= kFirstYear) {
     m_day = static_cast<std::uint16_t>((year - kFirstYear) << 9 | numberAt(date, 5, 2) << 5 | numberAt(date, 8, 2));
     m_time = static_cast<std::uint16_t>(numberAt(date, 11, 2) << 11 | numberAt(date, 14, 2) << 5 |
                                         numberAt(date, 17, 2) / 2);

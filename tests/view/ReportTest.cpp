@@ -307,6 +307,8 @@ TEST(Report, FilesInItsBcfAreAsOldAsTheReportSaysThatItIs) {
   EXPECT_EQ(momentAt("1700000001"), first);  // 2023-11-14T22:13:21Z
   const std::array oldest{0U, 1U << 5 | 1U};
   EXPECT_EQ(momentAt("86400"), oldest);  // an archive knows no year before 1980
+  const std::array latest{0U, 127U << 9 | 1U << 5 | 1U};
+  EXPECT_EQ(momentAt("4354819200"), latest);  // 2108-01-01: nor one after 2107
 }
 
 TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
