@@ -42,7 +42,7 @@ struct Number {
 /// What the bytes of a .npy file say, read without the library, of a file that the library takes.
 class Stored {
  public:
-  explicit Stored(std::string_view file) {
+  explicit Stored(std::string_view file, BoxValue kind = BoxValue::Margin) : m_kind(kind) {
     constexpr std::size_t kStart = 12;
     if (file.size() < kStart) return;
     const auto byte = [file](std::size_t i) { return std::size_t{static_cast<unsigned char>(file[i])}; };
@@ -65,8 +65,14 @@ class Stored {
       bits = bits << 8 | static_cast<unsigned char>(m_data[place]);
     }
     if (isFloat()) return realOf(bits);
+    if (m_letter == 'b') return {bits != 0 ? 1.0 : 0.0, bits != 0 ? 1U : 0U, true};
     const bool isNegative = m_letter == 'i' && (bits >> (8 * m_width - 1)) != 0;
-    return {0.0, static_cast<std::uint32_t>(bits), !isNegative && bits <= std::numeric_limits<std::uint32_t>::max()};
+    const std::uint64_t above = m_width == 8 ? 0 : std::uint64_t{1} << (8 * m_width);
+    const std::uint64_t magnitude = isNegative ? above - bits : bits;
+    const double real = isNegative ? -static_cast<double>(magnitude) : static_cast<double>(magnitude);
+    const bool isMargin = m_kind == BoxValue::Margin;
+    const std::uint64_t most = isMargin ? std::uint64_t{1} << 53U : std::numeric_limits<std::uint32_t>::max();
+    return {real, static_cast<std::uint32_t>(bits), magnitude <= most && (isMargin || !isNegative)};
   }
 
   /// Bound k of box i: of two sets of three, in rows or in columns.
@@ -88,12 +94,23 @@ class Stored {
     m_isFortran = header.find("True") != std::string_view::npos;
   }
 
+  /// A float16, whose bits are those of a float32 with fewer of both parts; a subnormal one is a multiple of 2^-24.
+  static double halfOf(unsigned bits) {
+    const unsigned rest = bits & 0x7fffU;
+    const unsigned exponent = rest >= 0x7c00U ? 0x7f800000U | rest << 13U : (rest << 13U) + 0x38000000U;
+    const double size =
+        rest < 0x400U ? static_cast<double>(rest) * 0x1p-24 : static_cast<double>(std::bit_cast<float>(exponent));
+    return (bits & 0x8000U) != 0 ? -size : size;
+  }
+
   [[nodiscard]] Number realOf(std::uint64_t bits) const {
-    const double real = m_width == 8 ? std::bit_cast<double>(bits)
-                                     : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    const double real = m_width == 8   ? std::bit_cast<double>(bits)
+                        : m_width == 2 ? halfOf(static_cast<unsigned>(bits))
+                                       : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
     return {real, 0, !std::isnan(real) && real != -std::numeric_limits<double>::infinity()};
   }
 
+  BoxValue m_kind;
   std::string_view m_data;
   char m_letter = '\0';
   std::size_t m_width = 0;
@@ -198,10 +215,10 @@ void joinValues(const Input& input, BoxValue kind, const Stored& stored) {
 template <class Value>
 void checkValues(const Input& input, BoxValue kind) {
   const fs::path path = input.write();
-  const Stored stored(input.bytes);
+  const Stored stored(input.bytes, kind);
   const std::size_t size = stored.size();
   if (!passes([&] { (void)scene::BoxValues(Paths{path}, kind, size); })) return;
-  require(stored.isFloat() == (kind == BoxValue::Margin), "margins are no integers, and all else is");
+  require(kind == BoxValue::Margin || !stored.isFloat(), "only margins are floats");
   require(!passes([&] { (void)scene::BoxValues(Paths{path}, kind, size + 1); }), "there is a number for each box");
   readParts<Value>(input, kind, stored);
   if (size > 0 && size <= kMostJoined) joinValues(input, kind, stored);
