@@ -93,7 +93,6 @@ HWY_INLINE std::uint64_t bitsOfAll(std::size_t boxes) {
 template <std::size_t kStep>
 HWY_INLINE std::uint32_t* writeNumbers(std::uint64_t bits, std::uint64_t all, std::size_t first,
                                        std::uint32_t* numbers) {
-  bits &= all;
   if (bits == all) {
     const IdTag d;
     const auto count = static_cast<std::size_t>(std::popcount(all));

@@ -95,10 +95,6 @@ struct alignas(64) LaneTile {
   std::array<std::array<float, kCapacity + kVectorSlack>, 6> bound;
   std::array<std::uint32_t, kCapacity + kVectorSlack> id;
 
-  void set(std::size_t i, const LaneBox& box, std::uint32_t boxId) noexcept {
-    for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
-    id[i] = boxId;
-  }
   [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 };
 

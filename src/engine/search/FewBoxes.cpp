@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
