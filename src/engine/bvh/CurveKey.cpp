@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -19,7 +20,7 @@ constexpr std::size_t kMostSamples = 256;
 constexpr float kLargeFactor = 6.0F;
 
 /// Values farther out than this many times the width of the middle four fifths are outliers.
-constexpr float kOutlierFactor = 64.0F;
+constexpr std::size_t kOutlierFactor = 64;
 
 /// About a sixteenth of the boxes, so that the cost of sampling is negligible.
 std::size_t sampleSize(std::size_t boxes) {
@@ -29,6 +30,31 @@ std::size_t sampleSize(std::size_t boxes) {
 /// As many cells as boxes, and then four times as many along each axis, for sets with dense regions.
 unsigned bitsFor(std::size_t boxes) {
   return std::min((static_cast<unsigned>(std::bit_width(boxes)) + 2) / 3 + 1, CurveGrid::kMaxBitsPerAxis);
+}
+
+/// On a line four cells a box, as many as a float32 can tell apart.
+unsigned bitsForLine(std::size_t boxes) { return std::min(static_cast<unsigned>(std::bit_width(boxes)) + 2, 24U); }
+
+float centreOf(const LaneBox& box, std::size_t axis) { return 0.5F * box.bound[axis] + 0.5F * box.bound[axis + 3]; }
+
+/// Whether boxes lie along a straight line, which most often the first ones disprove: each meets it, or is no farther from it
+/// than `distance`.
+bool areAlongLine(std::span<const LaneBox> boxes, std::size_t widestAxis, float distance) {
+  const auto isBefore = [=](const LaneBox& a, const LaneBox& b) {
+    return centreOf(a, widestAxis) < centreOf(b, widestAxis);
+  };
+  const auto [first, last] = std::minmax_element(boxes.begin(), boxes.end(), isBefore);
+  const float begin = centreOf(*first, widestAxis);
+  const float length = centreOf(*last, widestAxis) - begin;
+  return std::all_of(boxes.begin(), boxes.end(), [=](const LaneBox& box) {
+    const float share = (centreOf(box, widestAxis) - begin) / length;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float onLine = centreOf(*first, axis) + share * (centreOf(*last, axis) - centreOf(*first, axis));
+      const float reach = 0.5F * (box.bound[axis + 3] - box.bound[axis]) + distance;
+      if (!(std::abs(centreOf(box, axis) - onLine) <= reach)) return false;
+    }
+    return true;
+  });
 }
 
 float longestSide(const LaneBox& box) {
@@ -43,14 +69,28 @@ float nth(std::span<float> values, std::size_t n) {
   return *place;
 }
 
+/// Whether four fifths of the values are in two neighbouring parts of so many as outliers are far away: else there are none.
+bool mayHaveOutliers(std::span<const float> values, float least, float width) {
+  const float partWidth = width / static_cast<float>(kOutlierFactor);
+  if (!(partWidth > 0.0F)) return false;
+  constexpr auto kLast = static_cast<float>(kOutlierFactor - 1);
+  std::array<std::size_t, kOutlierFactor> counts{};
+  for (const float value : values) ++counts[static_cast<std::size_t>(std::min((value - least) / partWidth, kLast))];
+  for (std::size_t part = 1; part < counts.size(); ++part) {
+    if (5 * (counts[part - 1] + counts[part]) >= 4 * values.size()) return true;
+  }
+  return false;
+}
+
 /// The beginning and the width of the range of most values: of all, unless a few are outliers.
 std::pair<float, float> rangeOf(std::span<float> values) {
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const std::pair all{*least, std::min(*greatest - *least, kLaneMax)};
+  if (!mayHaveOutliers(values, all.first, all.second)) return all;
   const std::size_t tenth = values.size() / 10;
   const float low = nth(values, tenth);
   const float middle = nth(values, values.size() - 1 - tenth) - low;
-  if (middle > 0.0F && all.second > kOutlierFactor * middle) return {low - middle, 3.0F * middle};
+  if (middle > 0.0F && all.second > static_cast<float>(kOutlierFactor) * middle) return {low - middle, 3.0F * middle};
   return all;
 }
 
@@ -63,7 +103,7 @@ CurveGrid fitTo(std::span<const LaneBox> sample, std::size_t boxes) {
   std::array<float, 3> widths;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::transform(sample.begin(), sample.end(), values.begin(),
-                   [=](const LaneBox& box) { return 0.5F * box.bound[axis] + 0.5F * box.bound[axis + 3]; });
+                   [=](const LaneBox& box) { return centreOf(box, axis); });
     const auto [least, range] = rangeOf(values);
     grid.origin[axis] = least;
     widths[axis] = range;
@@ -73,7 +113,9 @@ CurveGrid fitTo(std::span<const LaneBox> sample, std::size_t boxes) {
   };
   std::sort(grid.axes.begin(), grid.axes.end(), isNarrower);
   const float width = widths[grid.axes[2]];
-  grid.bitsPerAxis = bitsFor(boxes);
+  const float blockLength = width * (static_cast<float>(kFanOut) / static_cast<float>(boxes));
+  grid.isLine = areAlongLine(sample, grid.axes[2], blockLength);
+  grid.bitsPerAxis = grid.isLine ? bitsForLine(boxes) : bitsFor(boxes);
   const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
   if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
   std::transform(sample.begin(), sample.end(), values.begin(), longestSide);
@@ -93,12 +135,10 @@ CurveGrid fitCurveGrid(const BoxReader& reader) {
 CurveGrid fitCurveGrid(const BoxReader& reader, std::span<const CurveKey> boxes) {
   std::array<LaneBox, kMostSamples> sample;
   const std::size_t size = sampleSize(boxes.size());
-  LaneBlock block;
-  for (std::size_t part = 0; part < size; ++part) {
-    const std::uint32_t id = indexOf(boxes[sampleIndex(part, size, boxes.size())]);
-    static_cast<void>(reader.read({&id, 0, 1}, block));
-    sample[part] = block.get(0);
-  }
+  std::size_t read = 0;
+  readSample(
+      reader, size, [&](std::size_t part) { return indexOf(boxes[sampleIndex(part, size, boxes.size())]); },
+      [&](const LaneBox& box, std::uint32_t /*index*/, bool /*isEmpty*/) { sample[read++] = box; });
   return fitTo(std::span(sample).first(size), boxes.size());
 }
 

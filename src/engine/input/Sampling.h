@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,17 +23,34 @@ namespace allpairs::engine {
   return begin + (bits ^ (bits >> 31U)) % std::max<std::size_t>(length, 1);
 }
 
+/// Calls take(lanes, index, isEmpty) for `count` boxes, of which indexOf(part) says the index.
+template <class IndexOf, class Take>
+void readSample(const BoxReader& reader, std::size_t count, const IndexOf& indexOf, const Take& take) {
+  std::array<std::uint32_t, kFanOut> indices;
+  LaneBlock block;
+  for (std::size_t part = 0; part < count; part += kFanOut) {
+    const std::size_t size = std::min(kFanOut, count - part);
+    for (std::size_t lane = 0; lane < size; ++lane) indices[lane] = indexOf(part + lane);
+    const std::uint32_t empty = reader.read({indices.data(), 0, size}, block).emptyLanes;
+    for (std::size_t lane = 0; lane < size; ++lane) take(block.get(lane), indices[lane], (empty >> lane & 1U) != 0);
+  }
+}
+
 /// Calls take(lanes) for about `count` boxes that may overlap something: instead of a sampled box that cannot, it takes
 /// the next one that may, if there is one within a hundred.
 template <class Take>
-void sampleBoxes(const BoxReader& reader, std::size_t count, Take&& take) {
-  LaneBlock block;
-  for (std::size_t part = 0; part < count; ++part) {
-    std::size_t i = sampleIndex(part, count, reader.size());
-    const std::size_t end = std::min(reader.size(), i + 100);
+void sampleBoxes(const BoxReader& reader, std::size_t count, const Take& take) {
+  const auto indexOf = [&](std::size_t part) {
+    return static_cast<std::uint32_t>(sampleIndex(part, count, reader.size()));
+  };
+  readSample(reader, count, indexOf, [&](const LaneBox& box, std::size_t index, bool isEmpty) {
+    LaneBlock block;
+    const std::size_t end = std::min(reader.size(), index + 100);
+    std::size_t i = isEmpty ? index + 1 : end;
     while (i < end && reader.read({nullptr, i, 1}, block).emptyLanes != 0) ++i;
+    if (!isEmpty) take(box);
     if (i < end) take(block.get(0));
-  }
+  });
 }
 
 }  // namespace allpairs::engine

@@ -15,10 +15,13 @@ namespace allpairs::engine {
 ///
 /// The key is a class, for boxes much larger than most, above the position along Hilbert's curve of the cell of the
 /// box's centre. Large boxes are thus grouped together and do not enlarge the bounds of blocks of small ones.
+///
+/// Of boxes along a straight line the position on the widest axis is the key: as fine as cells of three axes, with fewer bits.
 struct CurveGrid {
   /// Keys then have 30 bits with the class, which three passes sort.
   static constexpr unsigned kMaxBitsPerAxis = 9;
 
+  bool isLine = false;
   unsigned bitsPerAxis = kMaxBitsPerAxis;  ///< A few cells per box: more would only make the sort of the keys longer.
   /// The axes in the curve's order: the one with the smallest extent first, since the curve crosses its middle only
   /// once; flat scenes lie on one side of it.
@@ -29,8 +32,7 @@ struct CurveGrid {
   float largeExtent = 0.0F;  ///< Boxes longer than this belong to a class of their own.
 
   /// Where the class begins in a key, and how many of a key's low bits can differ.
-  [[nodiscard]] unsigned classShift() const noexcept { return 3 * bitsPerAxis; }
-  [[nodiscard]] unsigned keyBits() const noexcept { return classShift() + 3; }
+  [[nodiscard]] unsigned classShift() const noexcept { return isLine ? bitsPerAxis : 3 * bitsPerAxis; }
 
   /// The class of a box that is longer than largeExtent, from 1 on: which axis it is long in, or how large it is.
   [[nodiscard]] std::uint32_t classOf(const LaneBox& box) const noexcept;

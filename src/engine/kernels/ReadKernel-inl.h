@@ -360,6 +360,11 @@ HWY_INLINE void classify(const LaneBlock& block, const CurveGrid& grid, std::uin
 void curveKeys(std::span<const LaneBlock> blocks, const CurveGrid& grid, std::uint32_t* keys) {
   const std::size_t lanes = hn::Lanes(FloatTag());
   std::size_t b = 0;
+  for (; grid.isLine && b < blocks.size(); ++b) {
+    for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
+      hn::StoreU(cells(blocks[b], lane, grid.axes[2], grid), IdTag(), keys + b * kFanOut + lane);
+    }
+  }
   for (; b + 2 <= blocks.size(); b += 2) {
     for (std::size_t lane = 0; lane < kFanOut; lane += lanes) writeKeys<2>(&blocks[b], lane, grid, keys + b * kFanOut);
   }
