@@ -107,7 +107,7 @@ TYPED_TEST_SUITE(FewBesideMany, Precisions);
 TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) {
   unsigned seed = 0;
   for (const std::size_t many : {65U, 66U, 71U, 79U, 80U, 97U, 128U, 300U, 1025U, 2049U}) {
-    for (const std::size_t few : {0U, 1U, 2U, 3U, 4U, 5U}) {
+    for (const std::size_t few : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 9U}) {
       const std::vector<TypeParam> a = someRows<TypeParam>(few, ++seed, many < 1000 ? 1.5 : 0.1);
       const std::vector<TypeParam> b = someRows<TypeParam>(many, ++seed, many < 1000 ? 0.4 : 0.05);
       const Corners<TypeParam> aCorners(a);
@@ -132,21 +132,30 @@ TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) 
   }
 }
 
-/// All pairs of 4 and 5,000 boxes: more than are collected at once.
+/// All pairs of 8 and 5,000 boxes: more than are collected at once.
 TYPED_TEST(FewBesideMany, ThatAllOverlapGiveAllPairs) {
   const std::vector<TypeParam> box{0, 0, 0, 1, 1, 1};
   std::vector<TypeParam> few;
   std::vector<TypeParam> many;
-  for (std::size_t i = 0; i < 4; ++i) few.insert(few.end(), box.begin(), box.end());
+  for (std::size_t i = 0; i < 8; ++i) few.insert(few.end(), box.begin(), box.end());
   for (std::size_t i = 0; i < 5000; ++i) many.insert(many.end(), box.begin(), box.end());
   const std::vector<Pair> expected = pairsByLoop(few, many);
-  ASSERT_EQ(expected.size(), 20000U);
+  ASSERT_EQ(expected.size(), 40000U);
   for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
     OverlapSearch search({.order = order});
     ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(few), BoxView::fromRows(many), expected));
-    search.setOptions({.order = order, .maxPairs = 19999});
+    search.setOptions({.order = order, .maxPairs = 39999});
     EXPECT_THROW((void)search.find(BoxView::fromRows(few), BoxView::fromRows(many)), LimitExceeded);
     EXPECT_EQ(search.statistics().pairs, 0U);
+  }
+}
+
+TYPED_TEST(FewBesideMany, GiveAVectorThatHoldsLittleMoreThanItsPairs) {
+  const std::vector<TypeParam> few = someRows<TypeParam>(8, 3, 1.5);
+  for (const double side : {0.001, 0.1, 2.0}) {
+    const std::vector<TypeParam> many = someRows<TypeParam>(20000, 4, side);
+    const std::vector<Pair> pairs = overlaps(BoxView::fromRows(few), BoxView::fromRows(many));
+    EXPECT_LE(pairs.capacity(), 2 * pairs.size() + 1) << pairs.size();
   }
 }
 
@@ -176,7 +185,7 @@ struct ColumnsOf {
 TYPED_TEST(FewBesideMany, GiveTheSameUnorderedListWhateverTheExecutorTheCallAndTheLayout) {
   parallel::TbbExecutor two(2);
   for (const std::size_t many : {107U, 5000U, 70000U}) {
-    for (const std::size_t few : {1U, 2U, 4U}) {
+    for (const std::size_t few : {1U, 2U, 4U, 8U}) {
       SCOPED_TRACE(std::to_string(few) + " beside " + std::to_string(many));
       const std::vector<TypeParam> a = someRows<TypeParam>(few, 100, 1.5);
       const std::vector<TypeParam> b = someRows<TypeParam>(many, 101, 0.1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes as they lie in the caller's memory against one box: which of them may touch it, and whether any value is a NaN.
+// Boxes as they lie in the caller's memory against one box: which of them touch it, the pairs of some such boxes, and whether any
+// value is a NaN.
 
 #if defined(ALLPAIRS_CULL_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_CULL_KERNEL_INL_H
@@ -8,11 +9,13 @@
 #define ALLPAIRS_CULL_KERNEL_INL_H
 #endif
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/FewKernel-inl.h"
 #include "kernels/Kernels.h"
 #include "kernels/LaneTest-inl.h"
 
@@ -88,66 +91,143 @@ HWY_INLINE std::uint64_t bitsOfAll(std::size_t boxes) {
   return bits;
 }
 
-/// Writes the numbers of boxes whose bits are set, those of `all` or some of them, one at every kStep places; returns where they
-/// end.
-template <std::size_t kStep>
-HWY_INLINE std::uint32_t* writeNumbers(std::uint64_t bits, std::uint64_t all, std::size_t first,
-                                       std::uint32_t* numbers) {
-  if (bits == all) {
-    const IdTag d;
-    const auto count = static_cast<std::size_t>(std::popcount(all));
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) hn::StoreU(numbersFrom(first + i), d, numbers + i);
-    return numbers + count;
-  }
-  for (; bits != 0; bits &= bits - 1) {
-    *numbers++ = static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(bits)) / kStep);
-  }
-  return numbers;
+/// The first kCount bits of those at every kStep places, next to each other.
+template <std::size_t kStep, std::size_t kCount>
+HWY_INLINE std::uint64_t closeUp(std::uint64_t bits) {
+#if HWY_TARGET <= HWY_AVX3 && defined(__x86_64__)
+  return _pext_u64(bits, bitsOfAll<kStep>(kCount));
+#else
+  std::uint64_t closed = 0;
+  for (std::size_t i = 0; i < kCount; ++i) closed |= bits >> (i * (kStep - 1)) & std::uint64_t{1} << i;
+  return closed;
+#endif
 }
 
-/// Those of whole vectors, which other boxes follow where three values more are read; `end` is the box that follows the last one.
+/// The bits of whole vectors, which other boxes follow where three values more are read; returns the box that follows the last
+/// one.
 template <class T>
-HWY_INLINE std::uint32_t* touchingWhole(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint32_t* numbers,
-                                        std::size_t& end) {
+HWY_INLINE std::size_t touchWhole(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t* words) {
   using Limits = CornerLimits<T>;
-  const std::size_t lanes = hn::Lanes(typename Limits::Tag());
+  constexpr std::size_t kLanes = hn::MaxLanes(typename Limits::Tag());
+  std::size_t i = 0;
   if (run.stride == 6) {
     const Limits both(box, Limits::Corners::Both);
-    const std::uint64_t all = bitsOfAll<6>(lanes / 2);
-    for (; end + lanes / 2 < run.size; end += lanes / 2) {
-      const T* const values = run.min + 6 * end;
+    for (; i + kLanes / 2 < run.size; i += kLanes / 2) {
+      const T* const values = run.min + 6 * i;
       const std::uint64_t corners = both.within(values);
-      const std::uint64_t bits = corners & corners >> 3 & all;
-      if (bits != 0) numbers = writeNumbers<6>(bits & areBelow(values, values + 3), all, end, numbers);
+      const std::uint64_t bits = corners & corners >> 3 & bitsOfAll<6>(kLanes / 2);
+      if (bits == 0) continue;
+      words[i / kWordBoxes] |= closeUp<6, kLanes / 2>(bits & areBelow(values, values + 3)) << (i % kWordBoxes);
     }
-    return numbers;
+    return i;
   }
   const Limits lower(box, Limits::Corners::Min);
   const Limits upper(box, Limits::Corners::Max);
-  const std::uint64_t all = bitsOfAll<3>(lanes);
-  for (; end + lanes <= run.size; end += lanes) {
-    const T* const min = run.min + 3 * end;
-    const T* const max = run.max + 3 * end;
-    const std::uint64_t bits = lower.within(min) & upper.within(max) & all;
-    if (bits != 0) numbers = writeNumbers<3>(bits & areBelow(min, max), all, end, numbers);
+  for (; i + kLanes <= run.size; i += kLanes) {
+    const T* const min = run.min + 3 * i;
+    const T* const max = run.max + 3 * i;
+    const std::uint64_t bits = lower.within(min) & upper.within(max) & bitsOfAll<3>(kLanes);
+    if (bits != 0) words[i / kWordBoxes] |= closeUp<3, kLanes>(bits & areBelow(min, max)) << (i % kWordBoxes);
   }
-  return numbers;
+  return i;
 }
 
 #endif
 
 template <class T>
-std::size_t touchingBoxes(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint32_t* numbers) {
-  std::uint32_t* last = numbers;
+void touchBoxes(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t* words) {
+  std::fill_n(words, (run.size + kWordBoxes - 1) / kWordBoxes, std::uint64_t{0});
   std::size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
-  last = touchingWhole(run, box, last, i);
+  i = touchWhole(run, box, words);
 #endif
-  for (; i < run.size; ++i) {
-    *last = static_cast<std::uint32_t>(i);
-    last += touches(run, i, box) ? 1 : 0;
+  for (; i < run.size; ++i) words[i / kWordBoxes] |= std::uint64_t{touches(run, i, box)} << (i % kWordBoxes);
+}
+
+/// Pairs of boxes with a single one.
+template <bool kOneSecond>
+HWY_INLINE std::size_t writeTouchingOne(const TouchedBoxes& touched, Pair* pairs) {
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < touched.size; i += kWordBoxes) {
+    const std::uint64_t bits = touched.words[0][i / kWordBoxes];
+    const std::uint32_t first = touched.first + static_cast<std::uint32_t>(i);
+    size += std::popcount(bits) > kManyBits
+                ? writeManyBits<kOneSecond>(bits, touched.firstOther, first, pairs + size)
+                : writeBits<kOneSecond, kUnaskedOfFew>(bits, touched.firstOther, first, pairs + size);
   }
-  return static_cast<std::size_t>(last - numbers);
+  return size;
+}
+
+/// The lowest bits, as many as there is room for, each at so many times its place.
+template <std::size_t kStep>
+HWY_INLINE std::uint64_t spreadOut(std::uint64_t bits) {
+  static_assert(kStep == 4 || kStep == 8);
+  if (kStep == 4) {
+    bits = (bits | bits << 24) & 0x000000FF000000FFU;
+    bits = (bits | bits << 12) & 0x000F000F000F000FU;
+    bits = (bits | bits << 6) & 0x0303030303030303U;
+    return (bits | bits << 3) & 0x1111111111111111U;
+  }
+  bits = (bits | bits << 28) & 0x0000000F0000000FU;
+  bits = (bits | bits << 14) & 0x0003000300030003U;
+  return (bits | bits << 7) & 0x0101010101010101U;
+}
+
+/// Pairs of some boxes, from `first` on, with others: a bit for each, those of a box next to each other, of kStep others.
+template <std::size_t kStep, bool kOthersSecond>
+HWY_INLINE std::size_t writeTouchingWord(std::uint64_t bits, std::uint32_t first, std::uint32_t firstOther,
+                                         Pair* pairs) {
+  const IdTag d;
+  constexpr int kShift = std::countr_zero(kStep);
+  std::size_t size = 0;
+  for (std::size_t i = 0; bits != 0; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
+    const std::uint64_t some = bits & lowBits(hn::Lanes(d));
+    const auto places = numbersFrom(i);
+    const auto boxes = hn::Add(hn::ShiftRight<kShift>(places), hn::Set(d, first));
+    const auto others = hn::Add(hn::And(places, hn::Set(d, kStep - 1)), hn::Set(d, firstOther));
+    const auto selectedBoxes = lanesOfBits(d, boxes, some);
+    const auto selectedOthers = lanesOfBits(d, others, some);
+    auto* const to = reinterpret_cast<std::uint32_t*>(pairs + size);
+    if (kOthersSecond) {
+      hn::StoreInterleaved2(selectedBoxes, selectedOthers, d, to);
+    } else {
+      hn::StoreInterleaved2(selectedOthers, selectedBoxes, d, to);
+    }
+    size += static_cast<std::size_t>(std::popcount(some));
+  }
+  return size;
+}
+
+template <std::size_t kStep, bool kOthersSecond>
+HWY_INLINE std::size_t writeTouchingSome(const TouchedBoxes& touched, Pair* pairs) {
+  constexpr std::size_t kBoxes = kWordBoxes / kStep;
+  std::size_t size = 0;
+  for (std::size_t word = 0; word * kWordBoxes < touched.size; ++word) {
+    std::uint64_t any = 0;
+    for (std::size_t k = 0; k < touched.others; ++k) any |= touched.words[k][word];
+    if (any == 0) continue;
+    for (std::size_t i = 0; i < kWordBoxes; i += kBoxes) {
+      std::uint64_t bits = 0;
+      for (std::size_t k = 0; k < touched.others; ++k) {
+        bits |= spreadOut<kStep>(touched.words[k][word] >> i & lowBits(kBoxes)) << k;
+      }
+      const std::uint32_t first = touched.first + static_cast<std::uint32_t>(word * kWordBoxes + i);
+      size += writeTouchingWord<kStep, kOthersSecond>(bits, first, touched.firstOther, pairs + size);
+    }
+  }
+  return size;
+}
+
+template <bool kOthersSecond>
+HWY_INLINE std::size_t writeTouching(const TouchedBoxes& touched, Pair* pairs) {
+  static_assert(kMostOthers == 8);
+  if (touched.others == 1) return writeTouchingOne<kOthersSecond>(touched, pairs);
+  return touched.others <= 4 ? writeTouchingSome<4, kOthersSecond>(touched, pairs)
+                             : writeTouchingSome<8, kOthersSecond>(touched, pairs);
+}
+
+std::size_t writeTouching(const TouchedBoxes& touched, bool othersSecond, Pair* pairs) {
+  return othersSecond ? writeTouching<true>(touched, pairs) : writeTouching<false>(touched, pairs);
 }
 
 template <class T>

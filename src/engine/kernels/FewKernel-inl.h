@@ -99,8 +99,7 @@ HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std:
   std::size_t size = 0;
   for (std::size_t i = 0; i < kWordBoxes; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
     const std::uint64_t some = bits & lowBits(hn::Lanes(d));
-    const std::array<std::uint8_t, 8> bytes{static_cast<std::uint8_t>(some), static_cast<std::uint8_t>(some >> 8)};
-    const auto partners = selectedLanes(d, numbersFrom(firstOfWord + i), hn::LoadMaskBits(d, bytes.data()));
+    const auto partners = lanesOfBits(d, numbersFrom(firstOfWord + i), some);
     auto* const to = reinterpret_cast<std::uint32_t*>(pairs + size);
     if (kRowSecond) {
       hn::StoreInterleaved2(partners, rows, d, to);

@@ -164,6 +164,18 @@ struct BlockRead {
   std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
 };
 
+/// The most boxes that others are compared with together.
+inline constexpr std::size_t kMostOthers = 8;
+
+/// Which of some boxes touch each of a few others, as touchBoxes() writes it.
+struct TouchedBoxes {
+  std::array<const std::uint64_t*, kMostOthers> words{};
+  std::size_t size = 0;
+  std::size_t others = 0;
+  std::uint32_t first = 0;       ///< The number of the first box.
+  std::uint32_t firstOther = 0;  ///< And of the first of the others.
+};
+
 /// The functions for boxes as they lie in memory, which are not rounded.
 template <class T>
 struct PlainKernels {
@@ -171,9 +183,8 @@ struct PlainKernels {
   /// one. Returns how many there are.
   std::size_t (*searchFew)(PlainSearch<T>& search, Pair* pairs);
 
-  /// Writes the numbers of the boxes of a run, those that are not empty, that touch a box, which is not empty either; there is room
-  /// for all of them and kVectorSlack more. Returns how many there are.
-  std::size_t (*touchingBoxes)(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint32_t* numbers);
+  /// Writes, as bits of words, which boxes of a run are not empty and touch a box, which is not empty either.
+  void (*touchBoxes)(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t* words);
 
   /// Whether any value is a NaN.
   bool (*anyNan)(const T* values, std::size_t size);
@@ -206,6 +217,10 @@ struct Kernels {
       return plain64;
     }
   }
+
+  /// Writes the pairs of boxes that touch others, in the order of the boxes and then of the others, and up to kVectorSlack past the
+  /// last one. Returns how many there are.
+  std::size_t (*writeTouching)(const TouchedBoxes& touched, bool othersSecond, Pair* pairs);
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
   void (*searchWorlds)(WorldsRun& run);

@@ -110,24 +110,32 @@ HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
   return hn::AllFalse(d, mask) ? 0 : allBitsOf(d, mask);
 }
 
-/// The lanes that the mask selects, first; what follows them is unspecified.
+/// The lanes whose bits are set, first; what follows them is unspecified.
 ///
 /// Not hn::Compress for vectors of 4 and 8 lanes: GCC 12 copies its table to the stack for each call, which took AVX2 half of
 /// the time of a search (docs/decisions/0024).
-template <class D, class M>
-HWY_INLINE hn::Vec<D> selectedLanes(D d, hn::Vec<D> values, M mask) {
+template <class D>
+HWY_INLINE hn::Vec<D> lanesOfBits(D d, hn::Vec<D> values, std::uint64_t bits) {
   if constexpr (hn::MaxLanes(D()) == 8) {
     const hn::Rebind<std::uint8_t, D> bytes;
     const hn::RebindToUnsigned<D> lanes;
-    const auto order = hn::PromoteTo(lanes, hn::LoadU(bytes, kLaneSelections<8, 1>[allBitsOf(d, mask)].data()));
+    const auto order = hn::PromoteTo(lanes, hn::LoadU(bytes, kLaneSelections<8, 1>[bits].data()));
     return hn::TableLookupLanes(values, hn::IndicesFromVec(d, order));
   } else if constexpr (hn::MaxLanes(D()) == 4) {
     const hn::Repartition<std::uint8_t, D> bytes;
-    const auto order = hn::Load(bytes, kLaneSelections<4, 4>[allBitsOf(d, mask)].data());
+    const auto order = hn::Load(bytes, kLaneSelections<4, 4>[bits].data());
     return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(bytes, values), order));
   } else {
-    return hn::Compress(values, mask);
+    const std::array<std::uint8_t, 8> bytes{static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+    return hn::Compress(values, hn::LoadMaskBits(d, bytes.data()));
   }
+}
+
+/// The lanes that the mask selects, first; what follows them is unspecified.
+template <class D, class M>
+HWY_INLINE hn::Vec<D> selectedLanes(D d, hn::Vec<D> values, M mask) {
+  if constexpr (hn::MaxLanes(D()) == 8 || hn::MaxLanes(D()) == 4) return lanesOfBits(d, values, allBitsOf(d, mask));
+  return hn::Compress(values, mask);
 }
 
 /// What numbersFrom() adds to.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <utility>
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
@@ -19,14 +17,11 @@ namespace {
 
 /// Each of the few takes a pass over the many: up to so many take less time than reading the many for the search of any two sets
 /// (few_benchmark).
-constexpr std::size_t kFew = 4;
+constexpr std::size_t kFew = kMostOthers;
 
-/// Of the many at once: their numbers are kept on the stack, for each of the few, and all their pairs.
+/// Of the many at once: which of them touch is kept on the stack, for each of the few, and so are all their pairs.
 constexpr std::size_t kAtOnce = 1024;
 static_assert(kPartSize % kAtOnce == 0);
-
-/// The number that follows the last one in a list.
-constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
 
 /// From so many boxes on, several threads share the passes of the search of any two sets.
 constexpr std::size_t kManyForThreads = std::size_t{1} << 16;
@@ -61,58 +56,31 @@ class PartSearch {
     if (begin % kPartSize == 0) checkStop(m_options.stop);
     const BoxRun<T> part = m_many.part(begin, kAtOnce);
     m_statistics.boxTests += part.size * few.size();
-    std::size_t touching = 0;
-    for (std::size_t j = 0; j < few.size(); ++j) touching += findTouching(part, few[j], m_touching[j]);
-    if (few.size() == 1) {
-      for (std::size_t i = 0; i < touching; ++i) add(begin + m_touching[0][i], firstFew);
-    } else if (touching == part.size * few.size()) {
-      for (std::size_t i = 0; i < part.size; ++i) {
-        for (std::uint32_t j = 0; j < few.size(); ++j) add(begin + i, firstFew + j);
+    TouchedBoxes touched;
+    touched.size = part.size;
+    touched.first = static_cast<std::uint32_t>(begin);
+    touched.firstOther = firstFew;
+    for (const Row<T>& box : few) {
+      if (isEmptyRow(box)) {
+        m_words[touched.others].fill(0);
+      } else {
+        m_kernels.plain<T>().touchBoxes(part, box, m_words[touched.others].data());
       }
-    } else {
-      merge(begin, few.size(), firstFew);
+      touched.words[touched.others] = m_words[touched.others].data();
+      ++touched.others;
     }
-    give();
+    give(m_kernels.writeTouching(touched, !m_manySecond, m_pairs.data()));
   }
 
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
-  using Numbers = std::array<std::uint32_t, kAtOnce + kVectorSlack>;
-
-  /// The numbers of the boxes of a part that touch a box; returns how many there are.
-  std::size_t findTouching(const BoxRun<T>& part, const Row<T>& box, Numbers& numbers) const {
-    const std::size_t size = isEmptyRow(box) ? 0 : m_kernels.plain<T>().touchingBoxes(part, box, numbers.data());
-    numbers[size] = kEnd;
-    return size;
-  }
-
-  /// The lists of some of the few, as one in the order of the many.
-  void merge(std::size_t begin, std::size_t few, std::uint32_t firstFew) {
-    std::array<const std::uint32_t*, kFew> next;
-    for (std::size_t j = 0; j < few; ++j) next[j] = m_touching[j].data();
-    for (;;) {
-      std::uint32_t j = 0;
-      for (std::uint32_t k = 1; k < few; ++k) j = *next[k] < *next[j] ? k : j;
-      const std::uint32_t number = *next[j];
-      if (number == kEnd) return;
-      ++next[j];
-      add(begin + number, firstFew + j);
-    }
-  }
-
-  /// Adds the pair of one of the many and one of the few. There is room for all of a part.
-  void add(std::size_t many, std::uint32_t few) {
-    const auto index = static_cast<std::uint32_t>(many);
-    m_pairs.data()[m_found++] = m_manySecond ? Pair{few, index} : Pair{index, few};
-  }
-
-  /// Passes on the pairs that were found since the last time.
-  void give() {
-    if (m_found == 0) return;
-    m_statistics.pairs += m_found;
+  /// Passes on the pairs of a part.
+  void give(std::size_t pairs) {
+    if (pairs == 0) return;
+    m_statistics.pairs += pairs;
     checkLimit({.maxPairs = m_options.maxPairs}, m_statistics.pairs);
-    m_take({m_pairs.data(), std::exchange(m_found, 0)});
+    m_take({m_pairs.data(), pairs});
   }
 
   const BoxRun<T> m_many;
@@ -121,9 +89,8 @@ class PartSearch {
   const Kernels& m_kernels;
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
-  std::size_t m_found = 0;
-  std::array<Numbers, kFew> m_touching;
-  PairsOnStack<kAtOnce * kFew> m_pairs;
+  std::array<std::array<std::uint64_t, kAtOnce / kWordBoxes>, kFew> m_words;
+  PairsOnStack<kAtOnce * kFew + kVectorSlack> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
