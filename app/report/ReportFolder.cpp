@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "report/ReportFolder.h"
 
-#include <dirent.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <string_view>
+#include <system_error>
 
 #include "Report.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/FolderNames.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -29,18 +26,10 @@ bool holdsReport(const fs::path& folder) {
   return fs::exists(folder / "index.html", ignored) && fs::exists(folder / "clashes.csv", ignored);
 }
 
-/// Whether it is a folder that is not empty, as far as it can be read. The iterator of the C++ library ends the program
-/// where there is no memory.
+/// Whether it is a folder that is not empty, as far as it can be read.
 bool isFull(const fs::path& folder) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
-  if (!entries && errno == ENOMEM) throw std::bad_alloc();
-  while (entries) {
-    const dirent* const entry = ::readdir(entries.get());
-    if (entry == nullptr) return false;
-    const std::string_view name = entry->d_name;
-    if (name != "." && name != "..") return true;
-  }
-  return false;
+  std::error_code ignored;
+  return !scene::folderNames(folder, ignored).empty();
 }
 
 /// Whether a name is that of a file such as a report consists of, and so hardly that of a folder.

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "DiskJoin.h"
 
-#include <dirent.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <chrono>
-#include <memory>
-#include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -23,6 +18,7 @@
 #include "PairMerge.h"
 #include "allpairs/StopFlag.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/FolderNames.h"
 #include "allpairs/scene/WriteResult.h"
 
 namespace allpairs::join {
@@ -51,19 +47,11 @@ void releaseFreedMemory() {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; }
 
-/// Whether a folder has no entry but itself and the one above. The iterator of the C++ library ends the program where there
-/// is no memory.
 bool isEmptyFolder(const fs::path& folder) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
-  if (!entries && errno == ENOMEM) throw std::bad_alloc();
-  if (!entries) throw FileError(folder, "cannot be read: " + std::generic_category().message(errno));
-  errno = 0;  // readdir() sets it where it fails
-  while (const dirent* const entry = ::readdir(entries.get())) {
-    const std::string_view name = entry->d_name;
-    if (name != "." && name != "..") return false;
-  }
-  if (errno != 0) throw FileError(folder, "cannot be read: " + std::generic_category().message(errno));
-  return true;
+  std::error_code error;
+  const bool isEmpty = scene::folderNames(folder, error).empty();
+  if (error) throw FileError(folder, "cannot be read: " + error.message());
+  return isEmpty;
 }
 
 }  // namespace

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <dirent.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <memory>
-#include <new>
-#include <string_view>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -15,6 +11,7 @@
 #include "allpairs/collision/PointModel.h"
 #include "allpairs/collision/TriangleModel.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/FolderNames.h"
 #include "allpairs/scene/ReadInput.h"
 #include "input/FileBytes.h"
 #include "input/ModelNames.h"
@@ -98,19 +95,11 @@ bool isMeshFile(const fs::path& path) {
   return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
 }
 
-/// The iterator of the C++ library ends the program where there is no memory.
 std::vector<fs::path> sortedEntries(const fs::path& folder) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> list(::opendir(folder.c_str()), ::closedir);
-  if (!list && errno == ENOMEM) throw std::bad_alloc();
-  if (!list) throw FileError(folder, "cannot be listed: " + std::generic_category().message(errno));
+  std::error_code error;
   std::vector<fs::path> entries;
-  errno = 0;  // readdir() sets it where it fails
-  while (const dirent* const entry = ::readdir(list.get())) {
-    const std::string_view name = entry->d_name;
-    if (name != "." && name != "..") entries.push_back(folder / name);
-    errno = 0;
-  }
-  if (errno != 0) throw FileError(folder, "cannot be listed: " + std::generic_category().message(errno));
+  for (const std::string& name : folderNames(folder, error)) entries.push_back(folder / name);
+  if (error) throw FileError(folder, "cannot be listed: " + error.message());
   std::sort(entries.begin(), entries.end());
   return entries;
 }
