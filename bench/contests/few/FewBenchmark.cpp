@@ -7,9 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,10 +35,11 @@ struct Scene {
   std::vector<T> second;
 };
 
-/// How many boxes; none in the second set means one set.
+/// How many boxes; none in the second set means one set. With a share each of the second set overlaps about as many of the first.
 struct Counts {
   std::size_t first;
   std::size_t second = 0;
+  double share = 0.0;
 };
 
 template <class T>
@@ -46,12 +49,34 @@ std::vector<T> makeRows(std::size_t boxes, std::size_t seed) {
   return {rows.begin(), rows.end()};
 }
 
+/// Makes the boxes of the second set cubes that fill a share of the space of the first one, anywhere in it.
+template <class T>
+void fillShare(Scene<T>& scene, double share, std::size_t seed) {
+  std::mt19937 generator(static_cast<unsigned>(seed));
+  std::uniform_real_distribution<double> place(0.0, 1.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto from = static_cast<double>(scene.first[axis]);
+    double to = from;
+    for (std::size_t i = axis; i < scene.first.size(); i += 3) {
+      from = std::min(from, static_cast<double>(scene.first[i]));
+      to = std::max(to, static_cast<double>(scene.first[i]));
+    }
+    const double side = std::cbrt(share) * (to - from);
+    for (std::size_t i = axis; i < scene.second.size(); i += 6) {
+      const double min = from + place(generator) * (to - from - side);
+      scene.second[i] = static_cast<T>(min);
+      scene.second[i + 3] = static_cast<T>(min + side);
+    }
+  }
+}
+
 template <class T>
 std::vector<Scene<T>> makeScenes(Counts counts) {
   const std::size_t boxes = counts.first + counts.second;
   std::vector<Scene<T>> scenes(std::max<std::size_t>(40, kBoxes / boxes));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     scenes[i] = {makeRows<T>(counts.first, 1000 * boxes + i), makeRows<T>(counts.second, 1000 * boxes + i + 500000)};
+    if (counts.share != 0.0) fillShare(scenes[i], counts.share, i);
   }
   return scenes;
 }
@@ -135,6 +160,7 @@ void compareCalls(std::span<const Counts> all, double seconds) {
     compete<T>(contenders, makeScenes<T>(counts), seconds);
     std::printf("| %zu", counts.first);
     if (counts.second != 0) std::printf(" x %zu", counts.second);
+    if (counts.share != 0.0) std::printf(", a share of %g", counts.share);
     for (const Contender<T>& contender : contenders) std::printf(" | %.0f", contender.leastNs);
     std::printf(" |\n");
   }
@@ -143,15 +169,26 @@ void compareCalls(std::span<const Counts> all, double seconds) {
 void compareAllCalls(double seconds) {
   constexpr std::array<Counts, 22> kOneSet{{{2},  {3},  {4},  {6},   {8},   {9},   {12},  {16},  {17},  {24},  {32},
                                             {48}, {64}, {96}, {128}, {129}, {192}, {256}, {257}, {384}, {385}, {512}}};
-  constexpr std::array<Counts, 22> kTwoSets{{{1, 1},    {1, 2},    {2, 2},     {3, 3},    {1, 8},    {8, 1},
-                                             {4, 4},    {3, 20},   {8, 8},     {1, 60},   {60, 1},   {16, 16},
-                                             {31, 32},  {64, 64},  {1, 500},   {500, 1},  {4, 2000}, {2000, 4},
-                                             {5, 2000}, {2000, 5}, {2, 20000}, {20000, 2}}};
+  constexpr std::array<Counts, 24> kTwoSets{{{1, 1},    {1, 2},    {2, 2},    {3, 3},    {1, 8},     {8, 1},
+                                             {4, 4},    {3, 20},   {8, 8},    {1, 60},   {60, 1},    {16, 16},
+                                             {31, 32},  {64, 64},  {1, 500},  {500, 1},  {4, 2000},  {2000, 4},
+                                             {8, 2000}, {2000, 8}, {9, 2000}, {2000, 9}, {2, 20000}, {20000, 2}}};
+  constexpr std::array<Counts, 9> kShares{{{1000, 4, 0.001},
+                                           {1000, 4, 0.7},
+                                           {20000, 2, 0.3},
+                                           {20000, 4, 0.7},
+                                           {20000, 8, 0.001},
+                                           {20000, 8, 0.3},
+                                           {200000, 4, 0.3},
+                                           {200000, 8, 0.001},
+                                           {200000, 8, 0.7}}};
   std::printf("Nanoseconds per search of uniform boxes, the least of all rounds; views of the boxes included.\n");
   compareCalls<float>(kOneSet, seconds);
   compareCalls<double>(kOneSet, seconds);
   compareCalls<float>(kTwoSets, seconds);
   compareCalls<double>(kTwoSets, seconds);
+  compareCalls<float>(kShares, seconds);
+  compareCalls<double>(kShares, seconds);
 }
 
 void compareStrategies(double seconds) {

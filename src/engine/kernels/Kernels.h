@@ -164,7 +164,8 @@ struct BlockRead {
   std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
 };
 
-/// The most boxes that others are compared with together.
+/// The most boxes that others are compared with together: each takes a pass over the others, and up to so many take less time than
+/// reading the others for the search of any two sets (few_benchmark).
 inline constexpr std::size_t kMostOthers = 8;
 
 /// Which of some boxes touch each of a few others, as touchBoxes() writes it.

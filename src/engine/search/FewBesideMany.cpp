@@ -15,10 +15,6 @@
 namespace allpairs::engine {
 namespace {
 
-/// Each of the few takes a pass over the many: up to so many take less time than reading the many for the search of any two sets
-/// (few_benchmark).
-constexpr std::size_t kFew = kMostOthers;
-
 /// Of the many at once: which of them touch is kept on the stack, for each of the few, and so are all their pairs.
 constexpr std::size_t kAtOnce = 1024;
 static_assert(kPartSize % kAtOnce == 0);
@@ -89,8 +85,8 @@ class PartSearch {
   const Kernels& m_kernels;
   FunctionRef<void(std::span<const Pair>)> m_take;
   OverlapStatistics m_statistics;
-  std::array<std::array<std::uint64_t, kAtOnce / kWordBoxes>, kFew> m_words;
-  PairsOnStack<kAtOnce * kFew + kVectorSlack> m_pairs;
+  std::array<std::array<std::uint64_t, kAtOnce / kWordBoxes>, kMostOthers> m_words;
+  PairsOnStack<kAtOnce * kMostOthers + kVectorSlack> m_pairs;
 };
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
@@ -104,7 +100,7 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
                        FunctionRef<void(std::span<const Pair>)> take) {
   const bool fewSecond = isFewSecond(sets);
   const BoxRun<T> run = runOf<T>(fewSecond ? sets.second : sets.first);
-  std::array<Row<T>, kFew> few;
+  std::array<Row<T>, kMostOthers> few;
   for (std::size_t i = 0; i < run.size; ++i) few[i] = rowOf(run, i);
   const BoxRun<T> many = runOf<T>(fewSecond ? sets.first : sets.second);
   PartSearch<T> search(many, !fewSecond, options, take);
@@ -124,7 +120,7 @@ bool areFewBesideMany(const Sets& sets, const OverlapOptions& options) {
   if (sets.one) return false;
   const std::size_t few = std::min(sets.first.size(), sets.second.size());
   const std::size_t many = std::max(sets.first.size(), sets.second.size());
-  if (few > kFew || many <= kWordBoxes) return false;
+  if (few > kMostOthers || many <= kWordBoxes) return false;
   if (options.strategy != Strategy::Automatic || !onlyBoundsMatter(sets, options)) return false;
   if (many >= kManyForThreads && options.executor != nullptr) return false;
   const auto areRuns = [](const BoxView& a, const BoxView& b) {
