@@ -62,6 +62,15 @@ TEST(Memory, ABlockOfOneThreadMayBeFreedByAnother) {
   std::thread([taken = std::move(numbers)]() mutable { EXPECT_TRUE(holds(grown(kSize, 2.0, 8), kSize, 8)); }).join();
 }
 
+TEST(Memory, ABufferThatGrowsAtLeastDoubles) {
+  Numbers numbers;
+  numbers.grow(1000);
+  numbers.grow(1001);
+  EXPECT_GE(numbers.capacity(), 2000U);
+  numbers.grow(2000);
+  EXPECT_GE(numbers.capacity(), 2000U);
+}
+
 /// Refuses blocks of more than so many bytes.
 class BoundedMemory final : public std::pmr::memory_resource {
  public:

@@ -64,6 +64,28 @@ TEST(Statistics, RowsOfAllHitsEndWhereTheTaskEnds) {
   EXPECT_EQ(search.count(first, second), 900U * 700U);
 }
 
+TEST(Statistics, CountingTestsEachPairOnceToo) {
+  const std::vector<BoxF> boxes = test::randomBoxes(1503, 74, 3.0F);
+  const std::vector<BoxF> others = test::randomBoxes(902, 75, 3.0F);
+  for (const std::string_view name : instructionSets()) {
+    OverlapSearch search({.strategy = Strategy::Exhaustive, .instructionSet = name});
+    static_cast<void>(search.count(boxes));
+    EXPECT_EQ(search.statistics().boxTests, 1503U * 1502U / 2U) << name;
+    static_cast<void>(search.count(boxes, others));
+    EXPECT_EQ(search.statistics().boxTests, 1503U * 902U) << name;
+  }
+}
+
+TEST(Statistics, ASearchForNeighborsCountsItsTests) {
+  const std::vector<BoxF> boxes = test::randomBoxes(4000, 76, 2.0F);
+  OverlapSearch search({.strategy = Strategy::Bvh});
+  static_cast<void>(search.findNeighbors(boxes));
+  EXPECT_GE(search.statistics().boxTests, 2 * search.statistics().pairs);  // each pair at both its boxes
+  EXPECT_LT(search.statistics().boxTests, 4000U * 4000U);
+  EXPECT_GT(search.statistics().groupTests, 0U);
+  EXPECT_LT(search.statistics().groupTests, search.statistics().boxTests);
+}
+
 /// So many boxes end a hair, in float32 nothing, more than a distance before the others begin.
 std::vector<Box> aHairApart(std::size_t ending, std::size_t beginning, double distance = 0.0) {
   std::vector<Box> boxes(ending, Box{{-1, 0, 0}, {0.1, 1, 1}});
