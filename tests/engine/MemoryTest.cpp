@@ -115,6 +115,11 @@ TEST(Memory, SizesBeyondTheAddressSpaceAreOutOfMemory) {
   EXPECT_THROW(numbers.require(std::numeric_limits<std::size_t>::max() / 8 + 2), std::bad_alloc);
 }
 
+TEST(Memory, OfTheDefaultIsGivenBackToTheDefaultOnly) {
+  EXPECT_TRUE(defaultMemory()->is_equal(*defaultMemory()));
+  EXPECT_FALSE(defaultMemory()->is_equal(*std::pmr::new_delete_resource()));
+}
+
 TEST(Memory, IsAlignedToACacheLine) {
   for (const std::size_t size : {std::size_t{1}, std::size_t{1000}, std::size_t{100000}, std::size_t{10000000}}) {
     Numbers numbers;
