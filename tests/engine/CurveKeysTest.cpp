@@ -193,25 +193,26 @@ TEST_P(CurveKeys, OfLargeBoxesBeginWithTheirClass) {
                                      {{64, 64, 64.25F}, 6},
                                      {{500, 500, 500}, 6}};
   const CurveGrid grid = gridOf(5);
-  const std::vector<Cell> cells(classed.size(), Cell{9, 10, 11});
-  const std::uint32_t key = keysOf(cells, grid).front();
-  std::vector<LaneBox> boxes;
-  std::vector<std::uint32_t> expected;
-  for (const Classed& one : classed) {
-    LaneBox box = boxIn({9, 10, 11}, 0.0F);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.bound[axis] -= 0.5F * one.extent[axis];
-      box.bound[axis + 3] += 0.5F * one.extent[axis];
-    }
-    boxes.push_back(box);
-    expected.push_back(one.classOf << 15U | key);
-    // As the only one of its block that may be large, too.
-    std::vector<LaneBox> block(kFanOut, boxIn({9, 10, 11}));
-    block.back() = box;
-    ASSERT_EQ(keysOf(block, grid).back(), expected.back()) << boxes.size() - 1;
-  }
-  EXPECT_EQ(keysOf(boxes, grid), expected);
   EXPECT_EQ(grid.keyBits(), 18U);
+  for (const Cell& cell : {Cell{9, 10, 12}, Cell{12, 10, 9}}) {
+    const std::uint32_t key = keysOf(std::vector<Cell>{cell}, grid).front();
+    std::vector<LaneBox> boxes;
+    std::vector<std::uint32_t> expected;
+    for (const Classed& one : classed) {
+      LaneBox box = boxIn(cell, 0.0F);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.bound[axis] -= 0.5F * one.extent[axis];
+        box.bound[axis + 3] += 0.5F * one.extent[axis];
+      }
+      boxes.push_back(box);
+      expected.push_back(one.classOf << 15U | key);
+      // As the only one of its block that may be large, too.
+      std::vector<LaneBox> block(kFanOut, boxIn(cell));
+      block.back() = box;
+      ASSERT_EQ(keysOf(block, grid).back(), expected.back()) << boxes.size() - 1;
+    }
+    EXPECT_EQ(keysOf(boxes, grid), expected);
+  }
 }
 
 }  // namespace

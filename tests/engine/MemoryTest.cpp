@@ -109,6 +109,46 @@ TEST(Memory, ABufferThatCannotBeReplacedIsEmptyAndMayBeUsedAgain) {
   EXPECT_EQ(numbers.capacity(), 1000U);
 }
 
+/// Counts the blocks that have not been given back.
+class CountedMemory final : public std::pmr::memory_resource {
+ public:
+  [[nodiscard]] int blocks() const { return m_blocks; }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    ++m_blocks;
+    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    --m_blocks;
+    std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
+  }
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  int m_blocks = 0;
+};
+
+TEST(Memory, ABufferThatIsMovedTakesItsResourceAlong) {
+  CountedMemory first;
+  CountedMemory second;
+  {
+    Numbers one(&first);
+    one.require(10);
+    Numbers other(&second);
+    other.require(20);
+    other = std::move(one);
+    EXPECT_EQ(other.capacity(), 10U);
+    const Numbers last(std::move(other));
+    EXPECT_EQ(last.capacity(), 10U);
+    EXPECT_EQ(other.capacity(), 0U);  // NOLINT(bugprone-use-after-move): it may be used again
+    other.require(30);
+    EXPECT_EQ(first.blocks(), 2);
+    EXPECT_EQ(second.blocks(), 1);
+  }
+  EXPECT_EQ(first.blocks(), 0);
+  EXPECT_EQ(second.blocks(), 0);
+}
+
 TEST(Memory, SizesBeyondTheAddressSpaceAreOutOfMemory) {
   Numbers numbers;
   EXPECT_THROW(numbers.grow(std::numeric_limits<std::size_t>::max() / 2), std::bad_alloc);

@@ -229,7 +229,8 @@ bool isClose(float lane, double exact, double magnitude) {
 }
 
 TEST_P(ReadLanes, OfWidenedBoxesContainThemAndHardlyMore) {
-  AnyBoxes any({0.0, 1.0, -1.0, 0.1, -0.3, 1e5, -1e5, 77.7, 1e-30, 0x1p-52, -0x1p-52, 1e20, -1e20});
+  AnyBoxes any({0.0, 1.0, -1.0, 0.1, -0.3, 1e5, -1e5, 77.7, 1e-30, 0x1p-52, -0x1p-52, 1.0 + 0x1p-52, -1.0 - 0x1p-52,
+                1e20, -1e20});
   std::mt19937 generator(4);
   static constexpr std::array<double, 5> kHalves{0.0, 0.3, 0.6, -1.0, -1.0};
   for (int round = 0; round < 100; ++round) {
