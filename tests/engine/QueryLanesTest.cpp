@@ -172,6 +172,30 @@ TEST_P(QueryLanes, ASweepMeetsThoseInItsWayNotBeforeTheTimeSaid) {
   EXPECT_GT(met, 1000U);
 }
 
+TEST_P(QueryLanes, APointThatOnlyGrazesAnEdgeMeetsIt) {
+  static constexpr std::array<double, 6> kSpeeds{3.0, 5.0, 7.0, 9.0, 11.0, 13.0};
+  for (const double ahead : kSpeeds) {
+    for (const double aside : kSpeeds) {
+      m_block.clear();
+      m_size = kFanOut;
+      for (std::size_t lane = 0; lane < m_size; ++lane) {
+        // At this time the point is where the box begins on the first axis and ends on the second.
+        const double time = static_cast<double>(1 + m_numbers.below(1000)) / 8.0;
+        m_boxes[lane] = {{ahead * time, -1.0, 0.0}, {ahead * time + 1.0, aside * time, 0.0}};
+        m_block.set(lane, m_boxes[lane].lanes());
+      }
+      SweepLanes sweep{{}, {}, {}, {SweepLanes::Axis::Forward, SweepLanes::Axis::Forward, SweepLanes::Axis::Rests}};
+      sweep.inverse = {static_cast<float>(1.0 / ahead), static_cast<float>(1.0 / aside), 0.0F};
+      std::array<float, kFanOut> times;
+      const std::uint32_t bits = m_kernels.meetingLanes(m_block, sweep, 1000.0F, times.data());
+      ASSERT_EQ(bits, 0xFFFFU) << ahead << ' ' << aside;
+      for (std::size_t lane = 0; lane < m_size; ++lane) {
+        ASSERT_TRUE(isCloseBelow(times[lane], m_boxes[lane].min[0] / ahead)) << times[lane];
+      }
+    }
+  }
+}
+
 double squaredDistance(const Point& point, const GridBox& box) {
   double sum = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
