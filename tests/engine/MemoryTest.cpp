@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory_resource>
 #include <new>
 #include <thread>
@@ -109,23 +110,28 @@ TEST(Memory, ABufferThatCannotBeReplacedIsEmptyAndMayBeUsedAgain) {
   EXPECT_EQ(numbers.capacity(), 1000U);
 }
 
-/// Counts the blocks that have not been given back.
+/// Knows the blocks that have not been given back, and that each is given back as it was taken.
 class CountedMemory final : public std::pmr::memory_resource {
  public:
-  [[nodiscard]] int blocks() const { return m_blocks; }
+  [[nodiscard]] std::size_t blocks() const { return m_blocks.size(); }
 
  private:
+  using Block = std::pair<std::size_t, std::size_t>;
+
   void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    ++m_blocks;
-    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    void* const memory = std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    m_blocks[memory] = {bytes, alignment};
+    return memory;
   }
   void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
-    --m_blocks;
+    const Block block(bytes, alignment);
+    EXPECT_EQ(m_blocks[memory], block);
+    m_blocks.erase(memory);
     std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
   }
   [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
-  int m_blocks = 0;
+  std::map<void*, Block> m_blocks;
 };
 
 TEST(Memory, ABufferThatIsMovedTakesItsResourceAlong) {
@@ -142,11 +148,11 @@ TEST(Memory, ABufferThatIsMovedTakesItsResourceAlong) {
     EXPECT_EQ(last.capacity(), 10U);
     EXPECT_EQ(other.capacity(), 0U);  // NOLINT(bugprone-use-after-move): it may be used again
     other.require(30);
-    EXPECT_EQ(first.blocks(), 2);
-    EXPECT_EQ(second.blocks(), 1);
+    EXPECT_EQ(first.blocks(), 2U);
+    EXPECT_EQ(second.blocks(), 1U);
   }
-  EXPECT_EQ(first.blocks(), 0);
-  EXPECT_EQ(second.blocks(), 0);
+  EXPECT_EQ(first.blocks(), 0U);
+  EXPECT_EQ(second.blocks(), 0U);
 }
 
 TEST(Memory, SizesBeyondTheAddressSpaceAreOutOfMemory) {
