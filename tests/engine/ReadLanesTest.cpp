@@ -107,7 +107,7 @@ class AnyBoxes {
         const auto [min, max] = std::minmax({number(), number()});
         box[axis] = min;
         box[axis + 3] = max;
-        if (m_random() % 64 == 0) std::swap(box[axis], box[axis + 3]);
+        if (m_random() % 12 == 0) std::swap(box[axis], box[axis + 3]);
       }
     }
     return boxes;

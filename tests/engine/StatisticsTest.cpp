@@ -200,12 +200,15 @@ TEST(Statistics, RebuildsOfNumberedWorldsAreCountedForMovingAndForStaticBoxes) {
   }
 }
 
-TEST(Statistics, SmallWorldsOfDoublesCountATestForEachPairOfBoxes) {
+TEST(Statistics, SmallWorldsCountATestForEachPairOfBoxes) {
   std::vector<Box> boxes(3 * 20, Box{{0, 0, 0}, {1, 1, 1}});
   for (Box& box : boxes) box.max[0] += 0x1p-40;
   WorldsSearch search;
   static_cast<void>(search.find(Worlds::ofEqualSize(boxes, 3)));
   EXPECT_EQ(search.statistics().pairs, 3U * 190U);
+  EXPECT_EQ(search.statistics().boxTests, 3U * 190U);
+  const std::vector<BoxF> ofFloats(3 * 20, BoxF{{0, 0, 0}, {1, 1, 1}});
+  static_cast<void>(search.find(Worlds::ofEqualSize(ofFloats, 3)));
   EXPECT_EQ(search.statistics().boxTests, 3U * 190U);
 }
 
