@@ -100,6 +100,23 @@ TEST(Memory, ABufferThatCannotGrowIsAsItWas) {
   EXPECT_TRUE(holds(numbers, 1000, 3));
 }
 
+TEST(Memory, ABufferOfManyValuesLooksUpAsItGrowsAndIsAsItWasIfThatThrows) {
+  constexpr std::size_t kSize = std::size_t{4} << 20;
+  Numbers numbers;
+  numbers.grow(kSize);
+  for (std::size_t i = 0; i < kSize; ++i) numbers[i] = numberAt(i, 4);
+  int looks = 0;
+  const auto stop = [&] {
+    if (++looks == 3) throw std::bad_alloc();
+  };
+  EXPECT_THROW(numbers.grow(kSize + 1, stop), std::bad_alloc);
+  EXPECT_EQ(numbers.capacity(), kSize);
+  EXPECT_TRUE(holds(numbers, kSize, 4));
+  numbers.grow(kSize + 1, stop);
+  EXPECT_GT(looks, 5);
+  EXPECT_TRUE(holds(numbers, kSize, 4));
+}
+
 TEST(Memory, ABufferThatCannotBeReplacedIsEmptyAndMayBeUsedAgain) {
   BoundedMemory memory(1000 * sizeof(std::uint64_t));
   Numbers numbers(&memory);
