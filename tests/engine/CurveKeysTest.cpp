@@ -143,6 +143,21 @@ TEST_P(CurveKeys, TakeTheAxesInTheOrderOfTheGrid) {
   } while (std::next_permutation(axes.begin(), axes.end()));
 }
 
+TEST_P(CurveKeys, AlongALineAreThePlacesOnItsAxis) {
+  std::vector<Cell> cells;
+  for (std::uint32_t i = 0; i < 50; ++i) cells.push_back({7 * i % 512, 300 - i, 11 * i % 512});
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    CurveGrid grid = gridOf(9);
+    grid.isLine = true;
+    grid.axes = {(axis + 1) % 3, (axis + 2) % 3, axis};
+    EXPECT_EQ(grid.classShift(), 9U);
+    std::vector<std::uint32_t> expected;
+    for (const Cell& cell : cells) expected.push_back(cell[axis]);
+    ASSERT_EQ(keysOf(cells, grid), expected);
+    ASSERT_EQ(keysOf({boxIn(cells[1], 30.0F)}, grid).front(), cells[1][axis] | 5U << 9U);  // a large one
+  }
+}
+
 TEST_P(CurveKeys, OfBoxesOutsideTheGridAreThoseOfTheNearestCell) {
   const CurveGrid grid = gridOf(4);
   const std::vector<Cell> cells{{0, 3, 7}, {15, 3, 7}, {3, 0, 7}, {3, 15, 7}, {3, 7, 0}, {3, 7, 15}};
@@ -193,7 +208,7 @@ TEST_P(CurveKeys, OfLargeBoxesBeginWithTheirClass) {
                                      {{64, 64, 64.25F}, 6},
                                      {{500, 500, 500}, 6}};
   const CurveGrid grid = gridOf(5);
-  EXPECT_EQ(grid.keyBits(), 18U);
+  EXPECT_EQ(grid.classShift(), 15U);
   for (const Cell& cell : {Cell{9, 10, 12}, Cell{12, 10, 9}}) {
     const std::uint32_t key = keysOf(std::vector<Cell>{cell}, grid).front();
     std::vector<LaneBox> boxes;
