@@ -160,6 +160,19 @@ TEST(FailedAllocation, WhileAnObjectIsMadeLeaksNothing) {
   test::failEachAllocation(scene);
 }
 
+TEST(FailedAllocation, OfLongerListsLeavesTheMemoryOfShorterOnesUsable) {
+  const std::vector<BoxF> few = test::randomBoxes(500, 55, 50.0F);
+  const std::vector<BoxF> many = test::randomBoxes(1100, 56, 50.0F);
+  const OverlapOptions options{.strategy = Strategy::Bvh};
+  const std::vector<Pair> wanted = overlaps(few, options);
+  test::failEachAllocation([&](test::Fault& fault) {
+    OverlapSearch search(options);
+    ASSERT_EQ(test::toVector(search.find(few)), wanted);
+    static_cast<void>(fault.during([&] { static_cast<void>(search.find(many)); }));
+    ASSERT_EQ(test::toVector(search.find(few)), wanted);
+  });
+}
+
 TEST(FailedAllocation, HalvesNoRangeOfAnOrderedStreamForGood) {
   const std::vector<BoxF> boxes = test::randomBoxes(3000, 54, 200.0F);  // all overlap: more pairs than a range may have
   OverlapOptions options;

@@ -53,5 +53,14 @@ TEST(LaneRounding, ANanBecomesTheWidestBound) {
   EXPECT_EQ(roundUp(nan), kLaneMax);
 }
 
+TEST(LaneList, HasNoMoreTilesThanItsBoxesTake) {
+  EXPECT_EQ(LaneList::tilesFor(0), 0U);
+  for (std::size_t size = 1; size <= 4 * LaneTile::kCapacity; ++size) {
+    const std::size_t tiles = LaneList::tilesFor(size);
+    ASSERT_GE(tiles * LaneTile::kCapacity, size);
+    ASSERT_LT((tiles - 1) * LaneTile::kCapacity, size);
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::engine

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory_resource>
 #include <new>
 #include <thread>
@@ -62,6 +63,15 @@ TEST(Memory, ABlockOfOneThreadMayBeFreedByAnother) {
   std::thread([taken = std::move(numbers)]() mutable { EXPECT_TRUE(holds(grown(kSize, 2.0, 8), kSize, 8)); }).join();
 }
 
+TEST(Memory, ABufferThatGrowsAtLeastDoubles) {
+  Numbers numbers;
+  numbers.grow(1000);
+  numbers.grow(1001);
+  EXPECT_GE(numbers.capacity(), 2000U);
+  numbers.grow(2000);
+  EXPECT_GE(numbers.capacity(), 2000U);
+}
+
 /// Refuses blocks of more than so many bytes.
 class BoundedMemory final : public std::pmr::memory_resource {
  public:
@@ -90,6 +100,23 @@ TEST(Memory, ABufferThatCannotGrowIsAsItWas) {
   EXPECT_TRUE(holds(numbers, 1000, 3));
 }
 
+TEST(Memory, ABufferOfManyValuesLooksUpAsItGrowsAndIsAsItWasIfThatThrows) {
+  constexpr std::size_t kSize = std::size_t{4} << 20;
+  Numbers numbers;
+  numbers.grow(kSize);
+  for (std::size_t i = 0; i < kSize; ++i) numbers[i] = numberAt(i, 4);
+  int looks = 0;
+  const auto stop = [&] {
+    if (++looks == 3) throw std::bad_alloc();
+  };
+  EXPECT_THROW(numbers.grow(kSize + 1, stop), std::bad_alloc);
+  EXPECT_EQ(numbers.capacity(), kSize);
+  EXPECT_TRUE(holds(numbers, kSize, 4));
+  numbers.grow(kSize + 1, stop);
+  EXPECT_GT(looks, 5);
+  EXPECT_TRUE(holds(numbers, kSize, 4));
+}
+
 TEST(Memory, ABufferThatCannotBeReplacedIsEmptyAndMayBeUsedAgain) {
   BoundedMemory memory(1000 * sizeof(std::uint64_t));
   Numbers numbers(&memory);
@@ -100,10 +127,60 @@ TEST(Memory, ABufferThatCannotBeReplacedIsEmptyAndMayBeUsedAgain) {
   EXPECT_EQ(numbers.capacity(), 1000U);
 }
 
+/// Knows the blocks that have not been given back, and that each is given back as it was taken.
+class CountedMemory final : public std::pmr::memory_resource {
+ public:
+  [[nodiscard]] std::size_t blocks() const { return m_blocks.size(); }
+
+ private:
+  using Block = std::pair<std::size_t, std::size_t>;
+
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* const memory = std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    m_blocks[memory] = {bytes, alignment};
+    return memory;
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    const Block block(bytes, alignment);
+    EXPECT_EQ(m_blocks[memory], block);
+    m_blocks.erase(memory);
+    std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
+  }
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  std::map<void*, Block> m_blocks;
+};
+
+TEST(Memory, ABufferThatIsMovedTakesItsResourceAlong) {
+  CountedMemory first;
+  CountedMemory second;
+  {
+    Numbers one(&first);
+    one.require(10);
+    Numbers other(&second);
+    other.require(20);
+    other = std::move(one);
+    EXPECT_EQ(other.capacity(), 10U);
+    const Numbers last(std::move(other));
+    EXPECT_EQ(last.capacity(), 10U);
+    EXPECT_EQ(other.capacity(), 0U);  // NOLINT(bugprone-use-after-move): it may be used again
+    other.require(30);
+    EXPECT_EQ(first.blocks(), 2U);
+    EXPECT_EQ(second.blocks(), 1U);
+  }
+  EXPECT_EQ(first.blocks(), 0U);
+  EXPECT_EQ(second.blocks(), 0U);
+}
+
 TEST(Memory, SizesBeyondTheAddressSpaceAreOutOfMemory) {
   Numbers numbers;
   EXPECT_THROW(numbers.grow(std::numeric_limits<std::size_t>::max() / 2), std::bad_alloc);
   EXPECT_THROW(numbers.require(std::numeric_limits<std::size_t>::max() / 8 + 2), std::bad_alloc);
+}
+
+TEST(Memory, OfTheDefaultIsGivenBackToTheDefaultOnly) {
+  EXPECT_TRUE(defaultMemory()->is_equal(*defaultMemory()));
+  EXPECT_FALSE(defaultMemory()->is_equal(*std::pmr::new_delete_resource()));
 }
 
 TEST(Memory, IsAlignedToACacheLine) {

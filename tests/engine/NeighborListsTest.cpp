@@ -154,6 +154,28 @@ TEST(NeighborLists, AreKeptFromSearchToSearchOfOtherSizesAndOrders) {
   }
 }
 
+/// Boxes that all overlap each other, elsewhere on each axis.
+std::vector<Box> crowd(std::size_t n) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < n; ++i) boxes.push_back(test::cube(30.0 + 0x1p-12 * static_cast<double>(i), 20, 10));
+  return boxes;
+}
+
+TEST(NeighborLists, OfACrowdAfterASmallerOneAreAllPairs) {
+  for (std::size_t n = 1060; n < 1180; n += 20) {  // twice as many, and some more
+    OverlapSearch search({.strategy = Strategy::Bvh});
+    ASSERT_EQ(search.find(test::lent(crowd(500))).size(), 500U * 499U / 2U);
+    const Span<const Pair> found = search.find(test::lent(crowd(n)));
+    ASSERT_EQ(found.size(), n * (n - 1) / 2) << n;
+    std::size_t wrong = 0;
+    std::size_t at = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      for (std::uint32_t k = i + 1; k < n; ++k) wrong += found[at++] == Pair{i, k} ? 0U : 1U;
+    }
+    ASSERT_EQ(wrong, 0U) << n;
+  }
+}
+
 TEST(NeighborLists, HoldNoMorePairsThanTheLimit) {
   const std::vector<Box> boxes = denseBoxes(kDenseBoxes, 6);
   const std::vector<Pair> expected = test::oracle(boxes);

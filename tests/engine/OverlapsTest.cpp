@@ -436,6 +436,15 @@ TEST(Overlaps, CrowdsInACornerOfTheSceneMissNoPair) {
   EXPECT_EQ(overlaps(boxes, bvh), test::oracle(test::toDouble(boxes)));
 }
 
+TEST(Overlaps, CrowdsOfMoreBlocksThanATileHoldsMissNoPair) {
+  const std::vector<BoxF> boxes(9001, BoxF{{0, 0, 0}, {1, 1, 1}});
+  OverlapOptions bvh;
+  bvh.strategy = Strategy::Bvh;
+  EXPECT_EQ(countOverlaps(boxes, bvh), 9001U * 9000U / 2U);
+  const std::span<const BoxF> few(boxes.data(), 700);
+  EXPECT_EQ(countOverlaps(few, boxes, bvh), 700U * 9001U);
+}
+
 TEST(Overlaps, CountsMorePairsThan32BitsHold) {
   if (test::kIsSanitized) GTEST_SKIP() << "four billion tests take a minute then";
   const std::vector<BoxF> boxes(93000, BoxF{{0, 0, 0}, {1, 1, 1}});

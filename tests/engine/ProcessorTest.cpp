@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
 #include "hwy/highway.h"
+#include "kernels/Kernels.h"
 
 namespace allpairs {
 namespace {
@@ -24,6 +26,21 @@ TEST(Processor, HasTheInstructionSetsThatHighwayFinds) {
   EXPECT_TRUE(std::equal(expected.begin(), expected.end(), offered.begin()));
   EXPECT_LE(offered.size(), expected.size() + 2);
   EXPECT_EQ(offered.back(), "SCALAR");
+}
+
+TEST(Processor, HasKernelsOfEachNameThatItOffersAndNoOthers) {
+  std::vector<std::string_view> names(instructionSets().begin(), instructionSets().end());
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(engine::findKernels(""), engine::findKernels(names.front()));
+  for (const std::string_view name : names) {
+    const engine::Kernels* const found = engine::findKernels(name);
+    ASSERT_NE(found, nullptr) << name;
+    EXPECT_EQ(found->name, name);
+  }
+  EXPECT_EQ(engine::findKernels("none"), nullptr);
+  EXPECT_EQ(engine::findKernels(names.front().substr(1)), nullptr);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());  // each once
 }
 
 }  // namespace

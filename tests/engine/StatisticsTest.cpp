@@ -64,6 +64,39 @@ TEST(Statistics, RowsOfAllHitsEndWhereTheTaskEnds) {
   EXPECT_EQ(search.count(first, second), 900U * 700U);
 }
 
+TEST(Statistics, CountingTestsEachPairOnceToo) {
+  const std::vector<BoxF> boxes = test::randomBoxes(1503, 74, 3.0F);
+  const std::vector<BoxF> others = test::randomBoxes(902, 75, 3.0F);
+  for (const std::string_view name : instructionSets()) {
+    OverlapSearch search({.strategy = Strategy::Exhaustive, .instructionSet = name});
+    const std::uint64_t pairs = search.count(boxes);
+    EXPECT_EQ(search.statistics().boxTests, 1503U * 1502U / 2U) << name;
+    OverlapSearch bySecond({.strategy = Strategy::Exhaustive, .order = Order::BySecond, .instructionSet = name});
+    EXPECT_EQ(bySecond.count(boxes), pairs) << name;
+    EXPECT_EQ(bySecond.statistics().boxTests, 1503U * 1502U / 2U) << name;
+    static_cast<void>(search.count(boxes, others));
+    EXPECT_EQ(search.statistics().boxTests, 1503U * 902U) << name;
+  }
+}
+
+TEST(Statistics, SearchesForNeighborsAndForManyPartnersCountTheirTests) {
+  const std::vector<BoxF> boxes = test::randomBoxes(4000, 76, 4.0F);
+  for (const bool inRows : {true, false}) {
+    OverlapSearch search({.strategy = Strategy::Bvh});
+    inRows ? static_cast<void>(search.findNeighbors(boxes)) : static_cast<void>(search.find(boxes));
+    EXPECT_GE(search.statistics().boxTests, search.statistics().pairs);
+    EXPECT_LT(search.statistics().boxTests, 4000U * 4000U);
+    EXPECT_GT(search.statistics().groupTests, 0U);
+    EXPECT_LT(search.statistics().groupTests, search.statistics().boxTests);
+  }
+  for (const std::vector<Box>& few : {test::toDouble(test::randomBoxes(900, 77)), allOverlapping(900)}) {
+    OverlapSearch search({.strategy = Strategy::Exhaustive});
+    static_cast<void>(search.findNeighbors(few));
+    EXPECT_GE(search.statistics().boxTests, 900U * 899U / 2U);
+    EXPECT_LE(search.statistics().boxTests, 900U * 900U);
+  }
+}
+
 /// So many boxes end a hair, in float32 nothing, more than a distance before the others begin.
 std::vector<Box> aHairApart(std::size_t ending, std::size_t beginning, double distance = 0.0) {
   std::vector<Box> boxes(ending, Box{{-1, 0, 0}, {0.1, 1, 1}});
@@ -167,12 +200,15 @@ TEST(Statistics, RebuildsOfNumberedWorldsAreCountedForMovingAndForStaticBoxes) {
   }
 }
 
-TEST(Statistics, SmallWorldsOfDoublesCountATestForEachPairOfBoxes) {
+TEST(Statistics, SmallWorldsCountATestForEachPairOfBoxes) {
   std::vector<Box> boxes(3 * 20, Box{{0, 0, 0}, {1, 1, 1}});
   for (Box& box : boxes) box.max[0] += 0x1p-40;
   WorldsSearch search;
   static_cast<void>(search.find(Worlds::ofEqualSize(boxes, 3)));
   EXPECT_EQ(search.statistics().pairs, 3U * 190U);
+  EXPECT_EQ(search.statistics().boxTests, 3U * 190U);
+  const std::vector<BoxF> ofFloats(3 * 20, BoxF{{0, 0, 0}, {1, 1, 1}});
+  static_cast<void>(search.find(Worlds::ofEqualSize(ofFloats, 3)));
   EXPECT_EQ(search.statistics().boxTests, 3U * 190U);
 }
 
