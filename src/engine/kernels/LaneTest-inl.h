@@ -11,7 +11,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "hwy/highway.h"
 #include "kernels/Lanes.h"
@@ -51,18 +50,14 @@ HWY_INLINE FloatMask meets(FloatVector queryMin, FloatVector queryMax, FloatVect
 #endif
 }
 
-/// The lanes that overlap on this axis too, of float32 or of float64.
-template <class Mask, class Vector>
-HWY_INLINE Mask meetsAlso(Mask also, Vector queryMin, Vector queryMax, Vector min, Vector max) {
-  const Vector from = hn::Max(queryMin, min);
-  const Vector to = hn::Min(queryMax, max);
+/// The lanes that overlap on this axis too.
+HWY_INLINE FloatMask meetsAlso(FloatMask also, FloatVector queryMin, FloatVector queryMax, FloatVector min,
+                               FloatVector max) {
+  const FloatVector from = hn::Max(queryMin, min);
+  const FloatVector to = hn::Min(queryMax, max);
 #if HWY_TARGET <= HWY_AVX3
   // A masked comparison: the conjunction is free.
-  if constexpr (std::is_same_v<Mask, FloatMask>) {
-    return Mask{_mm512_mask_cmp_ps_mask(also.raw, from.raw, to.raw, _CMP_LE_OQ)};
-  } else {
-    return Mask{_mm512_mask_cmp_pd_mask(also.raw, from.raw, to.raw, _CMP_LE_OQ)};
-  }
+  return FloatMask{_mm512_mask_cmp_ps_mask(also.raw, from.raw, to.raw, _CMP_LE_OQ)};
 #else
   return hn::And(also, hn::Le(from, to));
 #endif
