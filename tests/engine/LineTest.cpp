@@ -46,21 +46,9 @@ OverlapOptions byHierarchy(Order order = Order::ByFirst) {
   return options;
 }
 
-std::vector<BoxF> inFloat32(const std::vector<Box>& boxes) {
-  std::vector<BoxF> rounded;
-  for (const Box& box : boxes) {
-    BoxF& to = rounded.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      to.min[axis] = static_cast<float>(box.min[axis]);
-      to.max[axis] = static_cast<float>(box.max[axis]);
-    }
-  }
-  return rounded;
-}
-
 void expectTheDoubleLoopsPairs(const std::vector<Box>& boxes) {
   EXPECT_EQ(overlaps(boxes, byHierarchy()), test::oracle(boxes));
-  const std::vector<BoxF> rounded = inFloat32(boxes);
+  const std::vector<BoxF> rounded = test::toFloat32(boxes);
   EXPECT_EQ(overlaps(rounded, byHierarchy()), test::oracle(test::toDouble(rounded)));
   const std::span<const Box> all(boxes);
   const std::span<const Box> first = all.first(all.size() / 3);

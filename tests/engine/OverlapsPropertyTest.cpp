@@ -46,14 +46,7 @@ RC_GTEST_PROP(OverlapsProperty, AnyBoxesAtAnyDistanceGiveTheOraclesPairs, ()) {
 }
 
 RC_GTEST_PROP(OverlapsProperty, AnyFloat32BoxesGiveTheOraclesPairs, ()) {
-  std::vector<BoxF> boxes;
-  for (const Box& box : *scene()) {
-    BoxF& rounded = boxes.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      rounded.min[axis] = static_cast<float>(box.min[axis]);
-      rounded.max[axis] = static_cast<float>(box.max[axis]);
-    }
-  }
+  const std::vector<BoxF> boxes = test::toFloat32(*scene());
   const double d = *distance();
   const std::vector<Pair> expected = test::oracle(test::toDouble(boxes), d);
   for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(boxes, optionsWith(strategy, d)) == expected);

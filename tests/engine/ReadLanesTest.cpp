@@ -124,7 +124,7 @@ std::vector<double> exactNumbers() {
   return {0.0, 1.0, -1.0, 0.5, -0.5, 3.25, -7.75, 1e6, -1e6, 0x1p-149, -0x1p-149, 0x1p127, -0x1p127};
 }
 
-/// Those and infinite ones, which are no lanes.
+/// The exact numbers, both infinities, which become the largest finite float32, and that one.
 std::vector<double> numbersOfFloats() {
   std::vector<double> numbers = exactNumbers();
   numbers.push_back(std::numeric_limits<double>::infinity());

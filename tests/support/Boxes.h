@@ -54,6 +54,19 @@ inline std::vector<Box> toDouble(std::span<const BoxF> boxes) {
   return result;
 }
 
+/// The boxes with each bound rounded to the nearest float32.
+inline std::vector<BoxF> toFloat32(std::span<const Box> boxes) {
+  std::vector<BoxF> result;
+  for (const Box& box : boxes) {
+    BoxF& rounded = result.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rounded.min[axis] = static_cast<float>(box.min[axis]);
+      rounded.max[axis] = static_cast<float>(box.max[axis]);
+    }
+  }
+  return result;
+}
+
 /// A cube by its minimum and its side.
 inline Box cube(double x, double y, double z, double side = 1.0) { return {{x, y, z}, {x + side, y + side, z + side}}; }
 

@@ -44,12 +44,15 @@ void sampleBoxes(const BoxReader& reader, std::size_t count, const Take& take) {
     return static_cast<std::uint32_t>(sampleIndex(part, count, reader.size()));
   };
   readSample(reader, count, indexOf, [&](const LaneBox& box, std::size_t index, bool isEmpty) {
+    if (!isEmpty) {
+      take(box);
+      return;
+    }
     LaneBlock block;
     const std::size_t end = std::min(reader.size(), index + 100);
-    std::size_t i = isEmpty ? index + 1 : end;
-    while (i < end && reader.read({nullptr, i, 1}, block).emptyLanes != 0) ++i;
-    if (!isEmpty) take(box);
-    if (i < end) take(block.get(0));
+    std::size_t next = index + 1;
+    while (next < end && reader.read({nullptr, next, 1}, block).emptyLanes != 0) ++next;
+    if (next < end) take(block.get(0));
   });
 }
 

@@ -185,14 +185,7 @@ HWY_INLINE std::size_t writeTouchingWord(std::uint64_t bits, std::uint32_t first
     const auto places = numbersFrom(i);
     const auto boxes = hn::Add(hn::ShiftRight<kShift>(places), hn::Set(d, first));
     const auto others = hn::Add(hn::And(places, hn::Set(d, kStep - 1)), hn::Set(d, firstOther));
-    const auto selectedBoxes = lanesOfBits(d, boxes, some);
-    const auto selectedOthers = lanesOfBits(d, others, some);
-    auto* const to = reinterpret_cast<std::uint32_t*>(pairs + size);
-    if (kOthersSecond) {
-      hn::StoreInterleaved2(selectedBoxes, selectedOthers, d, to);
-    } else {
-      hn::StoreInterleaved2(selectedOthers, selectedBoxes, d, to);
-    }
+    storePairs<kOthersSecond>(lanesOfBits(d, others, some), lanesOfBits(d, boxes, some), pairs + size);
     size += static_cast<std::size_t>(std::popcount(some));
   }
   return size;

@@ -91,6 +91,18 @@ HWY_INLINE std::uint64_t testedOfOwnWord(std::size_t row) {
   return kTested == Columns::Preceding ? lowBits(row % kWordBoxes) : ~std::uint64_t{0};
 }
 
+/// Writes a vector of pairs, of which `ids` come first, or second.
+template <bool kIdsSecond>
+HWY_INLINE void storePairs(hn::Vec<IdTag> ids, hn::Vec<IdTag> others, Pair* pairs) {
+  const IdTag d;
+  auto* const to = reinterpret_cast<std::uint32_t*>(pairs);
+  if (kIdsSecond) {
+    hn::StoreInterleaved2(others, ids, d, to);
+  } else {
+    hn::StoreInterleaved2(ids, others, d, to);
+  }
+}
+
 /// Writes the pairs of a row with a word of which many bits are set; returns how many there are.
 template <bool kRowSecond>
 HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std::uint32_t firstOfWord, Pair* pairs) {
@@ -99,13 +111,7 @@ HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std:
   std::size_t size = 0;
   for (std::size_t i = 0; i < kWordBoxes; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
     const std::uint64_t some = bits & lowBits(hn::Lanes(d));
-    const auto partners = lanesOfBits(d, numbersFrom(firstOfWord + i), some);
-    auto* const to = reinterpret_cast<std::uint32_t*>(pairs + size);
-    if (kRowSecond) {
-      hn::StoreInterleaved2(partners, rows, d, to);
-    } else {
-      hn::StoreInterleaved2(rows, partners, d, to);
-    }
+    storePairs<kRowSecond>(rows, lanesOfBits(d, numbersFrom(firstOfWord + i), some), pairs + size);
     size += static_cast<std::size_t>(std::popcount(some));
   }
   return size;
