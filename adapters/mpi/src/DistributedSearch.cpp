@@ -16,7 +16,6 @@
 namespace allpairs::mpi {
 namespace {
 
-constexpr unsigned kGroupBits = 12;  // of first boxes whose pairs are put in order together: they stay in the cache
 constexpr std::uint64_t kShortIds = std::uint64_t{1} << 32;
 
 }  // namespace
@@ -24,7 +23,7 @@ constexpr std::uint64_t kShortIds = std::uint64_t{1} << 32;
 std::vector<IdPair> DistributedSearch::find(std::span<const LocalBoxes> given) {
   search(given);
   std::vector<IdPair> pairs;
-  m_ranks.onAll([&] { pairs = inOrder(); });
+  m_ranks.onAll([&] { pairs = m_ranks.size() == 1 ? std::move(m_here) : m_pairs.takeInOrder(); });
   return pairs;
 }
 
@@ -39,7 +38,6 @@ void DistributedSearch::search(std::span<const LocalBoxes> given) {
     checkStop(m_options.stop);
     takeSets(given);
     checkSets();
-    m_outgoing.resize(static_cast<std::size_t>(m_ranks.size()));
   });
   checkAgreement();
   measureSets();
@@ -116,6 +114,8 @@ void DistributedSearch::measureSets() {
   m_ranks.bits({&flags, 1});
   m_ranks.greatest(margins);
   m_layout.flags = flags;
+  bool areIdsShort = true;
+  std::vector<std::uint64_t> endsOfFirst;
   for (std::size_t k = 0; k < m_sets.size(); ++k) {
     LocalSet& set = m_sets[k];
     std::vector<std::uint64_t> ends = m_ranks.gather(set.boxes.size());
@@ -123,9 +123,10 @@ void DistributedSearch::measureSets() {
     set.allBoxes = ends.back();
     set.firstId = ends[static_cast<std::size_t>(m_ranks.rank())] - set.boxes.size();
     set.maxMargin = m_sets.size() == 1 ? margins.front() : margins[1 - k];
-    m_areIdsShort = m_areIdsShort && set.allBoxes <= kShortIds;
-    if (k == 0) m_ends = std::move(ends);
+    areIdsShort = areIdsShort && set.allBoxes <= kShortIds;
+    if (k == 0) endsOfFirst = std::move(ends);
   }
+  m_ranks.onAll([&] { m_pairs.start(endsOfFirst, areIdsShort); });
 }
 
 /// One rank has all boxes: no cell is cut, and nothing is sent.
@@ -259,81 +260,11 @@ void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std
 
 void DistributedSearch::add(std::uint64_t first, std::uint64_t second) {
   if (++m_count > m_options.maxPairs) throw LimitExceeded(m_count, "more pairs than allowed");
-  if (m_isCount) return;
-  const auto rank = std::upper_bound(m_ends.begin(), m_ends.end(), first) - m_ends.begin();
-  std::vector<std::uint64_t>& words = m_outgoing[static_cast<std::size_t>(rank)];
-  if (m_areIdsShort) {
-    words.push_back(first << 32 | second);
-  } else {
-    words.insert(words.end(), {first, second});
-  }
+  if (!m_isCount) m_pairs.add(first, second);
 }
 
 void DistributedSearch::sendPairs() {
-  if (m_isCount) return;
-  const std::vector<std::uint64_t> words = m_ranks.exchange(m_outgoing);
-  m_ranks.onAll([&] {
-    m_pairs.insert(m_pairs.end(), words.begin(), words.end());
-    for (auto& pairs : m_outgoing) pairs.clear();
-  });
-}
-
-std::uint64_t DistributedSearch::firstOf(std::span<const std::uint64_t> pair) const {
-  return m_areIdsShort ? pair[0] >> 32 : pair[0];
-}
-
-std::uint64_t DistributedSearch::secondOf(std::span<const std::uint64_t> pair) const {
-  return m_areIdsShort ? pair[0] & (kShortIds - 1) : pair[1];
-}
-
-/// Brings together the pairs of some thousand first boxes, whose rows then stay in the cache; returns where those
-/// of each begin, and the end.
-std::vector<std::uint64_t> DistributedSearch::groupPairs() {
-  const std::uint64_t firstId = m_sets.front().firstId;
-  const std::size_t words = pairWords();
-  const auto groupOf = [&](std::size_t at) {
-    return static_cast<std::size_t>((firstOf(std::span(m_pairs).subspan(at, words)) - firstId) >> kGroupBits);
-  };
-  std::vector<std::uint64_t> begins((m_sets.front().boxes.size() >> kGroupBits) + 2);
-  for (std::size_t at = 0; at < m_pairs.size(); at += words) ++begins[groupOf(at) + 1];
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::vector<std::uint64_t> next = begins;
-  std::vector<std::uint64_t> grouped(m_pairs.size());
-  for (std::size_t at = 0; at < m_pairs.size(); at += words) {
-    std::copy_n(m_pairs.begin() + static_cast<std::ptrdiff_t>(at), words,
-                grouped.begin() + static_cast<std::ptrdiff_t>(next[groupOf(at)]++ * words));
-  }
-  m_pairs = std::move(grouped);
-  return begins;
-}
-
-/// Puts each pair into the row of its first box, and each row in order.
-std::vector<IdPair> DistributedSearch::inOrder() {
-  if (m_ranks.size() == 1) return std::move(m_here);
-  const std::vector<std::uint64_t> groups = groupPairs();
-  const std::size_t words = pairWords();
-  std::vector<IdPair> ordered(groups.back());
-  std::vector<std::uint64_t> rows;
-  for (std::size_t group = 0; group + 1 < groups.size(); ++group) {
-    const std::uint64_t firstRow = m_sets.front().firstId + (std::uint64_t{group} << kGroupBits);
-    const std::span pairs =
-        std::span(m_pairs).subspan(groups[group] * words, (groups[group + 1] - groups[group]) * words);
-    rows.assign((std::size_t{1} << kGroupBits) + 1, 0);
-    for (std::size_t at = 0; at < pairs.size(); at += words) ++rows[firstOf(pairs.subspan(at, words)) - firstRow + 1];
-    rows.front() = groups[group];
-    std::partial_sum(rows.begin(), rows.end(), rows.begin());
-    for (std::size_t at = 0; at < pairs.size(); at += words) {
-      const auto pair = pairs.subspan(at, words);
-      ordered[rows[firstOf(pair) - firstRow]++] = {firstOf(pair), secondOf(pair)};
-    }
-    auto begin = ordered.begin() + static_cast<std::ptrdiff_t>(groups[group]);
-    for (const std::uint64_t row : rows) {  // each ends where the one after it began
-      const auto end = ordered.begin() + static_cast<std::ptrdiff_t>(row);
-      std::sort(begin, end, [](const IdPair& a, const IdPair& b) { return a.second < b.second; });
-      begin = end;
-    }
-  }
-  return ordered;
+  if (!m_isCount) m_pairs.send();
 }
 
 }  // namespace allpairs::mpi

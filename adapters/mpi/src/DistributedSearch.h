@@ -9,6 +9,7 @@
 
 #include "Distribution.h"
 #include "LocalSet.h"
+#include "PairExchange.h"
 #include "Ranks.h"
 #include "Tuning.h"
 #include "allpairs/mpi/DistributedOverlaps.h"
@@ -20,7 +21,7 @@ namespace allpairs::mpi {
 class DistributedSearch {
  public:
   DistributedSearch(const Ranks& ranks, const DistributedOptions& options, const Tuning& tuning)
-      : m_ranks(ranks), m_options(options), m_tuning(tuning) {}
+      : m_ranks(ranks), m_options(options), m_tuning(tuning), m_pairs(ranks) {}
 
   /// The pairs whose first box is this rank's, of one set or two.
   [[nodiscard]] std::vector<IdPair> find(std::span<const LocalBoxes> given);
@@ -42,11 +43,6 @@ class DistributedSearch {
   [[nodiscard]] OverlapOptions optionsFor(const FilterBits& first, const FilterBits& second) const;
   void add(std::uint64_t first, std::uint64_t second);
   void sendPairs();
-  [[nodiscard]] std::vector<IdPair> inOrder();
-  [[nodiscard]] std::size_t pairWords() const { return m_areIdsShort ? 1 : 2; }
-  [[nodiscard]] std::uint64_t firstOf(std::span<const std::uint64_t> pair) const;
-  [[nodiscard]] std::uint64_t secondOf(std::span<const std::uint64_t> pair) const;
-  [[nodiscard]] std::vector<std::uint64_t> groupPairs();
 
   const Ranks& m_ranks;
   const DistributedOptions& m_options;
@@ -54,12 +50,9 @@ class DistributedSearch {
   bool m_isCount = false;
   std::vector<LocalSet> m_sets;
   RecordLayout m_layout;
-  std::vector<std::uint64_t> m_ends;  ///< Of each rank, behind the number of its last box of the first set.
-  bool m_areIdsShort = true;          ///< All numbers have 32 bits: a pair is one word.
-  std::uint64_t m_count = 0;          ///< Found by this rank.
-  std::vector<std::vector<std::uint64_t>> m_outgoing;  ///< Pairs for each rank.
-  std::vector<std::uint64_t> m_pairs;                  ///< Those of this rank, as they came.
-  std::vector<IdPair> m_here;                          ///< Of one rank alone, in order.
+  std::uint64_t m_count = 0;  ///< Found by this rank.
+  PairExchange m_pairs;
+  std::vector<IdPair> m_here;  ///< Of one rank alone, in order.
 };
 
 }  // namespace allpairs::mpi

@@ -139,6 +139,7 @@ void Distribution::findCells(std::size_t set) {
   const LocalSet& local = m_sets[set];
   std::vector<std::uint32_t>& cells = m_rows[set].cells;
   cells.clear();
+  cells.reserve(local.boxes.size() + local.boxes.size() / 16);  // few boxes are in two cells
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < local.boxes.size(); ++i) {
     m_cells.cellsOf(reachOf(local, i), found);
