@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -103,8 +104,8 @@ TEST(NeighborLists, OfTwoSetsGiveTheOraclesPairs) {
   }
 }
 
-TEST(NeighborLists, DecideInDoubleWhatLanesCannot) {
-  // The lattice's faces touch, or are apart by less than float32 can tell.
+/// Cubes whose faces touch, or are apart by less than float32 can tell.
+std::vector<Box> latticeBoxes() {
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < kDenseBoxes; ++i) {
     const double apart = i % 3 == 0 ? 1e-12 : 0.0;
@@ -112,6 +113,11 @@ TEST(NeighborLists, DecideInDoubleWhatLanesCannot) {
     boxes.push_back(test::cube(static_cast<double>(place % 8) + apart, static_cast<double>(place / 8 % 8) / 3.0,
                                static_cast<double>(place / 64)));
   }
+  return boxes;
+}
+
+TEST(NeighborLists, DecideInDoubleWhatLanesCannot) {
+  const std::vector<Box> boxes = latticeBoxes();
   const std::vector<Pair> expected = test::oracle(boxes);
   expectPairs(boxes, {}, expected);
   OverlapSearch search;
@@ -120,19 +126,56 @@ TEST(NeighborLists, DecideInDoubleWhatLanesCannot) {
   EXPECT_EQ(search.statistics().pairs, expected.size());
 }
 
+TEST(NeighborLists, DecideInDoubleNoMoreThanThat) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(kDenseBoxes, 6, 2.5F));
+  // Twenty of them touch one, or end a hair before it; all their other partners are certain.
+  const Box one = test::cube(1e3, 0, 0);
+  for (std::size_t i = 0; i < 20; ++i) {
+    boxes[40 * i] = {{999, 0, 0}, {i % 2 == 0 ? one.min[0] : std::nextafter(one.min[0], 0.0), 1, 1}};
+  }
+  boxes.back() = one;
+  OverlapOptions options;
+  options.strategy = Strategy::Bvh;
+  OverlapSearch search(options);
+  const std::vector<Pair> expected = test::oracle(boxes);
+  ASSERT_GT(expected.size(), 15 * boxes.size()) << "too few for lists";
+  EXPECT_EQ(test::toVector(search.find(boxes)), expected);
+  EXPECT_EQ(search.statistics().exactTests, 20U);
+}
+
+/// Some of the boxes are in groups, and a predicate forbids more; returns the pairs of those that both allow.
+std::vector<Pair> setFilter(std::vector<std::uint32_t>& groups, OverlapOptions& options, std::vector<Pair> pairs) {
+  for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = static_cast<std::uint32_t>(i % 5);
+  options.filter.first.groups = groups;
+  options.filter.accept = [](std::uint32_t a, std::uint32_t b) { return (a + 2 * b) % 11 != 0; };
+  std::erase_if(pairs, [&groups](Pair pair) {
+    const bool alike = groups[pair.first] != 0 && groups[pair.first] == groups[pair.second];
+    return alike || (pair.first + 2 * pair.second) % 11 == 0;
+  });
+  return pairs;
+}
+
 TEST(NeighborLists, AreFilteredAndWidened) {
   const std::vector<Box> boxes = denseBoxes(kDenseBoxes, 5);
   std::vector<std::uint32_t> groups(boxes.size());
-  for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = static_cast<std::uint32_t>(i % 5);
-  OverlapOptions options;
-  options.filter.first.groups = groups;
-  options.filter.accept = [](std::uint32_t a, std::uint32_t b) { return (a + 2 * b) % 11 != 0; };
-  options.distance = 0.25;
-  std::vector<Pair> expected;
-  for (const Pair pair : test::oracle(boxes, 0.25)) {
-    const bool alike = groups[pair.first] != 0 && groups[pair.first] == groups[pair.second];
-    if (!alike && (pair.first + 2 * pair.second) % 11 != 0) expected.push_back(pair);
+  for (const double distance : {0.0, 0.25, -0.125}) {
+    OverlapOptions options;
+    options.distance = distance;
+    expectPairs(boxes, options, setFilter(groups, options, test::oracle(boxes, distance)));
   }
+}
+
+TEST(NeighborLists, AreFilteredAfterTheExactTest) {
+  const std::vector<Box> boxes = latticeBoxes();
+  std::vector<std::uint32_t> groups(boxes.size());
+  OverlapOptions options;
+  const std::vector<Pair> expected = setFilter(groups, options, test::oracle(boxes));
+  const std::vector<Pair> touching = test::oracle(boxes);
+  const PairPredicate accept = options.filter.accept;
+  options.filter.accept = [&](std::uint32_t a, std::uint32_t b) {
+    EXPECT_TRUE(std::binary_search(touching.begin(), touching.end(), Pair{a, b})) << a << ' ' << b;
+    return accept(a, b);
+  };
   expectPairs(boxes, options, expected);
 }
 

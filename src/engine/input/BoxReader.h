@@ -34,6 +34,16 @@ struct BoxList {
   }
 };
 
+/// Prefetches the memory of a box.
+inline void prefetchBox(const BoxView& boxes, std::uint32_t id) noexcept {
+  const auto row = static_cast<std::ptrdiff_t>(id);
+  const auto ask = [&](const auto& corners) {
+    prefetchLine(corners.min.data + row * corners.min.boxStride);
+    prefetchLine(corners.max.data + row * corners.max.boxStride + 2);
+  };
+  boxes.isFloat64() ? ask(boxes.float64()) : ask(boxes.float32());
+}
+
 /// Reads the boxes of a set as float32 lanes that are never smaller than the boxes, with half the distance of the
 /// search and the box's own margin added on each side.
 ///
@@ -68,14 +78,7 @@ class BoxReader {
   bool readAll(const LaneList& list) const;
 
   /// Prefetches the memory of box i.
-  void prefetch(std::size_t i) const noexcept {
-    const auto row = static_cast<std::ptrdiff_t>(idOf(i));
-    const auto ask = [&](const auto& corners) {
-      prefetchLine(corners.min.data + row * corners.min.boxStride);
-      prefetchLine(corners.max.data + row * corners.max.boxStride + 2);
-    };
-    m_boxes->isFloat64() ? ask(m_boxes->float64()) : ask(m_boxes->float32());
-  }
+  void prefetch(std::size_t i) const noexcept { prefetchBox(*m_boxes, idOf(i)); }
 
  private:
   BlockRead readListed(const BoxList& boxes, LaneBlock& block) const;

@@ -265,7 +265,8 @@ void listRow(const FlatSearch& search, std::size_t row) {
     for (const Range& part : ranges) emitColumns(inward(q, lists.slack), search.columns, part, certain);
     tested = certain.size != size;
   }
-  if (tested && size != 0) size = lists.select(lists, id, to, size);
+  if (tested && size != 0) size = lists.selectTouching(lists, id, to, size);
+  if (lists.selectAllowed != nullptr && size != 0) size = lists.selectAllowed(lists, id, to, size);
   lists.begin[id] = lists.base + lists.size;
   lists.length[id] = static_cast<std::uint32_t>(size);
   lists.size += size;

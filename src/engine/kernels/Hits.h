@@ -67,10 +67,10 @@ struct Hits {
 /// Where a join puts the partners of each box of `first`, its neighbors, in ascending order: one list after the other, in
 /// the order of the hierarchy.
 struct NeighborLists {
-  /// Which lists select() has to see.
+  /// Which hits the exact test has to see.
   enum class Tested : std::uint8_t {
     None,
-    InDoubt,  ///< Those with a hit that lanes cannot decide, because they were rounded.
+    InDoubt,  ///< Those that lanes cannot decide, because they were rounded.
     All,
   };
 
@@ -89,8 +89,16 @@ struct NeighborLists {
 
   void* receiver = nullptr;
 
-  /// Moves the partners that are kept to the front; returns their number.
-  std::size_t (*select)(NeighborLists& lists, std::uint32_t row, std::uint32_t* partners, std::size_t size) = nullptr;
+  /// Moves the partners that touch the row to the front; returns their number.
+  std::size_t (*selectTouching)(NeighborLists& lists, std::uint32_t row, std::uint32_t* partners,
+                                std::size_t size) = nullptr;
+
+  /// The same for the partners that the filter allows; null without a filter.
+  std::size_t (*selectAllowed)(NeighborLists& lists, std::uint32_t row, std::uint32_t* partners,
+                               std::size_t size) = nullptr;
+
+  /// Writes which of some pairs of a row and a partner do not touch; returns their number.
+  std::size_t (*findApart)(NeighborLists& lists, const Pair* pairs, std::size_t size, std::uint32_t* apart) = nullptr;
 
   /// Provides a capacity of `more` beyond the size.
   void (*grow)(NeighborLists& lists, std::size_t more) = nullptr;

@@ -333,7 +333,7 @@ class JoinRun {
     const bool notesDoubts = m_task.lists->tested == NeighborLists::Tested::InDoubt;
     hn::Vec<IdTag> lengths[Leaf::kVectors];
     for (auto& length : lengths) length = hn::Zero(d);
-    std::uint32_t doubtful = 0;
+    Doubts doubts;
     std::size_t hits = 0;
     for (std::size_t i = 0; i < size; ++i) {
       const std::uint32_t id = near.id[places[i]];
@@ -349,16 +349,52 @@ class JoinRun {
       }
       hitBits[hits] = bits;
       hitIds[hits] = id;
+      if (notesDoubts) {
+        std::uint32_t doubtful = bits & ~certainBits(leaf, q, m_task.lists->slack);
+        for (; doubtful != 0; doubtful &= doubtful - 1) {
+          if (doubts.size == Doubts::kCapacity) doubts.settle(*m_task.lists, hitBits);
+          doubts.add(leaf, hits, id, static_cast<std::uint32_t>(std::countr_zero(doubtful)));
+        }
+      }
       hits += bits != 0 ? 1U : 0U;
-      if (notesDoubts) doubtful |= bits & ~certainBits(leaf, q, m_task.lists->slack);
     }
+    if (doubts.size != 0) doubts.settle(*m_task.lists, hitBits);
     hn::StoreU(hn::Zero(d), d, hitBits + hits);  // The last vector of bits ends behind them.
     m_hits.groupTests += near.size;
     m_hits.boxTests += size * leaf.fill;
     std::array<std::uint32_t, kFanOut> lengthOf;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * Leaf::kLanes]);
-    writeLists(leaf, lengthOf, m_task.lists->tested == NeighborLists::Tested::All ? ~0U : doubtful);
+    for (std::size_t row = 0; row < kFanOut; ++row) lengthOf[row] -= doubts.apart[row];
+    writeLists(leaf, lengthOf);
   }
+
+  /// Hits that lanes cannot decide, some at a time.
+  struct Doubts {
+    static constexpr std::size_t kCapacity = 128;
+
+    std::size_t size = 0;
+    std::array<std::uint32_t, kFanOut> apart{};  ///< Hits of each row of the leaf that were none.
+    std::array<Pair, kCapacity> pairs;           ///< Of a row and a partner; not initialised, as what follows.
+    std::array<std::uint32_t, kCapacity> hit;
+    std::array<std::uint8_t, kCapacity> row;
+
+    HWY_INLINE void add(const Leaf& leaf, std::size_t atHit, std::uint32_t partner, std::uint32_t ofRow) {
+      pairs[size] = {leaf.ids[ofRow], partner};
+      hit[size] = static_cast<std::uint32_t>(atHit);
+      row[size++] = static_cast<std::uint8_t>(ofRow);
+    }
+
+    /// Deletes the bits of those that do not touch.
+    void settle(NeighborLists& lists, std::uint32_t* hitBits) {
+      std::array<std::uint32_t, kCapacity> found;
+      const std::size_t count = lists.findApart(lists, pairs.data(), size, found.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        hitBits[hit[found[i]]] &= ~(1U << row[found[i]]);
+        ++apart[row[found[i]]];
+      }
+      size = 0;
+    }
+  };
 
   /// Which boxes of a leaf overlap the query whatever the rounding was.
   static std::uint32_t certainBits(const Leaf& leaf, const Query& q, float slack) {
@@ -370,8 +406,8 @@ class JoinRun {
     return bits;
   }
 
-  /// Collects the list of each box of a leaf from the hits; select() sees those of the bits in `tested`.
-  void writeLists(const Leaf& leaf, const std::array<std::uint32_t, kFanOut>& lengthOf, std::uint32_t tested) {
+  /// Collects the list of each box of a leaf from the hits.
+  void writeLists(const Leaf& leaf, const std::array<std::uint32_t, kFanOut>& lengthOf) {
     const IdTag d;
     NeighborLists& lists = *m_task.lists;
     const std::uint32_t* const hitBits = m_task.scratch->neighbors.hitBits.data();
@@ -387,7 +423,8 @@ class JoinRun {
         hn::StoreU(selectedLanes(d, hn::LoadU(d, hitIds + i), mask), d, to + size);
         size += hn::CountTrue(d, mask);
       }
-      if ((tested >> row & 1U) != 0 && size != 0) size = lists.select(lists, id, to, size);
+      if (size != 0 && lists.tested == NeighborLists::Tested::All) size = lists.selectTouching(lists, id, to, size);
+      if (size != 0 && lists.selectAllowed != nullptr) size = lists.selectAllowed(lists, id, to, size);
       lists.begin[id] = lists.base + lists.size;
       lists.length[id] = static_cast<std::uint32_t>(size);
       lists.size += size;

@@ -81,6 +81,11 @@ class DoubtWriter {
     for (std::size_t i = 0; i < m_count; ++i) {
       const std::uint32_t lanes = m_touched[i].lanes[0] | static_cast<std::uint32_t>(m_touched[i].lanes[1]) << 8U;
       std::uint32_t doubtful = lanes & ~bitsOf(FloatTag(), certainOf(m_touched[i].test));
+      if (doubtful == lanes) {  // as where the faces of a lattice touch
+        hn::StoreU(numbersFrom(m_touched[i].begin), IdTag(), hits.doubt + hits.doubts);
+        hits.doubts += static_cast<std::size_t>(std::popcount(lanes));
+        continue;
+      }
       for (; doubtful != 0; doubtful &= doubtful - 1) {
         const std::uint32_t before = lanes & ((doubtful & (0U - doubtful)) - 1U);
         hits.doubt[hits.doubts++] = m_touched[i].begin + static_cast<std::uint32_t>(std::popcount(before));

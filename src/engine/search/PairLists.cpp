@@ -53,29 +53,54 @@ void PairLists::select(Columns kept, PairSide side, const SinkOptions& options) 
   for (NeighborLists& lists : m_ofWorkers) {
     lists.kept = kept;
     lists.slack = test.slack();
-    if (test.needed()) {
-      const bool onlyDoubts = test.leavesDoubts() && !test.isFiltered();
-      lists.tested = onlyDoubts ? NeighborLists::Tested::InDoubt : NeighborLists::Tested::All;
+    if (test.exactTestNeeded()) {
+      lists.tested = test.leavesDoubts() ? NeighborLists::Tested::InDoubt : NeighborLists::Tested::All;
     }
     lists.receiver = this;
-    lists.select = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
-      return static_cast<const PairLists*>(of.receiver)->selectTested(of, row, {partners, size});
+    lists.selectTouching = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
+      return static_cast<const PairLists*>(of.receiver)->selectTouching(of, row, {partners, size});
+    };
+    if (test.isFiltered()) {
+      lists.selectAllowed = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
+        return static_cast<const PairLists*>(of.receiver)->selectAllowed(row, {partners, size});
+      };
+    }
+    lists.findApart = [](NeighborLists& of, const Pair* pairs, std::size_t size, std::uint32_t* apart) {
+      return static_cast<const PairLists*>(of.receiver)->findApart(of, {pairs, size}, apart);
     };
     lists.grow = [](NeighborLists& of, std::size_t more) { static_cast<PairLists*>(of.receiver)->grow(of, more); };
   }
 }
 
-/// Moves the partners of a row that the test keeps to the front; returns their number.
-std::size_t PairLists::selectTested(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const {
-  const PairTest& test = *m_options->test;
+Pair PairLists::pairOf(std::uint32_t row, std::uint32_t partner) const noexcept {
+  const bool isRowFirst = m_side == PairSide::SmallerFirst ? row < partner : m_side == PairSide::RowFirst;
+  return isRowFirst ? Pair{row, partner} : Pair{partner, row};
+}
+
+std::size_t PairLists::selectTouching(NeighborLists& lists, std::uint32_t row,
+                                      std::span<std::uint32_t> partners) const {
   checkStop(m_options->stop);
-  if (test.exactTestNeeded()) lists.exactTests += partners.size();
-  std::size_t kept = 0;
-  for (const std::uint32_t partner : partners) {
-    const bool isRowFirst = m_side == PairSide::SmallerFirst ? row < partner : m_side == PairSide::RowFirst;
-    if (test.keeps(isRowFirst ? Pair{row, partner} : Pair{partner, row})) partners[kept++] = partner;
-  }
-  return kept;
+  lists.exactTests += partners.size();
+  const auto isApart = [&](std::uint32_t partner) { return !m_options->test->touches(pairOf(row, partner)); };
+  const auto end = std::remove_if(partners.begin(), partners.end(), isApart);
+  return static_cast<std::size_t>(end - partners.begin());
+}
+
+std::size_t PairLists::selectAllowed(std::uint32_t row, std::span<std::uint32_t> partners) const {
+  checkStop(m_options->stop);
+  const auto isExcluded = [&](std::uint32_t partner) { return !m_options->test->allows(pairOf(row, partner)); };
+  const auto end = std::remove_if(partners.begin(), partners.end(), isExcluded);
+  return static_cast<std::size_t>(end - partners.begin());
+}
+
+std::size_t PairLists::findApart(NeighborLists& lists, std::span<const Pair> pairs, std::uint32_t* apart) const {
+  checkStop(m_options->stop);
+  lists.exactTests += pairs.size();
+  std::size_t size = 0;
+  m_options->test->forEachApart(
+      pairs.size(), [&](std::size_t i) { return pairOf(pairs[i].first, pairs[i].second); },
+      [&](std::size_t i) { apart[size++] = static_cast<std::uint32_t>(i); });
+  return size;
 }
 
 /// Provides more memory for the lists of a worker; keeps what is there.

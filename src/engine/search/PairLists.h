@@ -45,7 +45,10 @@ class PairLists {
 
  private:
   void grow(NeighborLists& lists, std::size_t more);
-  std::size_t selectTested(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const;
+  [[nodiscard]] Pair pairOf(std::uint32_t row, std::uint32_t partner) const noexcept;
+  std::size_t selectTouching(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const;
+  std::size_t selectAllowed(std::uint32_t row, std::span<std::uint32_t> partners) const;
+  std::size_t findApart(NeighborLists& lists, std::span<const Pair> pairs, std::uint32_t* apart) const;
   template <class Use>
   void forEachList(Executor& executor, const Use& use);
 

@@ -12,6 +12,7 @@
 #include "allpairs/BoxView.h"
 #include "allpairs/Filter.h"
 #include "allpairs/Pair.h"
+#include "input/BoxReader.h"
 #include "input/Options.h"
 #include "kernels/Hits.h"
 
@@ -61,6 +62,7 @@ class PairTest {
   void requireExactTest(bool required) noexcept {
     m_exact = required;
     m_slack = kNever;
+    findRows();
   }
 
   /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the kernels can
@@ -68,6 +70,7 @@ class PairTest {
   void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin) noexcept {
     m_exact = required;
     m_slack = slackOf(origin);
+    findRows();
   }
 
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
@@ -94,7 +97,7 @@ class PairTest {
 
   /// A pair that is certain to touch needs no exact test.
   [[nodiscard]] bool keeps(Pair pair, bool isDoubtful = true) const {
-    return (!m_exact || !isDoubtful || touches(pair)) && (!m_filtered || passes(pair));
+    return (!m_exact || !isDoubtful || touches(pair)) && (!m_filtered || allows(pair));
   }
 
   /// Moves the pairs that it keeps to the front; returns their number.
@@ -109,7 +112,8 @@ class PairTest {
 
   /// The same for the pairs of some hits, of which only those in doubt need the exact test, if the kernels noted them.
   [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits& hits) const {
-    if (!m_filtered && exactTestsOf(hits) == 0) return pairs.size();
+    if (!m_filtered && !m_exact) return pairs.size();
+    if (!m_filtered && hits.doubt != nullptr) return selectInDoubt(pairs, {hits.doubt, hits.doubts});
     return select(pairs, hits, [](Pair&) { return true; });
   }
 
@@ -125,6 +129,46 @@ class PairTest {
       if (isWanted(pair) && keeps(pair, isDoubtful)) pairs[kept++] = pair;
     }
     return kept;
+  }
+
+  /// Calls use(i) for each of `size` pairs, pairAt(i), that does not touch. Their boxes lie in no order, and are prefetched.
+  template <class PairAt, class Use>
+  void forEachApart(std::size_t size, const PairAt& pairAt, const Use& use) const {
+    constexpr std::size_t kAhead = 8;
+    for (std::size_t i = 0; i < size + kAhead; ++i) {
+      if (i < size) {
+        prefetchBox(*m_first.boxes, pairAt(i).first);
+        prefetchBox(*m_second.boxes, pairAt(i).second);
+      }
+      if (i >= kAhead && !touches(pairAt(i - kAhead))) use(i - kAhead);
+    }
+  }
+
+  /// The exact test of a hit, of which neither box is empty.
+  [[nodiscard]] bool touches(Pair pair) const {
+    if (m_firstRows != nullptr)
+      return touch(m_firstRows + std::size_t{6} * pair.first, m_secondRows + std::size_t{6} * pair.second);
+    // The order of a sum is part of the contract: margins are added by the order of ids.
+    if (m_inAnyOrder && pair.second < pair.first) std::swap(pair.first, pair.second);
+    const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
+    return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);
+  }
+
+  /// Whether the filter allows a pair.
+  [[nodiscard]] bool allows(Pair pair) const {
+    const std::uint32_t all = 0xFFFFFFFFU;
+    const std::size_t a = pair.first * m_first.stride;
+    const std::size_t b = pair.second * m_second.stride;
+    const auto at = [](const std::uint32_t* values, std::size_t i, std::uint32_t otherwise) {
+      return values == nullptr ? otherwise : values[i];
+    };
+    if (!acceptEachOther(at(m_first.categories, a, all), at(m_first.masks, a, all), at(m_second.categories, b, all),
+                         at(m_second.masks, b, all))) {
+      return false;
+    }
+    const std::uint32_t group = at(m_first.groups, a, 0);
+    if (group != 0 && group == at(m_second.groups, b, 0)) return false;
+    return !*m_accept || (*m_accept)(pair.first, pair.second);
   }
 
   /// How many of some hits need the exact test.
@@ -148,27 +192,40 @@ class PairTest {
     return most < static_cast<double>(kLaneMax) ? kQueryTiny + static_cast<float>(most) : kNever;
   }
 
-  [[nodiscard]] bool touches(Pair pair) const {
-    // The order of a sum is part of the contract: margins are added by the order of ids.
-    if (m_inAnyOrder && pair.second < pair.first) std::swap(pair.first, pair.second);
-    const double d = m_distance + m_first.boxes->margin(pair.first) + m_second.boxes->margin(pair.second);
-    return overlap((*m_first.boxes)[pair.first], (*m_second.boxes)[pair.second], d);
+  /// Two rows of bounds; no branch is mispredicted, since most hits in doubt touch on some axes only by a hair.
+  static bool touch(const double* a, const double* b) noexcept {
+    return static_cast<bool>(static_cast<int>(a[0] <= b[3]) & static_cast<int>(b[0] <= a[3]) &
+                             static_cast<int>(a[1] <= b[4]) & static_cast<int>(b[1] <= a[4]) &
+                             static_cast<int>(a[2] <= b[5]) & static_cast<int>(b[2] <= a[5]));
   }
 
-  [[nodiscard]] bool passes(Pair pair) const {
-    const std::uint32_t all = 0xFFFFFFFFU;
-    const std::size_t a = pair.first * m_first.stride;
-    const std::size_t b = pair.second * m_second.stride;
-    const auto at = [](const std::uint32_t* values, std::size_t i, std::uint32_t otherwise) {
-      return values == nullptr ? otherwise : values[i];
+  /// Boxes as most searches have them, of which the bounds are all that matters.
+  void findRows() noexcept {
+    m_firstRows = m_exact && m_distance == 0.0 ? rowsOf(*m_first.boxes) : nullptr;
+    m_secondRows = m_firstRows != nullptr ? rowsOf(*m_second.boxes) : nullptr;
+    if (m_secondRows == nullptr) m_firstRows = nullptr;
+  }
+  static const double* rowsOf(const BoxView& boxes) noexcept {
+    const bool isPlain = boxes.isFloat64() && boxes.float64().isPacked() && !boxes.hasMargins();
+    return isPlain ? boxes.float64().min.data : nullptr;
+  }
+
+  /// Moves the pairs to the front of which the one at each of some positions, ascending, touches or is at no such position.
+  [[nodiscard]] std::size_t selectInDoubt(std::span<Pair> pairs, std::span<const std::uint32_t> doubts) const {
+    std::size_t kept = 0;
+    std::size_t begin = 0;  // of those that have not been moved
+    const auto moveUntil = [&](std::size_t end) {
+      if (kept != begin) std::copy(pairs.data() + begin, pairs.data() + end, pairs.data() + kept);
+      kept += end - begin;
     };
-    if (!acceptEachOther(at(m_first.categories, a, all), at(m_first.masks, a, all), at(m_second.categories, b, all),
-                         at(m_second.masks, b, all))) {
-      return false;
-    }
-    const std::uint32_t group = at(m_first.groups, a, 0);
-    if (group != 0 && group == at(m_second.groups, b, 0)) return false;
-    return !*m_accept || (*m_accept)(pair.first, pair.second);
+    forEachApart(
+        doubts.size(), [&](std::size_t i) { return pairs[doubts[i]]; },
+        [&](std::size_t i) {
+          moveUntil(doubts[i]);
+          begin = doubts[i] + 1;
+        });
+    moveUntil(pairs.size());
+    return kept;
   }
 
   TestedBoxes m_first;
@@ -178,6 +235,8 @@ class PairTest {
   bool m_exact = false;
   bool m_inAnyOrder = false;
   float m_slack = kNever;
+  const double* m_firstRows = nullptr;  ///< Rows of 6, if bounds are all that matters.
+  const double* m_secondRows = nullptr;
   bool m_filtered;
 };
 
