@@ -8,12 +8,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
@@ -167,6 +170,68 @@ TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
     options.distance = 0.3;
     search.setOptions(options);
     EXPECT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes, 0.3));
+  }
+}
+
+/// The boxes as they lie in planes, the one after the other in the next of these.
+std::vector<Box> inPlanes(std::vector<Box> boxes, std::span<const double> planes) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].min[1] = boxes[i].max[1] = planes[i % planes.size()];
+  return boxes;
+}
+
+TEST(Statistics, FlatScenesNeedHardlyAnyExactTests) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(3000, 74, 0.3F));
+  for (Box& box : boxes) box.max[0] += 1e-9;  // no float32
+  const std::vector<Box> others(boxes.begin(), boxes.begin() + 1000);
+  for (const double plane : {0.0, 2.5, 0.1, -1e7 - 0.3, 1e300, 1e-300}) {
+    const std::vector<Box> flat = inPlanes(boxes, {&plane, 1});
+    const std::vector<Box> flatOthers = inPlanes(others, {&plane, 1});
+    const std::vector<Pair> expected = test::oracle(flat);
+    const std::vector<Pair> expectedBetween = test::oracleBetween(flat, flatOthers);
+    for (const std::string_view name : instructionSets()) {
+      OverlapOptions options;
+      options.strategy = Strategy::Bvh;
+      options.instructionSet = name;
+      OverlapSearch search(options);
+      EXPECT_EQ(test::toVector(search.find(flat)), expected) << name;
+      EXPECT_LT(search.statistics().exactTests, 300U) << name << ' ' << plane;
+      EXPECT_EQ(test::toVector(search.find(flat, flatOthers)), expectedBetween) << name;
+      EXPECT_LT(search.statistics().exactTests, 1300U) << name << ' ' << plane;  // 1000 of them with themselves
+    }
+  }
+}
+
+TEST(Statistics, PlanesThatFloat32DoesNotTellApartAreNotOne) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(800, 75, 0.6F));
+  const double inf = test::kInfinity;
+  const std::vector<std::vector<double>> all = {{0.1, std::nextafter(0.1, 1.0)},
+                                                {0.0, 1e-300},
+                                                {0.0, 4.9e-324},
+                                                {1e-50, 2e-50},
+                                                {1e300, 1e301},
+                                                {inf, 1e300},
+                                                {inf, -inf},
+                                                {1e7, 1e7 + 2e-9},
+                                                {0.0, -0.0},
+                                                {2.5, 2.5 + 1e-12}};
+  for (const std::vector<double>& planes : all) {
+    const std::vector<Box> flat = inPlanes(boxes, planes);
+    const std::vector<Box> first = inPlanes(boxes, {&planes[0], 1});
+    const std::vector<Box> second = inPlanes(boxes, {&planes[1], 1});
+    for (const double distance : {0.0, 1e-12, -1e-12}) {
+      const std::vector<Pair> ofFlat = test::oracle(flat, distance);
+      const std::vector<Pair> ofFirst = test::oracle(first, distance);
+      const std::vector<Pair> between = test::oracleBetween(first, second, distance);
+      for (const std::string_view name : instructionSets()) {
+        OverlapOptions options;
+        options.strategy = Strategy::Bvh;
+        options.instructionSet = name;
+        options.distance = distance;
+        EXPECT_EQ(overlaps(flat, options), ofFlat) << name << ' ' << planes[1];
+        EXPECT_EQ(overlaps(first, options), ofFirst) << name << ' ' << planes[0];
+        EXPECT_EQ(overlaps(first, second, options), between) << name << ' ' << planes[1];
+      }
+    }
   }
 }
 

@@ -17,7 +17,8 @@ namespace allpairs::engine {
 /// The point that the lanes of two sets are relative to: near the boxes if they are float64 and so far from the origin
 /// that float32 would tell few of them apart, else the origin. Any point gives the same pairs.
 ///
-/// Float64 boxes that are far only because of a few outliers in the sample keep the origin.
+/// Float64 boxes that are far only because of a few outliers in the sample keep the origin. On an axis on which they are all the
+/// same point, it is that point if float32 does not have it, so that its lanes are exact.
 [[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
   /// Boxes farther from the origin than this many times the extent of the sample lose more bits than this has.
   constexpr double kFarAway = 16.0;
@@ -36,7 +37,11 @@ namespace allpairs::engine {
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double extent = bounds.max[axis] - bounds.min[axis];
-    if (extent > 0.0 && std::abs(bounds.min[axis]) > kFarAway * extent) origin[axis] = bounds.min[axis];
+    const double point = bounds.min[axis];
+    if (extent > 0.0 && std::abs(point) > kFarAway * extent) origin[axis] = point;
+    const bool isFloat32 =
+        std::abs(point) <= static_cast<double>(kLaneMax) && static_cast<double>(static_cast<float>(point)) == point;
+    if (extent == 0.0 && !isFloat32) origin[axis] = point;
   }
   return origin;
 }

@@ -37,7 +37,7 @@ struct Hits {
   /// others.
   std::uint32_t* doubt = nullptr;
   std::size_t doubts = 0;
-  float slack = kQueryTiny;  ///< See inward() in LaneTest-inl.h.
+  LaneSlack slack = kRoundedLanes;  ///< See inward() in LaneTest-inl.h.
 
   /// If set, hits are counted in `count` and not stored.
   bool countOnly = false;
@@ -76,8 +76,8 @@ struct NeighborLists {
 
   Columns kept = Columns::All;  ///< Which partners, by their ids.
   Tested tested = Tested::None;
-  float slack = kQueryTiny;  ///< Of what is not in doubt, as in Hits.
-  unsigned idBits = 0;       ///< Ids of partners have no more.
+  LaneSlack slack = kRoundedLanes;  ///< Of what is not in doubt, as in Hits.
+  unsigned idBits = 0;              ///< Ids of partners have no more.
 
   std::uint32_t* partners = nullptr;
   std::size_t size = 0;

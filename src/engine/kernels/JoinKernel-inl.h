@@ -397,7 +397,7 @@ class JoinRun {
   };
 
   /// Which boxes of a leaf overlap the query whatever the rounding was.
-  static std::uint32_t certainBits(const Leaf& leaf, const Query& q, float slack) {
+  static std::uint32_t certainBits(const Leaf& leaf, const Query& q, const LaneSlack& slack) {
     const Query certain = inward(q, slack);
     std::uint32_t bits = 0;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {

@@ -77,13 +77,15 @@ HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t 
 /// A lane is within one unit in the last place of the bound that it was rounded from. If a minimum, increased by eight
 /// units of its own, does not exceed a maximum, then the bounds that they were rounded from do not either: if both are
 /// of similar magnitude, a unit of one is at most two of the other; else they are far apart. Lanes that were widened may
-/// differ by more, because a sum may cancel: by less than `most`.
-HWY_INLINE Query inward(const Query& q, float most) {
+/// differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane was rounded, and none is moved.
+HWY_INLINE Query inward(const Query& q, const LaneSlack& most) {
   const FloatTag d;
-  const auto slack = [&](FloatVector value)
-                         HWY_ATTR { return hn::MulAdd(hn::Abs(value), hn::Set(d, kQuerySlack), hn::Set(d, most)); };
-  return {hn::Add(q.minX, slack(q.minX)), hn::Add(q.minY, slack(q.minY)), hn::Add(q.minZ, slack(q.minZ)),
-          hn::Sub(q.maxX, slack(q.maxX)), hn::Sub(q.maxY, slack(q.maxY)), hn::Sub(q.maxZ, slack(q.maxZ))};
+  const auto slack = [&](FloatVector value, float add) HWY_ATTR {
+    return hn::MulAdd(hn::Abs(value), hn::Set(d, add == 0.0F ? 0.0F : kQuerySlack), hn::Set(d, add));
+  };
+  return {hn::Add(q.minX, slack(q.minX, most[0])), hn::Add(q.minY, slack(q.minY, most[1])),
+          hn::Add(q.minZ, slack(q.minZ, most[2])), hn::Sub(q.maxX, slack(q.maxX, most[0])),
+          hn::Sub(q.maxY, slack(q.maxY, most[1])), hn::Sub(q.maxZ, slack(q.maxZ, most[2]))};
 }
 
 /// The lanes of a mask as bits.

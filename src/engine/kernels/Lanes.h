@@ -141,6 +141,10 @@ struct BvhView {
 inline constexpr float kQuerySlack = 0x1p-20F;
 inline constexpr float kQueryTiny = 1e-36F;
 
+/// What the lanes of each axis may differ from what they were rounded from, beyond their rounding; 0 where they do not differ.
+using LaneSlack = std::array<float, 3>;
+inline constexpr LaneSlack kRoundedLanes{kQueryTiny, kQueryTiny, kQueryTiny};
+
 /// A box that moves, or a ray, against sixteen boxes.
 struct SweepLanes {
   enum class Axis : std::uint8_t {

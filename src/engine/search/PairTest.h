@@ -66,17 +66,26 @@ class PairTest {
   }
 
   /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the kernels can
-  /// tell which hits need the exact test.
-  void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin) noexcept {
+  /// tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes are exactly unless they
+  /// are widened: there nothing is in doubt.
+  void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin,
+                               const std::array<bool, 3>& isFlat = {}) noexcept {
     m_exact = required;
     m_slack = slackOf(origin);
+    m_isFlat = isWidened() ? std::array<bool, 3>{} : isFlat;
     findRows();
   }
 
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
 
   /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding.
-  [[nodiscard]] float slack() const noexcept { return m_slack; }
+  [[nodiscard]] LaneSlack slack() const noexcept {
+    LaneSlack slack{m_slack, m_slack, m_slack};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (m_isFlat[axis]) slack[axis] = 0.0F;
+    }
+    return slack;
+  }
 
   /// Its two parts: the exact test of hits of one set, whichever of the two boxes comes first, and the filter.
   [[nodiscard]] PairTest boundsOfHits() const {
@@ -178,13 +187,17 @@ class PairTest {
   }
 
  private:
+  [[nodiscard]] bool isWidened() const noexcept {
+    return m_distance != 0.0 || m_first.boxes->hasMargins() || m_second.boxes->hasMargins();
+  }
+
   /// The sums of a bound, the distance, margins and the origin are off by no more than some units in the last place of the
   /// largest of them; to those of the bound, the slack that is relative to lanes is enough. A box that shrinks may be
   /// inverted, whose lanes say nothing.
   [[nodiscard]] float slackOf(const std::array<double, 3>& origin) const noexcept {
     const BoxView& first = *m_first.boxes;
     const BoxView& second = *m_second.boxes;
-    if (m_distance == 0.0 && !first.hasMargins() && !second.hasMargins()) return kQueryTiny;
+    if (!isWidened()) return kQueryTiny;
     if (m_distance < 0.0 || first.leastMargin() < 0.0 || second.leastMargin() < 0.0) return kNever;
     double most = std::max(first.greatestMargin(), second.greatestMargin()) + 0.5 * m_distance;
     for (const double value : origin) most = std::max(most, std::abs(value));
@@ -235,6 +248,7 @@ class PairTest {
   bool m_exact = false;
   bool m_inAnyOrder = false;
   float m_slack = kNever;
+  std::array<bool, 3> m_isFlat{};
   const double* m_firstRows = nullptr;  ///< Rows of 6, if bounds are all that matters.
   const double* m_secondRows = nullptr;
   bool m_filtered;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -39,6 +40,21 @@ constexpr std::size_t kFewForThreads = 2048;
 /// Lists take memory and time for each box of a set, those included that the other set cannot reach: not for so many
 /// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
+
+/// The axes on which all boxes of two sets are the same point. Lanes of different boxes are alike if float32 does not reach as far,
+/// or if what they are relative to has cost them bits: not if they are 0, or relative to none.
+std::array<bool, 3> flatAxes(const BvhView& first, const BvhView& second, const std::array<double, 3>& origin) {
+  std::array<bool, 3> isFlat{};
+  if (first.depth == 0 || second.depth == 0) return isFlat;
+  const LaneBlock& a = first.level[first.depth - 1].blocks[0];
+  const LaneBlock& b = second.level[second.depth - 1].blocks[0];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float min = std::min(std::ranges::min(a.bound[axis]), std::ranges::min(b.bound[axis]));
+    const float max = std::max(std::ranges::max(a.bound[axis + 3]), std::ranges::max(b.bound[axis + 3]));
+    isFlat[axis] = min == max && (min == 0.0F || (origin[axis] == 0.0 && std::abs(min) < kLaneMax));
+  }
+  return isFlat;
+}
 
 /// Boxes of a sample: 276 pairs, of which a share of a tenth is told from one of a fifth.
 constexpr std::size_t kSample = 24;
@@ -165,16 +181,18 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
   if (boxes <= kFewForThreads && !plan.test.isFiltered()) m_executor = &m_stoppable.over(nullptr, plan.sink.stop);
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
-  const BvhBuilder& second = readers.one ? m_first : m_second;
-  plan.test.requireExactTestInDoubt(!m_first.exact() || !second.exact(), readers.first.origin());
   plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;
-  joinBoth(readers.one, plan);
+  joinBoth(readers.one, readers.first.origin(), plan);
 }
 
-/// Both hierarchies as one job.
-void Search::joinBoth(bool one, Plan& plan) {
+/// Both hierarchies, whose lanes are relative to a point, as one job.
+void Search::joinBoth(bool one, const std::array<double, 3>& origin, Plan& plan) {
+  BvhBuilder& builderOfSecond = one ? m_first : m_second;
   const BvhView& first = m_first.levels().view();
-  plan.job = one ? JoinRunner::Job::ofSelfJoin(first) : JoinRunner::Job::ofJoin(first, m_second.levels().view());
+  const BvhView& second = builderOfSecond.levels().view();
+  plan.test.requireExactTestInDoubt(!m_first.exact() || !builderOfSecond.exact(), origin,
+                                    flatAxes(first, second, origin));
+  plan.job = one ? JoinRunner::Job::ofSelfJoin(first) : JoinRunner::Job::ofJoin(first, second);
   plan.job.firstLarge = m_first.firstLarge() / kFanOut;
 }
 

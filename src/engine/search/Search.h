@@ -109,7 +109,7 @@ class Search {
   void planFlat(const Readers& readers, Plan& plan);
   void planJoin(const Readers& readers, Plan& plan);
 
-  void joinBoth(bool one, Plan& plan);
+  void joinBoth(bool one, const std::array<double, 3>& origin, Plan& plan);
 
   void run(const Plan& plan, Executor& executor);
   std::span<Pair> copyInto(Plan& plan, std::span<Pair> memory);

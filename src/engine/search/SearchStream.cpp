@@ -88,8 +88,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   reader.setOrigin(origin);
   m_first.build(reader, *m_executor);
   Plan plan{PairTest::of(sets, options), options.order};
-  joinBoth(false, plan);
-  plan.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), origin);
+  joinBoth(false, origin, plan);
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
