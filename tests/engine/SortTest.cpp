@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "allpairs/parallel/TbbExecutor.h"
 #include "bvh/RadixSort.h"
+#include "kernels/Kernels.h"
+#include "order/PairBuckets.h"
 #include "order/PairSort.h"
 
 namespace allpairs::engine {
@@ -63,6 +66,91 @@ TEST(PairSort, SortsPairsOfWhichOneIndexHasThousands) {
     PairSort(defaultMemory()).sort(pairs, {90000, 90000, order, {}}, serial);
     ASSERT_TRUE(sortedBy(order, given) == pairs);
   }
+}
+
+struct SetSizes {
+  std::uint32_t firsts;
+  std::uint32_t seconds;
+};
+
+/// So many different pairs, or about a half of all, in any order.
+std::vector<Pair> randomPairsOf(std::size_t size, SetSizes sets) {
+  size = std::min<std::size_t>(size, std::size_t{sets.firsts} * sets.seconds / 2 + 1);
+  std::mt19937 generator(static_cast<std::uint32_t>(size) + sets.firsts);
+  std::vector<Pair> pairs(size);
+  for (Pair& pair : pairs) {
+    pair.first = static_cast<std::uint32_t>(generator() % sets.firsts);
+    pair.second = static_cast<std::uint32_t>(generator() % sets.seconds);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::shuffle(pairs.begin(), pairs.end(), generator);
+  return pairs;
+}
+
+/// Pairs in buckets, as two workers find them.
+std::vector<PairBuckets> inBuckets(std::span<const Pair> pairs, const BucketRule& rule) {
+  std::vector<PairBuckets> buckets;
+  for (std::size_t worker = 0; worker < 2; ++worker) {
+    buckets.emplace_back(defaultMemory()).start(rule, 2);
+    const std::size_t half = pairs.size() / 2;
+    std::span<const Pair> rest = worker == 0 ? pairs.first(half) : pairs.subspan(half);
+    for (; !rest.empty(); rest = rest.subspan(std::min<std::size_t>(rest.size(), 1000))) {
+      buckets.back().add(rest.first(std::min<std::size_t>(rest.size(), 1000)));
+    }
+  }
+  return buckets;
+}
+
+void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order order, std::size_t threads) {
+  const std::size_t size = given.size();
+  const BucketRule rule(sets.firsts, sets.seconds, order, threads);
+  const std::vector<PairBuckets> ofWorkers = inBuckets(given, rule);
+  const std::vector<Pair> expected = sortedBy(order, given);
+  const std::size_t keys = order == Order::ByFirst ? sets.firsts : sets.seconds;
+  std::vector<Pair> pairs(size);
+  std::vector<std::uint64_t> offsets(keys + 1, size);
+  std::vector<std::uint32_t> indices(size);
+  std::size_t before = 0;
+  for (std::size_t b = 0; b < rule.buckets; ++b) {
+    const Bucket bucket{rule, b, ofWorkers, *findKernels("")};
+    std::vector<std::uint32_t> scratch(std::max(scratchToSort(bucket), scratchToList(bucket)));
+    sortBucket(bucket, std::span(pairs).subspan(before, bucket.size()),
+               std::span(scratch).first(scratchToSort(bucket)));
+    const std::size_t ofBucket = std::min(bucket.keys(), keys - bucket.firstKey());
+    listBucket(
+        bucket,
+        {std::span(offsets).subspan(bucket.firstKey(), ofBucket), std::span(indices).subspan(before, bucket.size())},
+        before, scratch);
+    before += bucket.size();
+  }
+  ASSERT_EQ(before, size);
+  ASSERT_TRUE(pairs == expected) << size << " pairs of " << sets.firsts << " x " << sets.seconds;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t key = order == Order::ByFirst ? expected[i].first : expected[i].second;
+    ASSERT_EQ(indices[i], order == Order::ByFirst ? expected[i].second : expected[i].first)
+        << size << " pairs of " << sets.firsts << " x " << sets.seconds << ", " << threads << " threads";
+    ASSERT_TRUE(offsets[key] <= i && i < offsets[key + 1]) << size << " pairs, " << key;
+  }
+}
+
+TEST(PairBuckets, SortAndListPairsOfFewBoxesAndOfMany) {
+  for (const SetSizes sets : {SetSizes{1, 1}, SetSizes{1, 4096}, SetSizes{4096, 1}, SetSizes{300, 4096},
+                              SetSizes{4096, 4096}, SetSizes{4097, 10}, SetSizes{257, 256}, SetSizes{90000, 5000}}) {
+    for (const std::size_t size : {0U, 1U, 127U, 3001U, 40000U, 300000U}) {
+      const std::vector<Pair> given = randomPairsOf(size, sets);
+      for (const Order order : {Order::ByFirst, Order::BySecond}) {
+        for (const std::size_t threads : {1U, 2U}) expectSortedInBuckets(given, sets, order, threads);
+      }
+    }
+  }
+}
+
+TEST(PairBuckets, CountPairsOfOneThreadAndOfFewBoxes) {
+  EXPECT_TRUE(BucketRule(4096, 4096, Order::ByFirst, 1).isCounted);
+  EXPECT_FALSE(BucketRule(4097, 4096, Order::ByFirst, 1).isCounted);
+  EXPECT_FALSE(BucketRule(4096, 4097, Order::BySecond, 1).isCounted);
+  EXPECT_FALSE(BucketRule(4096, 4096, Order::ByFirst, 2).isCounted);
 }
 
 TEST(RadixSort, SortsRunsOfAnyLengthByTheBitsAboveTheIndex) {

@@ -16,6 +16,9 @@ constexpr unsigned kLeastKeyBits = 8;
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
 constexpr std::size_t kMostBuckets = 4096;
 
+/// The counts of so many boxes, and the places of their next pairs, stay in the second-level cache (dense_benchmark).
+constexpr unsigned kCountedBits = 12;
+
 template <bool kBySecond>
 Pair unpacked(std::uint32_t number, std::uint32_t firstKey, unsigned otherBits) noexcept {
   const std::uint32_t key = firstKey + (number >> otherBits);
@@ -67,6 +70,56 @@ void putInRows(const Bucket& bucket, std::uint32_t* next, std::uint32_t* rows) n
   forEachNumber(bucket, [=](std::uint32_t number) { rows[next[number >> otherBits]++] = number; });
 }
 
+/// Scratch memory in which a bucket is counted: where the pairs of each key and of each other index begin, and the numbers.
+struct Counts {
+  std::uint32_t* beginOfKey;
+  std::uint32_t* beginOfOther;
+  std::uint32_t* numbers;
+
+  Counts(const Bucket& bucket, std::uint32_t* scratch) noexcept
+      : beginOfKey(scratch),
+        beginOfOther(scratch + bucket.keys()),
+        numbers(beginOfOther + (std::size_t{1} << bucket.rule.otherBits)) {}
+};
+
+/// Counts the pairs of each key and of each other index, and moves all pairs to where those of their other index begin.
+void countPairs(const Bucket& bucket, const Counts& counts) noexcept {
+  const unsigned otherBits = bucket.rule.otherBits;
+  const std::uint32_t otherMask = (std::uint32_t{1} << otherBits) - 1;
+  std::fill(counts.beginOfKey, counts.numbers, 0U);
+  forEachNumber(bucket, [=](std::uint32_t number) {
+    ++counts.beginOfKey[number >> otherBits];
+    ++counts.beginOfOther[number & otherMask];
+  });
+  std::exclusive_scan(counts.beginOfKey, counts.beginOfOther, counts.beginOfKey, 0U);
+  std::exclusive_scan(counts.beginOfOther, counts.numbers, counts.beginOfOther, 0U);
+  forEachNumber(bucket,
+                [=](std::uint32_t number) { counts.numbers[counts.beginOfOther[number & otherMask]++] = number; });
+}
+
+/// Calls write(place, number) for each number: the moves to where its key's row begins keep the order of the other index.
+template <class Write>
+void placeByKey(const Bucket& bucket, const Counts& counts, const Write& write) noexcept {
+  const std::size_t size = bucket.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t number = counts.numbers[i];
+    write(counts.beginOfKey[number >> bucket.rule.otherBits]++, number);
+  }
+}
+
+std::size_t scratchToCount(const Bucket& bucket) noexcept {
+  return bucket.keys() + (std::size_t{1} << bucket.rule.otherBits) + bucket.size();
+}
+
+template <bool kBySecond>
+void sortCounted(const Bucket& bucket, Pair* to, std::uint32_t* scratch) noexcept {
+  const Counts counts(bucket, scratch);
+  countPairs(bucket, counts);
+  const unsigned otherBits = bucket.rule.otherBits;
+  placeByKey(bucket, counts,
+             [=](std::size_t place, std::uint32_t number) { to[place] = unpacked<kBySecond>(number, 0, otherBits); });
+}
+
 /// Sorts all numbers of a bucket, in two arrays for as many; returns which of them holds the result.
 std::uint32_t* radixSortBucket(const Bucket& bucket, std::size_t size, std::uint32_t* from,
                                std::uint32_t* to) noexcept {
@@ -93,16 +146,24 @@ std::size_t scratchFor(const Bucket& bucket, std::size_t size) noexcept {
 
 }  // namespace
 
-BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order) : bySecond(order == Order::BySecond) {
+BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads)
+    : bySecond(order == Order::BySecond) {
   const std::size_t keys = bySecond ? seconds : firsts;
   const std::size_t others = bySecond ? firsts : seconds;
-  keyBits = std::max(kLeastKeyBits, static_cast<unsigned>(std::bit_width((keys - 1) / kMostBuckets)));
+  isCounted = threads == 1 && std::max(keys, others) <= std::size_t{1} << kCountedBits;
+  const auto bitsOf = [](std::size_t size) { return static_cast<unsigned>(std::bit_width(size - 1)); };
+  keyBits = isCounted ? bitsOf(keys) : std::max(kLeastKeyBits, bitsOf((keys - 1) / kMostBuckets + 1));
   buckets = ((keys - 1) >> keyBits) + 1;
-  otherBits = static_cast<unsigned>(std::bit_width(others - 1));
+  otherBits = bitsOf(others);
 }
 
 void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
   const BucketRule& rule = bucket.rule;
+  if (rule.isCounted && scratchToCount(bucket) <= scratch.size()) {
+    rule.bySecond ? sortCounted<true>(bucket, place.data(), scratch.data())
+                  : sortCounted<false>(bucket, place.data(), scratch.data());
+    return;
+  }
   if (scratchFor(bucket, place.size()) <= scratch.size()) {
     const NumberRows rows = emptyRows(bucket, scratch, place.size());
     std::uint32_t* const next = scratch.data() + 1;
@@ -119,11 +180,26 @@ void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint
                 : unpackAll<false>(sorted, bucket.firstKey(), rule.otherBits, place);
 }
 
-std::size_t scratchToList(const Bucket& bucket) noexcept { return scratchFor(bucket, bucket.size()); }
+std::size_t scratchToSort(const Bucket& bucket) noexcept {
+  const bool areFew = bucket.size() <= kLongestRow * bucket.keys();
+  return bucket.rule.isCounted && areFew ? scratchToCount(bucket) : 0;
+}
+
+std::size_t scratchToList(const Bucket& bucket) noexcept {
+  return std::max(scratchFor(bucket, bucket.size()), scratchToSort(bucket));
+}
 
 void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_t before,
                 std::span<std::uint32_t> scratch) noexcept {
   const std::size_t size = place.indices.size();
+  const std::uint32_t otherMask = (std::uint32_t{1} << bucket.rule.otherBits) - 1;
+  if (bucket.rule.isCounted && scratchToCount(bucket) <= scratch.size()) {
+    const Counts counts(bucket, scratch.data());
+    countPairs(bucket, counts);
+    for (std::size_t key = 0; key < place.offsets.size(); ++key) place.offsets[key] = before + counts.beginOfKey[key];
+    placeByKey(bucket, counts, [&](std::size_t to, std::uint32_t number) { place.indices[to] = number & otherMask; });
+    return;
+  }
   const NumberRows rows = emptyRows(bucket, scratch, size);
   std::uint32_t* const next = scratch.data() + 1;
   const std::size_t longest = measureRows(bucket, next);
@@ -134,7 +210,6 @@ void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_
     return;
   }
   const std::uint32_t* const sorted = radixSortBucket(bucket, size, rows.numbers, place.indices.data());
-  const std::uint32_t otherMask = (std::uint32_t{1} << rows.otherBits) - 1;
   std::transform(sorted, sorted + size, place.indices.data(), [=](std::uint32_t number) { return number & otherMask; });
 }
 
@@ -142,6 +217,7 @@ void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
   m_keyBits = rule.keyBits;
   m_otherBits = rule.otherBits;
   m_bySecond = rule.bySecond;
+  m_isOne = rule.isCounted;
   m_chunks = rule.buckets;
   m_next.require(rule.buckets);
   m_fullChunks.require(rule.buckets);
@@ -163,11 +239,17 @@ void PairBuckets::makeRoom(std::size_t chunks) {
   m_following.grow(chunks);
 }
 
-void PairBuckets::add(std::span<const Pair> pairs) { m_bySecond ? distribute<true>(pairs) : distribute<false>(pairs); }
+void PairBuckets::add(std::span<const Pair> pairs) {
+  if (m_isOne) {
+    m_bySecond ? append<true>(pairs) : append<false>(pairs);
+  } else {
+    m_bySecond ? distribute<true>(pairs) : distribute<false>(pairs);
+  }
+}
 
 void PairBuckets::addBothWays(std::span<const Pair> pairs) {
-  distribute<false>(pairs);
-  distribute<true>(pairs);
+  m_isOne ? append<false>(pairs) : distribute<false>(pairs);
+  m_isOne ? append<true>(pairs) : distribute<true>(pairs);
 }
 
 template <bool kBySecond>
@@ -190,6 +272,19 @@ void PairBuckets::distribute(std::span<const Pair> pairs) {
     ++m_fullChunks[bucket];
     to = m_numbers.data();
   }
+}
+
+template <bool kBySecond>
+void PairBuckets::append(std::span<const Pair> pairs) {
+  const std::size_t size = m_next[0] + pairs.size();
+  if (size > m_numbers.capacity()) m_numbers.grow(size);
+  std::uint32_t* const to = m_numbers.data() + m_next[0];
+  const unsigned otherBits = m_otherBits;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Pair pair = pairs[i];
+    to[i] = kBySecond ? pair.second << otherBits | pair.first : pair.first << otherBits | pair.second;
+  }
+  m_next[0] = size;
 }
 
 std::size_t PairBuckets::chunkAfter(std::size_t chunk) {

@@ -23,8 +23,10 @@ struct BucketRule {
   std::size_t buckets = 0;
   unsigned otherBits = 0;
   bool bySecond = false;
+  bool isCounted = false;  ///< One bucket has all pairs, which are so few boxes' that those of each index are counted.
 
-  BucketRule(std::size_t firsts, std::size_t seconds, Order order);
+  /// For sets of so many boxes, none of them empty.
+  BucketRule(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads);
 
   /// Whether what the keys of a bucket differ in, above the other index, make a number of 31 bits.
   [[nodiscard]] bool packs() const noexcept { return otherBits < 31 && keyBits + otherBits <= 31; }
@@ -33,7 +35,7 @@ struct BucketRule {
 /// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they are
 /// found, so that they need not be written and read once more. Within a bucket, 31 bits tell a pair.
 ///
-/// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have.
+/// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have; only one alone is a list.
 class PairBuckets {
  public:
   explicit PairBuckets(std::pmr::memory_resource* memory)
@@ -52,7 +54,7 @@ class PairBuckets {
   void addBothWays(std::span<const Pair> pairs);
 
   [[nodiscard]] std::size_t size(std::size_t bucket) const noexcept {
-    return m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
+    return m_isOne ? m_next[0] : m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
   }
 
   /// Calls use(numbers) for each stretch of pairs of a bucket: what their keys differ in above the other index.
@@ -60,7 +62,7 @@ class PairBuckets {
   void forEachChunk(std::size_t bucket, const Use& use) const {
     std::size_t rest = size(bucket);
     for (std::size_t chunk = bucket; rest > 0; chunk = m_following[chunk]) {
-      const std::size_t length = std::min(rest, kChunk);
+      const std::size_t length = m_isOne ? rest : std::min(rest, kChunk);
       use(std::span<const std::uint32_t>(m_numbers.data() + chunk * kChunk, length));
       rest -= length;
     }
@@ -72,6 +74,8 @@ class PairBuckets {
 
   template <bool kBySecond>
   void distribute(std::span<const Pair> pairs);
+  template <bool kBySecond>
+  void append(std::span<const Pair> pairs);
   std::size_t chunkAfter(std::size_t chunk);
   void makeRoom(std::size_t chunks);
 
@@ -79,6 +83,7 @@ class PairBuckets {
   unsigned m_keyBits = 0;
   unsigned m_otherBits = 0;
   bool m_bySecond = false;
+  bool m_isOne = false;      ///< There is one bucket, a list without chunks.
   std::size_t m_chunks = 0;  ///< Those in use; the first one of each bucket has the bucket's number.
   Buffer<std::uint32_t> m_numbers;
   Buffer<std::uint32_t> m_following;   ///< By chunk: the next one of its bucket.
@@ -104,9 +109,13 @@ struct Bucket {
 
 /// Puts the pairs of a bucket in order into their place in the result.
 ///
-/// Where they fit into the scratch memory and no key has many, each pair goes to its key's row, and then to where its rank in
-/// the row says; else they are radix sorted in the memory of the result.
+/// If they are counted, each pair goes to where those of its other index are, and from there to its key's row. Else, if no key has
+/// many, each pair goes to its key's row, and then to where its rank in the row says. Where they do not fit into the scratch memory,
+/// or a key has many, they are radix sorted in the memory of the result.
 void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept;
+
+/// Scratch memory that is worth its allocation, in numbers.
+[[nodiscard]] std::size_t scratchToSort(const Bucket& bucket) noexcept;
 
 /// Puts the other index of each pair of a bucket into its place in order, in the same ways, and the beginning of each key's row.
 ///

@@ -29,9 +29,11 @@ constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
 /// From so many partners a box on, ordered pairs come from a list for each box and not from buckets; in one set, where each pair
-/// is then found from both sides, from so many of both (docs/decisions/0025, dense_benchmark).
+/// is then found from both sides, from so many of both, and from more where pairs are counted (docs/decisions/0025,
+/// dense_benchmark).
 constexpr double kDense = 9.0;
 constexpr double kDenseBothWays = 26.0;
+constexpr double kDenseCounted = 32.0;
 
 /// Up to so many boxes, a join is done on one thread before a second one has woken up, or soon after
 /// (allpairs bench uniform -n 2000 --threads 2).
@@ -278,16 +280,20 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
 
 bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   if (plan.order == Order::Unordered) return false;
-  const BucketRule rule(sets.first.size(), sets.second.size(), plan.order);
+  const BucketRule rule = ruleOf(sets, plan.order);
   if (!fillBuckets(rule, plan, &PairBuckets::add)) return false;
   m_pairs = roomForPairs();
   m_executor->run(rule.buckets, [&](std::size_t b) {
     const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
-    m_runner.withScratch(0, [&](std::span<std::uint32_t> scratch) {
-      sortBucket({rule, b, m_buckets, *m_kernels}, place, scratch);
-    });
+    const Bucket bucket{rule, b, m_buckets, *m_kernels};
+    m_runner.withScratch(scratchToSort(bucket),
+                         [&](std::span<std::uint32_t> scratch) { sortBucket(bucket, place, scratch); });
   });
   return true;
+}
+
+BucketRule Search::ruleOf(const Sets& sets, Order order) const {
+  return {sets.first.size(), sets.second.size(), order, m_executor->concurrency()};
 }
 
 bool Search::fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
@@ -319,12 +325,13 @@ bool Search::findInLists(const Sets& sets, Plan& plan) {
   return true;
 }
 
-bool Search::areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept) {
+bool Search::areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted) {
   if (job.isFlat) return shareOfOverlaps(job.flat) > kMuchOrdered;
   if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return false;
   if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
   const bool keepsAll = kept == Columns::All || kept == Columns::Others;
-  return m_runner.partnersPerBox(job) >= (keepsAll ? kDense : kDenseBothWays);
+  const double dense = keepsAll ? kDense : areCounted ? kDenseCounted : kDenseBothWays;
+  return m_runner.partnersPerBox(job) >= dense;
 }
 
 bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
@@ -336,7 +343,7 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
-  if (!areListsBetter(job, rows, kept)) return false;
+  if (!areListsBetter(job, rows, kept, ruleOf(sets, plan.order).isCounted)) return false;
   job.flat.tested = kept;
   m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers);
   m_lists.select(kept, bySecond ? PairSide::RowSecond : PairSide::RowFirst, plan.sink);

@@ -119,6 +119,7 @@ class Search {
 
   /// Finds pairs and orders them by buckets if that pays off; else does nothing and returns false.
   bool findInBuckets(const Sets& sets, Plan& plan);
+  [[nodiscard]] BucketRule ruleOf(const Sets& sets, Order order) const;
 
   /// Finds pairs and adds them to buckets; in m_places is how many precede each. Does nothing and returns false where a bucket
   /// cannot hold the pairs of this rule.
@@ -129,7 +130,7 @@ class Search {
 
   /// Lists those partners of each box that are kept, in order, if that pays off; else does nothing and returns false.
   bool listPartners(const Sets& sets, Plan& plan, Columns kept);
-  [[nodiscard]] bool areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept);
+  [[nodiscard]] bool areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted);
 
   NeighborsMemory roomForRows(std::size_t rows, std::size_t indices);
   void writePairsAsRows(const Sets& sets, NeighborRows kind);
