@@ -73,9 +73,9 @@ float nth(std::span<float> values, std::size_t n) {
 bool mayHaveOutliers(std::span<const float> values, float least, float width) {
   const float partWidth = width / static_cast<float>(kOutlierFactor);
   if (!(partWidth > 0.0F)) return false;
-  constexpr auto kLast = static_cast<float>(kOutlierFactor - 1);
+  const auto last = static_cast<float>(kOutlierFactor - 1);
   std::array<std::size_t, kOutlierFactor> counts{};
-  for (const float value : values) ++counts[static_cast<std::size_t>(std::min((value - least) / partWidth, kLast))];
+  for (const float value : values) ++counts[static_cast<std::size_t>(std::min((value - least) / partWidth, last))];
   for (std::size_t part = 1; part < counts.size(); ++part) {
     if (5 * (counts[part - 1] + counts[part]) >= 4 * values.size()) return true;
   }

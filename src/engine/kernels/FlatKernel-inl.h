@@ -34,11 +34,9 @@ struct Range {
   [[nodiscard]] HWY_INLINE std::size_t size() const { return end - std::min(begin, end); }
 };
 
-HWY_INLINE Range columnsOf(Columns tested, std::size_t row, std::size_t columns) {
-  return {tested == Columns::Following ? row + 1 : 0, tested == Columns::Preceding ? row : columns};
-}
 HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
-  return columnsOf(search.tested, row, search.columns.size);
+  return {search.tested == Columns::Following ? row + 1 : 0,
+          search.tested == Columns::Preceding ? row : search.columns.size};
 }
 
 /// One row against the columns [begin, end) of a tile.
@@ -64,9 +62,8 @@ HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t
 }
 
 /// Some rows against the whole vectors of a tile within [begin, end); returns the number of hits.
-template <class Tile>
-HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, const Tile& columns, std::size_t begin,
-                                    std::size_t end) {
+HWY_INLINE std::size_t countVectors(const std::array<Query, kRowsAtOnce>& rows, const LaneTile& columns,
+                                    std::size_t begin, std::size_t end) {
   const FloatTag d;
   std::size_t count = 0;
   for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {

@@ -27,8 +27,7 @@ namespace {  // Each file that compiles the kernels has its own.
 
 /// A leaf block with the caller's ids of its boxes; bounds and ids as vectors too, to be held in registers.
 struct Leaf {
-  static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
-  static constexpr std::size_t kVectors = kFanOut / kLanes;
+  static constexpr std::size_t kVectors = kFanOut / hn::MaxLanes(FloatTag());
 
   const LaneBlock& block;
   const std::uint32_t* ids;
@@ -40,8 +39,8 @@ struct Leaf {
       : block(bvh.level[0].blocks[number]), ids(bvh.ids + number * kFanOut), fill(bvh.level[0].fill(number)) {
     const FloatTag d;
     for (std::size_t v = 0; v < kVectors; ++v) {
-      for (std::size_t row = 0; row < 6; ++row) bound[row][v] = hn::Load(d, &block.bound[row][v * kLanes]);
-      id[v] = hn::LoadU(IdTag(), ids + v * kLanes);
+      for (std::size_t row = 0; row < 6; ++row) bound[row][v] = hn::Load(d, &block.bound[row][v * hn::Lanes(d)]);
+      id[v] = hn::LoadU(IdTag(), ids + v * hn::Lanes(d));
     }
   }
 
@@ -63,8 +62,8 @@ HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
     emitter.share(leaf.ids[lane]);
     const Query q = broadcast(leaf.block.get(lane));
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
-      const std::size_t first = v * Leaf::kLanes;
-      const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, Leaf::kLanes) : 0;
+      const std::size_t first = v * hn::Lanes(d);
+      const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, hn::Lanes(d)) : 0;
       const FloatMask mask = hn::AndNot(hn::FirstN(d, before), leaf.overlappingWith(q, v));
       emitter.emit(mask, leaf.id[v], static_cast<std::uint32_t>(lane * Leaf::kVectors + v));
     }
@@ -345,7 +344,7 @@ class JoinRun {
         if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(leaf.id[v], hn::Set(d, id)));
         lengths[v] = hn::Sub(lengths[v], hn::VecFromMask(d, mask));
-        bits |= allBitsOf(d, mask) << (v * Leaf::kLanes);
+        bits |= allBitsOf(d, mask) << (v * hn::Lanes(d));
       }
       hitBits[hits] = bits;
       hitIds[hits] = id;
@@ -363,7 +362,7 @@ class JoinRun {
     m_hits.groupTests += near.size;
     m_hits.boxTests += size * leaf.fill;
     std::array<std::uint32_t, kFanOut> lengthOf;
-    for (std::size_t v = 0; v < Leaf::kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * Leaf::kLanes]);
+    for (std::size_t v = 0; v < Leaf::kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * hn::Lanes(d)]);
     for (std::size_t row = 0; row < kFanOut; ++row) lengthOf[row] -= doubts.apart[row];
     writeLists(leaf, lengthOf);
   }
@@ -398,10 +397,11 @@ class JoinRun {
 
   /// Which boxes of a leaf overlap the query whatever the rounding was.
   static std::uint32_t certainBits(const Leaf& leaf, const Query& q, const LaneSlack& slack) {
+    const FloatTag d;
     const Query certain = inward(q, slack);
     std::uint32_t bits = 0;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
-      bits |= allBitsOf(FloatTag(), leaf.overlappingWith(certain, v)) << (v * Leaf::kLanes);
+      bits |= allBitsOf(d, leaf.overlappingWith(certain, v)) << (v * hn::Lanes(d));
     }
     return bits;
   }

@@ -62,7 +62,7 @@ class BoundsTest {
   /// The boxes that rows are tested against.
   HWY_INLINE void setColumns(std::size_t place) {
     for (std::size_t vector = 0; vector < kVectors; ++vector) {
-      const std::size_t from = place + vector * kLanes;
+      const std::size_t from = place + vector * hn::Lanes(D());
       for (std::size_t bound = 0; bound < 6; ++bound) m_columns[vector][bound] = hn::LoadU(D(), &m_tile[bound][from]);
     }
   }
@@ -78,7 +78,7 @@ class BoundsTest {
       for (std::size_t vector = 0; vector < kVectors; ++vector) {
         std::uint8_t part = 0;
         hn::StoreMaskBits(D(), hits(box, m_columns[vector]), &part);
-        bits |= std::uint32_t{part} << (vector * kLanes);
+        bits |= std::uint32_t{part} << (vector * hn::Lanes(D()));
       }
       *byte = static_cast<std::uint8_t>(bits);
     }
@@ -86,8 +86,7 @@ class BoundsTest {
 
  private:
   using D = WorldTag<T>;
-  static constexpr std::size_t kLanes = hn::MaxLanes(D());
-  static constexpr std::size_t kVectors = kColumnsAtOnce / kLanes;
+  static constexpr std::size_t kVectors = kColumnsAtOnce / hn::MaxLanes(D());
 
   [[nodiscard]] static HWY_INLINE hn::Mask<D> hits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
     const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };

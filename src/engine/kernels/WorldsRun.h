@@ -20,9 +20,6 @@ inline constexpr std::size_t kMostInWorld = 448;
 /// faster (worlds_benchmark).
 inline constexpr std::size_t kMostInDouble = 96;
 
-/// A world of more boxes is searched by all threads: it has work for them.
-inline constexpr std::size_t kHugeWorld = 4096;
-
 /// Boxes whose hits make a word of bits.
 inline constexpr std::size_t kWordBoxes = 64;
 

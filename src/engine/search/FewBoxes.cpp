@@ -6,6 +6,7 @@
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
+#include "input/Parts.h"
 #include "input/Readers.h"
 #include "kernels/Kernels.h"
 #include "search/FewBesideMany.h"
@@ -19,9 +20,6 @@ namespace {
 /// Up to so many pairs of boxes, a plain loop over them takes less time than arranging boxes for vectors
 /// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
-
-/// Pairs that are collected on the stack before they are passed on.
-constexpr std::size_t kPlainRoom = 4096;
 
 /// Hits that are buffered: more than those of one box.
 constexpr std::size_t kHits = 2 * LaneTile::kCapacity;
@@ -132,10 +130,10 @@ std::size_t searchSome(PlainSearch<T>& search, const Kernels* kernels, Pair* pai
 template <class T>
 OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
                             FunctionRef<void(std::span<const Pair>)> take) {
-  static_assert(kPlainRoom >= kMostFew && kPlainRoom >= kTestedPairs);
-  PairsOnStack<kPlainRoom + kVectorSlack> pairs;
+  static_assert(kPartSize >= kMostFew && kPartSize >= kTestedPairs);
+  PairsOnStack<kPartSize + kVectorSlack> pairs;
   PlainSearch<T> search = plainSearch<T>(sets, order);
-  search.room = kPlainRoom;
+  search.room = kPartSize;
   const std::size_t most = pairsOf(sets);
   // An instruction set that is asked for has to be there, and is used.
   const bool isTested = most <= kTestedPairs && options.instructionSet.empty();

@@ -5,6 +5,7 @@
 #include <memory_resource>
 #include <utility>
 
+#include "input/Parts.h"
 #include "search/FewBoxes.h"
 #include "search/Search.h"
 #include "search/SearchState.h"
@@ -133,16 +134,15 @@ auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use
   return use(search);
 }
 
-/// Memory for so many pairs, 32 KiB and 16 MiB: what needs more than the one gets the other at once, or less if there cannot be as
-/// many pairs. Of that only what is used takes memory, while a vector that grows is copied from page to fresh page.
-constexpr std::size_t kSmallResult = std::size_t{1} << 12;
+/// Memory for so many pairs, 16 MiB: what needs more than a part gets it at once, or less if there cannot be as many pairs. Of that
+/// only what is used takes memory, while a vector that grows is copied from page to fresh page.
 constexpr std::size_t kLargeResult = std::size_t{1} << 21;
 
 std::vector<Pair> takeAmongFew(const engine::Sets& sets, const OverlapOptions& options) {
   std::vector<Pair> taken;
   const auto append = [&](std::span<const Pair> pairs) {
     const std::size_t size = taken.size() + pairs.size();
-    if (size > kSmallResult && size > taken.capacity()) {
+    if (size > engine::kPartSize && size > taken.capacity()) {
       taken.reserve(std::max(size, std::min(sets.first.size() * sets.second.size(), kLargeResult)));
     }
     taken.insert(taken.end(), pairs.begin(), pairs.end());

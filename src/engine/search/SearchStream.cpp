@@ -9,12 +9,9 @@ namespace allpairs::engine {
 namespace {
 
 /// The initial and the maximum number of boxes in a range of an ordered stream: the first pairs come soon, and memory is
-/// bounded.
+/// bounded. No range has more pairs than the largest in a scene as most are, 32 MiB of them, unless it is a single box.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
-
-/// The maximum number of buffered pairs of a range, 32 MiB of them, unless a single box has more partners.
-constexpr std::uint64_t kRangePairs = std::uint64_t{1} << 22;
 
 }  // namespace
 
@@ -92,7 +89,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  plan.sink.maxPairs = end - begin == 1 ? SinkOptions().maxPairs : kRangePairs;
+  plan.sink.maxPairs = end - begin == 1 ? SinkOptions().maxPairs : kLikelyPairs * kLastRange;
   plan.sink.limitIsCallers = false;
   plan.sink.firstRow = static_cast<std::uint32_t>(begin);
   plan.sink.ascendingOnly = sets.one;

@@ -79,7 +79,7 @@ void DynamicBvh::build(std::span<BoxHome> homes, const BoxReader& reader, Execut
 
 bool DynamicBvh::refit(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor) {
   if (!m_fresh.empty()) placeFresh(homes, reader, executor);
-  const bool haveManyChanged = m_dirtyBoxes * kShareOfMoved >= m_size;
+  const bool haveManyChanged = m_dirtyBoxes * kShareOfChange >= m_size;
   haveManyChanged ? readAll(reader, executor) : readDirty(reader, executor);
   return !haveManyChanged || !m_isOrdered || spread() <= kMostSpread * m_spread;
 }

@@ -18,7 +18,7 @@ namespace allpairs::engine {
 
 /// Where a box is: in which of several hierarchies, and at which of its places.
 struct BoxHome {
-  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;  ///< There are always fewer hierarchies, and places.
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;  ///< There are always fewer hierarchies, worlds and places.
 
   std::uint32_t tree = kNowhere;
   std::uint32_t place = kNowhere;

@@ -139,7 +139,7 @@ std::uint32_t WorldForest::takeUnused() {
 /// Tells the trees which boxes have changed. If many have, all blocks are read again of trees that have some, without checking
 /// which; most would be anyway.
 void WorldForest::noteChanged(const BoxStore& store) {
-  const bool areMany = store.stale().size() * kShareOfMoved > store.size();
+  const bool areMany = store.stale().size() * kShareOfChange > store.size();
   if (areMany && !store.isNumbered()) {
     for (std::uint32_t tree = 0; tree < m_trees.size(); ++tree) markDirty(tree);
   } else {

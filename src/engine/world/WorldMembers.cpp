@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bvh/CurveKey.h"
+#include "world/DynamicBvh.h"
 #include "world/RebuildRule.h"
 
 namespace allpairs::engine {
@@ -37,7 +38,7 @@ void WorldMembers::update(const BoxStore& store, Executor& executor) {
 /// Lists all boxes.
 void WorldMembers::list(const BoxStore& store, Executor& executor) {
   m_boxes.resize(store.size());
-  m_worldOf.assign(store.idBound(), kNoWorld);
+  m_worldOf.assign(store.idBound(), BoxHome::kNowhere);
   m_keyed.require(store.size());
   m_spare.require(store.size());
   const std::size_t own = listBoxes(store);
@@ -64,13 +65,13 @@ void WorldMembers::list(const BoxStore& store, Executor& executor) {
 /// Copies the lists without boxes that have gone and with those that have come, all of which have been touched since the
 /// last step. Does nothing, and returns false, if they are many.
 bool WorldMembers::follow(const BoxStore& store) {
-  m_worldOf.resize(std::max(m_worldOf.size(), store.idBound()), kNoWorld);
+  m_worldOf.resize(std::max(m_worldOf.size(), store.idBound()), BoxHome::kNowhere);
   m_keyed.require(store.touched().size());
   m_spare.require(store.touched().size());
   std::size_t gone = 0;
   std::size_t come = 0;
   for (const BoxId id : store.touched()) {
-    const bool was = m_worldOf[id] != kNoWorld;
+    const bool was = m_worldOf[id] != BoxHome::kNowhere;
     const std::uint32_t before = was ? numberOf(m_worldOf[id]) : 0;
     const std::uint32_t now = store.worldOf(id);
     const bool is = store.contains(id);
@@ -89,7 +90,7 @@ bool WorldMembers::follow(const BoxStore& store) {
 void WorldMembers::copyWorlds(std::span<const std::uint64_t> gone, std::span<const std::uint64_t> come) {
   m_nextNumbers.clear();
   m_nextBegin.clear();
-  for (const std::uint64_t key : gone) m_worldOf[indexOf(key)] = kNoWorld;
+  for (const std::uint64_t key : gone) m_worldOf[indexOf(key)] = BoxHome::kNowhere;
   BoxId* to = m_nextBoxes.data();
   for (std::size_t old = 0; old <= everyWorld();) {
     const std::uint32_t next = numberOf(old);

@@ -31,9 +31,6 @@ class WorldMembers {
         m_spare(memory),
         m_radix(memory) {}
 
-  /// Stands for no world: there are always fewer worlds.
-  static constexpr std::uint32_t kNoWorld = 0xFFFFFFFFU;
-
   /// Brings it up to date with the store. Must be called before each step of the store ends. If few boxes were added or
   /// removed, the lists are copied with these changes; if many, all boxes are listed again.
   void update(const BoxStore& store, Executor& executor);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "input/BoxReader.h"
+#include "input/Parts.h"
 #include "kernels/WorldsRun.h"
 #include "order/PairSort.h"
 
@@ -191,7 +192,7 @@ void WorldSearch::join(const BoxStore& store) {
 void WorldSearch::joinTrees() {
   const std::span<const std::uint32_t> worlds = m_large;
   const auto sizeOf = [&](std::uint32_t world) { return m_members.size(world); };
-  const auto isHuge = [&](std::uint32_t world) { return worlds.size() == 1 || sizeOf(world) > kHugeWorld; };
+  const auto isHuge = [&](std::uint32_t world) { return worlds.size() == 1 || sizeOf(world) > kPartSize; };
   cutIntoRuns(worlds, sizeOf, m_runs);
   m_runner.runTasks(m_runs.size(), executor(), [&](std::size_t task, const auto& joinPart) {
     for (std::size_t i = task == 0 ? 0 : m_runs[task - 1]; i < m_runs[task]; ++i) {

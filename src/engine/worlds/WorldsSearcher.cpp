@@ -85,7 +85,7 @@ void WorldsSearcher::cutParts() {
   if (mayStop) most = std::min<std::uint64_t>(most, kWorkBetweenLooks);
   std::uint64_t work = most;
   for (std::size_t world = 0; world < worlds; ++world) {
-    const bool takesAllThreads = sizeOf(world) > kHugeWorld;
+    const bool takesAllThreads = sizeOf(world) > kPartSize;  // It has work for them.
     if (work >= most || takesAllThreads) {
       m_parts.push_back({world, world, takesAllThreads});
       work = 0;
