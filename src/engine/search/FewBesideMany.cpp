@@ -38,56 +38,26 @@ bool isEmptyRow(const Row<T>& row) {
   return row[0] > row[3] || row[1] > row[4] || row[2] > row[5];
 }
 
-/// Compares the few with parts of the many.
+/// Which boxes of a run touch a box, as bits.
+using Words = std::array<std::uint64_t, kAtOnce / kWordBoxes>;
+
+/// Which boxes of a part of the many touch each of the few; the words of each of these are written to memory that outlives the
+/// result.
 template <class T>
-class PartSearch {
- public:
-  PartSearch(const BoxRun<T>& many, bool manySecond, const OverlapOptions& options,
-             FunctionRef<void(std::span<const Pair>)> take)
-      : m_many(many), m_manySecond(manySecond), m_options(options), m_kernels(chooseKernels(options)), m_take(take) {}
-
-  /// All pairs of some of the many, from `begin` on, with some of the few, which are numbered from `firstFew` on; ordered by the
-  /// many.
-  void run(std::size_t begin, std::span<const Row<T>> few, std::uint32_t firstFew) {
-    if (begin % kPartSize == 0) checkStop(m_options.stop);
-    const BoxRun<T> part = m_many.part(begin, kAtOnce);
-    m_statistics.boxTests += part.size * few.size();
-    TouchedBoxes touched;
-    touched.size = part.size;
-    touched.first = static_cast<std::uint32_t>(begin);
-    touched.firstOther = firstFew;
-    for (const Row<T>& box : few) {
-      if (isEmptyRow(box)) {
-        m_words[touched.others].fill(0);
-      } else {
-        m_kernels.plain<T>().touchBoxes(part, box, m_words[touched.others].data());
-      }
-      touched.words[touched.others] = m_words[touched.others].data();
-      ++touched.others;
+TouchedBoxes touchEach(const BoxRun<T>& part, std::span<const Row<T>> few, const Kernels& kernels, Words* words) {
+  TouchedBoxes touched;
+  touched.size = part.size;
+  for (const Row<T>& box : few) {
+    Words& to = words[touched.others];
+    if (isEmptyRow(box)) {
+      to.fill(0);
+    } else {
+      kernels.plain<T>().touchBoxes(part, box, to.data());
     }
-    give(m_kernels.writeTouching(touched, !m_manySecond, m_pairs.data()));
+    touched.words[touched.others++] = to.data();
   }
-
-  [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
-
- private:
-  /// Passes on the pairs of a part.
-  void give(std::size_t pairs) {
-    if (pairs == 0) return;
-    m_statistics.pairs += pairs;
-    checkLimit({.maxPairs = m_options.maxPairs}, m_statistics.pairs);
-    m_take({m_pairs.data(), pairs});
-  }
-
-  const BoxRun<T> m_many;
-  const bool m_manySecond;
-  const OverlapOptions& m_options;
-  const Kernels& m_kernels;
-  FunctionRef<void(std::span<const Pair>)> m_take;
-  OverlapStatistics m_statistics;
-  std::array<std::array<std::uint64_t, kAtOnce / kWordBoxes>, kMostOthers> m_words;
-  PairsOnStack<kAtOnce * kMostOthers + kVectorSlack> m_pairs;
-};
+  return touched;
+}
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
 
@@ -95,23 +65,36 @@ bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size
 /// the result does not depend on which of the two searches it was.
 bool areByFew(const Sets& sets, Order order) { return (order == Order::BySecond) == isFewSecond(sets); }
 
+/// Compares the few with parts of the many: all of them, or one after the other where pairs come in their order.
 template <class T>
 OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order order,
                        FunctionRef<void(std::span<const Pair>)> take) {
+  const Kernels& kernels = chooseKernels(options);
   const bool fewSecond = isFewSecond(sets);
   const BoxRun<T> run = runOf<T>(fewSecond ? sets.second : sets.first);
+  const BoxRun<T> many = runOf<T>(fewSecond ? sets.first : sets.second);
   std::array<Row<T>, kMostOthers> few;
   for (std::size_t i = 0; i < run.size; ++i) few[i] = rowOf(run, i);
-  const BoxRun<T> many = runOf<T>(fewSecond ? sets.first : sets.second);
-  PartSearch<T> search(many, !fewSecond, options, take);
-  const std::span<const Row<T>> all(few.data(), run.size);
-  const std::size_t together = areByFew(sets, order) ? 1 : all.size();
-  for (std::size_t i = 0; i < all.size(); i += together) {
+  std::array<Words, kMostOthers> words;
+  PairsOnStack<kAtOnce * kMostOthers + kVectorSlack> pairs;
+  OverlapStatistics statistics;
+  const std::size_t together = areByFew(sets, order) ? 1 : run.size;
+  for (std::size_t i = 0; i < run.size; i += together) {
     for (std::size_t begin = 0; begin < many.size; begin += kAtOnce) {
-      search.run(begin, all.subspan(i, together), static_cast<std::uint32_t>(i));
+      if (begin % kPartSize == 0) checkStop(options.stop);
+      const BoxRun<T> part = many.part(begin, kAtOnce);
+      statistics.boxTests += part.size * together;
+      TouchedBoxes touched = touchEach<T>(part, {few.data() + i, together}, kernels, words.data());
+      touched.first = static_cast<std::uint32_t>(begin);
+      touched.firstOther = static_cast<std::uint32_t>(i);
+      const std::size_t found = kernels.writeTouching(touched, fewSecond, pairs.data());
+      if (found == 0) continue;
+      statistics.pairs += found;
+      checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
+      take({pairs.data(), found});
     }
   }
-  return search.statistics();
+  return statistics;
 }
 
 }  // namespace
