@@ -17,6 +17,7 @@
 
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "memory/Platform.h"
 
@@ -25,13 +26,8 @@ namespace {
 
 using TableFunction = const Kernels* (*)();
 
-struct Target {
-  std::int64_t bit;
-  TableFunction table;
-};
-
-/// Best first; null if this build has none.
-constexpr Target kTargets[] = {
+/// The bit of each target and its table, best first; null if this build has none.
+constexpr std::pair<std::int64_t, TableFunction> kTargets[] = {
     {HWY_AVX3_DL, HWY_CHOOSE_AVX3_DL(kernelTable)}, {HWY_AVX3, HWY_CHOOSE_AVX3(kernelTable)},
     {HWY_AVX2, HWY_CHOOSE_AVX2(kernelTable)},       {HWY_SSE4, HWY_CHOOSE_SSE4(kernelTable)},
     {HWY_SSSE3, HWY_CHOOSE_SSSE3(kernelTable)},     {HWY_NEON, HWY_CHOOSE_NEON(kernelTable)},
@@ -75,8 +71,8 @@ std::int64_t supportedTargets() {
 KernelList availableKernels() {
   KernelList result;
   const std::int64_t supported = supportedTargets();
-  for (const Target& target : kTargets) {
-    if (target.table != nullptr && (supported & target.bit) != 0) result.add(*target.table());
+  for (const auto& [bit, table] : kTargets) {
+    if (table != nullptr && (supported & bit) != 0) result.add(*table());
   }
   const Kernels* baseline = HWY_STATIC_DISPATCH(kernelTable)();
   if (result.size == 0 || result.kernels[result.size - 1] != baseline) result.add(*baseline);

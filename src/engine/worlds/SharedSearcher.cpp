@@ -24,33 +24,29 @@ std::span<const std::uint32_t> valuesOfAll(std::span<const std::uint32_t> values
 
 bool isLessBySecond(Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; }
 
-/// Numbers boxes within their world, of pairs in the order of the boxes of all.
-class PairsByWorld {
- public:
-  PairsByWorld(const Worlds& worlds, std::span<std::uint64_t> begin) : m_worlds(worlds), m_begin(begin) {
-    m_begin[0] = 0;
-  }
+/// Before the first pair of those that takeByWorld() takes.
+void startByWorld(const Worlds& worlds, std::pmr::vector<std::uint64_t>& begin) {
+  begin.reserve(worlds.size() + 2);
+  begin.assign(2, 0);
+}
 
-  /// Calls take(pair) for each.
-  template <class Take>
-  void add(std::span<const Pair> pairs, const Take& take) {
-    for (const Pair pair : pairs) {
-      while (pair.first >= m_worlds.begin(m_world + 1)) m_begin[++m_world] = m_size;
-      take(Pair{static_cast<std::uint32_t>(pair.first - m_worlds.begin(m_world)), pair.second});
-      ++m_size;
+/// Calls take(pair) for each of some pairs, in the order of the boxes of all worlds, with its box numbered within its world. In
+/// `begin` is where the pairs of each world begin so far, and where those of the last one end.
+template <class Take>
+void takeByWorld(std::span<const Pair> pairs, const Worlds& worlds, std::pmr::vector<std::uint64_t>& begin,
+                 const Take& take) {
+  std::size_t world = begin.size() - 2;
+  std::uint64_t size = begin.back();
+  for (const Pair pair : pairs) {
+    for (; pair.first >= worlds.begin(world + 1); ++world) {
+      begin.back() = size;
+      begin.push_back(size);
     }
+    take(Pair{static_cast<std::uint32_t>(pair.first - worlds.begin(world)), pair.second});
+    ++size;
   }
-
-  void finish() {
-    while (m_world < m_worlds.size()) m_begin[++m_world] = m_size;
-  }
-
- private:
-  const Worlds& m_worlds;
-  std::span<std::uint64_t> m_begin;
-  std::size_t m_world = 0;
-  std::uint64_t m_size = 0;
-};
+  begin.back() = size;
+}
 
 }  // namespace
 
@@ -72,12 +68,11 @@ OverlapOptions SharedSearcher::optionsForAll(const Worlds& worlds, const Overlap
 
 WorldPairsView SharedSearcher::find(const Worlds& worlds, const BoxView& shared, const OverlapOptions& options) {
   const std::span<const Pair> found = m_search.find({worlds.boxes(), shared, false}, optionsForAll(worlds, options));
-  m_begin.resize(worlds.size() + 1);
   m_pairs.require(found.size());
-  PairsByWorld byWorld(worlds, m_begin);
   Pair* to = m_pairs.data();
-  byWorld.add(found, [&](Pair pair) { *to++ = pair; });
-  byWorld.finish();
+  startByWorld(worlds, m_begin);
+  takeByWorld(found, worlds, m_begin, [&](Pair pair) { *to++ = pair; });
+  m_begin.resize(worlds.size() + 1, m_begin.back());
   if (options.order == Order::BySecond) {
     for (std::size_t world = 0; world < worlds.size(); ++world) {
       std::sort(m_pairs.data() + m_begin[world], m_pairs.data() + m_begin[world + 1], isLessBySecond);
@@ -88,11 +83,10 @@ WorldPairsView SharedSearcher::find(const Worlds& worlds, const BoxView& shared,
 
 std::span<const std::uint64_t> SharedSearcher::count(const Worlds& worlds, const BoxView& shared,
                                                      const OverlapOptions& options) {
-  m_begin.resize(worlds.size() + 1);
-  PairsByWorld byWorld(worlds, m_begin);
-  const auto add = [&](std::span<const Pair> pairs) { byWorld.add(pairs, [](Pair) {}); };
+  startByWorld(worlds, m_begin);
+  const auto add = [&](std::span<const Pair> pairs) { takeByWorld(pairs, worlds, m_begin, [](Pair) {}); };
   m_search.stream({worlds.boxes(), shared, false}, optionsForAll(worlds, options), {add, kBatchSize, options.maxPairs});
-  byWorld.finish();
+  m_begin.resize(worlds.size() + 1, m_begin.back());
   return m_begin;
 }
 
