@@ -207,7 +207,7 @@ void ElementCandidates::setPositions(std::size_t mesh, Span<const double> start,
 
 Span<const Pair> ElementCandidates::find(CandidateKind kind) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   Found& found = state.found[static_cast<std::size_t>(kind)];
   found.size = 0;
   if (found.pairs.capacity() == 0) found.pairs.require(firstCapacity(state.topology.counts()));
@@ -225,7 +225,7 @@ Span<const Pair> ElementCandidates::find(CandidateKind kind) {
 
 std::uint64_t ElementCandidates::count(CandidateKind kind) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   std::uint64_t count = 0;
   state.streamIn(Order::Unordered, kind, [&count](std::span<const Pair> pairs) { count += pairs.size(); });
   return count;
@@ -233,7 +233,7 @@ std::uint64_t ElementCandidates::count(CandidateKind kind) {
 
 void ElementCandidates::stream(CandidateKind kind, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   state.streamIn(state.options.order, kind, visitor, batchSize);
 }
 

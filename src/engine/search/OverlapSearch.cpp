@@ -47,74 +47,74 @@ void OverlapSearch::shrink() {
 
 Span<const Pair> OverlapSearch::find(const BoxView& boxes) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.find({boxes, boxes, true}, state.options);
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.find({first, second, false}, state.options);
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& boxes, NeighborRows rows) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.findNeighbors({boxes, boxes, true}, state.options, rows);
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& second) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.findNeighbors({first, second, false}, state.options, NeighborRows::Half);
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& boxes, Span<Pair> memory) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.findInto({boxes, boxes, true}, state.options, memory);
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, Span<Pair> memory) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.findInto({first, second, false}, state.options, memory);
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.findNeighborsInto({boxes, boxes, true}, state.options, rows, memory);
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& first, const BoxView& second,
                                                const NeighborsMemory& memory) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.findNeighborsInto({first, second, false}, state.options, NeighborRows::Half, memory);
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.count({boxes, boxes, true}, state.options);
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& first, const BoxView& second) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   return state.search.count({first, second, false}, state.options);
 }
 
 void OverlapSearch::stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   state.search.stream({boxes, boxes, true}, state.options, {visitor, batchSize, state.options.maxPairs});
 }
 
 void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize) {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   state.search.stream({first, second, false}, state.options, {visitor, batchSize, state.options.maxPairs});
 }
 

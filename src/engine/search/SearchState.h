@@ -19,20 +19,15 @@ namespace allpairs::engine {
 /// Threads: tasks of the running work may call check().
 class InUse {
  public:
-  /// Marks the object as running while the scope exists.
-  class Scope {
-   public:
-    explicit Scope(InUse& inUse) noexcept : m_inUse(inUse) { m_inUse.add(1); }
-    ~Scope() { m_inUse.add(-1); }
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
-
-   private:
-    InUse& m_inUse;
-  };
-
   /// Whether several threads may call the object at once, as const members: then a mark takes as long as a search of two boxes.
   explicit InUse(bool isShared = false) noexcept : m_isShared(isShared) {}
+
+  /// Marks the object as running while the result exists.
+  [[nodiscard]] auto mark() noexcept {
+    add(1);
+    const auto unmark = [](InUse* inUse) { inUse->add(-1); };
+    return std::unique_ptr<InUse, decltype(unmark)>(this, unmark);
+  }
 
   /// Throws InvalidArgument, which names the kind of object, if the object is running.
   void check(const char* object) const {

@@ -233,7 +233,7 @@ BoxProperties World::properties(BoxId id) const {
 
 StepResult World::step() {
   State& state = this->state();
-  const engine::InUse::Scope scope(state.inUse);
+  const auto mark = state.inUse.mark();
   // `accept` may group the lists of the step before.
   const struct Ungroup {
     std::atomic<bool>& isGrouped;
@@ -257,8 +257,8 @@ std::vector<Pair> World::findBetween(const World& other) const {
   if (m_state == nullptr || other.m_state == nullptr) return {};
   m_state->settle();
   other.m_state->settle();
-  const engine::InUse::Scope myScope(m_state->inUse);
-  const engine::InUse::Scope theirScope(other.m_state->inUse);
+  const auto myMark = m_state->inUse.mark();
+  const auto theirMark = other.m_state->inUse.mark();
   return m_state->search.findBetween(m_state->store, other.m_state->search, other.m_state->store);
 }
 

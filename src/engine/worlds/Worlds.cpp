@@ -86,7 +86,7 @@ struct WorldsSearch::State {
   /// Calls use() for one of the two, whose statistics are then those of the object.
   template <class Searcher, class Use>
   auto run(const Searcher& searcher, const Use& use) {
-    const engine::InUse::Scope scope(inUse);
+    const auto mark = inUse.mark();
     statistics = {};
     const auto found = use();
     statistics = searcher.statistics();
