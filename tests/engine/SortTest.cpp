@@ -38,7 +38,7 @@ void expectSorted(std::size_t size, std::uint32_t keys, Order order, Executor& e
   const std::vector<Pair> given = randomPairs(size, keys);
   std::vector<Pair> pairs = given;
   std::vector<Pair> spare(size % 2 == 0 ? size : 0);
-  PairSort(defaultMemory()).sort(pairs, {keys, keys, order, spare}, executor);
+  PairSort(defaultMemory()).sort(pairs, {keys, keys, order}, spare, executor);
   ASSERT_TRUE(sortedBy(order, given) == pairs) << size << " pairs of " << keys;
 }
 
@@ -63,7 +63,7 @@ TEST(PairSort, SortsPairsOfWhichOneIndexHasThousands) {
   SerialExecutor serial;
   for (const Order order : {Order::ByFirst, Order::BySecond}) {
     std::vector<Pair> pairs = given;
-    PairSort(defaultMemory()).sort(pairs, {90000, 90000, order, {}}, serial);
+    PairSort(defaultMemory()).sort(pairs, {90000, 90000, order}, {}, serial);
     ASSERT_TRUE(sortedBy(order, given) == pairs);
   }
 }
@@ -89,7 +89,7 @@ std::vector<Pair> randomPairsOf(std::size_t size, SetSizes sets) {
 }
 
 /// Pairs in buckets, as two workers find them.
-std::vector<PairBuckets> inBuckets(std::span<const Pair> pairs, const BucketRule& rule) {
+std::vector<PairBuckets> inBuckets(std::span<const Pair> pairs, const PairOrder& rule) {
   std::vector<PairBuckets> buckets;
   for (std::size_t worker = 0; worker < 2; ++worker) {
     buckets.emplace_back(defaultMemory()).start(rule, 2);
@@ -104,7 +104,7 @@ std::vector<PairBuckets> inBuckets(std::span<const Pair> pairs, const BucketRule
 
 void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order order, std::size_t threads) {
   const std::size_t size = given.size();
-  const BucketRule rule(sets.firsts, sets.seconds, order, threads);
+  const PairOrder rule(sets.firsts, sets.seconds, order, threads);
   const std::vector<PairBuckets> ofWorkers = inBuckets(given, rule);
   const std::vector<Pair> expected = sortedBy(order, given);
   const std::size_t keys = order == Order::ByFirst ? sets.firsts : sets.seconds;
@@ -147,10 +147,10 @@ TEST(PairBuckets, SortAndListPairsOfFewBoxesAndOfMany) {
 }
 
 TEST(PairBuckets, CountPairsOfOneThreadAndOfFewBoxes) {
-  EXPECT_TRUE(BucketRule(4096, 4096, Order::ByFirst, 1).isCounted);
-  EXPECT_FALSE(BucketRule(4097, 4096, Order::ByFirst, 1).isCounted);
-  EXPECT_FALSE(BucketRule(4096, 4097, Order::BySecond, 1).isCounted);
-  EXPECT_FALSE(BucketRule(4096, 4096, Order::ByFirst, 2).isCounted);
+  EXPECT_TRUE(PairOrder(4096, 4096, Order::ByFirst, 1).isCounted);
+  EXPECT_FALSE(PairOrder(4097, 4096, Order::ByFirst, 1).isCounted);
+  EXPECT_FALSE(PairOrder(4096, 4097, Order::BySecond, 1).isCounted);
+  EXPECT_FALSE(PairOrder(4096, 4096, Order::ByFirst, 2).isCounted);
 }
 
 TEST(RadixSort, SortsRunsOfAnyLengthByTheBitsAboveTheIndex) {

@@ -146,19 +146,20 @@ std::size_t scratchFor(const Bucket& bucket, std::size_t size) noexcept {
 
 }  // namespace
 
-BucketRule::BucketRule(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads)
+PairOrder::PairOrder(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads)
     : bySecond(order == Order::BySecond) {
-  const std::size_t keys = bySecond ? seconds : firsts;
-  const std::size_t others = bySecond ? firsts : seconds;
+  const std::size_t keys = std::max<std::size_t>(bySecond ? seconds : firsts, 1);
+  const std::size_t others = std::max<std::size_t>(bySecond ? firsts : seconds, 1);
   isCounted = threads == 1 && std::max(keys, others) <= std::size_t{1} << kCountedBits;
   const auto bitsOf = [](std::size_t size) { return static_cast<unsigned>(std::bit_width(size - 1)); };
-  keyBits = isCounted ? bitsOf(keys) : std::max(kLeastKeyBits, bitsOf((keys - 1) / kMostBuckets + 1));
+  allKeyBits = bitsOf(keys);
+  keyBits = isCounted ? allKeyBits : std::max(kLeastKeyBits, bitsOf((keys - 1) / kMostBuckets + 1));
   buckets = ((keys - 1) >> keyBits) + 1;
   otherBits = bitsOf(others);
 }
 
 void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept {
-  const BucketRule& rule = bucket.rule;
+  const PairOrder& rule = bucket.rule;
   if (rule.isCounted && scratchToCount(bucket) <= scratch.size()) {
     rule.bySecond ? sortCounted<true>(bucket, place.data(), scratch.data())
                   : sortCounted<false>(bucket, place.data(), scratch.data());
@@ -213,7 +214,7 @@ void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_
   std::transform(sorted, sorted + size, place.indices.data(), [=](std::uint32_t number) { return number & otherMask; });
 }
 
-void PairBuckets::start(const BucketRule& rule, std::size_t workers) {
+void PairBuckets::start(const PairOrder& rule, std::size_t workers) {
   m_keyBits = rule.keyBits;
   m_otherBits = rule.otherBits;
   m_bySecond = rule.bySecond;

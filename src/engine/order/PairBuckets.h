@@ -17,16 +17,18 @@ namespace allpairs::engine {
 /// Pairs of a box in a scene as most are.
 inline constexpr std::size_t kLikelyPairs = 4;
 
-/// How pairs are cut into buckets of neighbouring keys. The key is the index that they are ordered by first.
-struct BucketRule {
+/// The order of pairs as numbers, the key above the other index, and how it cuts them into buckets of neighbouring keys. The key is
+/// the index that they are ordered by first.
+struct PairOrder {
+  bool bySecond = false;
+  unsigned allKeyBits = 0;
   unsigned keyBits = 0;  ///< Keys of a bucket differ in these low bits only.
   std::size_t buckets = 0;
   unsigned otherBits = 0;
-  bool bySecond = false;
   bool isCounted = false;  ///< One bucket has all pairs, which are so few boxes' that those of each index are counted.
 
-  /// For sets of so many boxes, none of them empty.
-  BucketRule(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads);
+  /// For sets of so many boxes, whose pairs go to buckets as so many threads find them.
+  PairOrder(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads = 0);
 
   /// Whether what the keys of a bucket differ in, above the other index, make a number of 31 bits.
   [[nodiscard]] bool packs() const noexcept { return otherBits < 31 && keyBits + otherBits <= 31; }
@@ -46,7 +48,7 @@ class PairBuckets {
         m_fullChunks(memory) {}
 
   /// Empties all buckets for a search with so many workers; memory is kept.
-  void start(const BucketRule& rule, std::size_t workers);
+  void start(const PairOrder& rule, std::size_t workers);
 
   void add(std::span<const Pair> pairs);
 
@@ -93,7 +95,7 @@ class PairBuckets {
 
 /// The pairs of a bucket, which each worker has some of, and what puts them in order.
 struct Bucket {
-  const BucketRule& rule;
+  const PairOrder& rule;
   std::size_t number;
   std::span<const PairBuckets> ofWorkers;
   const Kernels& kernels;

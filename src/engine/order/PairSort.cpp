@@ -24,16 +24,14 @@ Pair pairOf(std::uint64_t number, unsigned otherBits) {
 }
 
 template <bool kBySecond>
-void sortBy(std::span<Pair> pairs, Pair* spare, std::size_t keys, std::size_t others, RadixSort& radix,
-            Executor& executor) {
+void sortBy(std::span<Pair> pairs, Pair* spare, const PairOrder& order, RadixSort& radix, Executor& executor) {
   static_assert(sizeof(Pair) == sizeof(std::uint64_t));
-  const auto otherBits = static_cast<unsigned>(std::bit_width(others - 1));
-  const auto bits = otherBits + static_cast<unsigned>(std::bit_width(keys - 1));
+  const unsigned otherBits = order.otherBits;
   runInParts(pairs.size(), kPartSize, executor, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) spare[i] = std::bit_cast<Pair>(numberOf<kBySecond>(pairs[i], otherBits));
   });
   radix.sort(reinterpret_cast<std::uint64_t*>(spare), reinterpret_cast<std::uint64_t*>(pairs.data()), pairs.size(), 0,
-             bits, executor);
+             otherBits + order.allKeyBits, executor);
   runInParts(pairs.size(), kPartSize, executor, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       pairs[i] = pairOf<kBySecond>(std::bit_cast<std::uint64_t>(pairs[i]), otherBits);
@@ -42,18 +40,12 @@ void sortBy(std::span<Pair> pairs, Pair* spare, std::size_t keys, std::size_t ot
 
 }  // namespace
 
-void PairSort::sort(std::span<Pair> pairs, const Task& task, Executor& executor) {
-  if (pairs.size() < 2 || task.order == Order::Unordered) return;
-  Pair* spare = task.spare.data();
-  if (task.spare.size() < pairs.size()) {
-    m_own.require(pairs.size());
-    spare = m_own.data();
-  }
-  if (task.order == Order::ByFirst) {
-    sortBy<false>(pairs, spare, task.firsts, task.seconds, m_radix, executor);
-  } else {
-    sortBy<true>(pairs, spare, task.seconds, task.firsts, m_radix, executor);
-  }
+void PairSort::sort(std::span<Pair> pairs, const PairOrder& order, std::span<Pair> spare, Executor& executor) {
+  if (pairs.size() < 2) return;
+  if (spare.size() < pairs.size()) m_own.require(pairs.size());
+  Pair* const other = spare.size() < pairs.size() ? m_own.data() : spare.data();
+  order.bySecond ? sortBy<true>(pairs, other, order, m_radix, executor)
+                 : sortBy<false>(pairs, other, order, m_radix, executor);
 }
 
 }  // namespace allpairs::engine

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "allpairs/Executor.h"
-#include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "bvh/RadixSort.h"
 #include "memory/Memory.h"
+#include "order/PairBuckets.h"
 
 namespace allpairs::engine {
 
@@ -21,17 +21,8 @@ class PairSort {
  public:
   explicit PairSort(std::pmr::memory_resource* memory) : m_own(memory), m_radix(memory) {}
 
-  /// Parameters of a sort, besides the pairs.
-  struct Task {
-    std::size_t firsts = 0;   ///< All first indices are below.
-    std::size_t seconds = 0;  ///< All second indices are below.
-    Order order = Order::ByFirst;
-
-    /// Memory that may be overwritten: if the pairs fit there, the sort allocates none.
-    std::span<Pair> spare;
-  };
-
-  void sort(std::span<Pair> pairs, const Task& task, Executor& executor);
+  /// `spare` may be overwritten: if the pairs fit there, the sort allocates no memory.
+  void sort(std::span<Pair> pairs, const PairOrder& order, std::span<Pair> spare, Executor& executor);
 
  private:
   Buffer<Pair> m_own;

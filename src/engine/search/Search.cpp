@@ -280,7 +280,7 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
 
 bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   if (plan.order == Order::Unordered) return false;
-  const BucketRule rule = ruleOf(sets, plan.order);
+  const PairOrder rule = orderOf(sets, plan.order);
   if (!fillBuckets(rule, plan, &PairBuckets::add)) return false;
   m_pairs = roomForPairs();
   m_executor->run(rule.buckets, [&](std::size_t b) {
@@ -292,11 +292,11 @@ bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   return true;
 }
 
-BucketRule Search::ruleOf(const Sets& sets, Order order) const {
+PairOrder Search::orderOf(const Sets& sets, Order order) const {
   return {sets.first.size(), sets.second.size(), order, m_executor->concurrency()};
 }
 
-bool Search::fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
+bool Search::fillBuckets(const PairOrder& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
   if (plan.job.units == 0 || !rule.packs()) return false;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   while (m_buckets.size() < workers) m_buckets.emplace_back(m_runner.memory());
@@ -343,7 +343,7 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
-  if (!areListsBetter(job, rows, kept, ruleOf(sets, plan.order).isCounted)) return false;
+  if (!areListsBetter(job, rows, kept, orderOf(sets, plan.order).isCounted)) return false;
   job.flat.tested = kept;
   m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers);
   m_lists.select(kept, bySecond ? PairSide::RowSecond : PairSide::RowFirst, plan.sink);
@@ -357,8 +357,9 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
 }
 
 void Search::sortPairs(const Sets& sets, Order order) {
+  if (order == Order::Unordered) return;
   // The hierarchy is no longer needed: its memory is the sort's second buffer.
-  m_sort.sort(m_pairs, {sets.first.size(), sets.second.size(), order, m_first.levels().memory<Pair>()}, *m_executor);
+  m_sort.sort(m_pairs, orderOf(sets, order), m_first.levels().memory<Pair>(), *m_executor);
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {

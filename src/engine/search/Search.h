@@ -119,11 +119,11 @@ class Search {
 
   /// Finds pairs and orders them by buckets if that pays off; else does nothing and returns false.
   bool findInBuckets(const Sets& sets, Plan& plan);
-  [[nodiscard]] BucketRule ruleOf(const Sets& sets, Order order) const;
+  [[nodiscard]] PairOrder orderOf(const Sets& sets, Order order) const;
 
   /// Finds pairs and adds them to buckets; in m_places is how many precede each. Does nothing and returns false where a bucket
   /// cannot hold the pairs of this rule.
-  bool fillBuckets(const BucketRule& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
+  bool fillBuckets(const PairOrder& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
 
   /// Finds pairs in order by lists of the partners of each box if that pays off; else does nothing and returns false.
   bool findInLists(const Sets& sets, Plan& plan);

@@ -96,7 +96,7 @@ bool Search::listRows(const Sets& sets, NeighborRows kind, Plan& plan) {
 
 bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
   const std::size_t rows = sets.first.size();
-  const BucketRule rule = ruleOf(sets, Order::ByFirst);
+  const PairOrder rule = orderOf(sets, Order::ByFirst);
   if (!fillBuckets(rule, plan, kind == NeighborRows::Full ? &PairBuckets::addBothWays : &PairBuckets::add)) {
     return false;
   }

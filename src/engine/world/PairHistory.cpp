@@ -106,12 +106,7 @@ void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& e
     });
     end += fresh.size;
   }
-  PairSort::Task task;
-  task.firsts = m_idBound;
-  task.seconds = m_idBound;
-  task.order = m_order;
-  task.spare = spare;
-  m_sort.sort({to.data(), end}, task, executor);
+  m_sort.sort({to.data(), end}, {m_idBound, m_idBound, m_order}, spare, executor);
 }
 
 /// Allocates everything that the end of a step needs before it changes anything.

@@ -331,11 +331,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
     joinWith(world, others.everyWorld());
   }
   for (std::size_t world = 0; world <= others.everyWorld(); ++world) joinWith(m_members.everyWorld(), world);
-  PairSort::Task task;
-  task.firsts = std::max<std::size_t>(1, store.idBound());
-  task.seconds = std::max<std::size_t>(1, otherStore.idBound());
-  task.order = m_options.order;
-  PairSort(defaultMemory()).sort(found, task, executor());
+  PairSort(defaultMemory()).sort(found, {store.idBound(), otherStore.idBound(), m_options.order}, {}, executor());
   return found;
 }
 
