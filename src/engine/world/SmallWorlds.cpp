@@ -7,6 +7,7 @@
 
 #include "allpairs/Worlds.h"
 #include "input/BoxRuns.h"
+#include "input/Parts.h"
 
 namespace allpairs::engine {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 /// Boxes of every world are tested in each world like its own, up to so many: about as many as robots have grounds, walls
 /// and ramps. Of more, a hierarchy finds those that matter.
 constexpr std::size_t kMostShared = 32;
-
-/// Pairs that worlds in a row are searched for at once: they stay in a second-level cache until they are taken.
-constexpr std::size_t kPairsAtOnce = 8192;
 
 }  // namespace
 
@@ -73,7 +71,8 @@ std::size_t SmallWorlds::listRow(std::span<const std::uint32_t> worlds, Worker& 
 std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done, Worker& worker) const {
   const std::span<const std::uint64_t> begin(worker.begin.data(), row + 2);
   const Worlds worlds(m_boxes->slice(0, begin.back()), begin);
-  worker.pairs.require(std::max(kPairsAtOnce, WorldSink::roomFor(begin[done + 2] - begin[done + 1])));
+  // Two parts of pairs stay in a second-level cache until they are taken.
+  worker.pairs.require(std::max(2 * kPartSize, WorldSink::roomFor(begin[done + 2] - begin[done + 1])));
   WorldsRun run;
   run.sink = sinkOf(worker);
   run.boxes = runOf<float>(*m_boxes);
