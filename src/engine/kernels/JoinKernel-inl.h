@@ -351,7 +351,7 @@ class JoinRun {
       if (notesDoubts) {
         std::uint32_t doubtful = bits & ~certainBits(leaf, q, m_task.lists->slack);
         for (; doubtful != 0; doubtful &= doubtful - 1) {
-          if (doubts.size == Doubts::kCapacity) doubts.settle(*m_task.lists, hitBits);
+          if (doubts.size == doubts.pairs.size()) doubts.settle(*m_task.lists, hitBits);
           doubts.add(leaf, hits, id, static_cast<std::uint32_t>(std::countr_zero(doubtful)));
         }
       }
@@ -369,13 +369,11 @@ class JoinRun {
 
   /// Hits that lanes cannot decide, some at a time.
   struct Doubts {
-    static constexpr std::size_t kCapacity = 128;
-
     std::size_t size = 0;
     std::array<std::uint32_t, kFanOut> apart{};  ///< Hits of each row of the leaf that were none.
-    std::array<Pair, kCapacity> pairs;           ///< Of a row and a partner; not initialised, as what follows.
-    std::array<std::uint32_t, kCapacity> hit;
-    std::array<std::uint8_t, kCapacity> row;
+    std::array<Pair, 8 * kFanOut> pairs;         ///< Of a row and a partner; not initialised, as what follows.
+    std::array<std::uint32_t, 8 * kFanOut> hit;
+    std::array<std::uint8_t, 8 * kFanOut> row;
 
     HWY_INLINE void add(const Leaf& leaf, std::size_t atHit, std::uint32_t partner, std::uint32_t ofRow) {
       pairs[size] = {leaf.ids[ofRow], partner};
@@ -385,7 +383,7 @@ class JoinRun {
 
     /// Deletes the bits of those that do not touch.
     void settle(NeighborLists& lists, std::uint32_t* hitBits) {
-      std::array<std::uint32_t, kCapacity> found;
+      std::array<std::uint32_t, 8 * kFanOut> found;
       const std::size_t count = lists.findApart(lists, pairs.data(), size, found.data());
       for (std::size_t i = 0; i < count; ++i) {
         hitBits[hit[found[i]]] &= ~(1U << row[found[i]]);

@@ -37,10 +37,8 @@ constexpr std::pair<std::int64_t, TableFunction> kTargets[] = {
 /// destructors.
 struct KernelList {
   /// Those of the list, the ones that the build requires of processors, and the scalar ones.
-  static constexpr std::size_t kMost = std::size(kTargets) + 2;
-
-  std::array<const Kernels*, kMost> kernels{};
-  std::array<std::string_view, kMost> names{};
+  std::array<const Kernels*, std::size(kTargets) + 2> kernels{};
+  std::array<std::string_view, std::size(kTargets) + 2> names{};
   std::size_t size = 0;
 
   void add(const Kernels& added) {

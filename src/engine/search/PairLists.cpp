@@ -15,10 +15,6 @@ namespace {
 /// Where a list begins: its worker above the place.
 constexpr unsigned kPlaceBits = 48;
 
-/// Lists follow each other in the order of the hierarchy, not of the rows: they are fetched so many rows ahead
-/// (dense_benchmark).
-constexpr std::size_t kPrefetchDistance = 8;
-
 template <bool kBySecond>
 void expandRow(std::uint32_t row, std::span<const std::uint32_t> list, Pair* to) noexcept {
   for (std::size_t i = 0; i < list.size(); ++i) to[i] = kBySecond ? Pair{list[i], row} : Pair{row, list[i]};

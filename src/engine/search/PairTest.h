@@ -18,6 +18,10 @@
 
 namespace allpairs::engine {
 
+/// What lies in no order, such as the boxes of pairs in doubt and the lists of boxes in the order of a hierarchy, is prefetched so many
+/// ahead (dense_benchmark).
+inline constexpr std::size_t kPrefetchDistance = 8;
+
 /// Whether each side accepts the other's category.
 [[nodiscard]] inline bool acceptEachOther(std::uint32_t categoryA, std::uint32_t maskA, std::uint32_t categoryB,
                                           std::uint32_t maskB) noexcept {
@@ -143,13 +147,14 @@ class PairTest {
   /// Calls use(i) for each of `size` pairs, pairAt(i), that does not touch. Their boxes lie in no order, and are prefetched.
   template <class PairAt, class Use>
   void forEachApart(std::size_t size, const PairAt& pairAt, const Use& use) const {
-    constexpr std::size_t kAhead = 8;
-    for (std::size_t i = 0; i < size + kAhead; ++i) {
+    for (std::size_t i = 0; i < size + kPrefetchDistance; ++i) {
       if (i < size) {
         prefetchBox(*m_first.boxes, pairAt(i).first);
         prefetchBox(*m_second.boxes, pairAt(i).second);
       }
-      if (i >= kAhead && !touches(pairAt(i - kAhead))) use(i - kAhead);
+      if (i < kPrefetchDistance) continue;
+      const std::size_t tested = i - kPrefetchDistance;
+      if (!touches(pairAt(tested))) use(tested);
     }
   }
 
