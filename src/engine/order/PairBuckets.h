@@ -11,6 +11,7 @@
 #include "allpairs/Pair.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
+#include "memory/Platform.h"
 
 namespace allpairs::engine {
 
@@ -65,6 +66,10 @@ class PairBuckets {
     std::size_t rest = size(bucket);
     for (std::size_t chunk = bucket; rest > 0; chunk = m_following[chunk]) {
       const std::size_t length = m_isOne ? rest : std::min(rest, kChunk);
+      if (rest > length) {
+        const std::uint32_t* const next = m_numbers.data() + m_following[chunk] * kChunk;
+        for (std::size_t i = 0; i < kChunk; i += 16) prefetchLine(next + i);
+      }
       use(std::span<const std::uint32_t>(m_numbers.data() + chunk * kChunk, length));
       rest -= length;
     }
