@@ -22,7 +22,7 @@ void expandRow(std::uint32_t row, std::span<const std::uint32_t> list, Pair* to)
 
 }  // namespace
 
-void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers) {
+void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers, std::size_t likely) {
   m_rows = rows;
   m_begin.require(rows);
   m_length.require(rows);
@@ -31,6 +31,7 @@ void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers
   m_ofWorkers.assign(workers, {});
   for (std::size_t w = 0; w < workers; ++w) {
     NeighborLists& lists = m_ofWorkers[w];
+    m_partners[w].require(likely / workers);
     lists.partners = m_partners[w].data();
     lists.capacity = m_partners[w].capacity();
     lists.begin = m_begin.data();

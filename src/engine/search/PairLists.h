@@ -24,8 +24,8 @@ class PairLists {
   explicit PairLists(std::pmr::memory_resource* memory)
       : m_ofWorkers(memory), m_partners(memory), m_begin(memory), m_length(memory), m_places(memory) {}
 
-  /// Empties the lists of so many rows, for a search with so many workers; memory is kept.
-  void start(std::size_t rows, std::size_t columns, std::size_t workers);
+  /// Empties the lists of so many rows, for a search with so many workers that is likely to find so many partners; memory is kept.
+  void start(std::size_t rows, std::size_t columns, std::size_t workers, std::size_t likely);
 
   /// Which partners the lists have: by their ids, and by the test of pairs, in which rows are on that side if a pair is listed
   /// once. The options must outlive the search.

@@ -33,7 +33,7 @@ constexpr double kMuchOrdered = 0.1;
 /// dense_benchmark).
 constexpr double kDense = 9.0;
 constexpr double kDenseBothWays = 26.0;
-constexpr double kDenseCounted = 32.0;
+constexpr double kDenseCounted = 40.0;
 
 /// Up to so many boxes, a join is done on one thread before a second one has woken up, or soon after
 /// (allpairs bench uniform -n 2000 --threads 2).
@@ -325,13 +325,23 @@ bool Search::findInLists(const Sets& sets, Plan& plan) {
   return true;
 }
 
-bool Search::areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted) {
-  if (job.isFlat) return shareOfOverlaps(job.flat) > kMuchOrdered;
-  if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return false;
-  if (job.units * kFanOut < rows / kMostRowsPerBox) return false;
+std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted) {
   const bool keepsAll = kept == Columns::All || kept == Columns::Others;
-  const double dense = keepsAll ? kDense : areCounted ? kDenseCounted : kDenseBothWays;
-  return m_runner.partnersPerBox(job) >= dense;
+  double partners = 0.0;  // of a row
+  if (job.isFlat) {
+    const double share = shareOfOverlaps(job.flat);
+    if (share <= kMuchOrdered) return 0;
+    partners = share * static_cast<double>(job.flat.columns.size);
+  } else {
+    if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return 0;
+    if (job.units * kFanOut < rows / kMostRowsPerBox) return 0;
+    partners = m_runner.partnersPerBox(job);
+    if (partners < (keepsAll ? kDense : areCounted ? kDenseCounted : kDenseBothWays)) return 0;
+    rows = std::min(rows, job.units * kFanOut);
+  }
+  // A sample says too little of a few rows, and too much of some scenes: no more than 64 MB.
+  const double likely = (keepsAll ? 1.25 : 0.625) * partners * static_cast<double>(rows);
+  return static_cast<std::size_t>(std::min(likely, 0x1p24)) + 1;
 }
 
 bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
@@ -343,9 +353,10 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
-  if (!areListsBetter(job, rows, kept, orderOf(sets, plan.order).isCounted)) return false;
+  const std::size_t likely = likelyPartners(job, rows, kept, orderOf(sets, plan.order).isCounted);
+  if (likely == 0) return false;
   job.flat.tested = kept;
-  m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers);
+  m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers, likely);
   m_lists.select(kept, bySecond ? PairSide::RowSecond : PairSide::RowFirst, plan.sink);
   job.lists = m_lists.ofWorkers();
   m_runner.run(job, *m_executor);

@@ -130,7 +130,9 @@ class Search {
 
   /// Lists those partners of each box that are kept, in order, if that pays off; else does nothing and returns false.
   bool listPartners(const Sets& sets, Plan& plan, Columns kept);
-  [[nodiscard]] bool areListsBetter(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted);
+
+  /// How many partners the lists of a job are likely to have, or 0 if buckets are better.
+  [[nodiscard]] std::size_t likelyPartners(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted);
 
   NeighborsMemory roomForRows(std::size_t rows, std::size_t indices);
   void writePairsAsRows(const Sets& sets, NeighborRows kind);
