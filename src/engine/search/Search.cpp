@@ -43,6 +43,9 @@ constexpr std::size_t kFewForThreads = 2048;
 /// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
 
+/// What memory is reserved for where a sample tells of so many: some more, but no more than 16 million, since a sample may err.
+std::size_t likelyOf(double sampled) noexcept { return static_cast<std::size_t>(std::min(1.25 * sampled, 0x1p24)) + 1; }
+
 /// The axes on which all boxes of two sets are the same point. Lanes of different boxes are alike if float32 does not reach as far,
 /// or if what they are relative to has cost them bits: not if they are 0, or relative to none.
 std::array<bool, 3> flatAxes(const BvhView& first, const BvhView& second, const std::array<double, 3>& origin) {
@@ -245,6 +248,7 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
 std::span<const Pair> Search::findPlanned(const Sets& sets, Plan& plan, const PairRoom* room) {
   m_room = room;
   if (!plan.job.isFlat && (findInLists(sets, plan) || findInBuckets(sets, plan))) return m_pairs;
+  expectPairs(sets, plan);
   run(plan, *m_executor);
   concatenate();
   if (!plan.job.isFlat) sortPairs(sets, plan.order);
@@ -339,9 +343,16 @@ std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows,
     if (partners < (keepsAll ? kDense : areCounted ? kDenseCounted : kDenseBothWays)) return 0;
     rows = std::min(rows, job.units * kFanOut);
   }
-  // A sample says too little of a few rows, and too much of some scenes: no more than 64 MB.
-  const double likely = (keepsAll ? 1.25 : 0.625) * partners * static_cast<double>(rows);
-  return static_cast<std::size_t>(std::min(likely, 0x1p24)) + 1;
+  return likelyOf((keepsAll ? 1.0 : 0.5) * partners * static_cast<double>(rows));
+}
+
+void Search::expectPairs(const Sets& sets, Plan& plan) {
+  if (plan.job.isFlat || plan.job.units < kFanOut) return;
+  const std::size_t workers = m_runner.start(plan.sink, *m_executor);
+  if (m_runner.sink(0).pairs().capacity() > plan.sink.likelyPairs) return;
+  const double partners = m_runner.partnersPerBox(plan.job) * static_cast<double>(plan.job.units * kFanOut);
+  const std::size_t likely = likelyOf(sets.one ? 0.5 * partners : partners) / workers;
+  plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, likely), plan.sink.maxPairs);
 }
 
 bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {

@@ -111,6 +111,9 @@ class Search {
 
   void joinBoth(bool one, const std::array<double, 3>& origin, Plan& plan);
 
+  /// Reserves memory for the pairs of a join that this object has none for: where it grows as they come, most of it is touched for the
+  /// first time twice.
+  void expectPairs(const Sets& sets, Plan& plan);
   void run(const Plan& plan, Executor& executor);
   std::span<Pair> copyInto(Plan& plan, std::span<Pair> memory);
   std::span<Pair> roomForPairs();
