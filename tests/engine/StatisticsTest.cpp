@@ -2,6 +2,9 @@
 // What statistics say, and what they show that no result does: that a world rebuilds its hierarchy when it has
 // degraded.
 #include <gtest/gtest.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -234,6 +237,37 @@ TEST(Statistics, PlanesThatFloat32DoesNotTellApartAreNotOne) {
     }
   }
 }
+
+#if defined(__SSE2__)
+/// Has the processor take tiny numbers for 0 while it exists, as programs built with -ffast-math do.
+class TinyNumbersAreZero {
+ public:
+  TinyNumbersAreZero() : m_before(_mm_getcsr()) { _mm_setcsr(m_before | 0x8040U); }
+  ~TinyNumbersAreZero() { _mm_setcsr(m_before); }
+  TinyNumbersAreZero(const TinyNumbersAreZero&) = delete;
+  TinyNumbersAreZero& operator=(const TinyNumbersAreZero&) = delete;
+
+ private:
+  unsigned m_before;
+};
+
+TEST(Statistics, PlanesAreNotOneWhereTheProcessorTakesTinyNumbersForZero) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(800, 76, 0.6F));
+  const TinyNumbersAreZero mode;
+  for (const std::vector<double>& planes :
+       {std::vector<double>{0.0, 1e-50}, std::vector<double>{1e-307, 1e-307 + 1e-310},
+        std::vector<double>{1e-39, 2e-39}}) {
+    const std::vector<Box> flat = inPlanes(boxes, planes);
+    const std::vector<Pair> expected = test::oracle(flat);
+    for (const std::string_view name : instructionSets()) {
+      OverlapOptions options;
+      options.strategy = Strategy::Bvh;
+      options.instructionSet = name;
+      EXPECT_EQ(overlaps(flat, options), expected) << name << ' ' << planes[1];
+    }
+  }
+}
+#endif
 
 TEST(Statistics, GroupTestsOfSeveralTasksAddUp) {
   const std::vector<BoxF> boxes = test::randomBoxes(4000, 75);

@@ -161,4 +161,19 @@ std::uint32_t BoxReader::outsideRegion(const BoxList& boxes) const {
   return bits;
 }
 
+bool BoxReader::areAll(std::size_t axis, double point) const noexcept {
+  const auto areAt = [&](const auto& corners) {
+    using Number = std::remove_cv_t<std::remove_pointer_t<decltype(corners.min.data)>>;
+    const auto* const min = corners.min.data + static_cast<std::ptrdiff_t>(axis) * corners.min.axisStride;
+    const auto* const max = corners.max.data + static_cast<std::ptrdiff_t>(axis) * corners.max.axisStride;
+    const auto isPoint = [point](Number value) { return static_cast<double>(value) == point; };
+    for (std::size_t i = 0; i < m_size; ++i) {
+      const auto row = static_cast<std::ptrdiff_t>(idOf(i));
+      if (!isPoint(min[row * corners.min.boxStride]) || !isPoint(max[row * corners.max.boxStride])) return false;
+    }
+    return true;
+  };
+  return m_boxes->isFloat64() ? areAt(m_boxes->float64()) : areAt(m_boxes->float32());
+}
+
 }  // namespace allpairs::engine

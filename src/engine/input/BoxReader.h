@@ -68,6 +68,11 @@ class BoxReader {
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {
     return m_ids != nullptr ? m_ids[i] : static_cast<std::uint32_t>(i);
   }
+  [[nodiscard]] const BoxView& boxes() const noexcept { return *m_boxes; }
+
+  /// Whether all boxes are one point on an axis, empty ones too.
+  [[nodiscard]] bool areAll(std::size_t axis, double point) const noexcept;
+
   [[nodiscard]] const Kernels& kernels() const noexcept { return *m_kernels; }
 
   /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.

@@ -46,9 +46,9 @@ constexpr std::size_t kMostRowsPerBox = 4;
 /// What memory is reserved for where a sample tells of so many: some more, but no more than 16 million, since a sample may err.
 std::size_t likelyOf(double sampled) noexcept { return static_cast<std::size_t>(std::min(1.25 * sampled, 0x1p24)) + 1; }
 
-/// The axes on which all boxes of two sets are the same point. Lanes of different boxes are alike if float32 does not reach as far,
-/// or if what they are relative to has cost them bits: not if they are 0, or relative to none.
-std::array<bool, 3> flatAxes(const BvhView& first, const BvhView& second, const std::array<double, 3>& origin) {
+/// The axes on which all boxes of two sets are the same point: those on which all lanes are, which costs nothing to see, if the
+/// boxes are, which does. Lanes alone may be alike where float32 ends, or where a processor takes tiny numbers for 0.
+std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const BvhView& second) {
   std::array<bool, 3> isFlat{};
   if (first.depth == 0 || second.depth == 0) return isFlat;
   const LaneBlock& a = first.level[first.depth - 1].blocks[0];
@@ -56,7 +56,9 @@ std::array<bool, 3> flatAxes(const BvhView& first, const BvhView& second, const 
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float min = std::min(std::ranges::min(a.bound[axis]), std::ranges::min(b.bound[axis]));
     const float max = std::max(std::ranges::max(a.bound[axis + 3]), std::ranges::max(b.bound[axis + 3]));
-    isFlat[axis] = min == max && (min == 0.0F || (origin[axis] == 0.0 && std::abs(min) < kLaneMax));
+    if (min != max) continue;
+    const double point = readers.first.boxes()[readers.first.idOf(0)].min[axis];
+    isFlat[axis] = readers.first.areAll(axis, point) && (readers.one || readers.second.areAll(axis, point));
   }
   return isFlat;
 }
@@ -187,17 +189,18 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
   plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;
-  joinBoth(readers.one, readers.first.origin(), plan);
+  joinBoth(readers.one, plan);
+  BvhBuilder& second = readers.one ? m_first : m_second;
+  const bool required = !m_first.exact() || !second.exact();
+  plan.test.requireExactTestInDoubt(
+      required, readers.first.origin(),
+      required ? flatAxes(readers, m_first.levels().view(), second.levels().view()) : std::array<bool, 3>{});
 }
 
-/// Both hierarchies, whose lanes are relative to a point, as one job.
-void Search::joinBoth(bool one, const std::array<double, 3>& origin, Plan& plan) {
-  BvhBuilder& builderOfSecond = one ? m_first : m_second;
+/// Both hierarchies as one job.
+void Search::joinBoth(bool one, Plan& plan) {
   const BvhView& first = m_first.levels().view();
-  const BvhView& second = builderOfSecond.levels().view();
-  plan.test.requireExactTestInDoubt(!m_first.exact() || !builderOfSecond.exact(), origin,
-                                    flatAxes(first, second, origin));
-  plan.job = one ? JoinRunner::Job::ofSelfJoin(first) : JoinRunner::Job::ofJoin(first, second);
+  plan.job = one ? JoinRunner::Job::ofSelfJoin(first) : JoinRunner::Job::ofJoin(first, m_second.levels().view());
   plan.job.firstLarge = m_first.firstLarge() / kFanOut;
 }
 

@@ -109,7 +109,7 @@ class Search {
   void planFlat(const Readers& readers, Plan& plan);
   void planJoin(const Readers& readers, Plan& plan);
 
-  void joinBoth(bool one, const std::array<double, 3>& origin, Plan& plan);
+  void joinBoth(bool one, Plan& plan);
 
   /// Reserves memory for the pairs of a join that this object has none for: where it grows as they come, most of it is touched for the
   /// first time twice.

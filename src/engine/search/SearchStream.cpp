@@ -85,7 +85,8 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   reader.setOrigin(origin);
   m_first.build(reader, *m_executor);
   Plan plan{PairTest::of(sets, options), options.order};
-  joinBoth(false, origin, plan);
+  joinBoth(false, plan);
+  plan.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), origin);
   plan.sink.kernels = m_kernels;
   plan.sink.test = &plan.test;
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
