@@ -13,6 +13,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 
 namespace allpairs::elements {
 namespace {
@@ -45,8 +46,8 @@ MovingMesh rolledSheet(std::uint32_t n, unsigned seed) {
 
 /// The same with positions that float32 holds.
 MovingMesh rounded(MovingMesh mesh) {
-  for (double& x : mesh.start) x = static_cast<double>(static_cast<float>(x));
-  for (double& x : mesh.end) x = static_cast<double>(static_cast<float>(x));
+  for (double& x : mesh.start) x = test::asFloat32(x);
+  for (double& x : mesh.end) x = test::asFloat32(x);
   return mesh;
 }
 

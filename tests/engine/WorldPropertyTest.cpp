@@ -13,6 +13,7 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 
 namespace allpairs {
 namespace {
@@ -70,7 +71,7 @@ class Lives {
   bool chance(double p) { return uniform() < p; }
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)); }
 
-  double round(double x) const { return m_life.float32 ? static_cast<double>(static_cast<float>(x)) : x; }
+  double round(double x) const { return m_life.float32 ? test::asFloat32(x) : x; }
 
   /// Mostly a small box; now and then one that is large, flat, empty, or without end, and often on a grid, to touch.
   Box anyBox() {

@@ -22,8 +22,8 @@ std::vector<Box> uniform(std::size_t n = 700) { return toDouble(randomBoxes(n, 3
 /// As float32 holds them.
 std::vector<Box> rounded(std::vector<Box> boxes) {
   for (Box& box : boxes) {
-    for (double& bound : box.min) bound = static_cast<double>(static_cast<float>(bound));
-    for (double& bound : box.max) bound = static_cast<double>(static_cast<float>(bound));
+    for (double& bound : box.min) bound = asFloat32(bound);
+    for (double& bound : box.max) bound = asFloat32(bound);
   }
   return boxes;
 }

@@ -56,7 +56,10 @@ QueryScene makeScene(const Request& request) {
   };
   const auto anyPoint = [&] {
     std::array<double, 3> point{};
-    for (double& x : point) x = static_cast<double>(static_cast<float>(uniform(random)));
+    for (double& x : point) {
+      const volatile float stored = static_cast<float>(uniform(random));  // GCC 12 leaves out what is not stored
+      x = static_cast<double>(stored);
+    }
     return point;
   };
   for (std::size_t i = 0; i < request.boxes; ++i) addCube(scene.rows, edge);
