@@ -322,9 +322,17 @@ class JoinRun {
   /// other; then the lists, since now their lengths are known.
   template <Columns kKept>
   void listLeaf(std::size_t number, const LaneBox& bounds) {
+    const Leaf leaf(*m_task.first, number);
+    std::array<std::uint32_t, kFanOut> lengthOf;
+    findHits<kKept>(leaf, bounds, lengthOf);
+    writeLists(leaf, lengthOf);
+  }
+
+  /// Notes which boxes of a leaf each box near it overlaps, and how many are overlapped by each box of the leaf.
+  template <Columns kKept>
+  HWY_INLINE void findHits(const Leaf& leaf, const LaneBox& bounds, std::array<std::uint32_t, kFanOut>& lengthOf) {
     const IdTag d;
     NeighborScratch& near = m_task.scratch->neighbors;
-    const Leaf leaf(*m_task.first, number);
     const std::size_t size = listNear(bounds, near);
     const std::uint32_t* const places = near.near.data();
     std::uint32_t* HWY_RESTRICT const hitBits = near.hitBits.data();
@@ -361,10 +369,8 @@ class JoinRun {
     hn::StoreU(hn::Zero(d), d, hitBits + hits);  // The last vector of bits ends behind them.
     m_hits.groupTests += near.size;
     m_hits.boxTests += size * leaf.fill;
-    std::array<std::uint32_t, kFanOut> lengthOf;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * hn::Lanes(d)]);
     for (std::size_t row = 0; row < kFanOut; ++row) lengthOf[row] -= doubts.apart[row];
-    writeLists(leaf, lengthOf);
   }
 
   /// Hits that lanes cannot decide, some at a time.
