@@ -14,7 +14,6 @@ namespace {
 
 constexpr unsigned kGroupBits = 12;  // of first boxes whose pairs are put in order together: they stay in the cache
 constexpr std::size_t kGroupRows = std::size_t{1} << kGroupBits;
-constexpr std::ptrdiff_t kFewPairs = 24;  // of a row, which are put in order by insertion
 
 /// A pair as it travels, in one word.
 struct ShortPair {
@@ -35,21 +34,6 @@ struct LongPair {
   [[nodiscard]] std::uint64_t first() const { return words[0]; }
   [[nodiscard]] std::uint64_t second() const { return words[1]; }
 };
-
-/// Pairs of one first box.
-template <class Travelling>
-void orderRow(Travelling* begin, Travelling* end) {
-  if (end - begin > kFewPairs) {
-    std::sort(begin, end, [](const auto& a, const auto& b) { return a.second() < b.second(); });
-    return;
-  }
-  for (Travelling* next = begin; next < end; ++next) {
-    const Travelling pair = *next;
-    Travelling* to = next;
-    for (; to > begin && pair.second() < to[-1].second(); --to) *to = to[-1];
-    *to = pair;
-  }
-}
 
 /// Puts pairs in order that came in parts, which it frees.
 template <class Travelling>
@@ -95,9 +79,10 @@ class Orderer {
     std::exclusive_scan(m_ends.begin(), m_ends.end(), m_ends.begin(), std::size_t{0});
     m_ordered.resize(pairs.size());
     for (const Travelling& pair : pairs) m_ordered[m_ends[pair.first() - firstOfGroup]++] = pair;
+    const auto isLess = [](const Travelling& a, const Travelling& b) { return a.second() < b.second(); };
     std::size_t begin = 0;
     for (const std::size_t end : m_ends) {
-      orderRow(m_ordered.data() + begin, m_ordered.data() + end);
+      std::sort(m_ordered.data() + begin, m_ordered.data() + end, isLess);
       begin = end;
     }
     return m_ordered;
@@ -118,19 +103,9 @@ void PairExchange::start(std::span<const std::uint64_t> ends, bool areIdsShort) 
   m_outgoing.resize(ends.size());
 }
 
-/// Pairs come in no order of their ids, so a branch for each step would be mispredicted half the time.
-std::size_t PairExchange::rankOf(std::uint64_t first) const {
-  const std::uint64_t* ends = m_ends.data();
-  for (std::size_t ranks = m_ends.size(); ranks > 1;) {
-    const std::size_t half = ranks / 2;
-    ends += half * static_cast<std::size_t>(ends[half - 1] <= first);
-    ranks -= half;
-  }
-  return static_cast<std::size_t>(ends - m_ends.data());
-}
-
 void PairExchange::add(std::uint64_t first, std::uint64_t second) {
-  std::vector<std::uint64_t>& words = m_outgoing[rankOf(first)];
+  const auto rank = std::upper_bound(m_ends.begin(), m_ends.end(), first) - m_ends.begin();
+  std::vector<std::uint64_t>& words = m_outgoing[static_cast<std::size_t>(rank)];
   if (m_areIdsShort) {
     words.push_back(first << 32 | second);
   } else {

@@ -30,8 +30,6 @@ class PairExchange {
   [[nodiscard]] std::vector<IdPair> takeInOrder();
 
  private:
-  [[nodiscard]] std::size_t rankOf(std::uint64_t first) const;
-
   const Ranks& m_ranks;
   bool m_areIdsShort = true;
   std::vector<std::uint64_t> m_ends;

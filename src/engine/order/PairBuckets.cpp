@@ -240,17 +240,16 @@ void PairBuckets::makeRoom(std::size_t chunks) {
   m_following.grow(chunks);
 }
 
-void PairBuckets::add(std::span<const Pair> pairs) {
-  if (m_isOne) {
-    m_bySecond ? append<true>(pairs) : append<false>(pairs);
-  } else {
-    m_bySecond ? distribute<true>(pairs) : distribute<false>(pairs);
-  }
-}
+void PairBuckets::add(std::span<const Pair> pairs) { m_bySecond ? put<true>(pairs) : put<false>(pairs); }
 
 void PairBuckets::addBothWays(std::span<const Pair> pairs) {
-  m_isOne ? append<false>(pairs) : distribute<false>(pairs);
-  m_isOne ? append<true>(pairs) : distribute<true>(pairs);
+  put<false>(pairs);
+  put<true>(pairs);
+}
+
+template <bool kBySecond>
+void PairBuckets::put(std::span<const Pair> pairs) {
+  m_isOne ? append<kBySecond>(pairs) : distribute<kBySecond>(pairs);
 }
 
 template <bool kBySecond>

@@ -80,6 +80,8 @@ class PairBuckets {
   static constexpr std::size_t kChunk = 128;
 
   template <bool kBySecond>
+  void put(std::span<const Pair> pairs);
+  template <bool kBySecond>
   void distribute(std::span<const Pair> pairs);
   template <bool kBySecond>
   void append(std::span<const Pair> pairs);

@@ -46,8 +46,8 @@ constexpr std::size_t kMostRowsPerBox = 4;
 /// What memory is reserved for where a sample tells of so many: some more, but no more than 16 million, since a sample may err.
 std::size_t likelyOf(double sampled) noexcept { return static_cast<std::size_t>(std::min(1.25 * sampled, 0x1p24)) + 1; }
 
-/// The axes on which all boxes of two sets are the same point: those on which all lanes are, which costs nothing to see, if the
-/// boxes are, which does. Lanes alone may be alike where float32 ends, or where a processor takes tiny numbers for 0.
+/// The axes on which all boxes of two sets are the same point: those on which all lanes are, which is cheap to see, if the
+/// boxes are, which takes a pass over them. Equal lanes do not prove it: float32 may overflow, or the processor flush tiny numbers to zero.
 std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const BvhView& second) {
   std::array<bool, 3> isFlat{};
   if (first.depth == 0 || second.depth == 0) return isFlat;
@@ -352,7 +352,7 @@ std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows,
 void Search::expectPairs(const Sets& sets, Plan& plan) {
   if (plan.job.isFlat || plan.job.units < kFanOut) return;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
-  if (m_runner.sink(0).pairs().capacity() > plan.sink.likelyPairs) return;
+  if (m_runner.sink(0).pairs().capacity() >= plan.sink.likelyPairs) return;
   const double partners = m_runner.partnersPerBox(plan.job) * static_cast<double>(plan.job.units * kFanOut);
   const std::size_t likely = likelyOf(sets.one ? 0.5 * partners : partners) / workers;
   plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, likely), plan.sink.maxPairs);

@@ -9,7 +9,7 @@ namespace allpairs::engine {
 namespace {
 
 /// The initial and the maximum number of boxes in a range of an ordered stream: the first pairs come soon, and memory is
-/// bounded. No range has more pairs than the largest in a scene as most are, 32 MiB of them, unless it is a single box.
+/// bounded. A range of several boxes holds at most kLikelyPairs * kLastRange pairs, 32 MiB.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
 
