@@ -11,7 +11,7 @@
 #include "allpairs/parallel/TbbExecutor.h"
 #include "bvh/RadixSort.h"
 #include "kernels/Kernels.h"
-#include "order/PairBuckets.h"
+#include "order/BucketSort.h"
 #include "order/PairSort.h"
 
 namespace allpairs::engine {
@@ -88,43 +88,36 @@ std::vector<Pair> randomPairsOf(std::size_t size, SetSizes sets) {
   return pairs;
 }
 
-/// Pairs in buckets, as two workers find them.
-std::vector<PairBuckets> inBuckets(std::span<const Pair> pairs, const PairOrder& rule) {
-  std::vector<PairBuckets> buckets;
-  for (std::size_t worker = 0; worker < 2; ++worker) {
-    buckets.emplace_back(defaultMemory()).start(rule, 2);
-    const std::size_t half = pairs.size() / 2;
-    std::span<const Pair> rest = worker == 0 ? pairs.first(half) : pairs.subspan(half);
-    for (; !rest.empty(); rest = rest.subspan(std::min<std::size_t>(rest.size(), 1000))) {
-      buckets.back().add(rest.first(std::min<std::size_t>(rest.size(), 1000)));
-    }
+/// Scratch memory of what is asked for, and not more.
+struct ScratchMemory {
+  template <class Use>
+  void withScratch(std::size_t size, const Use& use) {
+    std::vector<std::uint32_t> scratch(size);
+    use(std::span<std::uint32_t>(scratch));
   }
-  return buckets;
-}
+};
 
 void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order order, std::size_t threads) {
   const std::size_t size = given.size();
-  const PairOrder rule(sets.firsts, sets.seconds, order, threads);
-  const std::vector<PairBuckets> ofWorkers = inBuckets(given, rule);
+  BucketSort buckets(defaultMemory());
+  buckets.start({sets.firsts, sets.seconds, order, threads}, 2, *findKernels(""));
+  for (std::size_t i = 0; i < size;) {
+    const std::size_t worker = i < size / 2 ? 0 : 1;
+    const std::size_t end = std::min(i + 1000, worker == 0 ? size / 2 : size);
+    buckets.ofWorker(worker).add(std::span(given).subspan(i, end - i));
+    i = end;
+  }
   const std::vector<Pair> expected = sortedBy(order, given);
   const std::size_t keys = order == Order::ByFirst ? sets.firsts : sets.seconds;
   std::vector<Pair> pairs(size);
-  std::vector<std::uint64_t> offsets(keys + 1, size);
+  std::vector<std::uint64_t> offsets(keys + 1);
   std::vector<std::uint32_t> indices(size);
-  std::size_t before = 0;
-  for (std::size_t b = 0; b < rule.buckets; ++b) {
-    const Bucket bucket{rule, b, ofWorkers, *findKernels("")};
-    std::vector<std::uint32_t> scratch(std::max(scratchToSort(bucket), scratchToList(bucket)));
-    sortBucket(bucket, std::span(pairs).subspan(before, bucket.size()),
-               std::span(scratch).first(scratchToSort(bucket)));
-    const std::size_t ofBucket = std::min(bucket.keys(), keys - bucket.firstKey());
-    listBucket(
-        bucket,
-        {std::span(offsets).subspan(bucket.firstKey(), ofBucket), std::span(indices).subspan(before, bucket.size())},
-        before, scratch);
-    before += bucket.size();
-  }
-  ASSERT_EQ(before, size);
+  ScratchMemory memory;
+  SerialExecutor executor;
+  ASSERT_EQ(buckets.finish(), size);
+  buckets.sort(pairs, executor, memory);
+  buckets.list({offsets, indices}, executor, memory);
+  ASSERT_EQ(offsets.back(), size);
   ASSERT_TRUE(pairs == expected) << size << " pairs of " << sets.firsts << " x " << sets.seconds;
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint32_t key = order == Order::ByFirst ? expected[i].first : expected[i].second;
@@ -134,7 +127,7 @@ void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order 
   }
 }
 
-TEST(PairBuckets, SortAndListPairsOfFewBoxesAndOfMany) {
+TEST(BucketSort, SortAndListPairsOfFewBoxesAndOfMany) {
   for (const SetSizes sets : {SetSizes{1, 1}, SetSizes{1, 4096}, SetSizes{4096, 1}, SetSizes{300, 4096},
                               SetSizes{4096, 4096}, SetSizes{4097, 10}, SetSizes{257, 256}, SetSizes{90000, 5000}}) {
     for (const std::size_t size : {0U, 1U, 127U, 3001U, 40000U, 300000U}) {
@@ -146,7 +139,7 @@ TEST(PairBuckets, SortAndListPairsOfFewBoxesAndOfMany) {
   }
 }
 
-TEST(PairBuckets, CountPairsOfOneThreadAndOfFewBoxes) {
+TEST(BucketSort, CountPairsOfOneThreadAndOfFewBoxes) {
   EXPECT_TRUE(PairOrder(4096, 4096, Order::ByFirst, 1).isCounted);
   EXPECT_FALSE(PairOrder(4097, 4096, Order::ByFirst, 1).isCounted);
   EXPECT_FALSE(PairOrder(4096, 4097, Order::BySecond, 1).isCounted);

@@ -6,10 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
-#include "kernels/Kernels.h"
 #include "memory/Memory.h"
 #include "memory/Platform.h"
 
@@ -99,39 +97,5 @@ class PairBuckets {
   Buffer<std::size_t> m_next;          ///< By bucket: where its next pair goes.
   Buffer<std::uint32_t> m_fullChunks;  ///< By bucket.
 };
-
-/// The pairs of a bucket, which each worker has some of, and what puts them in order.
-struct Bucket {
-  const PairOrder& rule;
-  std::size_t number;
-  std::span<const PairBuckets> ofWorkers;
-  const Kernels& kernels;
-
-  [[nodiscard]] std::size_t size() const noexcept {
-    std::size_t size = 0;
-    for (const PairBuckets& buckets : ofWorkers) size += buckets.size(number);
-    return size;
-  }
-  [[nodiscard]] std::size_t keys() const noexcept { return std::size_t{1} << rule.keyBits; }
-  [[nodiscard]] std::uint32_t firstKey() const noexcept { return static_cast<std::uint32_t>(number << rule.keyBits); }
-};
-
-/// Puts the pairs of a bucket in order into their place in the result.
-///
-/// If they are counted, each pair goes to where those of its other index are, and from there to its key's row. Else, if no key has
-/// many, each pair goes to its key's row, and then to where its rank in the row says. Where they do not fit into the scratch memory,
-/// or a key has many, they are radix sorted in the memory of the result.
-void sortBucket(const Bucket& bucket, std::span<Pair> place, std::span<std::uint32_t> scratch) noexcept;
-
-/// Scratch memory that is worth its allocation, in numbers.
-[[nodiscard]] std::size_t scratchToSort(const Bucket& bucket) noexcept;
-
-/// Puts the other index of each pair of a bucket into its place in order, in the same ways, and the beginning of each key's row.
-///
-/// `place` has the offsets of the keys, without the one after the last, and the indices of the bucket, which `before` others precede.
-/// The scratch memory has room for as many numbers as scratchToList() says.
-void listBucket(const Bucket& bucket, const NeighborsMemory& place, std::uint64_t before,
-                std::span<std::uint32_t> scratch) noexcept;
-[[nodiscard]] std::size_t scratchToList(const Bucket& bucket) noexcept;
 
 }  // namespace allpairs::engine

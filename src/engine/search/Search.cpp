@@ -133,7 +133,7 @@ void Search::shrink() noexcept {
   m_first = BvhBuilder(memory);
   m_second = BvhBuilder(memory);
   m_runner = JoinRunner(memory);
-  m_buckets = std::pmr::vector<PairBuckets>(memory);
+  m_buckets = BucketSort(memory);
   m_places = std::pmr::vector<std::size_t>(memory);
   m_lists = PairLists(memory);
   if (m_rowsFound.offsets.empty()) m_offsets.release();
@@ -287,15 +287,9 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
 
 bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   if (plan.order == Order::Unordered) return false;
-  const PairOrder rule = orderOf(sets, plan.order);
-  if (!fillBuckets(rule, plan, &PairBuckets::add)) return false;
+  if (!fillBuckets(orderOf(sets, plan.order), plan, &PairBuckets::add)) return false;
   m_pairs = roomForPairs();
-  m_executor->run(rule.buckets, [&](std::size_t b) {
-    const std::span<Pair> place = m_pairs.subspan(m_places[b], m_places[b + 1] - m_places[b]);
-    const Bucket bucket{rule, b, m_buckets, *m_kernels};
-    m_runner.withScratch(scratchToSort(bucket),
-                         [&](std::span<std::uint32_t> scratch) { sortBucket(bucket, place, scratch); });
-  });
+  m_buckets.sort(m_pairs, *m_executor, m_runner);
   return true;
 }
 
@@ -303,23 +297,17 @@ PairOrder Search::orderOf(const Sets& sets, Order order) const {
   return {sets.first.size(), sets.second.size(), order, m_executor->concurrency()};
 }
 
-bool Search::fillBuckets(const PairOrder& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
-  if (plan.job.units == 0 || !rule.packs()) return false;
-  const std::size_t workers = m_runner.start(plan.sink, *m_executor);
-  while (m_buckets.size() < workers) m_buckets.emplace_back(m_runner.memory());
-  for (PairBuckets& buckets : m_buckets) buckets.start(rule, m_buckets.size());
+bool Search::fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
+  if (plan.job.units == 0 || !order.packs()) return false;
+  m_buckets.start(order, m_runner.start(plan.sink, *m_executor), *m_kernels);
   const auto toBuckets = [&](std::span<Pair> pairs, std::size_t worker) {
-    (m_buckets[worker].*add)(pairs);
+    (m_buckets.ofWorker(worker).*add)(pairs);
     return pairs.size();
   };
   plan.sink.emit.emplace(toBuckets);
   plan.sink.likelyPairs = 0;
   run(plan, *m_executor);
-  m_places.resize(rule.buckets + 1);
-  m_places[0] = 0;
-  for (std::size_t b = 0; b < rule.buckets; ++b) {
-    m_places[b + 1] = m_places[b] + Bucket{rule, b, m_buckets, *m_kernels}.size();
-  }
+  m_buckets.finish();
   return true;
 }
 

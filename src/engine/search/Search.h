@@ -15,7 +15,7 @@
 #include "input/BoxCull.h"
 #include "input/Options.h"
 #include "input/Readers.h"
-#include "order/PairBuckets.h"
+#include "order/BucketSort.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
 #include "search/PairLists.h"
@@ -124,9 +124,8 @@ class Search {
   bool findInBuckets(const Sets& sets, Plan& plan);
   [[nodiscard]] PairOrder orderOf(const Sets& sets, Order order) const;
 
-  /// Finds pairs and adds them to buckets; in m_places is how many precede each. Does nothing and returns false where a bucket
-  /// cannot hold the pairs of this rule.
-  bool fillBuckets(const PairOrder& rule, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
+  /// Finds pairs and adds them to buckets. Does nothing and returns false where a bucket cannot hold the pairs of this order.
+  bool fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
 
   /// Finds pairs in order by lists of the partners of each box if that pays off; else does nothing and returns false.
   bool findInLists(const Sets& sets, Plan& plan);
@@ -160,7 +159,7 @@ class Search {
   BvhBuilder m_first;
   BvhBuilder m_second;
   JoinRunner m_runner;
-  std::pmr::vector<PairBuckets> m_buckets;  ///< By worker.
+  BucketSort m_buckets;
   PairLists m_lists;
   Buffer<Pair> m_joined;
   const PairRoom* m_room = nullptr;  ///< Where given, what is used instead of m_joined.

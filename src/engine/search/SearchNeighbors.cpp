@@ -95,21 +95,12 @@ bool Search::listRows(const Sets& sets, NeighborRows kind, Plan& plan) {
 }
 
 bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
-  const std::size_t rows = sets.first.size();
-  const PairOrder rule = orderOf(sets, Order::ByFirst);
-  if (!fillBuckets(rule, plan, kind == NeighborRows::Full ? &PairBuckets::addBothWays : &PairBuckets::add)) {
+  const bool isFull = kind == NeighborRows::Full;
+  if (!fillBuckets(orderOf(sets, Order::ByFirst), plan, isFull ? &PairBuckets::addBothWays : &PairBuckets::add)) {
     return false;
   }
-  m_rowsFound = roomForRows(rows, m_places.back());
-  m_rowsFound.offsets.back() = m_places.back();
-  m_executor->run(rule.buckets, [&](std::size_t b) {
-    const Bucket bucket{rule, b, m_buckets, *m_kernels};
-    const std::size_t firstRow = bucket.firstKey();
-    const NeighborsMemory place{m_rowsFound.offsets.subspan(firstRow, std::min(bucket.keys(), rows - firstRow)),
-                                m_rowsFound.indices.subspan(m_places[b], m_places[b + 1] - m_places[b])};
-    m_runner.withScratch(scratchToList(bucket),
-                         [&](std::span<std::uint32_t> scratch) { listBucket(bucket, place, m_places[b], scratch); });
-  });
+  m_rowsFound = roomForRows(sets.first.size(), (isFull ? 2 : 1) * m_statistics.pairs);
+  m_buckets.list(m_rowsFound, *m_executor, m_runner);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include "world/PairHistory.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "input/Parts.h"
@@ -26,7 +27,13 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
   m_rowsAreCurrent = m_rowsAreCurrent && idBound == m_idBound;
   m_idBound = idBound;
   while (m_fresh.size() < workers) m_fresh.emplace_back(m_fresh.get_allocator().resource());
-  for (Fresh& fresh : m_fresh) fresh.size = 0;
+  for (Fresh& fresh : m_fresh) {
+    fresh.size = 0;
+    fresh.isInOrder = true;
+  }
+  const PairOrder order(idBound, idBound, m_options->order, workers);
+  m_usesBuckets = looksFor == Joined::All && !m_comeInOrder && order.packs();
+  if (m_usesBuckets) m_buckets.start(order, workers, *m_kernels);
   if (looksFor == Joined::All) return;
   if (!m_rowsAreCurrent) findRows();
   m_seen.requireAmply(m_result.pairs.size() + 1);
@@ -34,7 +41,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
 }
 
 void PairHistory::shrink() noexcept {
-  PairHistory rest(m_fresh.get_allocator().resource(), m_order, m_stop);
+  PairHistory rest(m_fresh.get_allocator().resource(), *m_options, *m_kernels);
   rest.m_pairs = std::move(m_pairs);
   rest.m_began = std::move(m_began);
   rest.m_persisted = std::move(m_persisted);
@@ -71,14 +78,18 @@ std::size_t PairHistory::find(Pair pair) const noexcept {
   return m_result.pairs.size();
 }
 
-void PairHistory::gather(std::span<const Pair> found, Fresh& fresh) {
-  fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_stop); });
+void PairHistory::gather(std::span<const Pair> found, Fresh& fresh, bool areInOrder) {
+  fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_options->stop); });
+  if (found.empty()) return;
+  assert(!areInOrder ||
+         std::is_sorted(found.begin(), found.end(), [this](Pair a, Pair b) { return keyOf(a) < keyOf(b); }));
+  fresh.isInOrder &= areInOrder && (fresh.size == 0 || keyOf(fresh.pairs[fresh.size - 1]) < keyOf(found[0]));
   std::copy(found.begin(), found.end(), fresh.pairs.data() + fresh.size);
   fresh.size += found.size();
 }
 
 void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
-  fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_stop); });
+  fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_options->stop); });
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
     prefetchLine(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
@@ -106,7 +117,7 @@ void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& e
     });
     end += fresh.size;
   }
-  m_sort.sort({to.data(), end}, {m_idBound, m_idBound, m_order}, spare, executor);
+  m_sort.sort({to.data(), end}, {m_idBound, m_idBound, m_options->order}, spare, executor);
 }
 
 /// Allocates everything that the end of a step needs before it changes anything.
@@ -120,24 +131,26 @@ void PairHistory::makeRoomForChanges() {
   m_result.pairs = {m_pairs.data(), old};
 }
 
-/// Whether one worker has found all pairs, in order, as in small worlds of consecutive ids; then they are the next ones.
+/// Whether one worker has found all pairs, in order; then they are the next ones.
 bool PairHistory::takeOrdered() noexcept {
   const auto isUsed = [](const Fresh& fresh) { return fresh.size != 0; };
   const auto used = std::find_if(m_fresh.begin(), m_fresh.end(), isUsed);
   if (used == m_fresh.end() || std::any_of(used + 1, m_fresh.end(), isUsed)) return false;
-  const auto isBefore = [this](Pair a, Pair b) { return keyOf(a) < keyOf(b); };
-  if (!std::is_sorted(used->pairs.data(), used->pairs.data() + used->size, isBefore)) return false;
+  if (!used->isInOrder) return false;
   std::swap(m_next, used->pairs);
   return true;
 }
 
-void PairHistory::finishAll(Executor& executor) {
-  const std::size_t size = freshSize();
+void PairHistory::finishAll(Executor& executor, JoinRunner& memory) {
+  const std::size_t size = m_usesBuckets ? m_buckets.finish() : freshSize();
   m_persisted.requireAmply(size + 1);
   m_began.requireAmply(size + 1);
   m_ended.requireAmply(m_result.pairs.size() + 1);
-  if (!takeOrdered()) {
-    m_next.requireAmply(size + 1);
+  if (!m_usesBuckets && size != 0) m_comeInOrder = takeOrdered();
+  if (!m_comeInOrder) m_next.requireAmply(size + 1);
+  if (m_usesBuckets) {
+    m_buckets.sort({m_next.data(), size}, executor, memory);
+  } else if (!m_comeInOrder) {
     sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, executor);
   }
   compare({m_next.data(), size});
@@ -149,7 +162,7 @@ void PairHistory::finishAll(Executor& executor) {
 /// Copies pairs part by part, and looks at the flag before each; returns where they end.
 Pair* PairHistory::copyAll(std::span<const Pair> pairs, Pair* to) const {
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPartSize))) {
-    checkStop(m_stop);
+    checkStop(m_options->stop);
     to = std::copy_n(pairs.begin(), std::min(pairs.size(), kPartSize), to);
   }
   return to;
@@ -164,7 +177,7 @@ void PairHistory::compare(std::span<const Pair> now) {
   std::size_t i = 0;
   std::size_t k = 0;
   while (i < old.size() && k < now.size()) {
-    checkStop(m_stop);
+    checkStop(m_options->stop);
     const std::size_t oldEnd = std::min(old.size(), i + kPartSize);
     const std::size_t nowEnd = std::min(now.size(), k + kPartSize);
     while (i < oldEnd && k < nowEnd) {

@@ -9,25 +9,27 @@
 
 #include "allpairs/Executor.h"
 #include "allpairs/Pair.h"
-#include "allpairs/StopFlag.h"
 #include "allpairs/WorldTypes.h"
+#include "kernels/Kernels.h"
 #include "memory/Memory.h"
+#include "order/BucketSort.h"
 #include "order/PairSort.h"
+#include "search/JoinRunner.h"
 #include "world/RebuildRule.h"
 
 namespace allpairs::engine {
 
 /// The pairs of the last step in order, and those of this one as they are found.
 ///
-/// After a join of all boxes, the pairs are gathered, sorted, and compared with the old list. After a join of changed
-/// boxes only, each pair is looked up among the old ones and marked, and new ones are sorted: an unmarked pair has
-/// ended, or neither of its boxes changed.
+/// After a join of all boxes, the pairs are put in order, by buckets unless they come in order, and compared with the old list.
+/// After a join of changed boxes only, each pair is looked up among the old ones and marked, and new ones are sorted: an unmarked
+/// pair has ended, or neither of its boxes changed.
 /// Memory: until a step completes, the pairs are those of the last completed step.
 class PairHistory {
  public:
-  PairHistory(std::pmr::memory_resource* memory, Order order, const StopFlag* stop)
-      : m_order(order),
-        m_stop(stop),
+  PairHistory(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
+      : m_options(&options),
+        m_kernels(&kernels),
         m_fresh(memory),
         m_rowBegin(memory),
         m_seen(memory),
@@ -36,6 +38,7 @@ class PairHistory {
         m_began(memory),
         m_persisted(memory),
         m_ended(memory),
+        m_buckets(memory),
         m_sort(memory) {}
 
   /// Leaves of the result the pairs only, until a step completes.
@@ -44,15 +47,21 @@ class PairHistory {
   /// Starts a step, without pairs. All ids are below the bound. `workers` is the number of concurrent workers.
   void begin(std::size_t idBound, std::size_t workers, Joined looksFor);
 
-  /// Adds pairs that were found, each with first < second and once per step.
+  /// Adds pairs that were found, each with first < second and once per step; those of a call may be known to be in order.
   ///
   /// Threads: one call at a time per worker.
-  void take(std::span<const Pair> found, std::size_t worker) {
-    m_looksFor == Joined::All ? gather(found, m_fresh[worker]) : tickOff(found, m_fresh[worker]);
+  void take(std::span<const Pair> found, std::size_t worker, bool areInOrder = false) {
+    if (m_looksFor == Joined::Changed) {
+      tickOff(found, m_fresh[worker]);
+    } else if (m_usesBuckets) {
+      m_buckets.ofWorker(worker).add(found);
+    } else {
+      gather(found, m_fresh[worker], areInOrder);
+    }
   }
 
-  /// Ends a step that has searched for all pairs.
-  void finishAll(Executor& executor);
+  /// Ends a step that has searched for all pairs, with the memory of the workers that have found them.
+  void finishAll(Executor& executor, JoinRunner& memory);
 
   /// Ends a step that has searched for the pairs of changed boxes: those for which `lookedFor(pair)` is true.
   template <class LookedFor>
@@ -76,6 +85,7 @@ class PairHistory {
 
     Buffer<Pair> pairs;
     std::size_t size = 0;
+    bool isInOrder = true;
   };
 
   /// Splits the old pairs into those that persist and those that ended, in order, without branches.
@@ -95,7 +105,7 @@ class PairHistory {
     m_result.ended = {m_ended.data(), ended};
   }
 
-  void gather(std::span<const Pair> found, Fresh& fresh);
+  void gather(std::span<const Pair> found, Fresh& fresh, bool areInOrder);
   void tickOff(std::span<const Pair> found, Fresh& fresh);
   /// The place of an old pair, or the number of old pairs.
   [[nodiscard]] std::size_t find(Pair pair) const noexcept;
@@ -110,16 +120,18 @@ class PairHistory {
   void shiftRows() noexcept;
 
   /// The box whose row a pair is in.
-  [[nodiscard]] BoxId rowOf(Pair pair) const noexcept { return m_order == Order::ByFirst ? pair.first : pair.second; }
+  [[nodiscard]] BoxId rowOf(Pair pair) const noexcept {
+    return m_options->order == Order::ByFirst ? pair.first : pair.second;
+  }
 
   /// Compares pairs in the order of the options.
   [[nodiscard]] std::uint64_t keyOf(Pair pair) const noexcept {
     const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
-    return std::rotl(byFirst, m_order == Order::ByFirst ? 0 : 32);
+    return std::rotl(byFirst, m_options->order == Order::ByFirst ? 0 : 32);
   }
 
-  Order m_order;
-  const StopFlag* m_stop;
+  const WorldOptions* m_options;
+  const Kernels* m_kernels;
   Joined m_looksFor = Joined::All;
   std::size_t m_idBound = 0;
   std::pmr::vector<Fresh> m_fresh;           ///< By worker.
@@ -131,6 +143,9 @@ class PairHistory {
   Buffer<Pair> m_began;
   Buffer<Pair> m_persisted;
   Buffer<Pair> m_ended;
+  bool m_comeInOrder = true;   ///< Of all worlds, as those of small ones do: until a step has shown that they do not.
+  bool m_usesBuckets = false;  ///< In this step.
+  BucketSort m_buckets;
   PairSort m_sort;
   StepResult m_result;
 };

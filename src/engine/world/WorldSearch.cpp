@@ -2,6 +2,7 @@
 #include "world/WorldSearch.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -76,7 +77,7 @@ StepResult WorldSearch::step(BoxStore& store) {
   join(store);
   m_statistics.boxTests += m_small.boxTests();
   if (m_statistics.joinedAll) {
-    m_history.finishAll(executor());
+    m_history.finishAll(executor(), m_runner);
   } else if (m_chosen.empty() && m_large.empty()) {
     m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
                             executor());
@@ -113,10 +114,24 @@ void WorldSearch::countTouched(const BoxStore& store) {
 }
 
 /// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
-/// among those of the last step would then take longer than comparing the lists. Of large worlds with few changed boxes only
-/// these are joined. Returns whether all worlds are searched, as a whole.
+/// among those of the last step would then take longer than comparing the lists. Returns whether all worlds are searched, as a
+/// whole.
 bool WorldSearch::chooseWorlds(const BoxStore& store) {
+  const std::size_t most = store.size() / kShareOfChanged;
+  if (store.touched().size() <= most && chooseChanged(store) <= most) return false;
+  const std::size_t worlds = m_members.everyWorld() + 1;
+  m_partly.clear();
+  m_chosen.resize(worlds);
+  std::iota(m_chosen.begin(), m_chosen.end(), 0U);
+  m_isChosen.assign(worlds, 1);
+  return true;
+}
+
+/// Chooses the worlds in which a box has changed; of large worlds with few changed boxes only these are joined. Returns how many
+/// boxes are searched: all, if one of every world has changed.
+std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   countTouched(store);
+  if (m_touchedIn[m_members.everyWorld()] != 0) return std::numeric_limits<std::size_t>::max();
   m_isChosen.assign(m_touchedIn.size(), 0);
   m_partly.clear();
   std::size_t boxes = 0;
@@ -132,14 +147,8 @@ bool WorldSearch::chooseWorlds(const BoxStore& store) {
       boxes += size;
     }
   }
-  const std::size_t most = store.size() / kShareOfChanged;
-  const bool all = std::max(boxes, store.touched().size()) > most || m_touchedIn[m_members.everyWorld()] != 0;
-  m_chosen.resize(all ? m_isChosen.size() : whole);
-  if (!all) return false;
-  m_partly.clear();
-  std::iota(m_chosen.begin(), m_chosen.end(), 0U);
-  std::fill(m_isChosen.begin(), m_isChosen.end(), std::uint8_t{1});
-  return true;
+  m_chosen.resize(whole);
+  return boxes;
 }
 
 /// Moves the chosen worlds that are too large for an exhaustive search to a list of their own.
@@ -165,11 +174,11 @@ bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
 /// Finds the pairs of the chosen worlds.
 void WorldSearch::join(const BoxStore& store) {
   const PairTest test = testOf(store, m_options.distance, m_forest.exact());
-  const auto take = [&](std::span<const Pair> pairs, std::size_t worker) {
+  const auto takeHits = [&](std::span<Pair> pairs, std::size_t worker) {
     m_history.take(pairs, worker);
     return pairs.size();
   };
-  const auto takeHits = [&](std::span<Pair> pairs, std::size_t worker) { return take(pairs, worker); };
+  const auto takeSmall = [&](std::span<const Pair> pairs, std::size_t worker) { m_history.take(pairs, worker, true); };
   SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
   sink.stop = m_options.stop;
   sink.emit.emplace(takeHits);
@@ -179,7 +188,7 @@ void WorldSearch::join(const BoxStore& store) {
       m_chosen, [&](std::uint32_t world) { return m_members.size(world); }, m_runs);
   executor().run(m_runs.size(), [&](std::size_t run) {
     const std::size_t begin = run == 0 ? 0 : m_runs[run - 1];
-    m_small.search(std::span(m_chosen).subspan(begin, m_runs[run] - begin), take);
+    m_small.search(std::span(m_chosen).subspan(begin, m_runs[run] - begin), takeSmall);
   });
   joinTrees();
   noteTotals();

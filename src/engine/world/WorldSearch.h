@@ -46,7 +46,7 @@ class WorldSearch {
         m_touched(memory),
         m_runs(memory),
         m_runner(memory),
-        m_history(memory, options.order, options.stop),
+        m_history(memory, options, kernels),
         m_lists(memory, options.order) {}
 
   /// Updates the hierarchies from the store.
@@ -88,6 +88,7 @@ class WorldSearch {
   [[nodiscard]] PairTest testOf(const BoxStore& store, double distance, bool exact) const;
   void countTouched(const BoxStore& store);
   [[nodiscard]] bool chooseWorlds(const BoxStore& store);
+  [[nodiscard]] std::size_t chooseChanged(const BoxStore& store);
   void moveLarge();
   [[nodiscard]] bool isLookedFor(const BoxStore& store, Pair pair) const noexcept;
   void join(const BoxStore& store);
