@@ -32,10 +32,14 @@ constexpr std::size_t kFlatOrdered = HWY_TARGET <= HWY_AVX3   ? 384
 constexpr std::size_t kFlatUnordered = HWY_TARGET <= HWY_AVX3 ? 256 : kFlatOrdered;
 static_assert(std::max(kFlatOrdered, kFlatUnordered) <= kMostFew);
 
+/// Measured by dense_benchmark.
+constexpr double kTestsForPair = HWY_TARGET <= HWY_AVX3 ? 10.0 : HWY_TARGET <= HWY_AVX2 ? 6.0 : 5.0;
+
 const Kernels* kernelTable() {
   static const Kernels table{hwy::TargetName(HWY_TARGET),
                              kFlatOrdered,
                              kFlatUnordered,
+                             kTestsForPair,
                              &searchFlat,
                              {&searchFew<float>, &touchBoxes<float>, &anyNan<float>},
                              {&searchFew<double>, &touchBoxes<double>, &anyNan<double>},

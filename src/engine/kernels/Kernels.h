@@ -204,6 +204,9 @@ struct Kernels {
     return order == Order::Unordered ? flatUnordered : flatOrdered;
   }
 
+  /// So many tests of a join take as long as putting a pair in order by buckets (docs/decisions/0025).
+  double testsForPair;
+
   /// Tests rows of a list against a range of columns each, without any hierarchy; against all but their own only for lists.
   void (*searchFlat)(const FlatSearch& search, Hits& hits);
 

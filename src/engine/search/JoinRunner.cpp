@@ -37,18 +37,18 @@ std::size_t JoinRunner::start(const SinkOptions& options, const Executor& execut
   return m_workers.size();
 }
 
-double JoinRunner::partnersPerBox(const Job& job) {
+std::pair<double, double> JoinRunner::partnersPerBox(const Job& job) {
   // So few that they take about a hundredth of the time of the search.
   const std::size_t samples = std::clamp<std::size_t>(job.units / 256, 1, 16);
   Hits hits;
   hits.countOnly = true;
-  std::size_t boxes = 0;
+  double boxes = 0.0;
   for (std::size_t i = 0; i < samples; ++i) {
     const std::size_t leaf = job.units * (2 * i + 1) / (2 * samples);
     m_kernels->join({job.first, job.second, false, leaf, leaf + 1, &m_workers[0].scratch}, hits);
-    boxes += job.first->level[0].fill(leaf);
+    boxes += static_cast<double>(job.first->level[0].fill(leaf));
   }
-  return static_cast<double>(hits.count) / static_cast<double>(boxes);
+  return {static_cast<double>(hits.count) / boxes, static_cast<double>(hits.boxTests) / boxes};
 }
 
 void JoinRunner::run(const Job& job, Executor& executor) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "allpairs/Executor.h"
@@ -50,8 +51,9 @@ class JoinRunner {
   /// Resets, with one worker per thread of the executor; returns their number. The options must outlive the runs.
   std::size_t start(const SinkOptions& options, const Executor& executor);
 
-  /// An estimate of how many boxes of the second hierarchy overlap a box of the first, from a few of its leaf blocks.
-  [[nodiscard]] double partnersPerBox(const Job& job);
+  /// An estimate of how many boxes of the second hierarchy overlap a box of the first, and of how many are tested for that, from a
+  /// few of its leaf blocks.
+  [[nodiscard]] std::pair<double, double> partnersPerBox(const Job& job);
 
   /// Runs all tasks of a job. Sinks keep what they have.
   void run(const Job& job, Executor& executor);

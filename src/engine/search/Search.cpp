@@ -28,12 +28,14 @@ constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
-/// From so many partners a box on, ordered pairs come from a list for each box and not from buckets; in one set, where each pair
-/// is then found from both sides, from so many of both, and from more where pairs are counted (docs/decisions/0025,
+/// From so many partners a box on, ordered pairs come from a list for each box and not from buckets. In one set, where each pair
+/// is then found from both sides, it takes more if finding them takes many tests, but never more than this (docs/decisions/0025,
 /// dense_benchmark).
 constexpr double kDense = 9.0;
-constexpr double kDenseBothWays = 26.0;
-constexpr double kDenseCounted = 40.0;
+constexpr double kDenseBothWays = 70.0;
+
+/// Counting takes so much of the time of buckets (dense_benchmark).
+constexpr double kCounted = 0.6;
 
 /// Up to so many boxes, a join is done on one thread before a second one has woken up, or soon after
 /// (allpairs bench uniform -n 2000 --threads 2).
@@ -330,8 +332,10 @@ std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows,
   } else {
     if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return 0;
     if (job.units * kFanOut < rows / kMostRowsPerBox) return 0;
-    partners = m_runner.partnersPerBox(job);
-    if (partners < (keepsAll ? kDense : areCounted ? kDenseCounted : kDenseBothWays)) return 0;
+    const auto [found, tests] = m_runner.partnersPerBox(job);
+    const double testsForPair = (areCounted ? kCounted : 1.0) * m_kernels->testsForPair;
+    if (found < (keepsAll ? kDense : std::min(kDense + tests / testsForPair, kDenseBothWays))) return 0;
+    partners = found;
     rows = std::min(rows, job.units * kFanOut);
   }
   return likelyOf((keepsAll ? 1.0 : 0.5) * partners * static_cast<double>(rows));
@@ -341,7 +345,7 @@ void Search::expectPairs(const Sets& sets, Plan& plan) {
   if (plan.job.isFlat || plan.job.units < kFanOut) return;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   if (m_runner.sink(0).pairs().capacity() >= plan.sink.likelyPairs) return;
-  const double partners = m_runner.partnersPerBox(plan.job) * static_cast<double>(plan.job.units * kFanOut);
+  const double partners = m_runner.partnersPerBox(plan.job).first * static_cast<double>(plan.job.units * kFanOut);
   const std::size_t likely = likelyOf(sets.one ? 0.5 * partners : partners) / workers;
   plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, likely), plan.sink.maxPairs);
 }

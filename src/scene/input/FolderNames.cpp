@@ -24,6 +24,7 @@ std::vector<std::string> folderNames(const std::filesystem::path& folder, std::e
     if (name != "." && name != "..") names.emplace_back(name);
     errno = 0;
   }
+  if (errno == ENOMEM) throw std::bad_alloc();
   error = {errno, std::generic_category()};
   if (error) names.clear();
   return names;
