@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <memory_resource>
+#include <mutex>
 #include <utility>
 
 #include "input/Parts.h"
+#include "memory/Platform.h"
 #include "search/FewBoxes.h"
 #include "search/Search.h"
 #include "search/SearchState.h"
@@ -120,17 +122,59 @@ void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisi
 
 namespace {
 
-/// Calls use(search) with a search for one question. For some thousand boxes its memory is one block, of the size that it is
-/// likely to need: glibc would return many blocks to the system at the end of each search and map them again for the next.
-/// Fewer boxes need few blocks; for more, the block would consist of large pages and cost more than it saves
-/// (docs/decisions/0015).
+/// The size of a block for all memory of one search: what dense scenes need, or half of that, or nothing where that is too much.
+///
+/// glibc returns the end of its heap to the system once it is more than twice the largest block that was freed before, if that was
+/// less than 32 MiB. The block, of which only what is used is ever touched, and a result that is smaller are not that much:
+/// their pages are still there for the next call. jemalloc returns blocks of 8 MiB and more at once (docs/decisions/0015).
+std::size_t blockFor(std::size_t boxes) {
+  for (const std::size_t most : {std::size_t{7} << 20, std::size_t{31} << 20}) {
+    if (256 * boxes <= most) return std::min(512 * boxes, most);
+  }
+  return 0;
+}
+
+/// Memory of one search, all in a block of this size while that lasts. It is as operator new aligns it: glibc splits off what
+/// precedes an address that is aligned better, a piece that divides its heap.
+///
+/// Threads: any number may allocate, if it says so.
+class BlockMemory final : public std::pmr::memory_resource {
+ public:
+  BlockMemory(std::size_t size, bool isForThreads)
+      : m_isForThreads(isForThreads),
+        m_block(new std::byte[size]),
+        m_rest(m_block.get(), size, engine::defaultMemory()) {
+    engine::adviseLargePages(m_block.get(), size);
+  }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    const auto lock = m_isForThreads ? std::unique_lock(m_mutex) : std::unique_lock<std::mutex>();
+    return m_rest.allocate(bytes, alignment);
+  }
+
+  void do_deallocate(void* /*memory*/, std::size_t /*bytes*/, std::size_t /*alignment*/) override {}
+
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  bool m_isForThreads;
+  std::mutex m_mutex;
+  std::unique_ptr<std::byte[]> m_block;
+  std::pmr::monotonic_buffer_resource m_rest;
+};
+
+/// Calls use(search) with a search for one question.
 template <class Use>
 auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use& use) {
+  // How memory of the caller is used is the caller's affair.
   const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
-  std::pmr::monotonic_buffer_resource block(127 * boxes + 1, engine::memoryOr(given.memory));
-  // Less than a large page; not thread-safe.
-  const bool takesBlock = boxes >= 4096 && boxes < 16384 && given.executor == nullptr;
-  engine::Search search(takesBlock ? &block : engine::memoryOr(given.memory));
+  const std::size_t size = given.memory == nullptr ? blockFor(boxes) : 0;
+  if (size == 0) {
+    engine::Search search(engine::memoryOr(given.memory));
+    return use(search);
+  }
+  BlockMemory memory(size, given.executor != nullptr);
+  engine::Search search(&memory);
   return use(search);
 }
 
