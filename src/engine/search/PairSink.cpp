@@ -43,7 +43,7 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_hits.countOnly = options.countOnly && !isSelective();
   m_hits.receiver = this;
   m_hits.flush = [](void* self, Hits& hits) { static_cast<PairSink*>(self)->receive(hits); };
-  if (!isSelective() && !options.countOnly && !options.emit && options.side != PairSide::SmallerFirst) {
+  if (!isSelective() && !options.countOnly && options.side != PairSide::SmallerFirst) {
     m_hits.rowSecond = options.side == PairSide::RowSecond;
     m_hits.takePairs = [](void* self, std::size_t count) { static_cast<PairSink*>(self)->take(count); };
     m_hits.roomForPairs = [](void* self, Hits& hits, std::size_t most) {
@@ -79,6 +79,7 @@ void PairSink::take(std::size_t count) {
   m_count += count;
   checkLimit(*m_options, m_count);
   checkStop(m_options->stop);
+  if (m_options->emit) emit();
 }
 
 void PairSink::receive(Hits& hits) {

@@ -276,15 +276,39 @@ std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOption
 }
 
 std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) {
+  begin(sets, options);
+  Plan plan{PairTest::of(sets, options), options.order};
+  makePlan(sets, options, plan);
   std::vector<Pair> taken;
+  if (comeInOrder(plan)) {
+    expectPairs(sets, plan);
+    taken.reserve(plan.sink.likelyPairs);
+    runInto(plan, [&](std::span<const Pair> pairs) { taken.insert(taken.end(), pairs.begin(), pairs.end()); });
+    if (taken.size() < taken.capacity() / 2) taken.shrink_to_fit();
+    return taken;
+  }
   const auto resized = [&](std::uint64_t pairs) -> std::span<Pair> {
     taken.resize(pairs);
     return taken;
   };
   const PairRoom room(resized);
-  const std::span<const Pair> pairs = find(sets, options, &room);
+  const std::span<const Pair> pairs = findPlanned(sets, plan, &room);
   if (pairs.data() != taken.data()) taken.assign(pairs.begin(), pairs.end());
   return taken;
+}
+
+bool Search::comeInOrder(const Plan& plan) const {
+  return (plan.job.isFlat || plan.order == Order::Unordered) && m_executor->concurrency() == 1;
+}
+
+void Search::runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take) {
+  const auto emit = [&](std::span<Pair> pairs, std::size_t) {
+    take(pairs);
+    return pairs.size();
+  };
+  plan.sink.emit.emplace(emit);
+  plan.sink.likelyPairs = 0;
+  run(plan, *m_executor);
 }
 
 bool Search::findInBuckets(const Sets& sets, Plan& plan) {

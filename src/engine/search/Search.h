@@ -68,8 +68,8 @@ class Search {
   /// With a room, pairs that have to be put together or in order are put there.
   std::span<const Pair> find(const Sets& sets, const OverlapOptions& options, const PairRoom* room = nullptr);
 
-  /// The pairs of find() as a vector, into which they are put in order at once: another copy of many pairs is memory that
-  /// is touched for the first time.
+  /// The pairs of find(), of more than a few boxes, as a vector, into which they are put at once: another copy of many pairs is memory
+  /// that is touched for the first time.
   [[nodiscard]] std::vector<Pair> take(const Sets& sets, const OverlapOptions& options);
 
   /// The same in memory of the caller; returns how much of it. Throws LimitExceeded if it is too small.
@@ -115,6 +115,9 @@ class Search {
   /// first time twice.
   void expectPairs(const Sets& sets, Plan& plan);
   void run(const Plan& plan, Executor& executor);
+  /// Whether pairs come in the order of the options, on one thread: then they are taken from the nearest cache.
+  [[nodiscard]] bool comeInOrder(const Plan& plan) const;
+  void runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take);
   std::span<Pair> copyInto(Plan& plan, std::span<Pair> memory);
   std::span<Pair> roomForPairs();
   void concatenate();

@@ -27,10 +27,7 @@ std::span<Pair> Search::findInto(const Sets& sets, const OverlapOptions& options
     begin(sets, options);
     Plan plan{PairTest::of(sets, options), options.order};
     makePlan(sets, options, plan);
-    // In no order but that in which one thread finds them, pairs are copied from the nearest cache.
-    if ((plan.job.isFlat || plan.order == Order::Unordered) && m_executor->concurrency() == 1) {
-      return copyInto(plan, memory);
-    }
+    if (comeInOrder(plan)) return copyInto(plan, memory);
     const auto checked = [&](std::uint64_t pairs) {
       checkRoom(pairs, memory.size(), "pairs");
       return memory.first(pairs);
@@ -47,14 +44,10 @@ std::span<Pair> Search::findInto(const Sets& sets, const OverlapOptions& options
 /// Copies pairs as they are found, and only counts those that there is no room for.
 std::span<Pair> Search::copyInto(Plan& plan, std::span<Pair> memory) {
   std::uint64_t size = 0;
-  const auto copy = [&](std::span<Pair> pairs, std::size_t) {
+  runInto(plan, [&](std::span<const Pair> pairs) {
     if (size + pairs.size() <= memory.size()) std::copy(pairs.begin(), pairs.end(), memory.data() + size);
     size += pairs.size();
-    return pairs.size();
-  };
-  plan.sink.emit.emplace(copy);
-  plan.sink.likelyPairs = 0;
-  run(plan, *m_executor);
+  });
   checkRoom(size, memory.size(), "pairs");
   return memory.first(size);
 }
