@@ -92,6 +92,32 @@ TEST(Allocation, TakesAtMost48BytesABoxBesideTheOutput) {
   }
 }
 
+TEST(Allocation, AOneShotCallAllocatesABlockAndItsResult) {
+  for (const std::size_t count : {500U, 5000U, 60000U}) {
+    for (const float size : {0.5F, 1.5F}) {
+      const std::vector<BoxF> boxes = test::randomBoxes(count, 44, size);
+      for (const Order order : {Order::ByFirst, Order::Unordered}) {
+        OverlapOptions options;
+        options.order = order;
+        const std::size_t before = test::allocationCount();
+        const std::size_t pairs = overlaps(boxes, options).size();
+        EXPECT_LE(test::allocationCount() - before, 3U) << count << " boxes, " << pairs << " pairs";
+      }
+    }
+  }
+}
+
+TEST(Allocation, AOneShotCallTakesMemoryOfTheCallerOnly) {
+  const std::vector<BoxF> boxes = test::randomBoxes(5000, 45);
+  test::CountingMemory memory;
+  OverlapOptions options;
+  options.memory = &memory;
+  const std::size_t before = test::allocatedBytes();
+  const std::size_t pairs = overlaps(boxes, options).size();
+  EXPECT_GT(memory.bytes(), 24 * boxes.size());
+  EXPECT_EQ(test::allocatedBytes() - before, pairs * sizeof(Pair));
+}
+
 TEST(Allocation, StreamingAndCountingTakeNoMoreForManyPairs) {
   constexpr std::size_t kBoxes = 4000;
   const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {0.1, 0.1, 0.1}});
