@@ -7,6 +7,7 @@
 
 #include "input/Parts.h"
 #include "memory/Platform.h"
+#include "search/PairTest.h"
 #include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
@@ -15,9 +16,6 @@ namespace {
 /// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark --scene
 /// one-percent).
 constexpr std::size_t kShortRow = 16;
-
-/// How many pairs ahead of the one that is looked up rows are prefetched (moving_benchmark --scene one-percent).
-constexpr std::size_t kPrefetchPairs = 16;
 
 }  // namespace
 
@@ -91,7 +89,7 @@ void PairHistory::gather(std::span<const Pair> found, Fresh& fresh, bool areInOr
 void PairHistory::tickOff(std::span<const Pair> found, Fresh& fresh) {
   fresh.pairs.grow(fresh.size + found.size(), [this] { checkStop(m_options->stop); });
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Pair ahead = found[std::min(i + kPrefetchPairs, found.size() - 1)];
+    const Pair ahead = found[std::min(i + kPrefetchDistance, found.size() - 1)];
     prefetchLine(m_result.pairs.data() + m_rowBegin[rowOf(ahead)]);
     const std::size_t place = find(found[i]);
     if (place == m_result.pairs.size()) {
