@@ -9,6 +9,9 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
+
+#include "memory/Platform.h"
 
 namespace allpairs::engine {
 
@@ -112,5 +115,12 @@ class Buffer {
   T* m_data = nullptr;
   std::size_t m_capacity = 0;
 };
+
+/// Gives an empty vector memory for so many values, in large pages where they are many.
+template <class T>
+void reserve(std::vector<T>& values, std::size_t size) {
+  values.reserve(size);
+  adviseLargePages(values.data(), size * sizeof(T));
+}
 
 }  // namespace allpairs::engine

@@ -282,12 +282,13 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
   std::vector<Pair> taken;
   if (comeInOrder(plan)) {
     expectPairs(sets, plan);
-    taken.reserve(plan.sink.likelyPairs);
+    reserve(taken, plan.sink.likelyPairs);
     runInto(plan, [&](std::span<const Pair> pairs) { taken.insert(taken.end(), pairs.begin(), pairs.end()); });
     if (taken.size() < taken.capacity() / 2) taken.shrink_to_fit();
     return taken;
   }
   const auto resized = [&](std::uint64_t pairs) -> std::span<Pair> {
+    reserve(taken, pairs);
     taken.resize(pairs);
     return taken;
   };

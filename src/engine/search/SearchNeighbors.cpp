@@ -64,6 +64,8 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
 Neighbors Search::takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind) {
   Neighbors taken;
   const auto resized = [&](std::size_t rows, std::uint64_t indices) -> NeighborsMemory {
+    reserve(taken.offsets, rows + 1);
+    reserve(taken.indices, indices);
     taken.offsets.resize(rows + 1);
     taken.indices.resize(indices);
     return {taken.offsets, taken.indices};
