@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -49,6 +51,26 @@ TEST_P(Stream, GivesWhatFindGivesInFullBatches) {
       with, 1000);
   EXPECT_EQ(streamed, overlaps(part, with));
   for (const std::size_t size : batches) EXPECT_LE(size, 1000U);
+}
+
+TEST_P(Stream, GivesWhereNearlyAllOverlapWhatTheLoopFindsInBatchesOfAnySize) {
+  constexpr std::uint32_t kBoxes = 2000;
+  std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {1, 1, 1}});
+  boxes[700] = {{3, 3, 3}, {4, 4, 4}};
+  std::vector<Pair> expected;
+  for (std::uint32_t i = 0; i < kBoxes; ++i) {
+    for (std::uint32_t j = i + 1; j < kBoxes; ++j) {
+      if (i != 700 && j != 700) expected.push_back({i, j});
+    }
+  }
+  for (const std::size_t batch : {1000U, 262143U, 262144U, 300001U, 5000000U}) {
+    std::vector<Pair> streamed;
+    streamOverlaps(
+        boxes, [&](std::span<const Pair> pairs) { streamed.insert(streamed.end(), pairs.begin(), pairs.end()); },
+        options(), batch);
+    if (GetParam().order != Order::ByFirst) std::sort(streamed.begin(), streamed.end());
+    ASSERT_TRUE(streamed == expected) << batch;
+  }
 }
 
 TEST_P(Stream, BetweenTwoSetsGivesWhatFindGives) {

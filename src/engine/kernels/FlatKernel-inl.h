@@ -129,9 +129,9 @@ class PairStream {
  public:
   /// Writes to `to`, which `before` pairs precede.
   HWY_INLINE void begin(Pair* to, std::size_t before) {
-    if (!m_started && before >= kCachedPairs) {
-      m_started = true;
-      m_size = before % kLinePairs;
+    if (!m_started) {
+      m_started = before >= kCachedPairs;
+      m_size = m_started ? before % kLinePairs : 0;
       std::copy_n(to - m_size, m_size, reinterpret_cast<Pair*>(m_pairs.data()));
     }
     m_line = reinterpret_cast<std::uint32_t*>(to - m_size);

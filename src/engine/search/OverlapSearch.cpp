@@ -4,6 +4,7 @@
 #include <memory>
 #include <memory_resource>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "input/Parts.h"
@@ -134,17 +135,17 @@ std::size_t blockFor(std::size_t boxes) {
   return 0;
 }
 
-/// Memory of one search, all in a block of this size while that lasts. It is as operator new aligns it: glibc splits off what
-/// precedes an address that is aligned better, a piece that divides its heap.
+/// Memory of one search, all in a block of this size while that lasts, or if there is memory for it. It is as operator new aligns
+/// it: glibc splits off what precedes an address that is aligned better, a piece that divides its heap.
 ///
 /// Threads: any number may allocate, if it says so.
 class BlockMemory final : public std::pmr::memory_resource {
  public:
   BlockMemory(std::size_t size, bool isForThreads)
       : m_isForThreads(isForThreads),
-        m_block(new std::byte[size]),
-        m_rest(m_block.get(), size, engine::defaultMemory()) {
-    engine::adviseLargePages(m_block.get(), size);
+        m_block(new(std::nothrow) std::byte[size]),
+        m_rest(m_block.get(), m_block == nullptr ? 0 : size, engine::defaultMemory()) {
+    engine::adviseLargePages(m_block.get(), m_block == nullptr ? 0 : size);
   }
 
  private:

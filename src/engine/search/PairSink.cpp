@@ -70,7 +70,8 @@ void PairSink::makeRoom(std::size_t size) {
 Pair* PairSink::roomFor(Hits& hits, std::size_t most) {
   receive(hits);
   makeRoom(m_size + most + kVectorSlack);
-  hits.pairsBefore = m_size;
+  // Streaming stores gather pairs that have been taken already: not where they are given away at once.
+  hits.pairsBefore = m_options->emit ? 0 : m_size;
   return m_pairs.data() + m_size;
 }
 
