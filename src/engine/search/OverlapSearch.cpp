@@ -125,14 +125,12 @@ namespace {
 
 /// The size of a block for all memory of one search: what dense scenes need, or half of that, or nothing where that is too much.
 ///
-/// glibc returns the end of its heap to the system once it is more than twice the largest block that was freed before, if that was
-/// less than 32 MiB. The block, of which only what is used is ever touched, and a result that is smaller are not that much:
-/// their pages are still there for the next call. jemalloc returns blocks of 8 MiB and more at once (docs/decisions/0015).
+/// glibc returns the end of its heap to the system once it is more than twice the largest block that was freed before. The block,
+/// of which only what is used is ever touched, and a result that is smaller are not that much: their pages are still there
+/// for the next call. A larger block gains in a program that does nothing else, and loses in others (docs/decisions/0015).
 std::size_t blockFor(std::size_t boxes) {
-  for (const std::size_t most : {std::size_t{7} << 20, std::size_t{31} << 20}) {
-    if (256 * boxes <= most) return std::min(512 * boxes, most);
-  }
-  return 0;
+  const std::size_t most = std::size_t{7} << 20;
+  return 256 * boxes <= most ? std::min(512 * boxes, most) : 0;
 }
 
 /// Memory of one search, all in a block of this size while that lasts, or if there is memory for it. It is as operator new aligns
