@@ -24,6 +24,13 @@ namespace allpairs::engine {
   return memory != nullptr ? memory : defaultMemory();
 }
 
+/// Whether the largest block of a search of so many boxes is asked for so amply that it is larger than all others together. Only
+/// what is used of it is ever touched, but glibc returns freed memory at the end of its heap to the system once it is more than twice
+/// the largest block that was freed before, up to 32 MiB: less, and the pages are there for the next search (docs/decisions/0015).
+[[nodiscard]] inline bool isAmple(const std::pmr::memory_resource* memory, std::size_t boxes) noexcept {
+  return memory == defaultMemory() && boxes < std::size_t{1} << 17;
+}
+
 /// An array of objects that allocate from a resource.
 template <class T, std::size_t kSize>
 [[nodiscard]] std::array<T, kSize> makeArray(std::pmr::memory_resource* memory) {

@@ -44,9 +44,9 @@ void PairBuckets::start(const PairOrder& rule, std::size_t workers) {
   }
   // Of the default memory only what is used is taken: room for dense scenes too, so that no pairs are copied to fresh pages.
   const std::size_t keys = rule.buckets << rule.keyBits;
-  const bool isAmple = m_isDefaultMemory && keys <= kMostBuckets << kLeastKeyBits;
-  const std::size_t likelyPairs = (isAmple ? 4 : 1) * kLikelyPairs * keys / workers;
-  const std::size_t chunks = 2 * rule.buckets + likelyPairs / kChunk;
+  const bool isRoomy = m_memory == defaultMemory() && keys <= kMostBuckets << kLeastKeyBits;
+  const std::size_t pairs = (isAmple(m_memory, keys) ? 16 : isRoomy ? 4 : 1) * kLikelyPairs * keys / workers;
+  const std::size_t chunks = 2 * rule.buckets + pairs / kChunk;
   m_numbers.require(chunks * kChunk);
   m_following.require(chunks);
 }

@@ -40,11 +40,7 @@ struct PairOrder {
 class PairBuckets {
  public:
   explicit PairBuckets(std::pmr::memory_resource* memory)
-      : m_isDefaultMemory(memory == defaultMemory()),
-        m_numbers(memory),
-        m_following(memory),
-        m_next(memory),
-        m_fullChunks(memory) {}
+      : m_memory(memory), m_numbers(memory), m_following(memory), m_next(memory), m_fullChunks(memory) {}
 
   /// Empties all buckets for a search with so many workers; memory is kept.
   void start(const PairOrder& rule, std::size_t workers);
@@ -86,7 +82,7 @@ class PairBuckets {
   std::size_t chunkAfter(std::size_t chunk);
   void makeRoom(std::size_t chunks);
 
-  bool m_isDefaultMemory;
+  std::pmr::memory_resource* m_memory;
   unsigned m_keyBits = 0;
   unsigned m_otherBits = 0;
   bool m_bySecond = false;

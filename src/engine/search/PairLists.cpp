@@ -29,6 +29,7 @@ void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers
   std::fill_n(m_length.data(), rows, 0U);
   while (m_partners.size() < workers) m_partners.emplace_back(m_ofWorkers.get_allocator().resource());
   m_ofWorkers.assign(workers, {});
+  if (isAmple(m_ofWorkers.get_allocator().resource(), rows)) likely = std::max(likely, 64 * rows);
   for (std::size_t w = 0; w < workers; ++w) {
     NeighborLists& lists = m_ofWorkers[w];
     m_partners[w].require(likely / workers);

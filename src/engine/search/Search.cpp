@@ -254,6 +254,7 @@ std::span<const Pair> Search::findPlanned(const Sets& sets, Plan& plan, const Pa
   m_room = room;
   if (!plan.job.isFlat && (findInLists(sets, plan) || findInBuckets(sets, plan))) return m_pairs;
   expectPairs(sets, plan);
+  expectAmply(sets, plan);
   run(plan, *m_executor);
   concatenate();
   if (!plan.job.isFlat) sortPairs(sets, plan.order);
@@ -373,6 +374,13 @@ void Search::expectPairs(const Sets& sets, Plan& plan) {
   const double partners = m_runner.partnersPerBox(plan.job).first * static_cast<double>(plan.job.units * kFanOut);
   const std::size_t likely = likelyOf(sets.one ? 0.5 * partners : partners) / workers;
   plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, likely), plan.sink.maxPairs);
+}
+
+void Search::expectAmply(const Sets& sets, Plan& plan) {
+  const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
+  if (!isAmple(m_runner.memory(), boxes)) return;
+  const std::size_t ample = 5 * kLikelyPairs * boxes / m_executor->concurrency();
+  plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, ample), plan.sink.maxPairs);
 }
 
 bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {

@@ -114,6 +114,9 @@ class Search {
   /// Reserves memory for the pairs of a join that this object has none for: where it grows as they come, most of it is touched for the
   /// first time twice.
   void expectPairs(const Sets& sets, Plan& plan);
+
+  /// Reserves as much more as makes the pairs' block the largest one, where isAmple().
+  void expectAmply(const Sets& sets, Plan& plan);
   void run(const Plan& plan, Executor& executor);
   /// Whether pairs come in the order of the options, on one thread: then they are taken from the nearest cache.
   [[nodiscard]] bool comeInOrder(const Plan& plan) const;
