@@ -2,7 +2,6 @@
 #include "world/WorldSearch.h"
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -131,7 +130,7 @@ bool WorldSearch::chooseWorlds(const BoxStore& store) {
 /// boxes are searched: all, if one of every world has changed.
 std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   countTouched(store);
-  if (m_touchedIn[m_members.everyWorld()] != 0) return std::numeric_limits<std::size_t>::max();
+  if (m_touchedIn[m_members.everyWorld()] != 0) return store.size();
   m_isChosen.assign(m_touchedIn.size(), 0);
   m_partly.clear();
   std::size_t boxes = 0;
