@@ -2,7 +2,7 @@
 // What order costs: the calls that a user makes, ordered, not ordered and as rows of neighbors, in turns, on equal cubes at
 // random places that are others for each repetition. Medians of processor time.
 //
-//   dense_benchmark [--instruction-set NAME] [--most-pairs N]
+//   dense_benchmark [--instruction-set NAME] [--most-pairs N] [--axes N]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -24,19 +24,28 @@ namespace {
 
 using namespace allpairs;
 
-/// One set, or two.
+/// What is compared: boxes of each set, pairs of each box, one set or two, and along how many axes boxes differ.
+struct Kind {
+  std::size_t boxes;
+  double pairs;
+  bool one;
+  std::size_t axes;
+};
+
 struct Scene {
   std::vector<BoxF> first;
   std::vector<BoxF> second;
   bool one = true;
 };
 
-std::vector<BoxF> makeCubes(std::size_t boxes, double side, std::mt19937_64& random) {
+std::vector<BoxF> makeCubes(const Kind& kind, std::mt19937_64& random) {
+  const double share = (kind.one ? 2.0 : 1.0) * kind.pairs / static_cast<double>(kind.boxes);
+  const double side = 0.5 * std::pow(share, 1.0 / static_cast<double>(kind.axes));
   std::uniform_real_distribution<float> place(0.0F, 1.0F);
-  std::vector<BoxF> cubes(boxes);
+  std::vector<BoxF> cubes(kind.boxes);
   for (BoxF& cube : cubes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      cube.min[axis] = place(random);
+      cube.min[axis] = axis < kind.axes ? place(random) : 0.0F;
       cube.max[axis] = cube.min[axis] + static_cast<float>(side);
     }
   }
@@ -44,10 +53,9 @@ std::vector<BoxF> makeCubes(std::size_t boxes, double side, std::mt19937_64& ran
 }
 
 /// So many boxes in each set with so many pairs each, fewer where cubes reach beyond the unit cube.
-Scene makeScene(std::size_t boxes, double pairs, bool one, std::uint64_t seed) {
+Scene makeScene(const Kind& kind, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const double side = 0.5 * std::cbrt((one ? 2.0 : 1.0) * pairs / static_cast<double>(boxes));
-  return {makeCubes(boxes, side, random), one ? std::vector<BoxF>() : makeCubes(boxes, side, random), one};
+  return {makeCubes(kind, random), kind.one ? std::vector<BoxF>() : makeCubes(kind, random), kind.one};
 }
 
 struct Call {
@@ -73,7 +81,7 @@ void printTimes(std::span<Call> calls) {
   std::fflush(stdout);
 }
 
-void compare(std::size_t boxes, double pairs, bool one, const std::string& instructionSet) {
+void compare(const Kind& kind, const std::string& instructionSet) {
   constexpr std::uint64_t kRepetitions = 7;
   const OverlapOptions inOrder{.instructionSet = instructionSet};
   const OverlapOptions inAnyOrder{.order = Order::Unordered, .instructionSet = instructionSet};
@@ -84,10 +92,10 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
       return s.one ? search.find(s.first).size() : search.find(s.first, s.second).size();
     };
   };
-  const auto rows = [](OverlapSearch& search, NeighborRows kind) {
-    return [&search, kind](const Scene& s) {
+  const auto rows = [](OverlapSearch& search, NeighborRows rowKind) {
+    return [&search, rowKind](const Scene& s) {
       if (!s.one) return search.findNeighbors(s.first, s.second).indices.size();
-      return search.findNeighbors(s.first, kind).indices.size() / (kind == NeighborRows::Full ? 2 : 1);
+      return search.findNeighbors(s.first, rowKind).indices.size() / (rowKind == NeighborRows::Full ? 2 : 1);
     };
   };
   const auto anew = [](const OverlapOptions& options) {
@@ -112,7 +120,7 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
                             Call{rowsAnew(inOrder)}};
   std::size_t found = 0;
   for (std::uint64_t repetition = 0; repetition <= kRepetitions; ++repetition) {
-    const Scene scene = makeScene(boxes, pairs, one, 1000 * boxes + repetition);
+    const Scene scene = makeScene(kind, 1000 * kind.boxes + repetition);
     for (Call& call : calls) {
       const measure::Stopwatch watch;
       const std::size_t size = call.search(scene);
@@ -122,8 +130,8 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
       found = size;
     }
   }
-  std::printf("| %s | %zu | %.1f |", one ? "one" : "two", boxes,
-              static_cast<double>(found) / static_cast<double>(boxes));
+  std::printf("| %s | %zu | %.1f |", kind.one ? "one" : "two", kind.boxes,
+              static_cast<double>(found) / static_cast<double>(kind.boxes));
   printTimes(calls);
 }
 
@@ -132,9 +140,13 @@ void compare(std::size_t boxes, double pairs, bool one, const std::string& instr
 int main(int argc, char** argv) {
   std::string instructionSet;
   double mostPairs = 3e7;
+  std::size_t axes = 3;
   CLI::App app("Compares ordered and unordered searches of boxes with many pairs each.");
   app.add_option("--instruction-set", instructionSet, "Default: the processor's best");
   app.add_option("--most-pairs", mostPairs, "In a scene; others are left out")->capture_default_str();
+  app.add_option("--axes", axes, "Along which boxes differ: 1, on a line; 2, in a plane; 3")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 3));
   return allpairs::bench::runMain(app, argc, argv, [&] {
     std::printf(
         "Milliseconds; in brackets divided by the unordered call. Between two sets there is one kind of rows.\n\n");
@@ -146,7 +158,7 @@ int main(int argc, char** argv) {
     for (const bool one : {true, false}) {
       for (const std::size_t boxes : {std::size_t{10000}, std::size_t{100000}, std::size_t{1000000}}) {
         for (const double pairs : {2.0, 4.0, 8.0, 16.0, 30.0, 100.0}) {
-          if (pairs * static_cast<double>(boxes) <= mostPairs) compare(boxes, pairs, one, instructionSet);
+          if (pairs * static_cast<double>(boxes) <= mostPairs) compare({boxes, pairs, one, axes}, instructionSet);
         }
       }
     }
