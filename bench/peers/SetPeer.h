@@ -75,7 +75,13 @@ template <class T>
 [[nodiscard]] SetPeer<T> boostGeometryOfSets();
 template <class T>
 [[nodiscard]] SetPeer<T> fclOfSets();
+template <class T>
+[[nodiscard]] SetPeer<T> bvhOfSets();
+template <class T>
+[[nodiscard]] SetPeer<T> arborxOfSets();
 [[nodiscard]] SetPeer<float> embreeOfTwoSets();
 [[nodiscard]] SetPeer<float> bulletOfTwoSets();
+[[nodiscard]] SetPeer<float> physxOfSets();
+[[nodiscard]] SetPeer<float> tinyBvhOfSets();
 
 }  // namespace allpairs::bench

@@ -67,6 +67,25 @@ std::vector<SetPeer<float>> peersOfTwoSets() {
   return peers;
 }
 
+/// Those that have to be built from their own sources, whatever the sets are.
+template <class T>
+void addPeersWithoutPackages(std::vector<SetPeer<T>>& peers) {
+  if constexpr (std::is_same_v<T, float>) {
+#ifdef ALLPAIRS_PEER_PHYSX
+    peers.push_back(physxOfSets());
+#endif
+#ifdef ALLPAIRS_PEER_TINYBVH
+    peers.push_back(tinyBvhOfSets());
+#endif
+  }
+#ifdef ALLPAIRS_PEER_BVH
+  peers.push_back(bvhOfSets<T>());
+#endif
+#ifdef ALLPAIRS_PEER_ARBORX
+  peers.push_back(arborxOfSets<T>());
+#endif
+}
+
 }  // namespace
 
 template <class T>
@@ -78,6 +97,7 @@ std::vector<SetPeer<T>> setPeers(bool areTwo) {
     (void)areTwo;
     peers = peersOfAnySets<T>();
   }
+  addPeersWithoutPackages(peers);
   peers.insert(peers.begin(), plainSweepOfSets<T>());
   peers.insert(peers.begin(), plainLoopOfSets<T>());
   return peers;

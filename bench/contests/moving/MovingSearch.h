@@ -50,5 +50,6 @@ struct MovingContender {
 void addBulletContenders(std::vector<MovingContender>& contenders);
 void addFclContenders(std::vector<MovingContender>& contenders);
 void addEmbreeContenders(std::vector<MovingContender>& contenders);
+void addPhysxContenders(std::vector<MovingContender>& contenders);
 
 }  // namespace allpairs::bench

@@ -14,6 +14,9 @@ std::vector<MovingContender> peerContenders() {
 #ifdef ALLPAIRS_PEER_EMBREE
   addEmbreeContenders(contenders);
 #endif
+#ifdef ALLPAIRS_PEER_PHYSX
+  addPhysxContenders(contenders);
+#endif
   return contenders;
 }
 
