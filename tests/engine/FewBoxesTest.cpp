@@ -107,7 +107,7 @@ void expectPairs(OverlapSearch& search, const std::vector<BasicBox<T>>& first, c
   ASSERT_EQ(search.statistics().pairs, expected.size());
   const std::size_t few = std::min(first.size(), second.size());
   const std::size_t many = std::max(first.size(), second.size());
-  if (many <= 64 || (few > 4 && many <= 96)) {  // Else a few may be beside many, or boxes in a hierarchy.
+  if (many <= 64 || (few > 4 && many <= 72)) {  // Else a few may be beside many, or boxes in a hierarchy.
     ASSERT_EQ(search.statistics().boxTests, first.size() * second.size());
   }
   std::vector<Pair> memory(expected.size());

@@ -195,14 +195,8 @@ struct PlainKernels {
 struct Kernels {
   std::string_view name;
 
-  /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy: for pairs in order, which it
-  /// finds them in, and for others (docs/decisions/0009).
-  std::size_t flatOrdered;
-  std::size_t flatUnordered;
-
-  [[nodiscard]] std::size_t flatBoxes(Order order) const noexcept {
-    return order == Order::Unordered ? flatUnordered : flatOrdered;
-  }
+  /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy (docs/decisions/0009).
+  std::size_t flatBoxes;
 
   /// So many tests of a join take as long as putting a pair in order by buckets (docs/decisions/0025).
   double testsForPair;

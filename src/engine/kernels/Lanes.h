@@ -95,6 +95,10 @@ struct alignas(64) LaneTile {
   std::array<std::array<float, kCapacity + kVectorSlack>, 6> bound;
   std::array<std::uint32_t, kCapacity + kVectorSlack> id;
 
+  /// Leaves the id as it is.
+  void set(std::size_t i, const LaneBox& box) noexcept {
+    for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
+  }
   [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 };
 

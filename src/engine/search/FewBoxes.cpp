@@ -187,8 +187,7 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
   if (kernels == nullptr || options.strategy == Strategy::Exhaustive) return true;
-  const std::size_t few = kernels->flatBoxes(options.order);
-  return sets.first.size() * sets.second.size() <= few * few;
+  return sets.first.size() * sets.second.size() <= kernels->flatBoxes * kernels->flatBoxes;
 }
 
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,

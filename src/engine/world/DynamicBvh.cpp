@@ -10,13 +10,12 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes, eight blocks, most blocks overlap each other in any order (worlds_benchmark, whose worlds of 64
-/// boxes have none and of 200 have one).
-constexpr std::size_t kFewInAnyOrder = 8 * kFanOut;
+/// Up to this many boxes, four blocks, most blocks overlap each other in any order (moving_benchmark --boxes 100, and 64).
+constexpr std::size_t kFewInAnyOrder = 4 * kFanOut;
 
 /// If the blocks have become this many times as wide as when the boxes were last ordered, there is no order left, as after
-/// the reset of a simulation: so much wider are eight blocks in any order. Ordering the boxes and joining them then takes less
-/// time than joining them.
+/// the reset of a simulation: so much wider are eight blocks in any order, and fewer lose little by it. Ordering the boxes
+/// and joining them then takes less time than joining them.
 constexpr double kMostSpread = 2.0;
 
 /// Reads sixteen boxes, of which those with a bit in `used` exist, and are not empty, into lanes; the others become lanes

@@ -23,7 +23,7 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   m_filter = &filter;
   m_boxes = store.tested().boxes;
   m_isPlain = !m_boxes->isFloat64() && !m_boxes->hasMargins() && m_options.distance == 0.0;
-  m_mostBoxes = std::min({kMostInWorld, m_kernels.flatOrdered, m_isPlain ? kMostInWorld : kMostInDouble});
+  m_mostBoxes = std::min({kMostInWorld, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : kMostInDouble});
   if (store.isNumbered()) m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }

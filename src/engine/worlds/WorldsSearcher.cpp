@@ -30,7 +30,7 @@ constexpr std::size_t kTimesFlat = 2;
 std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options) {
   if (options.strategy == Strategy::Bvh) return 0;
   if (options.strategy == Strategy::Exhaustive) return kMostInWorld;
-  const std::size_t flat = kernels.flatBoxes(options.order);
+  const std::size_t flat = kernels.flatBoxes;
   return std::min(kMostInWorld, options.order == Order::Unordered ? flat : kTimesFlat * flat);
 }
 
