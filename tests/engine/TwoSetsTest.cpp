@@ -101,6 +101,31 @@ TEST(TwoSets, InFloat32AndOnManyThreadsToo) {
   }
 }
 
+TEST(TwoSets, AsTwoArraysFarFromTheOriginOrOfTwoPrecisionsToo) {
+  for (Meeting meeting : meetings()) {
+    const std::vector<BoxF> firstInFloat = inFloat(meeting.first);
+    const std::vector<BoxF> secondInFloat = inFloat(meeting.second);
+    ASSERT_EQ(overlaps(firstInFloat, meeting.second),
+              test::oracleBetween(test::toDouble(firstInFloat), meeting.second));
+    ASSERT_EQ(overlaps(meeting.first, secondInFloat),
+              test::oracleBetween(meeting.first, test::toDouble(secondInFloat)));
+    std::vector<double> corners[4];
+    for (std::vector<Box>* const set : {&meeting.first, &meeting.second}) {
+      const std::size_t at = set == &meeting.first ? 0 : 2;
+      for (Box& box : *set) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          corners[at].push_back(box.min[axis] += 1e7);
+          corners[at + 1].push_back(box.max[axis] += 1e7);
+        }
+      }
+    }
+    const std::vector<Pair> expected = test::oracleBetween(meeting.first, meeting.second);
+    ASSERT_EQ(overlaps(meeting.first, meeting.second), expected);
+    ASSERT_EQ(overlaps(BoxView::fromCorners(corners[0], corners[1]), BoxView::fromCorners(corners[2], corners[3])),
+              expected);
+  }
+}
+
 TEST(TwoSets, AreWidenedByTheDistanceAndTheirMarginsBeforeBoxesAreLeftOut) {
   const std::vector<Box> first = boxesIn(kMany, 21, 20, 0);
   const std::vector<Box> second = boxesIn(300, 22, 3, 21.5);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -154,6 +155,8 @@ class Match {
     m_contenders.push_back({{.name = "find()", .setting = "unordered, kept"}, keptUnorderedFind<T>()});
     draw();
     admitPeers();
+    m_order.resize(m_contenders.size());
+    std::iota(m_order.begin(), m_order.end(), std::size_t{0});
   }
 
   MatchResult hold() {
@@ -239,17 +242,22 @@ class Match {
     }
   }
 
+  /// Who begins finds the boxes in no cache: another one each time.
   void takeRound() {
     for (std::size_t i = 0; i < m_scenes->groups(); ++i) {
-      std::size_t expected = 0;
-      for (Contender<T>& contender : m_contenders) {
+      std::rotate(m_order.begin(), m_order.begin() + 1, m_order.end());
+      std::vector<std::size_t> pairs(m_contenders.size());
+      for (const std::size_t number : m_order) {
+        Contender<T>& contender = m_contenders[number];
         if (contender.rests) continue;
         const Turn<T> turn(*contender.search, m_scenes->group(i));
         contender.ns.push_back(turn.ns);
-        if (&contender == m_contenders.data()) expected = turn.pairs;
-        note(contender, turn.pairs, expected);
+        pairs[number] = turn.pairs;
       }
-      m_pairs = static_cast<double>(expected) / static_cast<double>(m_scenes->group(i).size());
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (!m_contenders[k].rests) note(m_contenders[k], pairs[k], pairs.front());
+      }
+      m_pairs = static_cast<double>(pairs.front()) / static_cast<double>(m_scenes->group(i).size());
     }
   }
 
@@ -275,6 +283,7 @@ class Match {
   SceneMaker m_maker;
   std::optional<SceneGroups<T>> m_scenes;
   std::vector<Contender<T>> m_contenders;
+  std::vector<std::size_t> m_order;  ///< In which they take their next turn.
   std::vector<Contender<T>> m_leftOut;
   std::uint64_t m_drawn = 0;
   double m_pairs = 0.0;

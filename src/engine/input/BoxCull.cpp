@@ -2,8 +2,11 @@
 #include "input/BoxCull.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
 
+#include "input/BoxRuns.h"
 #include "input/Parts.h"
 #include "input/Sampling.h"
 
@@ -61,16 +64,57 @@ std::uint32_t* chooseTouching(const BoxReader& reader, const BoxList& boxes, con
   return ids;
 }
 
+/// Up to one box in this many of the other set, finding the bounds of a set once more, exactly, takes less time than it
+/// saves (docs/decisions/0022).
+constexpr std::size_t kBoundedAgain = 8;
+
+/// The bounds of all boxes of a set that are not empty, in the precision of the boxes.
+template <class T>
+std::array<T, 6> exactBoundsOf(const BoxReader& reader) {
+  Box bounds = kEmptyBox;
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    const Box box = reader.boxes()[reader.idOf(i)];
+    if (isEmpty(box)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds.min[axis] = std::min(bounds.min[axis], box.min[axis]);
+      bounds.max[axis] = std::max(bounds.max[axis], box.max[axis]);
+    }
+  }
+  std::array<T, 6> result;
+  std::transform(bounds.min.begin(), bounds.min.end(), result.begin(), [](double v) { return static_cast<T>(v); });
+  std::transform(bounds.max.begin(), bounds.max.end(), result.begin() + 3, [](double v) { return static_cast<T>(v); });
+  return result;
+}
+
+/// The same of boxes as they lie in memory, `first` being the number of the first.
+template <class T>
+std::uint32_t* chooseTouching(const BoxRun<T>& boxes, std::size_t first, const std::array<T, 6>& bounds,
+                              const Kernels& kernels, std::uint32_t* ids) {
+  std::array<std::uint64_t, 16> words;
+  constexpr std::size_t kAtOnce = words.size() * kWordBoxes;
+  for (std::size_t begin = 0; begin < boxes.size; begin += kAtOnce) {
+    const BoxRun<T> part = boxes.part(begin, kAtOnce);
+    kernels.plain<T>().touchBoxes(part, bounds, words.data());
+    for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
+      for (std::uint64_t bits = words[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
+        *ids++ = static_cast<std::uint32_t>(first + begin + i + static_cast<std::size_t>(std::countr_zero(bits)));
+      }
+    }
+  }
+  return ids;
+}
+
 }  // namespace
 
-bool BoxCull::restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Executor& executor) {
-  if (reader.size() < kLeastBoxes || !areMostlyOutside(reader, bounds)) return false;
+/// Restricts the reader to the boxes that choose(begin, end, ids) writes the ids of, part by part; it returns the end of what it
+/// wrote.
+template <class Choose>
+void BoxCull::keep(BoxReader& reader, Ids& ids, Executor& executor, const Choose& choose) {
   ids.require(reader.size());
   const std::size_t parts = (reader.size() + kPartSize - 1) / kPartSize;
   m_ends.resize(parts);
   runInParts(reader.size(), kPartSize, executor, [&](std::size_t begin, std::size_t end) {
-    const std::uint32_t* const last = chooseTouching(reader, {nullptr, begin, end - begin}, bounds, ids.data() + begin);
-    m_ends[begin / kPartSize] = static_cast<std::size_t>(last - ids.data());
+    m_ends[begin / kPartSize] = static_cast<std::size_t>(choose(begin, end, ids.data() + begin) - ids.data());
   });
   std::size_t size = m_ends[0];
   for (std::size_t part = 1; part < parts; ++part) {
@@ -81,6 +125,31 @@ bool BoxCull::restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Execu
     size += m_ends[part] - part * kPartSize;
   }
   reader.restrictTo({ids.data(), size});
+}
+
+template <class T>
+void BoxCull::keepTouching(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
+  const std::array<T, 6> bounds = exactBoundsOf<T>(other);
+  const BoxRun<T> run = runOf<T>(reader.boxes());
+  keep(reader, ids, executor, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    return chooseTouching(run.part(begin, end - begin), begin, bounds, reader.kernels(), to);
+  });
+}
+
+bool BoxCull::restrict(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
+  if (reader.size() < kLeastBoxes) return false;
+  const LaneBox bounds = boundsOf(other);
+  if (!areMostlyOutside(reader, bounds)) return false;
+  const bool isBoundedAgain = other.size() <= reader.size() / kBoundedAgain;
+  if (isBoundedAgain && reader.areBoundsOf<float>() && other.areBoundsOf<float>()) {
+    keepTouching<float>(reader, other, ids, executor);
+  } else if (isBoundedAgain && reader.areBoundsOf<double>() && other.areBoundsOf<double>()) {
+    keepTouching<double>(reader, other, ids, executor);
+  } else {
+    keep(reader, ids, executor, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+      return chooseTouching(reader, {nullptr, begin, end - begin}, bounds, to);
+    });
+  }
   return true;
 }
 
@@ -88,8 +157,7 @@ void BoxCull::apply(BoxReader& first, BoxReader& second, Executor& executor) {
   const bool firstIsSmall = first.size() <= second.size();
   BoxReader& small = firstIsSmall ? first : second;
   BoxReader& large = firstIsSmall ? second : first;
-  if (large.size() < kLeastBoxes) return;
-  if (restrict(large, boundsOf(small), m_largeIds, executor)) restrict(small, boundsOf(large), m_smallIds, executor);
+  if (restrict(large, small, m_largeIds, executor)) restrict(small, large, m_smallIds, executor);
 }
 
 }  // namespace allpairs::engine

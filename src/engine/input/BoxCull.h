@@ -27,7 +27,11 @@ class BoxCull {
  private:
   using Ids = Buffer<std::uint32_t>;
 
-  bool restrict(BoxReader& reader, const LaneBox& bounds, Ids& ids, Executor& executor);
+  bool restrict(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor);
+  template <class T>
+  void keepTouching(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor);
+  template <class Choose>
+  void keep(BoxReader& reader, Ids& ids, Executor& executor, const Choose& choose);
 
   Ids m_largeIds;
   Ids m_smallIds;

@@ -12,6 +12,7 @@
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
+#include "input/BoxRuns.h"
 #include "kernels/Kernels.h"
 #include "kernels/Lanes.h"
 #include "memory/Platform.h"
@@ -69,6 +70,12 @@ class BoxReader {
     return m_ids != nullptr ? m_ids[i] : static_cast<std::uint32_t>(i);
   }
   [[nodiscard]] const BoxView& boxes() const noexcept { return *m_boxes; }
+
+  /// Whether these are all boxes of a set, one after the other in memory as boxes of this precision, and their own bounds decide.
+  template <class T>
+  [[nodiscard]] bool areBoundsOf() const noexcept {
+    return m_ids == nullptr && m_distance == 0.0 && !m_boxes->hasMargins() && areRun<T>(*m_boxes);
+  }
 
   /// Whether all boxes are one point on an axis, empty ones too.
   [[nodiscard]] bool areAll(std::size_t axis, double point) const noexcept;
