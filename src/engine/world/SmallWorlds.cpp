@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <iterator>
 
 #include "allpairs/Worlds.h"
@@ -113,7 +114,10 @@ WorldSink SmallWorlds::sinkOf(const Worker& worker) const noexcept {
 std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) const {
   worker.rows.require(6 * ids.size());
   float* to = worker.rows.data();
-  for (const BoxId id : ids) to = std::copy_n(m_boxes->float32().min.data + std::size_t{6} * id, 6, to);
+  for (const BoxId id : ids) {
+    std::memcpy(to, m_boxes->float32().min.data + std::size_t{6} * id, 6 * sizeof(float));
+    to += 6;
+  }
   // The kernel asks only where worlds begin.
   const std::array<std::uint64_t, 2> begin{0, ids.size()};
   const Worlds worlds(m_boxes->slice(0, ids.size()), begin);
