@@ -185,8 +185,8 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
   }
 }
 
-/// Opens what the program was started without, so that no file gets its number. To read the standard input or to write the
-/// standard output is an error then; complaints go nowhere.
+/// Opens what the program was started without, so that no file gets its number. To read the standard input or to write
+/// the standard output is an error then; complaints go nowhere.
 void openMissingStandardFiles() {
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(standard, F_GETFD) >= 0) continue;

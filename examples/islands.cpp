@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which boxes hang together? Rows of neighbors are a graph: a walk along them finds its connected parts, the islands that a
-// solver can treat one by one.
+// Which boxes hang together? Rows of neighbors are a graph: a walk along them finds its connected parts, the islands
+// that a solver can treat one by one.
 #include <allpairs/Neighbors.h>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// 1,000 copies of a small robot, each in a world of its own, walk over the same floor with a step. Each step of the simulation
-// finds all pairs of all worlds in two calls: the parts of each robot with each other, and with the floor.
+// 1,000 copies of a small robot, each in a world of its own, walk over the same floor with a step. Each step of the
+// simulation finds all pairs of all worlds in two calls: the parts of each robot with each other, and with the floor.
 #include <allpairs/Worlds.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sets of boxes with all that may be said about each, and what the double loop says of their pairs: it shares no code with
-// the engine.
+// Sets of boxes with all that may be said about each, and what the double loop says of their pairs: it shares no code
+// with the engine.
 #pragma once
 
 #include <algorithm>

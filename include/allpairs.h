@@ -192,7 +192,8 @@ ALLPAIRS_C_API allpairs_status allpairs_find(allpairs_search* search, const allp
 ALLPAIRS_C_API allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_set* first,
                                                      const allpairs_set* second, allpairs_pairs* pairs);
 
-/// Memory of the caller for pairs. The library writes `count`, which is the number of pairs also if there is no room for them.
+/// Memory of the caller for pairs. The library writes `count`, which is the number of pairs also if there is no room
+/// for them.
 typedef struct allpairs_pair_memory {
   allpairs_pair* data;
   size_t capacity;
@@ -201,8 +202,8 @@ typedef struct allpairs_pair_memory {
 
 /// Writes the pairs of allpairs_find() to memory of the caller. Count them first.
 ///
-/// Bad input: more pairs than the capacity are an ALLPAIRS_LIMIT_EXCEEDED; unordered pairs, or those of an exhaustive search,
-///            may then have been written.
+/// Bad input: more pairs than the capacity are an ALLPAIRS_LIMIT_EXCEEDED; unordered pairs, or those of an exhaustive
+///            search, may then have been written.
 ALLPAIRS_C_API allpairs_status allpairs_find_into(allpairs_search* search, const allpairs_set* set,
                                                   allpairs_pair_memory* memory);
 ALLPAIRS_C_API allpairs_status allpairs_find_between_into(allpairs_search* search, const allpairs_set* first,
@@ -214,15 +215,16 @@ typedef enum allpairs_rows_kind {
   ALLPAIRS_HALF_ROWS = 1   ///< In that of the lower index: read one after the other, the rows are the pairs in order.
 } allpairs_rows_kind;
 
-/// Compressed sparse rows in memory of the search: row i is indices[offsets[i]] to indices[offsets[i + 1] - 1], ascending.
+/// Compressed sparse rows in memory of the search: row i is indices[offsets[i]] to indices[offsets[i + 1] - 1],
+/// ascending.
 typedef struct allpairs_rows {
   const uint64_t* offsets;  ///< One more than there are rows.
   const uint32_t* indices;
   size_t count;  ///< The number of rows: that of the boxes.
 } allpairs_rows;
 
-/// The pairs of allpairs_find() as rows of the partners of each box, whatever the options' order; max_pairs counts a pair
-/// once. Valid until the next search, or the end of the handle.
+/// The pairs of allpairs_find() as rows of the partners of each box, whatever the options' order; max_pairs counts a
+/// pair once. Valid until the next search, or the end of the handle.
 ALLPAIRS_C_API allpairs_status allpairs_find_neighbors(allpairs_search* search, const allpairs_set* set,
                                                        allpairs_rows_kind kind, allpairs_rows* rows);
 
@@ -230,8 +232,8 @@ ALLPAIRS_C_API allpairs_status allpairs_find_neighbors(allpairs_search* search, 
 ALLPAIRS_C_API allpairs_status allpairs_find_neighbors_between(allpairs_search* search, const allpairs_set* first,
                                                                const allpairs_set* second, allpairs_rows* rows);
 
-/// Memory of the caller for rows: `offsets` for one more than there are boxes, `indices` for the pairs, twice in full rows. The
-/// library writes `count`, which is the number of indices also if there is no room for them.
+/// Memory of the caller for rows: `offsets` for one more than there are boxes, `indices` for the pairs, twice in full
+/// rows. The library writes `count`, which is the number of indices also if there is no room for them.
 typedef struct allpairs_rows_memory {
   uint64_t* offsets;
   uint32_t* indices;
@@ -268,8 +270,8 @@ ALLPAIRS_C_API allpairs_status allpairs_stream_between(allpairs_search* search, 
 
 // Many worlds in one call.
 
-/// The boxes of worlds: those of a world follow each other, and boxes of different worlds are never pairs. All fields except
-/// struct_size and boxes may be 0.
+/// The boxes of worlds: those of a world follow each other, and boxes of different worlds are never pairs. All fields
+/// except struct_size and boxes may be 0.
 typedef struct allpairs_worlds {
   size_t struct_size;  ///< sizeof(allpairs_worlds)
   const allpairs_set* boxes;
@@ -288,8 +290,8 @@ typedef struct allpairs_world_pairs {
   const uint64_t* begin;  ///< One more than there are worlds.
 } allpairs_world_pairs;
 
-/// What allpairs_find() would find in each world alone, in the same order; with shared boxes, what allpairs_find_between()
-/// would. Valid until the next such search, allpairs_search_shrink() or the end of the handle.
+/// What allpairs_find() would find in each world alone, in the same order; with shared boxes, what
+/// allpairs_find_between() would. Valid until the next such search, allpairs_search_shrink() or the end of the handle.
 ALLPAIRS_C_API allpairs_status allpairs_find_in_worlds(allpairs_search* search, const allpairs_worlds* worlds,
                                                        allpairs_world_pairs* pairs);
 
@@ -382,9 +384,9 @@ typedef struct allpairs_membership {
   const uint32_t* worlds;  ///< For each the number of its world, or ALLPAIRS_EVERY_WORLD; null: all are of world 0.
 } allpairs_membership;
 
-/// Adds boxes of many worlds, such as the copies of a scene: boxes of different worlds are never pairs and are not tested
-/// against each other, wherever they are; those of ALLPAIRS_EVERY_WORLD are in each. Else as allpairs_world_add(), whose
-/// boxes are of world 0.
+/// Adds boxes of many worlds, such as the copies of a scene: boxes of different worlds are never pairs and are not
+/// tested against each other, wherever they are; those of ALLPAIRS_EVERY_WORLD are in each. Else as
+/// allpairs_world_add(), whose boxes are of world 0.
 ALLPAIRS_C_API allpairs_status allpairs_world_add_to_worlds(allpairs_world* world, const allpairs_set* boxes,
                                                             const allpairs_membership* membership, uint32_t* ids);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The broad phase of a Bullet world, step by step: ours beside btDbvtBroadphase, on the same boxes in the same run. The
-// boxes are those of real bodies that fall into a pile, and of a gas; what is timed is what Bullet asks of a broad phase
-// in a step, setAabb() of every body and calculateOverlappingPairs().
+// boxes are those of real bodies that fall into a pile, and of a gas; what is timed is what Bullet asks of a broad
+// phase in a step, setAabb() of every body and calculateOverlappingPairs().
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Objects in Coal: our manager beside DynamicAABBTreeCollisionManager, on the same objects in turns, step by step. What is
-// timed is what a program does in a step: update(), and then self-collision or queries with objects; the callback counts.
-// Which pairs it gets is compared outside of the time.
+// Objects in Coal: our manager beside DynamicAABBTreeCollisionManager, on the same objects in turns, step by step. What
+// is timed is what a program does in a step: update(), and then self-collision or queries with objects; the callback
+// counts. Which pairs it gets is compared outside of the time.
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/shape/geometric_shapes.h>
 #include <fmt/format.h>

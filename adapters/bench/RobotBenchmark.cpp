@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A robot of 50 links among obstacles, as motion planners ask FCL: does it collide with itself, and with the world? Our
-// manager beside DynamicAABBTreeCollisionManager, in turns, on the same poses, each of which is another one. A manager is
-// made for each pose, or kept and updated; several threads check poses against one world. What is timed is managers and
-// their queries, with a callback that counts; the numbers of pairs are compared.
+// manager beside DynamicAABBTreeCollisionManager, in turns, on the same poses, each of which is another one. A manager
+// is made for each pose, or kept and updated; several threads check poses against one world. What is timed is managers
+// and their queries, with a callback that counts; the numbers of pairs are compared.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fmt/format.h>
@@ -204,8 +204,8 @@ void compare(std::size_t obstacles, const Check& check) {
   times.print(obstacles, check.name);
 }
 
-/// Threads that check poses of their own, each against itself with a fresh manager and against one world. Processor time
-/// of all threads, per pose.
+/// Threads that check poses of their own, each against itself with a fresh manager and against one world. Processor
+/// time of all threads, per pose.
 void compareThreads(std::size_t obstacles, std::size_t threadCount) {
   constexpr int kThreadRounds = 15;
   constexpr std::size_t kPosesOfThread = 64;

@@ -36,7 +36,8 @@ namespace allpairs::app {
 /// Bad input: throws UsageError.
 [[nodiscard]] std::size_t parseThreads(const std::string& text);
 
-/// The bytes that follow an option such as --max-memory: a whole number above 0, with K, M, G or T behind it for powers of 1024.
+/// The bytes that follow an option such as --max-memory: a whole number above 0, with K, M, G or T behind it for powers
+/// of 1024.
 ///
 /// Bad input: throws UsageError.
 [[nodiscard]] std::uint64_t parseMemory(const std::string& option, const std::string& text);
@@ -60,8 +61,8 @@ struct BoxSetArguments {
 
 /// Declares BOXES... and --with FILE....
 ///
-/// Bad input: BOXES after --with, or after another option that takes all files that follow it, throw UsageError when the
-///            command is parsed.
+/// Bad input: BOXES after --with, or after another option that takes all files that follow it, throw UsageError when
+///            the command is parsed.
 void addBoxSets(CLI::App& command, BoxSetArguments& arguments);
 
 /// What a message says of the place of BOXES where one of the options that were given takes all files that follow it:

@@ -11,8 +11,8 @@
 
 namespace allpairs::app {
 
-/// A text of help in lines of at most so many columns, unless it is so already. Paragraphs are rewrapped; of a line that is
-/// indented, what stands behind two blanks is a column of its own, and a command goes on behind a backslash.
+/// A text of help in lines of at most so many columns, unless it is so already. Paragraphs are rewrapped; of a line
+/// that is indented, what stands behind two blanks is a column of its own, and a command goes on behind a backslash.
 [[nodiscard]] std::string filled(std::string_view text, std::size_t width);
 
 /// Help within the width of the terminal.

@@ -23,7 +23,8 @@ class ProgressLine {
   /// Shows the text, unless the work is young or another text was shown just before.
   void show(const std::string& text);
 
-  /// Shows how much of the work is done, and how long the rest will take if it goes on like this; `now` says what is done next.
+  /// Shows how much of the work is done, and how long the rest will take if it goes on like this; `now` says what is
+  /// done next.
   void show(std::size_t done, std::size_t total, const std::string& now);
 
   /// Shows the text whatever the time.
@@ -41,8 +42,8 @@ class ProgressLine {
   double m_lastShown = 0.0;
 };
 
-/// A line of the same kind for work that does not say how far it is: what is done, and for how long already. It is shown
-/// from a thread of its own while this lives.
+/// A line of the same kind for work that does not say how far it is: what is done, and for how long already. It is
+/// shown from a thread of its own while this lives.
 class ProgressClock {
  public:
   explicit ProgressClock(std::string text);

@@ -6,7 +6,8 @@
 
 namespace allpairs::app {
 
-/// Takes a file, or a folder that is empty by then, away when a signal ends the program: what was named last goes first.
+/// Takes a file, or a folder that is empty by then, away when a signal ends the program: what was named last goes
+/// first.
 ///
 /// Threads: one at a time calls this and the next.
 void removeOnSignal(std::string path);

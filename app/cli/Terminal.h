@@ -15,7 +15,8 @@ namespace allpairs::app {
 /// Says on standard output, if that is a terminal, what was written where: "3 clashes → r/index.html".
 void sayWritten(const std::string& what, const std::filesystem::path& file);
 
-/// Whether text is coloured, by --color's word: "always", "never", or else on a terminal, unless NO_COLOR is set or TERM is dumb.
+/// Whether text is coloured, by --color's word: "always", "never", or else on a terminal, unless NO_COLOR is set or
+/// TERM is dumb.
 [[nodiscard]] bool wantsColour(std::string_view word, bool isTerminal);
 
 /// About how many columns UTF-8 takes: one for each character.

@@ -18,11 +18,11 @@ struct WorldsRequest {
   DetectionOptions detection;
 };
 
-/// Reads a .npy file of shape (w, n, 6), w worlds of n boxes, and writes the pairs of each world: boxes of different worlds are
-/// never pairs.
+/// Reads a .npy file of shape (w, n, 6), w worlds of n boxes, and writes the pairs of each world: boxes of different
+/// worlds are never pairs.
 ///
-/// Bad input: more than one input, or another file, throws UsageError or FileError; with options.verify, strategies that
-///            disagree throw collision::VerificationError.
+/// Bad input: more than one input, or another file, throws UsageError or FileError; with options.verify, strategies
+///            that disagree throw collision::VerificationError.
 void detectWorlds(const WorldsRequest& request, Output& output);
 
 }  // namespace allpairs::app

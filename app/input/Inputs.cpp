@@ -53,8 +53,8 @@ std::size_t emptyAxis(const Box& box) {
   return 3;
 }
 
-/// What to say of a file's boxes with min above max: which one is the first, and how many others. Its reason is empty if there is
-/// none. `boxOf` and `nameOf` take the row of a box.
+/// What to say of a file's boxes with min above max: which one is the first, and how many others. Its reason is empty
+/// if there is none. `boxOf` and `nameOf` take the row of a box.
 template <class BoxOf, class NameOf>
 scene::Remark remarkOnEmpty(std::filesystem::path file, std::size_t boxes, const BoxOf& boxOf, const NameOf& nameOf) {
   std::size_t count = 0;

@@ -8,13 +8,16 @@
 
 namespace allpairs::app {
 
-/// Inputs that can be read only once, from the beginning to the end, as files that readers may search: standard input, as "-"
-/// or /dev/stdin, and pipes are written to a folder of their own among the temporary files, which goes with this object.
+/// Inputs that can be read only once, from the beginning to the end, as files that readers may search: standard input,
+/// as "-" or /dev/stdin, and pipes are written to a folder of their own among the temporary files, which goes with this
+/// object.
 class SpooledInputs {
  public:
-  /// Replaces such inputs by their files. What is in one is said by `format`, an extension such as "csv"; empty: by its name.
+  /// Replaces such inputs by their files. What is in one is said by `format`, an extension such as "csv"; empty: by its
+  /// name.
   ///
-  /// Bad input: standard input twice, or a format that nobody says, throws UsageError; what cannot be read or written FileError.
+  /// Bad input: standard input twice, or a format that nobody says, throws UsageError; what cannot be read or written
+  ///            FileError.
   SpooledInputs(std::vector<std::string>& paths, const std::string& format);
   ~SpooledInputs();
   SpooledInputs(const SpooledInputs&) = delete;
@@ -42,7 +45,8 @@ class SpooledInputs {
   std::vector<Spooled> m_files;
 };
 
-/// Does work that reads inputs with those that can be read only once spooled. Its FileErrors and UsageErrors name what the user named.
+/// Does work that reads inputs with those that can be read only once spooled. Its FileErrors and UsageErrors name what
+/// the user named.
 void withSpooledInputs(std::vector<std::string>& paths, const std::string& format,
                        const std::function<void(const SpooledInputs&)>& work);
 

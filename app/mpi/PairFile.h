@@ -13,8 +13,8 @@
 
 namespace allpairs::app {
 
-/// A file that all ranks write, each a part of its own: a .npy array of pairs. It is written beside its place, and renamed
-/// when it is complete; what was there before stays until then. A link stays one, and its target is replaced.
+/// A file that all ranks write, each a part of its own: a .npy array of pairs. It is written beside its place, and
+/// renamed when it is complete; what was there before stays until then. A link stays one, and its target is replaced.
 ///
 /// All of it is collective. Every rank needs to see the file's folder.
 /// Bad input: a place that is no file's, or cannot be written, throws FileError on at least one rank, and Error on the

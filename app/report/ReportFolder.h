@@ -10,14 +10,14 @@
 
 namespace allpairs::app {
 
-/// Fails before the work that a report needs where the folder cannot be: a file is in its place, or, unless it is forced,
-/// the folder holds something else than an earlier report.
+/// Fails before the work that a report needs where the folder cannot be: a file is in its place, or, unless it is
+/// forced, the folder holds something else than an earlier report.
 ///
 /// Bad input: throws FileError; a new folder that is called like a file of a report, UsageError.
 void checkReportFolder(const std::filesystem::path& folder, bool force);
 
-/// The files of a report. Each appears when it is complete; without commit(), those that were not there before are taken
-/// away again, and so are the folders that were made for them.
+/// The files of a report. Each appears when it is complete; without commit(), those that were not there before are
+/// taken away again, and so are the folders that were made for them.
 ///
 /// Bad input: a folder or file that cannot be made throws FileError.
 class ReportFolder {
@@ -32,7 +32,8 @@ class ReportFolder {
   void write(const std::filesystem::path& name, std::string_view bytes);
   void write(const std::filesystem::path& name, const std::function<void(scene::ByteSink)>& writer);
 
-  /// All is written. Pictures that an earlier, longer report left there are taken away, and its page where there is none now.
+  /// All is written. Pictures that an earlier, longer report left there are taken away, and its page where there is
+  /// none now.
   void commit(std::size_t pictures, bool hasPage);
 
  private:

@@ -92,7 +92,8 @@ class BodyMaker {
     return {m_files[file], m_scene.files[file].filename().string()};
   }
 
-  /// By its part of the file, or the path of its node, instead of one of its models, with what stands before: "arm.scn › /Arm".
+  /// By its part of the file, or the path of its node, instead of one of its models, with what stands before: "arm.scn
+  /// › /Arm".
   void describeSeveral(std::size_t model, Body& body) const {
     const scene::ModelSource& source = m_scene.sources[model];
     std::string part = partOf(model);

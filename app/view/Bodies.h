@@ -28,8 +28,8 @@ class Identities {
   std::map<std::string, std::size_t> m_counts;
 };
 
-/// Gives a scene that is shown, and whose models have their identities, the bodies of the one that was read, and what these are
-/// called. Where each is one model, it gets none.
+/// Gives a scene that is shown, and whose models have their identities, the bodies of the one that was read, and what
+/// these are called. Where each is one model, it gets none.
 void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to);
 
 }  // namespace allpairs::app

@@ -61,7 +61,8 @@ class FrameSearch {
  private:
   [[nodiscard]] std::size_t count() const { return m_scene.modelCount; }
 
-  /// Counts the pairs that one of two frames has and the other has not, as `track` does; both are ordered by their newer box.
+  /// Counts the pairs that one of two frames has and the other has not, as `track` does; both are ordered by their
+  /// newer box.
   void noteChanges(view::ViewFrame& frame) const {
     if (m_scene.frames.empty()) {
       frame.began = frame.pairs.size();

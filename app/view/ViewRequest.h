@@ -38,8 +38,8 @@ struct ViewArguments {
 /// Declares --distance, --box, --clearance, --exact, --boxes, --group and --up.
 void addViewOptions(CLI::App& command, ViewArguments& arguments);
 
-/// Bad input: UsageError for values that are none, for --exact in a program that has not the library for it, and for options
-///            that contradict each other.
+/// Bad input: UsageError for values that are none, for --exact in a program that has not the library for it, and for
+///            options that contradict each other.
 [[nodiscard]] ViewRequest viewRequest(const ViewArguments& arguments);
 
 }  // namespace allpairs::app

@@ -7,8 +7,8 @@
 
 namespace allpairs::bench {
 
-/// What the main function of a benchmark returns: reads its arguments, and then runs it. Errors go to the standard error
-/// output and return 2.
+/// What the main function of a benchmark returns: reads its arguments, and then runs it. Errors go to the standard
+/// error output and return 2.
 template <class Run>
 int runMain(CLI::App& app, int argc, char** argv, const Run& run) {
   try {

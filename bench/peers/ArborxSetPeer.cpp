@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ArborX's linear hierarchy in Kokkos's default space: a query for each box, or of one set its traversal that meets each
-// pair once.
+// ArborX's linear hierarchy in Kokkos's default space: a query for each box, or of one set its traversal that meets
+// each pair once.
 #include <ArborX.hpp>
 #include <Kokkos_Core.hpp>
 #include <detail/ArborX_HalfTraversal.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boost.Geometry's R-tree in float32 and float64, within one set and between two: the larger set is packed, and asked once
-// for each box of the smaller one.
+// Boost.Geometry's R-tree in float32 and float64, within one set and between two: the larger set is packed, and asked
+// once for each box of the smaller one.
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>

@@ -10,9 +10,9 @@
 
 namespace allpairs::bench {
 
-/// Searches the tree for each box of the first set, depth first; of one set a pair is kept where it is met by its box of
-/// the lower number. Both children of a node are beside each other. The tree has a NodeId and says its `root()`, whether
-/// a node `reaches` a box and `isLeaf`, its `firstChild`, and the numbers of its boxes through `visitLeaf`.
+/// Searches the tree for each box of the first set, depth first; of one set a pair is kept where it is met by its box
+/// of the lower number. Both children of a node are beside each other. The tree has a NodeId and says its `root()`,
+/// whether a node `reaches` a box and `isLeaf`, its `firstChild`, and the numbers of its boxes through `visitLeaf`.
 template <class Tree, class T>
 void findInTree(const Tree& tree, const Sets<T>& sets, std::vector<Pair>& pairs) {
   const std::span<const T> searched = sets.areTwo ? sets.second : sets.first;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hierarchy of bvh (madmann91), version 2. It answers rays, so that the search for boxes in its nodes is written here.
+// The hierarchy of bvh (madmann91), version 2. It answers rays, so that the search for boxes in its nodes is written
+// here.
 #include <bvh/v2/bvh.h>
 #include <bvh/v2/default_builder.h>
 #include <bvh/v2/node.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PhysX's broad phase on its own, by automatic box pruning, all boxes added at once. Its sweep and prune is left out: it
-// rounds bounds to fewer bits, and so reports pairs that do not overlap.
+// PhysX's broad phase on its own, by automatic box pruning, all boxes added at once. Its sweep and prune is left out:
+// it rounds bounds to fewer bits, and so reports pairs that do not overlap.
 #include "PhysxBoxes.h"
 #include "SetPeer.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a user writes without a library, compiled for the processor at hand: the double loop, and sorting along one axis.
+// What a user writes without a library, compiled for the processor at hand: the double loop, and sorting along one
+// axis.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library for C as a state machine: calls in any order, on handles that may be null, with arguments that may make no
-// sense. Every call must give a status that fits, and what the calls say of one thing must agree.
+// The library for C as a state machine: calls in any order, on handles that may be null, with arguments that may make
+// no sense. Every call must give a status that fits, and what the calls say of one thing must agree.
 #include "allpairs.h"
 
 #include <algorithm>

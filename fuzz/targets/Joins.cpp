@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes in files, joined in next to no memory: the bytes are those of the double loop, at once, and after the join was ended at
-// some step, its files damaged, and it went on.
+// Boxes in files, joined in next to no memory: the bytes are those of the double loop, at once, and after the join was
+// ended at some step, its files damaged, and it went on.
 #include <algorithm>
 #include <array>
 #include <cstddef>

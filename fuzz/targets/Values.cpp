@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that are read a part at a time, of boxes and of what boxes have beside their bounds: what is read is what the bytes
-// say, also after an error and while the file is cut, and a join of it gives the bytes of the double loop.
+// Files that are read a part at a time, of boxes and of what boxes have beside their bounds: what is read is what the
+// bytes say, also after an error and while the file is cut, and a join of it gives the bytes of the double loop.
 #include <algorithm>
 #include <array>
 #include <bit>

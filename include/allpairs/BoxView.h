@@ -61,7 +61,8 @@ class BoxView {
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
 
-  /// Gives every box the same margin: how far it extends beyond its bounds, on all sides. Replaces margins of their own.
+  /// Gives every box the same margin: how far it extends beyond its bounds, on all sides. Replaces margins of their
+  /// own.
   ///
   /// Bad input: NaN or -infinity throws InvalidArgument.
   void setMargin(double margin);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// -D_GLIBCXX_DEBUG changes the layout of the containers of GCC's standard library. If only the program or only the library
+// -D_GLIBCXX_DEBUG changes the layout of the containers of GCC's standard library. If only the program or only the
+// library
 // is built with it, each would misread the other's memory. Instead they do not link, and the name of the missing symbol
 // states the reason.
 #ifdef _GLIBCXX_DEBUG

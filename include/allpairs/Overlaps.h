@@ -72,16 +72,16 @@ class OverlapSearch {
 
   /// Writes the pairs of find() to memory of the caller, and returns the part of it that they take. Count them first.
   ///
-  /// Bad input: memory for fewer pairs than there are throws LimitExceeded, whose count() is their number. It is then as it was,
-  ///            unless the pairs are unordered or tested exhaustively.
+  /// Bad input: memory for fewer pairs than there are throws LimitExceeded, whose count() is their number. It is then
+  ///            as it was, unless the pairs are unordered or tested exhaustively.
   /// Cost:      no second copy of the result, unless several threads find unordered pairs or test exhaustively.
   Span<Pair> findInto(const BoxView& boxes, Span<Pair> memory);
   Span<Pair> findInto(const BoxView& first, const BoxView& second, Span<Pair> memory);
 
   /// Writes the rows of findNeighbors() to memory of the caller, and returns the part of it that they take.
   ///
-  /// Bad input: memory for too few offsets throws InvalidArgument; for fewer indices than there are, LimitExceeded, whose count()
-  ///            is their number. The memory is then as it was.
+  /// Bad input: memory for too few offsets throws InvalidArgument; for fewer indices than there are, LimitExceeded,
+  ///            whose count() is their number. The memory is then as it was.
   NeighborsView findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory);
   NeighborsView findNeighborsInto(const BoxView& first, const BoxView& second, const NeighborsMemory& memory);
 

@@ -24,9 +24,9 @@ class Span;
 
 namespace internal {
 
-/// Whether the elements of a range follow each other in memory. C++17 has no way to ask; there it is what has a size_type, as
-/// the containers of the standard library have and the rows of a matrix of Eigen don't, and iterates over what data() points to,
-/// as an array of several dimensions doesn't.
+/// Whether the elements of a range follow each other in memory. C++17 has no way to ask; there it is what has a
+/// size_type, as the containers of the standard library have and the rows of a matrix of Eigen don't, and iterates over
+/// what data() points to, as an array of several dimensions doesn't.
 template <class Range, class = void>
 inline constexpr bool kIsContiguous = std::is_array_v<Range>;
 #ifdef __cpp_lib_span
@@ -63,8 +63,8 @@ inline constexpr bool kIsRangeOf<
 
 }  // namespace internal
 
-/// A view of elements that follow each other in memory: what std::span<T> is, from C++17 on, and one type in all standards,
-/// so that programs of each use the same library. In C++20 either converts to the other.
+/// A view of elements that follow each other in memory: what std::span<T> is, from C++17 on, and one type in all
+/// standards, so that programs of each use the same library. In C++20 either converts to the other.
 ///
 /// Nothing is copied: the elements must outlive the view.
 /// Bad input: an index or a range that is not within the view is undefined.

@@ -7,8 +7,8 @@
 
 namespace allpairs {
 
-/// Ends the searches whose options name it: soon after it is set they throw Stopped, and so do new ones until it is cleared,
-/// except those of a few boxes, which may end first. What was searching can be used on.
+/// Ends the searches whose options name it: soon after it is set they throw Stopped, and so do new ones until it is
+/// cleared, except those of a few boxes, which may end first. What was searching can be used on.
 ///
 /// Cost:    a search looks at it every few milliseconds, and once in some thousand pairs. It never changes a result.
 /// Threads: all members from any thread, and from a signal handler.
@@ -16,9 +16,9 @@ class StopFlag {
  public:
   StopFlag() = default;
 
-  /// A flag that also counts as set when `ask` returns true, for a program in which no other thread can set it, or for a time
-  /// limit. A search asks whenever it looks at the flag, in the thread that looks: one with an executor on several at once.
-  /// What is asked must outlive the flag and may not throw.
+  /// A flag that also counts as set when `ask` returns true, for a program in which no other thread can set it, or for
+  /// a time limit. A search asks whenever it looks at the flag, in the thread that looks: one with an executor on
+  /// several at once. What is asked must outlive the flag and may not throw.
   explicit StopFlag(FunctionRef<bool()> ask) noexcept : m_ask(ask) {}
 
   StopFlag(const StopFlag&) = delete;

@@ -21,9 +21,9 @@ namespace allpairs {
 /// changes since the previous step. The hierarchy of the boxes is kept between steps, so that a step costs what has
 /// changed: docs/decisions/0007 explains how, and when the hierarchy is rebuilt.
 ///
-/// A box may have the number of a world, one of many in the same object, such as the copies of a scene that robots learn
-/// in: boxes of different worlds are never pairs and are not tested against each other, wherever they are. Boxes of
-/// kEveryWorld, such as the ground, are in each. Without numbers all boxes are of world 0.
+/// A box may have the number of a world, one of many in the same object, such as the copies of a scene that robots
+/// learn in: boxes of different worlds are never pairs and are not tested against each other, wherever they are. Boxes
+/// of kEveryWorld, such as the ground, are in each. Without numbers all boxes are of world 0.
 ///
 /// Geometry:  as in OverlapSearch: boxes are closed; empty boxes overlap nothing; infinite bounds are allowed. Bounds
 ///            given in float64 are exact. A margin is part of a pair's distance, and in queries enlarges the box
@@ -34,9 +34,9 @@ namespace allpairs {
 ///            the batch and whose message names the id; the batch then has no effect. Spans of different lengths, and a
 ///            BoxView with margins, throw InvalidArgument: here a margin is a property.
 /// Cost:      up to 200 bytes per box and 70 per pair. In a steady state, on the calling thread, nothing is allocated.
-///            With world numbers, a step searches the worlds in which a box has changed, small ones as a whole, and all of
-///            them if a box of every world has; when boxes were added, removed or given another world, it also copies
-///            the ids of all boxes.
+///            With world numbers, a step searches the worlds in which a box has changed, small ones as a whole, and all
+///            of them if a box of every world has; when boxes were added, removed or given another world, it also
+///            copies the ids of all boxes.
 /// Threads:   const members, queries included, may be called concurrently while no other member runs; all others one at
 ///            a time. Parallel inside if the options have an executor. Results never depend on threads or the
 ///            instruction set.
@@ -134,7 +134,8 @@ class World {
   ///
   /// A box that is given another world ends its pairs there and begins them here.
   /// Cost:    O(log pairs), after a pass over all pairs in the first call after a step: cheap if ids ascend with the
-  ///          numbers of their worlds and boxes of every world were added last, else a sort with 24 bytes more per pair.
+  ///          numbers of their worlds and boxes of every world were added last, else a sort with 24 bytes more per
+  ///          pair.
   /// Threads: like a query.
   [[nodiscard]] StepResult result(std::uint32_t world) const;
 
@@ -148,8 +149,8 @@ class World {
 
   /// The boxes that, enlarged by their own margins, overlap a box: by ascending id.
   ///
-  /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds are
-  ///       searched one after the other.
+  /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds
+  ///       are searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;
   [[nodiscard]] ResultLists<BoxId> findOverlapping(const BoxView& boxes, const QueryFilter& filter = {}) const;
 

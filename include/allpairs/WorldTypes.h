@@ -30,8 +30,8 @@ inline constexpr std::uint32_t kEveryWorld = 0xFFFFFFFFU;
 
 /// The properties of a box in a World, besides its bounds.
 ///
-/// Two boxes that overlap are a pair if they are of the same world or one is of every world, each one's mask shares a bit
-/// with the other's category, they are not in the same non-zero group, and they are not both static.
+/// Two boxes that overlap are a pair if they are of the same world or one is of every world, each one's mask shares a
+/// bit with the other's category, they are not in the same non-zero group, and they are not both static.
 struct BoxProperties {
   std::uint32_t category = 0xFFFFFFFFU;  ///< The categories of the box, as bits.
   std::uint32_t mask = 0xFFFFFFFFU;      ///< The categories that it accepts as partners.
@@ -94,8 +94,8 @@ struct WorldStatistics {
   std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double.
   std::uint64_t changed = 0;     ///< Boxes that were added, moved, removed or given other properties.
   bool joinedAll = false;        ///< Whether the step joined all boxes, instead of only the changed ones with all.
-  /// The number of full rebuilds of a hierarchy so far, by steps and queries; with world numbers, of how often a world's
-  /// boxes were put in order.
+  /// The number of full rebuilds of a hierarchy so far, by steps and queries; with world numbers, of how often a
+  /// world's boxes were put in order.
   std::uint64_t rebuilds = 0;
 };
 

@@ -16,7 +16,8 @@ namespace allpairs {
 /// Many small worlds, such as the copies of a simulation, as one set of boxes: those of a world follow each other, and
 /// boxes of different worlds are never pairs.
 ///
-/// Nothing is copied: the memory of boxes, offsets and pairs must outlive the object and stay unchanged while it is used.
+/// Nothing is copied: the memory of boxes, offsets and pairs must outlive the object and stay unchanged while it is
+/// used.
 /// Bad input: offsets that do not begin with 0, decrease, exceed the number of boxes or end before it throw
 ///            InvalidArgument, which names the world.
 /// Cost:      one pass over the offsets, no allocation.
@@ -26,8 +27,8 @@ class Worlds {
   /// No worlds.
   Worlds() = default;
 
-  /// World k has the boxes [begin[k], begin[k + 1]): one offset more than there are worlds, the last being the number of
-  /// boxes.
+  /// World k has the boxes [begin[k], begin[k + 1]): one offset more than there are worlds, the last being the number
+  /// of boxes.
   Worlds(const BoxView& boxes, Span<const std::uint64_t> begin);
 
   /// Worlds with the same number of boxes each.
@@ -75,7 +76,8 @@ class Worlds {
   bool m_hasEqualSizes = true;
 };
 
-/// The pairs of each of some worlds. World k has the pairs [begin[k], begin[k + 1]); boxes are numbered within their world.
+/// The pairs of each of some worlds. World k has the pairs [begin[k], begin[k + 1]); boxes are numbered within their
+/// world.
 struct WorldPairs {
   std::vector<Pair> pairs;
   std::vector<std::uint64_t> begin;
@@ -91,20 +93,21 @@ struct WorldPairsView {
   }
 };
 
-/// Finds the overlapping pairs of many worlds, and keeps its memory between searches: what an OverlapSearch would find in
-/// each world alone, in the same order, in half of the time that as many calls take for worlds of some twenty boxes.
+/// Finds the overlapping pairs of many worlds, and keeps its memory between searches: what an OverlapSearch would find
+/// in each world alone, in the same order, in half of the time that as many calls take for worlds of some twenty boxes.
 ///
-/// With `shared`, boxes that are in every world, such as the ground, it finds the pairs (box of the world, shared box): what
-/// an OverlapSearch would find of the two sets. Pairs among shared boxes are found in no world, and a world's own pairs
-/// take a search without `shared`. The hierarchy of the shared boxes is built once for all worlds.
+/// With `shared`, boxes that are in every world, such as the ground, it finds the pairs (box of the world, shared box):
+/// what an OverlapSearch would find of the two sets. Pairs among shared boxes are found in no world, and a world's own
+/// pairs take a search without `shared`. The hierarchy of the shared boxes is built once for all worlds.
 ///
-/// Options:   all apply, as to a search of each world alone, with boxes numbered within their world: `accept` does not learn
+/// Options:   all apply, as to a search of each world alone, with boxes numbered within their world: `accept` does not
+/// learn
 ///            which world a pair is of. maxPairs limits the pairs of all worlds together. The spans of filter.first are
 ///            empty, or have a value for each box of all worlds, or, if worlds are of equal size, for each box of one
 ///            world: then it holds for all. Order::Unordered with shared boxes gives Order::ByFirst.
 /// Bad input: as for OverlapSearch.
-/// Cost:      in worlds of up to a few hundred boxes all pairs are tested, n(n-1)/2 a world; larger ones are searched as
-///            OverlapSearch does. 8 bytes a pair and a world. On the calling thread a second search of the same size
+/// Cost:      in worlds of up to a few hundred boxes all pairs are tested, n(n-1)/2 a world; larger ones are searched
+///            as OverlapSearch does. 8 bytes a pair and a world. On the calling thread a second search of the same size
 ///            allocates nothing, unless shared boxes are given with a filter.
 /// Threads:   one search at a time per object; worlds are divided among the threads of the options' executor, and one
 ///            of many boxes is itself searched by all. Results never depend on threads.
@@ -148,11 +151,12 @@ class WorldsSearch {
   State* m_state = nullptr;  ///< Owned; null in an object that has been moved from.
 };
 
-/// The overlapping pairs of each of many worlds: world k's list is that of overlaps() of its boxes alone. See WorldsSearch.
+/// The overlapping pairs of each of many worlds: world k's list is that of overlaps() of its boxes alone. See
+/// WorldsSearch.
 [[nodiscard]] WorldPairs overlapsInWorlds(const Worlds& worlds, const OverlapOptions& options = {});
 
-/// The pairs of a box of each world and a box that all worlds share: world k's list is that of overlaps() of its boxes and
-/// the shared ones.
+/// The pairs of a box of each world and a box that all worlds share: world k's list is that of overlaps() of its boxes
+/// and the shared ones.
 [[nodiscard]] WorldPairs overlapsInWorlds(const Worlds& worlds, const BoxView& shared,
                                           const OverlapOptions& options = {});
 

@@ -17,8 +17,8 @@ namespace {
 /// From so many boxes on a search takes at least a millisecond, so that another thread costs it a few percent.
 constexpr std::size_t kWorthWatching = 20'000;
 
-/// The same of a search that runs on threads, which costs as much to begin; with fewer boxes it ends within a fifth of a second
-/// even if all of them overlap.
+/// The same of a search that runs on threads, which costs as much to begin; with fewer boxes it ends within a fifth of
+/// a second even if all of them overlap.
 constexpr std::size_t kWorthWatchingThreads = 2'000;
 
 /// Looks of a search between two readings of the clock; no more than some milliseconds of work lie between two looks.
@@ -67,8 +67,8 @@ bool isInterrupted(Running& running) {
   return false;
 }
 
-/// Runs work in another thread, or in this one if no other can be had; returns whether a signal handler raised an exception, which
-/// then is Python's current one.
+/// Runs work in another thread, or in this one if no other can be had; returns whether a signal handler raised an
+/// exception, which then is Python's current one.
 bool isInterruptedElsewhere(FunctionRef<void(Stopper&)> work) {
   Stopper stopper(Stopper::Asks::Nobody);
   std::exception_ptr error;

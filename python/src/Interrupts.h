@@ -94,10 +94,10 @@ class Stopper {
 /// Whether a search has an executor: then the thread that called may wait for others for long without looking.
 enum class Runs : std::uint8_t { Alone, OnThreads };
 
-/// Runs work without the GIL; called with it. With so many boxes that it may take long, it runs in another thread, while
-/// this one has Python handle signals. If a handler raises an exception, as that of Ctrl-C does, the work is stopped,
-/// and once it has ended the exception is thrown. With fewer boxes it runs in this thread, where Ctrl-C stops it; if the
-/// handler raises nothing, it begins again, in another thread.
+/// Runs work without the GIL; called with it. With so many boxes that it may take long, it runs in another thread,
+/// while this one has Python handle signals. If a handler raises an exception, as that of Ctrl-C does, the work is
+/// stopped, and once it has ended the exception is thrown. With fewer boxes it runs in this thread, where Ctrl-C stops
+/// it; if the handler raises nothing, it begins again, in another thread.
 void watchSignals(std::size_t boxes, Runs runs, FunctionRef<void(Stopper&)> work);
 
 /// The same for work that returns something.

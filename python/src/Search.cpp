@@ -22,8 +22,9 @@ namespace allpairs::python {
 namespace py = pybind11;
 namespace {
 
-/// From so many boxes on Python gets the pairs in the memory of the search: a vector of many pairs would be touched, and filled with
-/// zeros, for the first time. Of fewer boxes, the memory of one call is there for the next (docs/decisions/0015).
+/// From so many boxes on Python gets the pairs in the memory of the search: a vector of many pairs would be touched,
+/// and filled with zeros, for the first time. Of fewer boxes, the memory of one call is there for the next
+/// (docs/decisions/0015).
 constexpr std::size_t kManyBoxes = std::size_t{1} << 14;
 
 template <class... Sets>

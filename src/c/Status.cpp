@@ -25,9 +25,9 @@ Failure noMemory{"out of memory, for a message too"};
 
 /// The last failure of each thread.
 ///
-/// Not thread_local: in a library that is loaded later, the C library allocates a thread's copy at its first use, and ends
-/// the process if it can't. Of threads that are alive when the library is unloaded a note of half a kilobyte is lost,
-/// except of the one that unloads it.
+/// Not thread_local: in a library that is loaded later, the C library allocates a thread's copy at its first use, and
+/// ends the process if it can't. Of threads that are alive when the library is unloaded a note of half a kilobyte is
+/// lost, except of the one that unloads it.
 class Failures {
  public:
   Failures() noexcept : m_hasKey(pthread_key_create(&m_key, forget) == 0) {}

@@ -51,7 +51,8 @@ class PairRules {
            m_models.letsCollide(b, a) && (boxesAreNear || this->boxesAreNear(newer, older));
   }
 
-  /// Whether two rows are the same model, added twice. Its root is then asked about itself, which takes its intersector.
+  /// Whether two rows are the same model, added twice. Its root is then asked about itself, which takes its
+  /// intersector.
   [[nodiscard]] bool areOneModel(std::size_t newer, std::size_t older) const {
     const ModelRow& a = m_models.row(newer);
     const ModelRow& b = m_models.row(older);

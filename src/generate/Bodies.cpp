@@ -72,8 +72,8 @@ void beginFall(Bodies& bodies) {
   }
 }
 
-/// Each body stops at a distance of its own from a wall, so that all of them make a pile and no layer: thick enough that
-/// they fit into an edge of the cube, where gravity drives them between two walls.
+/// Each body stops at a distance of its own from a wall, so that all of them make a pile and no layer: thick enough
+/// that they fit into an edge of the cube, where gravity drives them between two walls.
 void beginTumbling(Bodies& bodies) {
   constexpr double kPile = 0.35;
   for (std::size_t i = 0; i < bodies.position.size(); ++i) {

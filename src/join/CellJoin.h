@@ -20,8 +20,8 @@ namespace allpairs::join {
 /// part by itself and with each later one.
 class CellJoin {
  public:
-  /// Receives pairs by index into two sets of records, or twice the same. Of two sets of boxes the first records are of the
-  /// first.
+  /// Receives pairs by index into two sets of records, or twice the same. Of two sets of boxes the first records are of
+  /// the first.
   using Receiver = FunctionRef<void(std::span<const Pair>, const Records&, const Records&)>;
 
   /// `most` is the number of boxes in memory at once.

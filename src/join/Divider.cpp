@@ -154,8 +154,8 @@ std::uint64_t Divider::stepOf(std::size_t set) const {
   return others <= 2 * own ? std::max(own, others) : own;
 }
 
-/// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long. Boxes of two sets
-/// with the same number may be the same object, so that their pairs say nothing of those of other numbers.
+/// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long. Boxes of
+/// two sets with the same number may be the same object, so that their pairs say nothing of those of other numbers.
 std::uint64_t Divider::estimatePairs(const Division& division) const {
   SamplePairs pairs;
   std::array<BoxSample, 2> parts;

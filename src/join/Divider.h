@@ -15,8 +15,8 @@
 
 namespace allpairs::join {
 
-/// The boxes of a cell are one part for each set, and so are the wide ones, which have the number after the last cell's.
-/// Parts of the second set follow all of the first.
+/// The boxes of a cell are one part for each set, and so are the wide ones, which have the number after the last
+/// cell's. Parts of the second set follow all of the first.
 [[nodiscard]] inline std::size_t partOf(const partition::Partition& cells, std::size_t set, std::size_t cell) noexcept {
   return set * (cells.size() + 1) + cell;
 }
@@ -38,7 +38,8 @@ struct Division {
   [[nodiscard]] std::uint64_t wideBoxes() const { return countOf(cells.size()); }
 };
 
-/// Cuts space so that the boxes of a cell, of all sets, fit in memory where cuts can do that, and counts what each cell gets.
+/// Cuts space so that the boxes of a cell, of all sets, fit in memory where cuts can do that, and counts what each cell
+/// gets.
 ///
 /// Bad input: a NaN throws FileError.
 class Divider {

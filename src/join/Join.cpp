@@ -33,8 +33,8 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
   return Budget::of(memory, static_cast<std::size_t>(workers), input.recordType(), pairSizeFor(input.largestSize()));
 }
 
-/// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it is
-/// not complete.
+/// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it
+/// is not complete.
 class PartFile {
  public:
   explicit PartFile(const fs::path& target)

@@ -19,8 +19,8 @@ class PairMerge {
  public:
   using Receiver = FunctionRef<void(std::span<const StoredPair<Id>>)>;
 
-  /// `file` has the runs; `boxes` is one more than the greatest number of a second box. A range that is too large by itself
-  /// is divided again, by way of `scratch`. `stop` ends that, if it is given.
+  /// `file` has the runs; `boxes` is one more than the greatest number of a second box. A range that is too large by
+  /// itself is divided again, by way of `scratch`. `stop` ends that, if it is given.
   PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
             std::filesystem::path scratch, const StopFlag* stop = nullptr);
 

@@ -6,8 +6,8 @@
 
 namespace allpairs::join {
 
-/// A box on disk: its number in 64 bits, six numbers, and what boxes of any set have beside them: a margin in float64, and
-/// a group, categories and a mask in 32 bits each.
+/// A box on disk: its number in 64 bits, six numbers, and what boxes of any set have beside them: a margin in float64,
+/// and a group, categories and a mask in 32 bits each.
 struct RecordType {
   bool isFloat64 = false;
   bool hasMargins = false;

@@ -22,7 +22,8 @@ struct BcfOptions {
   std::span<const EarlierClash> resolved{};          ///< Topics to close.
 };
 
-/// The bytes of a BCF file: for each clash a topic with a viewpoint and a picture. Models with a GlobalId are named by it.
+/// The bytes of a BCF file: for each clash a topic with a viewpoint and a picture. Models with a GlobalId are named by
+/// it.
 ///
 /// Reference: buildingSMART, BIM Collaboration Format 2.1 and 3.0, file format and schemas.
 /// Bad input: what the zip library refuses throws Error.

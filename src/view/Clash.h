@@ -10,8 +10,8 @@
 
 namespace allpairs::view {
 
-/// One row of a report: a pair, and what its boxes have in common. Where models are parts of bodies, the worst pair of two
-/// bodies.
+/// One row of a report: a pair, and what its boxes have in common. Where models are parts of bodies, the worst pair of
+/// two bodies.
 struct Clash {
   std::size_t number = 0;  ///< From 1, the worst first.
   std::uint32_t first = 0;
@@ -26,14 +26,16 @@ struct Clash {
   [[nodiscard]] bool isSelf() const { return first == second; }
 };
 
-/// The rows of the scene's first frame. Where shapes were asked: pairs that are not apart, the worst first. Else the largest
-/// overlap first, those of equal volume as they were found; self pairs last. Pairs of the same two bodies are one row.
+/// The rows of the scene's first frame. Where shapes were asked: pairs that are not apart, the worst first. Else the
+/// largest overlap first, those of equal volume as they were found; self pairs last. Pairs of the same two bodies are
+/// one row.
 [[nodiscard]] std::vector<Clash> clashesOf(const ViewScene& scene);
 
 /// The pair at one place of the first frame's, without number and GUID.
 [[nodiscard]] Clash clashOf(const ViewScene& scene, std::size_t pair);
 
-/// Where to look: the contact, or the nearest points; of boxes what both share, or where they are apart the gap between.
+/// Where to look: the contact, or the nearest points; of boxes what both share, or where they are apart the gap
+/// between.
 [[nodiscard]] Box placeOf(const ViewScene& scene, const Clash& clash);
 
 /// What was found, as a sentence or two.

@@ -10,7 +10,8 @@
 namespace allpairs::view {
 namespace {
 
-/// Where a camera may look from, around and down: parts to the right, ahead and up. The first is taken where all are equal.
+/// Where a camera may look from, around and down: parts to the right, ahead and up. The first is taken where all are
+/// equal.
 constexpr std::array<Vec3, 9> kDirections{{{-0.48, 0.72, -0.50},
                                            {0.48, 0.72, -0.50},
                                            {-0.72, -0.48, -0.50},

@@ -37,8 +37,8 @@ class Projection {
 /// A camera that shows both boxes of a clash, or, where one is much larger, the smaller one and what is around it.
 [[nodiscard]] ParallelCamera cameraOf(const ViewScene& scene, const Clash& clash);
 
-/// Chooses for at most so many pairs, the worst first, the side from which cameraOf() looks at them, once for the page, the pictures and
-/// the BCF: each takes milliseconds.
+/// Chooses for at most so many pairs, the worst first, the side from which cameraOf() looks at them, once for the page,
+/// the pictures and the BCF: each takes milliseconds.
 void chooseSides(ViewScene& scene, std::size_t most, Executor& executor);
 
 /// Whether chooseSides() has chosen one for a pair.
@@ -52,8 +52,8 @@ class Overview {
  public:
   explicit Overview(const ViewScene& scene);
 
-  /// Puts it small into a corner of a picture, with a mark at the middle of a place. Of a scene with no more than the two models of a clash,
-  /// and of a picture without room for it, nothing is added.
+  /// Puts it small into a corner of a picture, with a mark at the middle of a place. Of a scene with no more than the
+  /// two models of a clash, and of a picture without room for it, nothing is added.
   void addTo(Raster& picture, const Box& place) const;
 
  private:
@@ -67,8 +67,8 @@ class ClashPainter {
  public:
   explicit ClashPainter(const ViewScene& scene);
 
-  /// The two models of a clash in two colours, with their contact, or with their boxes and in red what the boxes share; until the
-  /// next picture is drawn.
+  /// The two models of a clash in two colours, with their contact, or with their boxes and in red what the boxes share;
+  /// until the next picture is drawn.
   [[nodiscard]] Raster& paint(const Clash& clash, const ParallelCamera& camera);
 
  private:

@@ -8,8 +8,8 @@
 
 namespace allpairs::view {
 
-/// JSON that is text from the start. The library's documents ask for memory where they are destroyed, and end the program
-/// where there is none; only single values are left to it.
+/// JSON that is text from the start. The library's documents ask for memory where they are destroyed, and end the
+/// program where there is none; only single values are left to it.
 class JsonText {
  public:
   /// In one line, or a line for each value.

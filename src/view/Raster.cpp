@@ -28,7 +28,8 @@ double crossAt(const RasterPoint& a, const RasterPoint& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-/// Where an edge of a triangle crosses rows of pixels: the same numbers for both triangles that share it, without a gap.
+/// Where an edge of a triangle crosses rows of pixels: the same numbers for both triangles that share it, without a
+/// gap.
 class Edge {
  public:
   Edge(const RasterPoint& a, const RasterPoint& b) : m_top(a.y < b.y ? a : b) {

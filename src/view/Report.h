@@ -37,10 +37,11 @@ struct Report {
 /// Writes the page of a report.
 void writeReportPage(const Report& report, scene::ByteSink sink);
 
-/// Writes a line for each pair, those of a row with its number and GUID: number, names, overlap per axis, volume and GUID (RFC 4180).
+/// Writes a line for each pair, those of a row with its number and GUID: number, names, overlap per axis, volume and
+/// GUID (RFC 4180).
 ///
-/// Where models have a GlobalId, four columns more: the class and the GlobalId of each. With an earlier report one more, "since":
-/// new, persisting or resolved; those that are resolved come last and have no number.
+/// Where models have a GlobalId, four columns more: the class and the GlobalId of each. With an earlier report one
+/// more, "since": new, persisting or resolved; those that are resolved come last and have no number.
 void writeReportCsv(const Report& report, scene::ByteSink sink);
 
 }  // namespace allpairs::view

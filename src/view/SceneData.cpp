@@ -161,7 +161,8 @@ void addPositions(const ViewScene& scene, ArrayWriter& arrays) {
   arrays.add("corners", scene.corners);
 }
 
-/// From where the contacts are seen best for which that was chosen: directions, three numbers a pair, all zero for others.
+/// From where the contacts are seen best for which that was chosen: directions, three numbers a pair, all zero for
+/// others.
 std::vector<float> viewsOf(const ViewScene& scene) {
   std::vector<float> views(3 * scene.exact.size(), 0.0F);
   for (std::size_t i = 0; i < scene.sides.size(); ++i) {

@@ -6,8 +6,8 @@
 
 namespace allpairs::view {
 
-/// The text with only characters that XML and HTML have: tabs and line feeds become spaces; control characters and bytes
-/// that are not UTF-8 become U+FFFD.
+/// The text with only characters that XML and HTML have: tabs and line feeds become spaces; control characters and
+/// bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// The printable text, escaped for HTML: between tags and in quoted attributes.

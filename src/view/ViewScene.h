@@ -83,8 +83,8 @@ struct ViewScene {
   std::vector<std::uint32_t> bodies{};
   std::vector<std::string> bodyNames{};
 
-  /// What a model, and a body, is known by in reports to come: an IFC's GlobalId, or its file's name and its own in there. Empty
-  /// where nothing but names and numbers is known.
+  /// What a model, and a body, is known by in reports to come: an IFC's GlobalId, or its file's name and its own in
+  /// there. Empty where nothing but names and numbers is known.
   std::vector<std::string> identities{};
   std::vector<std::string> bodyIdentities{};
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The adapter compiles for a Bullet of double precision; Debian's, which the other tests run in, is of single precision.
+// The adapter compiles for a Bullet of double precision; Debian's, which the other tests run in, is of single
+// precision.
 #include <memory>
 #include <type_traits>
 

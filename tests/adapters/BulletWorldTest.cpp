@@ -107,7 +107,8 @@ TEST(BulletWorld, ThousandsOfStepsHaveThePairsThatTheBoxesDemandAndEndAtRest) {
   FallingBodies scene(broadphase, 6, 10);
   for (int step = 0; step < 2000; ++step) {
     scene.step();
-    // A step of Bullet's ends with the motion; the pairs are those of the boxes before it, which the proxies still have.
+    // A step of Bullet's ends with the motion; the pairs are those of the boxes before it, which the proxies still
+    // have.
     ASSERT_EQ(pairsOf(*broadphase.getOverlappingPairCache()), demandedPairs(scene.world())) << "step " << step;
     ASSERT_TRUE(scene.isFinite()) << "step " << step;
   }

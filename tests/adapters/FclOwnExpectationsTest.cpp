@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What FCL's own tests expect of a manager, with its own callbacks, shapes and meshes: the results of its naive manager,
-// when objects were registered and after they moved.
+// What FCL's own tests expect of a manager, with its own callbacks, shapes and meshes: the results of its naive
+// manager, when objects were registered and after they moved.
 #include <fcl/broadphase/broadphase_bruteforce.h>
 #include <fcl/broadphase/default_broadphase_callbacks.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// States, depths and containment against what is known of the shapes without FCL: closed forms, and many sampled points.
+// States, depths and containment against what is known of the shapes without FCL: closed forms, and many sampled
+// points.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

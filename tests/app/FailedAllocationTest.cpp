@@ -159,7 +159,8 @@ class Scene {
   [[nodiscard]] std::filesystem::path results() const { return m_folder.path() / "results"; }
   [[nodiscard]] const TempFolder& folder() const { return m_folder; }
 
-  /// Lets allocations fail: some of those that make and read the options, which all commands do, and most of the others.
+  /// Lets allocations fail: some of those that make and read the options, which all commands do, and most of the
+  /// others.
   void check(const std::vector<std::string>& arguments) {
     ForkedProgram program(arguments, m_folder.path());
     expectSuccess(program.run({}));

@@ -37,7 +37,8 @@ class JoinCommand : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  /// Runs a join to join.npy that is killed and resumed again and again; in the end it has these bytes, and no work folder.
+  /// Runs a join to join.npy that is killed and resumed again and again; in the end it has these bytes, and no work
+  /// folder.
   void expectSameBytesWhenKilled(const std::string& join, const char* expected) {
     const ProgramRun run =
         runScript("cd '" + folder.path().string() + "' && for delay in 0.02 0.05 0.09 0.13 0.2 0.3; do " + join +

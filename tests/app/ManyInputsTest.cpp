@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The work for many inputs grows as they do. Allocations are counted: they grow as work does, and are the same each time.
+// The work for many inputs grows as they do. Allocations are counted: they grow as work does, and are the same each
+// time.
 #include <gtest/gtest.h>
 
 #include <cstddef>

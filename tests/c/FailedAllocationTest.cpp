@@ -137,7 +137,8 @@ void check(const Call& call) {
 
 bool takeAll(void*, allpairs_pairs) { return true; }
 
-/// What is made once and stays: the boxes of this test, what a first search leaves, the note of a thread's first failure.
+/// What is made once and stays: the boxes of this test, what a first search leaves, the note of a thread's first
+/// failure.
 class MadeOnce : public ::testing::Environment {
  public:
   void SetUp() override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes without any sense, whose vertices coincide, align and nearly do, against the double loop. RapidCheck prints the
-// seed and the smallest failing case.
+// Meshes without any sense, whose vertices coincide, align and nearly do, against the double loop. RapidCheck prints
+// the seed and the smallest failing case.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

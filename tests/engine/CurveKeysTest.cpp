@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The keys of boxes along the curve, by what makes it Hilbert's: a step leads to a neighbour, and each part is such a curve.
+// The keys of boxes along the curve, by what makes it Hilbert's: a step leads to a neighbour, and each part is such a
+// curve.
 #include <gtest/gtest.h>
 
 #include <algorithm>

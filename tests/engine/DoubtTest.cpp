@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairs that float32 is certain of among pairs that it is not, in all places of vectors and blocks: each is decided as itself, and
-// not as its neighbour.
+// Pairs that float32 is certain of among pairs that it is not, in all places of vectors and blocks: each is decided as
+// itself, and not as its neighbour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ INSTANTIATE_TEST_SUITE_P(EachInstructionSet, Doubt,
 
 constexpr Strategy kWays[] = {Strategy::Exhaustive, Strategy::Bvh};
 
-/// Boxes that end where others begin, or a hair before, which float32 cannot tell, and some that reach over both; on each axis
-/// some are far from the others.
+/// Boxes that end where others begin, or a hair before, which float32 cannot tell, and some that reach over both; on
+/// each axis some are far from the others.
 std::vector<Box> mixedBoxes(std::size_t n, unsigned seed) {
   std::mt19937 generator(seed);
   const double justAfter = std::nextafter(0.1, 1.0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each allocation of a search of many worlds fails once: what it has thrown in is used on, and gives what a fresh one gives.
+// Each allocation of a search of many worlds fails once: what it has thrown in is used on, and gives what a fresh one
+// gives.
 #include <gtest/gtest.h>
 
 #include <cstddef>

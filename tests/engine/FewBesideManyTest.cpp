@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A few boxes beside a large set, which is searched as it lies in memory: whole lists beside a double loop, for counts around
-// the limits of vectors and of parts.
+// A few boxes beside a large set, which is searched as it lies in memory: whole lists beside a double loop, for counts
+// around the limits of vectors and of parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

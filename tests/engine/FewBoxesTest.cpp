@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sets so small that they are searched in memory on the stack: every count around the limits between the ways of doing so.
+// Sets so small that they are searched in memory on the stack: every count around the limits between the ways of doing
+// so.
 #include <gtest/gtest.h>
 
 #include <algorithm>

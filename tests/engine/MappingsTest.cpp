@@ -13,8 +13,8 @@
 
 #include "allpairs/World.h"
 
-// What a search does with its memory must not touch what other threads map meanwhile. Moving pages did on Linux 6.1: there
-// a failed mremap() to a fixed address leaves a hole, into which another thread's mmap() falls.
+// What a search does with its memory must not touch what other threads map meanwhile. Moving pages did on Linux 6.1:
+// there a failed mremap() to a fixed address leaves a hole, into which another thread's mmap() falls.
 
 namespace allpairs {
 namespace {
@@ -65,8 +65,8 @@ std::size_t countBrokenMappings(const std::stop_token& stop) {
 
 constexpr BoxId kCrowd = 1200;
 
-/// As many boxes that all overlap each other, with the even indices, as boxes that overlap nothing: the results grow by and
-/// by over several megabytes.
+/// As many boxes that all overlap each other, with the even indices, as boxes that overlap nothing: the results grow by
+/// and by over several megabytes.
 std::vector<Box> halfCrowd() {
   std::vector<Box> boxes;
   for (BoxId i = 0; i < kCrowd; ++i) {

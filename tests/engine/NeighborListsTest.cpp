@@ -73,7 +73,8 @@ TEST(NeighborLists, OfOneSetGiveTheOraclesPairs) {
 }
 
 TEST(NeighborLists, AreNotNeededForAFewBoxesWithManyPartners) {
-  // Most rows of a bucket are ordered by ranks; those with a row of thousands, or with too many pairs, are radix sorted.
+  // Most rows of a bucket are ordered by ranks; those with a row of thousands, or with too many pairs, are radix
+  // sorted.
   std::vector<Box> boxes = test::toDouble(test::randomBoxes(4 * kDenseBoxes, 7));
   for (const std::size_t giant : {std::size_t{5}, kDenseBoxes, 4 * kDenseBoxes - 300}) {
     boxes[giant] = {{-1e30, -1e30, -1e30}, {1e30, 1e30, 1e30}};

@@ -163,8 +163,8 @@ TEST(Neighbors, OfMoreBoxesThanBucketsAreForAscend) {
   }
 }
 
-/// A lattice, three boxes a place, whose faces touch, or are apart by less than float32 can tell. Margins make the sum of a pair's
-/// depend on its order.
+/// A lattice, three boxes a place, whose faces touch, or are apart by less than float32 can tell. Margins make the sum
+/// of a pair's depend on its order.
 struct Lattice {
   Lattice(std::size_t count, std::size_t side) {
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One query against the sixteen boxes of a block, on a grid on which float32 is exact: what the kernels say is then known to
-// the last lane.
+// One query against the sixteen boxes of a block, on a grid on which float32 is exact: what the kernels say is then
+// known to the last lane.
 #include <gtest/gtest.h>
 
 #include <algorithm>

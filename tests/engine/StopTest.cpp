@@ -41,8 +41,8 @@ class StoppingExecutor final : public Executor {
   std::size_t m_threads;
 };
 
-/// Runs work with a stop at its first task, at its second, and so on, until there is none left; returns how often it was
-/// stopped. After each stop `check` runs without one.
+/// Runs work with a stop at its first task, at its second, and so on, until there is none left; returns how often it
+/// was stopped. After each stop `check` runs without one.
 std::size_t stopAtEachTask(StoppingExecutor& executor, const std::function<void()>& work,
                            const std::function<void()>& check) {
   for (std::size_t tasks = 0;; ++tasks) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes as they lie in memory against one box, and the search for NaNs among numbers, for every count around whole vectors.
+// Boxes as they lie in memory against one box, and the search for NaNs among numbers, for every count around whole
+// vectors.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -133,7 +133,8 @@ TEST(WorldLife, LargeWorldsFollowTheBoxesThatComeAndGo) {
   }
 }
 
-/// Worlds of ten boxes, so few that the lists are copied, end in the first, a middle and the last place, and others begin.
+/// Worlds of ten boxes, so few that the lists are copied, end in the first, a middle and the last place, and others
+/// begin.
 TEST(WorldLife, FewBoxesEndAWorldWhileAnotherBegins) {
   LargeWorlds worlds(7);
   for (std::size_t i = 0; i < 900; ++i) worlds.add(worlds.properties());

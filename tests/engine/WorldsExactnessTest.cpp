@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Worlds of few boxes that are apart by just the distance and their margins, or by a hair more: the sum depends on the order in
-// which it is added, which is that of their ids whatever the order of the pairs.
+// Worlds of few boxes that are apart by just the distance and their margins, or by a hair more: the sum depends on the
+// order in which it is added, which is that of their ids whatever the order of the pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joins of two sets in so little memory that each way of cutting, dividing and merging is taken, against the double loop.
+// Joins of two sets in so little memory that each way of cutting, dividing and merging is taken, against the double
+// loop.
 #include <gtest/gtest.h>
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joins of boxes that have margins, groups, categories and masks, or that a region leaves out, in so little memory that each way
-// of cutting, dividing and merging is taken, against the double loop.
+// Joins of boxes that have margins, groups, categories and masks, or that a region leaves out, in so little memory that
+// each way of cutting, dividing and merging is taken, against the double loop.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -125,8 +125,8 @@ class ValuesCase : public JoinCase {
   }
 };
 
-/// Boxes on a grid of tenths, which no double holds: the order in which margins are added decides now and then. Some are so large,
-/// or have such margins, that they are kept apart, some are empty, and a few have no end.
+/// Boxes on a grid of tenths, which no double holds: the order in which margins are added decides now and then. Some
+/// are so large, or have such margins, that they are kept apart, some are empty, and a few have no end.
 BoxesWith anyBoxes(std::mt19937& random, std::size_t n, unsigned mostTenths = 12) {
   BoxesWith set;
   const auto tenths = [&random](unsigned most) { return 0.1 * static_cast<double>(random() % most); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A library to preload: operator new of a process, on all of its threads, which fails on demand. malloc doesn't, so that a
-// host such as Python, whose own memory it is, goes on.
+// A library to preload: operator new of a process, on all of its threads, which fails on demand. malloc doesn't, so
+// that a host such as Python, whose own memory it is, goes on.
 #include <atomic>
 #include <cstddef>
 #include <cstdint>

@@ -8,8 +8,8 @@ namespace allpairs::test {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// The nearest number that float32 has. It is stored, since GCC 12 leaves out the conversion of neighbouring numbers to float32 and
-/// back.
+/// The nearest number that float32 has. It is stored, since GCC 12 leaves out the conversion of neighbouring numbers to
+/// float32 and back.
 inline double asFloat32(double value) {
   const volatile float stored = static_cast<float>(value);
   return static_cast<double>(stored);

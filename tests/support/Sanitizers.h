@@ -3,8 +3,8 @@
 
 namespace allpairs::test {
 
-/// Whether a sanitizer watches the program. It keeps freed memory for a while and has its own for each thread, so that how much
-/// a process holds says little; and work takes many times as long.
+/// Whether a sanitizer watches the program. It keeps freed memory for a while and has its own for each thread, so that
+/// how much a process holds says little; and work takes many times as long.
 #if defined(__SANITIZE_THREAD__)
 inline constexpr bool kIsThreadSanitized = true;
 #elif defined(__has_feature)

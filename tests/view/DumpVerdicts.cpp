@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// dump_verdicts INPUT... [--sequence] [--data DIR]...: prints, for each frame, each model of the inputs, and each before it
-// and itself, the verdict of the rules, the widest gap and its axis, one a line: what the page's own rules are compared
-// with.
+// dump_verdicts INPUT... [--sequence] [--data DIR]...: prints, for each frame, each model of the inputs, and each
+// before it and itself, the verdict of the rules, the widest gap and its axis, one a line: what the page's own rules
+// are compared with.
 
 #include <cstdio>
 #include <exception>

@@ -269,7 +269,8 @@ TEST(ReportOfBodies, MayBeOfFiles) {
                 "is not one of body");
 }
 
-/// The wall and the column, and a curtain wall of two members, which mapped items place: each member is a beam from x = -500 to 500.
+/// The wall and the column, and a curtain wall of two members, which mapped items place: each member is a beam from x =
+/// -500 to 500.
 std::string ifcOfParts() {
   const std::string parts = R"(#50=IFCRECTANGLEPROFILEDEF(.AREA.,$,#53,1000.,200.);
 #51=IFCEXTRUDEDAREASOLID(#50,#9,#7,300.);

@@ -367,7 +367,8 @@ std::string cuboidText(const std::array<double, 3>& min, const std::array<double
   return text.str();
 }
 
-/// Parts of which two are the same, one lies in another, two share 0.25, and a slanted one is apart though boxes overlap.
+/// Parts of which two are the same, one lies in another, two share 0.25, and a slanted one is apart though boxes
+/// overlap.
 class ReportOfShapes : public ::testing::Test {
  protected:
   ReportOfShapes() {

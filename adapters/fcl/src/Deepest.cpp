@@ -106,9 +106,10 @@ double limitWithin(const Box& box, const Point& point) {
   return depth;
 }
 
-/// Finds the deepest of many points without measuring them all. To measure is to ask FCL how far the surface is. From one
-/// that was measured follows how deep its neighbours can lie at most: no deeper than the triangle that is nearest to it,
-/// and by no more than they are away. What can't be the deepest is dropped; the rest is halved, and halves measured.
+/// Finds the deepest of many points without measuring them all. To measure is to ask FCL how far the surface is. From
+/// one that was measured follows how deep its neighbours can lie at most: no deeper than the triangle that is nearest
+/// to it, and by no more than they are away. What can't be the deepest is dropped; the rest is halved, and halves
+/// measured.
 class DeepestSearch {
  public:
   explicit DeepestSearch(const ExactPart& outer) : m_outer(outer) {}

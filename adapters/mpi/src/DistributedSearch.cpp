@@ -175,8 +175,8 @@ BoxRecords DistributedSearch::fetchCell(const Distribution& distribution, std::s
   return std::move(*records);
 }
 
-/// Each rank searches its cell of the round. Boxes come in the order of their numbers, so that the first of a pair has the
-/// lower one.
+/// Each rank searches its cell of the round. Boxes come in the order of their numbers, so that the first of a pair has
+/// the lower one.
 void DistributedSearch::searchCells(const Distribution& distribution, std::size_t round) {
   const BoxRecords first = fetchCell(distribution, round, 0);
   std::optional<BoxRecords> second;
@@ -231,8 +231,8 @@ void DistributedSearch::searchWide(const Distribution& distribution, std::size_t
   }
 }
 
-/// Of one set, each pair is found as (lower number, higher number), in which order its margins are added; two wide boxes
-/// are a pair on the rank of the higher one.
+/// Of one set, each pair is found as (lower number, higher number), in which order its margins are added; two wide
+/// boxes are a pair on the rank of the higher one.
 void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere) {
   const LocalSet& local = m_sets[m_sets.size() - 1 - set];
   const bool isOneSet = m_sets.size() == 1;

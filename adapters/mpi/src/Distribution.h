@@ -16,11 +16,11 @@
 
 namespace allpairs::mpi {
 
-/// Which boxes of this rank go to which cells, and which rank searches each cell. Making it is collective; all ranks have
-/// the same cells.
+/// Which boxes of this rank go to which cells, and which rank searches each cell. Making it is collective; all ranks
+/// have the same cells.
 ///
-/// A box that reaches many cells is wide, and so is one in a crowded cell: one that holds more than a rank's share of all
-/// boxes, and that no cut divides. Wide boxes go to no cell.
+/// A box that reaches many cells is wide, and so is one in a crowded cell: one that holds more than a rank's share of
+/// all boxes, and that no cut divides. Wide boxes go to no cell.
 class Distribution {
  public:
   /// The options are those of the search; one set, or two.

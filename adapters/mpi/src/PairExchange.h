@@ -17,8 +17,8 @@ class PairExchange {
  public:
   explicit PairExchange(const Ranks& ranks) : m_ranks(ranks) {}
 
-  /// Before the first pair: the number behind the last first box of each rank, and whether all ids are below 2^32, so that a
-  /// pair travels as one word instead of two.
+  /// Before the first pair: the number behind the last first box of each rank, and whether all ids are below 2^32, so
+  /// that a pair travels as one word instead of two.
   void start(std::span<const std::uint64_t> ends, bool areIdsShort);
 
   void add(std::uint64_t first, std::uint64_t second);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes in which a few models change from step to step, each in one way: what the plugin keeps of a model between steps is
-// never out of date.
+// Scenes in which a few models change from step to step, each in one way: what the plugin keeps of a model between
+// steps is never out of date.
 #include <algorithm>
 #include <set>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Makes scenes of SOFA in memory whose collision models change from step to step: they come and go, move to another node, change
-// groups, flags, distances and depth of their bounding trees. Compares the list of a broad phase with that of SOFA's
-// BruteForceBroadPhase in every step.
+// Makes scenes of SOFA in memory whose collision models change from step to step: they come and go, move to another
+// node, change groups, flags, distances and depth of their bounding trees. Compares the list of a broad phase with that
+// of SOFA's BruteForceBroadPhase in every step.
 #include <sofa/component/collision/detection/algorithm/BruteForceBroadPhase.h>
 #include <sofa/component/collision/detection/intersection/DiscreteIntersection.h>
 #include <sofa/component/collision/detection/intersection/NewProximityIntersection.h>

@@ -19,9 +19,9 @@ struct Contestant {
 
 /// Stands in a pipeline as its broad phase, and hands the models of each step to several others.
 ///
-/// Each in its turn comes first, and only then its time counts: right after the pipeline has computed the bounding trees,
-/// with whatever that leaves in the processor's caches, as if it stood there alone. The others follow, so that all lists
-/// can be compared with the first one's, which is what the pipeline gets.
+/// Each in its turn comes first, and only then its time counts: right after the pipeline has computed the bounding
+/// trees, with whatever that leaves in the processor's caches, as if it stood there alone. The others follow, so that
+/// all lists can be compared with the first one's, which is what the pipeline gets.
 class Contest : public BroadPhase {
  public:
   SOFA_CLASS(Contest, BroadPhase);

@@ -36,8 +36,8 @@ void loadPlugins(const std::vector<std::string>& names);
 /// A scene of SOFA, loaded, with other broad phases than its own, and run step by step.
 class SceneRun {
  public:
-  /// Loads a scene. With a class, every broad phase of the scene is replaced by one of it, under the same name, with the
-  /// same box, before the scene is initialised.
+  /// Loads a scene. With a class, every broad phase of the scene is replaced by one of it, under the same name, with
+  /// the same box, before the scene is initialised.
   ///
   /// Bad input: a scene or a class that SOFA can't make throws std::runtime_error.
   SceneRun(const Settings& settings, const std::string& broadPhaseClass = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs a scene of SOFA with several broad phases in the place of its own, each first in its turn: prints how long each of
-// them takes a step, in processor time of the calling thread and in elapsed time, and whether all give the same lists.
+// Runs a scene of SOFA with several broad phases in the place of its own, each first in its turn: prints how long each
+// of them takes a step, in processor time of the calling thread and in elapsed time, and whether all give the same
+// lists.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

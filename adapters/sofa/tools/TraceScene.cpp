@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs a scene of SOFA, with its own broad phase or with another, and prints each step's pairs in order and the positions
-// at the end, all digits of them, in lines that begin with "step", "pair" and "state". Two runs that print the same such
-// lines have found the same.
+// Runs a scene of SOFA, with its own broad phase or with another, and prints each step's pairs in order and the
+// positions at the end, all digits of them, in lines that begin with "step", "pair" and "state". Two runs that print
+// the same such lines have found the same.
 #include <sofa/core/CollisionModel.h>
 
 #include <cstdio>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The time of the component, not of the raw engine: a step of BruteForceBroadPhase (begin, add all, end) on box models
-// in nodes of their own, beside the plain double loop with virtual calls (Strategy::Exhaustive) on the same models: a step with a
-// full rebuild, and one after which nothing has moved, which keeps the last search. All lists are compared before
-// anything is timed.
+// in nodes of their own, beside the plain double loop with virtual calls (Strategy::Exhaustive) on the same models: a
+// step with a full rebuild, and one after which nothing has moved, which keeps the last search. All lists are compared
+// before anything is timed.
 //
 //   component_benchmark [MODELS...]        the default is 217 1000 10000
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What order costs: the calls that a user makes, ordered, not ordered and as rows of neighbors, in turns, on equal cubes at
-// random places that are others for each repetition. Medians of processor time.
+// What order costs: the calls that a user makes, ordered, not ordered and as rows of neighbors, in turns, on equal
+// cubes at random places that are others for each repetition. Medians of processor time.
 //
 //   dense_benchmark [--instruction-set NAME] [--most-pairs N] [--axes N]
 #include <CLI/CLI.hpp>

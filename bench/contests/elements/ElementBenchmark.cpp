@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Candidates of a deforming mesh, beside the packaged peers that are used for the same lists. A peer gets the boxes of
-// the elements ready made, in float32, and searches them; then pairs with a common vertex are left out. Ours starts from
-// positions, makes the boxes and compares in double, and its first line is the topology, which is made once.
+// the elements ready made, in float32, and searches them; then pairs with a common vertex are left out. Ours starts
+// from positions, makes the boxes and compares in double, and its first line is the topology, which is made once.
 //
 //   element_benchmark [--output FILE] START END [START END ...]
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Calls on few boxes, each on other boxes than the one before, since a processor learns the branches of a scene that it sees
-// again. First the calls that a user makes, in turns with a double loop; then, for each instruction set, the exhaustive
-// search divided by the hierarchy, which says where Automatic should change from one to the other.
+// Calls on few boxes, each on other boxes than the one before, since a processor learns the branches of a scene that it
+// sees again. First the calls that a user makes, in turns with a double loop; then, for each instruction set, the
+// exhaustive search divided by the hierarchy, which says where Automatic should change from one to the other.
 //
 //   few_benchmark [--seconds S]
 #include <CLI/CLI.hpp>
@@ -35,7 +35,8 @@ struct Scene {
   std::vector<T> second;
 };
 
-/// How many boxes; none in the second set means one set. With a share each of the second set overlaps about as many of the first.
+/// How many boxes; none in the second set means one set. With a share each of the second set overlaps about as many of
+/// the first.
 struct Counts {
   std::size_t first;
   std::size_t second = 0;

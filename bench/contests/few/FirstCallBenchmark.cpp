@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The first search of a process, which is all that many programs make: it finds cold caches, no memory, functions that are
-// not bound yet and a processor that the library has not asked for its instruction sets. A process for each time, all
-// contenders in turns; of a peer the fastest setting is printed.
+// The first search of a process, which is all that many programs make: it finds cold caches, no memory, functions that
+// are not bound yet and a processor that the library has not asked for its instruction sets. A process for each time,
+// all contenders in turns; of a peer the fastest setting is printed.
 //
 //   first_call_benchmark [--rounds N]
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Looks for losing regimes: random scenes, each measured with the calls that users make and with all peers of bench/peers,
-// a plain double loop and a plain sweep along one axis. Scenes differ from repetition to repetition, contenders take turns,
-// and their pairs are compared. Times are processor time, medians, one thread.
+// Looks for losing regimes: random scenes, each measured with the calls that users make and with all peers of
+// bench/peers, a plain double loop and a plain sweep along one axis. Scenes differ from repetition to repetition,
+// contenders take turns, and their pairs are compared. Times are processor time, medians, one thread.
 //
 //   hunt_benchmark [--seconds S] [--seed N] [--least-boxes N] [--most-boxes N] [--peer NAME] [--output FILE]
 //   hunt_benchmark --scene-seed N [--seconds S]

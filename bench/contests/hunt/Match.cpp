@@ -42,7 +42,8 @@ struct Finding {
   std::uint64_t hash = 0;
 };
 
-/// The time of one search of each scene, in nanoseconds. What the last one built is taken down afterwards, off the clock.
+/// The time of one search of each scene, in nanoseconds. What the last one built is taken down afterwards, off the
+/// clock.
 template <class T>
 struct Turn {
   double ns = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What layouts of boxes in memory and options cost: overlaps() of the same equal cubes at random places as rows of six, as
-// two arrays of corners, as padded corners and as columns, and of the rows with a distance, margins and a region. In turns,
-// on other boxes for each repetition. Medians of processor time.
+// What layouts of boxes in memory and options cost: overlaps() of the same equal cubes at random places as rows of six,
+// as two arrays of corners, as padded corners and as columns, and of the rows with a distance, margins and a region. In
+// turns, on other boxes for each repetition. Medians of processor time.
 //
 //   layouts_benchmark [--instruction-set NAME] [--most-boxes N]
 #include <CLI/CLI.hpp>

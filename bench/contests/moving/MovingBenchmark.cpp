@@ -73,8 +73,8 @@ double percentile(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
-/// How many times longer an entry took than the first one: the median over the frames in which both took their turn, which
-/// a burst of other work on the machine meets alike.
+/// How many times longer an entry took than the first one: the median over the frames in which both took their turn,
+/// which a burst of other work on the machine meets alike.
 double ratioToFirst(const Entry& entry, const Entry& first) {
   std::vector<double> ratios;
   for (std::size_t frame = 0; frame < std::min(entry.cpuMs.size(), first.cpuMs.size()); ++frame) {

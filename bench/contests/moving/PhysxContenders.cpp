@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PhysX's automatic box pruning on its own, updated in each frame. It tells which pairs began and which ended, and keeps the list of
-// all to itself; ours gives that list too.
+// PhysX's automatic box pruning on its own, updated in each frame. It tells which pairs began and which ended, and
+// keeps the list of all to itself; ours gives that list too.
 #include <algorithm>
 #include <set>
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Many small worlds, such as the copies of a simulation: from their boxes in float32 to the lists of all worlds, on one thread,
-// in processor time. One call for all worlds, in turns with a loop of calls of an OverlapSearch that is kept, and with one call
-// for the worlds side by side in space, whose pairs are then divided. Worlds differ, since a processor learns the branches of
-// a scene that it sees again; each round has other worlds too.
+// Many small worlds, such as the copies of a simulation: from their boxes in float32 to the lists of all worlds, on one
+// thread, in processor time. One call for all worlds, in turns with a loop of calls of an OverlapSearch that is kept,
+// and with one call for the worlds side by side in space, whose pairs are then divided. Worlds differ, since a
+// processor learns the branches of a scene that it sees again; each round has other worlds too.
 //
-// Then worlds whose boxes all move a little in every step, or of which one is reset: a World whose boxes have world numbers,
-// in turns with the one-shot search of the same boxes, and with a World without numbers that holds the worlds side by side.
+// Then worlds whose boxes all move a little in every step, or of which one is reset: a World whose boxes have world
+// numbers, in turns with the one-shot search of the same boxes, and with a World without numbers that holds the worlds
+// side by side.
 //
-// Last, worlds that meet a static set of boxes that they share, in turns with one search of two sets, of the same boxes.
+// Last, worlds that meet a static set of boxes that they share, in turns with one search of two sets, of the same
+// boxes.
 //
 //   worlds_benchmark [--rounds R] [--instruction-set NAME]
 #include <CLI/CLI.hpp>

@@ -95,8 +95,8 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
   /// Runs the search in parallel; null means on the calling thread. Not owned.
   void setExecutor(Executor* executor);
 
-  /// A flag that ends steps and verify() with Stopped soon after it is set; null, the default, means none. Not owned. What
-  /// the broad phase holds then is as after any other exception.
+  /// A flag that ends steps and verify() with Stopped soon after it is set; null, the default, means none. Not owned.
+  /// What the broad phase holds then is as after any other exception.
   void setStop(const StopFlag* stop);
 
   /// Statistics since beginBroadPhase(); complete when the list of pairs is.

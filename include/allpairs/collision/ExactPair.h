@@ -36,7 +36,8 @@ inline constexpr std::size_t kExactStates = 8;
 /// Whether the models touch in any way: a clash or a contact.
 [[nodiscard]] constexpr bool isContact(ExactState state) noexcept { return state <= ExactState::Touching; }
 
-/// The word that results use for a state: duplicate, contained, clash, touching, undecided, clearance, not-examined, apart.
+/// The word that results use for a state: duplicate, contained, clash, touching, undecided, clearance, not-examined,
+/// apart.
 [[nodiscard]] std::string_view stateName(ExactState state) noexcept;
 
 /// Two models, looked at closely. Lengths are in the units of the models.

@@ -44,7 +44,8 @@ struct JoinOptions {
   /// Goes on with what is in the work folder; starts from the beginning if there is nothing.
   bool resume = false;
 
-  /// Searches several cells at once, each with its share of the memory, as far as that suffices; null means one after the other. Not owned.
+  /// Searches several cells at once, each with its share of the memory, as far as that suffices; null means one after
+  /// the other. Not owned.
   Executor* executor = nullptr;
 
   /// If given, a join throws Stopped soon after this is set; it can be resumed. Not owned.
@@ -57,15 +58,15 @@ struct JoinOptions {
   /// so that a join which is killed then can still be resumed. May be empty.
   std::function<void()> commit{};
 
-  /// Files of a second set: the pairs are those of a box of the inputs and a box of these, and both sets are numbered by
-  /// themselves. None means pairs within the inputs.
+  /// Files of a second set: the pairs are those of a box of the inputs and a box of these, and both sets are numbered
+  /// by themselves. None means pairs within the inputs.
   std::vector<std::filesystem::path> second{};
 
   /// As OverlapOptions::region: boxes outside it are left out.
   std::optional<Box> region{};
 
-  /// Files of what each box of the inputs has, and each of the second set: a margin, as BoxView::setMargins() takes them, a
-  /// group, categories and a mask, as in FilterBits.
+  /// Files of what each box of the inputs has, and each of the second set: a margin, as BoxView::setMargins() takes
+  /// them, a group, categories and a mask, as in FilterBits.
   scene::BoxValueFiles values{};
   scene::BoxValueFiles secondValues{};
 };
@@ -87,25 +88,26 @@ struct JoinSummary {
 using ResultSink = FunctionRef<void(std::string_view)>;
 
 /// Finds the overlapping pairs of boxes that do not fit in memory, and writes a .npy array of shape (m, 2) to the sink:
-/// uint32, of more than 2^32 boxes in a set uint64, ordered by (first, second). These are the bytes that a search in memory
-/// gives.
+/// uint32, of more than 2^32 boxes in a set uint64, ordered by (first, second). These are the bytes that a search in
+/// memory gives.
 ///
 /// Inputs:    .npy files of shape (n, 6), numbered as one set in the order given; see scene::BoxRows. Of two sets,
 ///            options.second has the files of the other.
 /// Bad input: a file that is none, or a box with a NaN, throws FileError, which names it; so does a work folder that is
 ///            full, in use, or another join's; so does a file of margins, groups, categories or masks that
-///            scene::BoxValues refuses. Too little memory, a distance or a region that is none, or values of a second set
-///            that there is not, throw InvalidArgument.
+///            scene::BoxValues refuses. Too little memory, a distance or a region that is none, or values of a second
+///            set that there is not, throw InvalidArgument.
 ///            What was complete stays in the work folder.
-/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32 bytes
-///            per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and masks, and 8
-///            per pair (16 of more than 2^32 boxes in a set). Where the disk is estimated to be too small it throws before it
-///            writes.
+/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32
+///            bytes per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and
+///            masks, and 8 per pair (16 of more than 2^32 boxes in a set). Where the disk is estimated to be too small
+///            it throws before it writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again. Inputs that have changed throw FileError. The result's bytes are the same.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
 
-/// The same into a file, which appears when it is complete, beside which it is written; options.commit is not used. The default work folder is `output` with ".work" behind it.
+/// The same into a file, which appears when it is complete, beside which it is written; options.commit is not used. The
+/// default work folder is `output` with ".work" behind it.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 

@@ -43,8 +43,8 @@ struct IdPair {
 #endif
 };
 
-/// A part of space: the points p with min[a] <= p[a] < max[a] on each axis. A max of infinity includes infinity, so that
-/// cells which tile space hold every point once. The default is all of space.
+/// A part of space: the points p with min[a] <= p[a] < max[a] on each axis. A max of infinity includes infinity, so
+/// that cells which tile space hold every point once. The default is all of space.
 struct Cell {
   Point min{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
             -std::numeric_limits<double>::infinity()};
@@ -71,8 +71,8 @@ struct Cell {
   return point;
 }
 
-/// Where the points of all pairs of a box lie: from its minimum to its maximum widened by the greatest distance at which
-/// it can be in a pair. A box goes to each cell that this touches.
+/// Where the points of all pairs of a box lie: from its minimum to its maximum widened by the greatest distance at
+/// which it can be in a pair. A box goes to each cell that this touches.
 ///
 /// `maxMargin` is the greatest margin of any box that it may be paired with. Only sums that the test of a pair makes
 /// itself are made, or greater ones, and rounding is monotonic: no pair is lost.
@@ -83,8 +83,8 @@ struct Cell {
 
 /// Searches the boxes of one cell after the other, and keeps its working memory in between.
 ///
-/// A pair belongs to the cell that holds its pairPoint(). Cells that tile space, each searched with the boxes whose reach
-/// touches it, give every pair exactly once, however space is cut.
+/// A pair belongs to the cell that holds its pairPoint(). Cells that tile space, each searched with the boxes whose
+/// reach touches it, give every pair exactly once, however space is cut.
 ///
 /// Options:   order and maxPairs are those of the pairs of a cell, distance and filter as in OverlapSearch; `first` and
 ///            `second` of a filter, and the numbers that `accept` receives, are indices into the given boxes.

@@ -34,8 +34,8 @@ class Partition {
   /// One cell: all of space.
   Partition() = default;
 
-  /// About `cells` cells of about as many boxes each. Each cut is at a minimum of a box, on the axis on which the fewest
-  /// boxes lie on both sides; what no cut divides stays one cell.
+  /// About `cells` cells of about as many boxes each. Each cut is at a minimum of a box, on the axis on which the
+  /// fewest boxes lie on both sides; what no cut divides stays one cell.
   ///
   /// The sample stands for all boxes: some hundred for each cell suffice. Its margins count.
   /// Cost: O(s log(cells)) for a sample of s boxes.
@@ -56,8 +56,8 @@ class Partition {
   /// Bad input: a number that no cell has throws InvalidArgument.
   [[nodiscard]] Cell cell(std::size_t number) const;
 
-  /// Whether a box that goes to so many cells is better kept apart than copied to each: more than 16, and more than a fourth of
-  /// all.
+  /// Whether a box that goes to so many cells is better kept apart than copied to each: more than 16, and more than a
+  /// fourth of all.
   [[nodiscard]] bool isWide(std::size_t reached) const noexcept { return reached > 16 && reached > size() / 4; }
 
   /// The cell that holds a point.
@@ -66,8 +66,8 @@ class Partition {
   /// Replaces `cells` by the numbers of all cells that a reach (see reachOf()) touches; none if it is empty.
   void cellsOf(const Box& reach, std::vector<std::uint32_t>& cells) const;
 
-  /// Cuts one cell again, into about `parts`; the new cells are numbered after all others. Returns whether a cut divides
-  /// the boxes of the sample that touch it.
+  /// Cuts one cell again, into about `parts`; the new cells are numbered after all others. Returns whether a cut
+  /// divides the boxes of the sample that touch it.
   bool cutAgain(std::size_t number, const BoxView& sample, std::size_t parts, double distance = 0.0);
 
  private:
@@ -78,8 +78,8 @@ class Partition {
   std::vector<Cut> m_cuts;
 };
 
-/// What a search on several ranks cuts space into: so many cells for each rank, so that work can be dealt out evenly, and as many
-/// as it takes for none to have many more boxes than these, since a rank holds one cell at a time.
+/// What a search on several ranks cuts space into: so many cells for each rank, so that work can be dealt out evenly,
+/// and as many as it takes for none to have many more boxes than these, since a rank holds one cell at a time.
 inline constexpr std::size_t kCellsPerRank = 8;
 inline constexpr std::size_t kBoxesPerCell = std::size_t{1} << 22;
 

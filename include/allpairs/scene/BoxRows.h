@@ -9,8 +9,8 @@
 
 namespace allpairs::scene {
 
-/// A NumPy file of boxes that is read a part at a time: an array of shape (n, 6), float32 or float64, either byte order, C
-/// or Fortran order, of any length.
+/// A NumPy file of boxes that is read a part at a time: an array of shape (n, 6), float32 or float64, either byte
+/// order, C or Fortran order, of any length.
 ///
 /// Bad input: anything else throws FileError. NaNs are the reader's to find.
 /// Cost:      nothing is kept but the header: the file is read where it is asked for, not mapped, so that its pages do
@@ -27,8 +27,8 @@ class BoxRows {
   [[nodiscard]] std::uint64_t size() const noexcept;
   [[nodiscard]] bool isFloat64() const noexcept;
 
-  /// Reads the boxes from `begin` on, as many as fit, in rows of minx miny minz maxx maxy maxz. As float32 only of a file
-  /// that is.
+  /// Reads the boxes from `begin` on, as many as fit, in rows of minx miny minz maxx maxy maxz. As float32 only of a
+  /// file that is.
   ///
   /// Bad input: a range that is not within the file, or float32 of a float64 file, throws InvalidArgument; a file that
   ///            cannot be read throws FileError.

@@ -13,7 +13,8 @@ namespace allpairs::scene {
 /// What a number of a box is: BoxView::setMargins() and FilterBits say what each does.
 enum class BoxValue : std::uint8_t { Margin, Group, Category, Mask };
 
-/// Files of what the boxes of a set have beside their bounds: of each, none, or some whose numbers are one for each box.
+/// Files of what the boxes of a set have beside their bounds: of each, none, or some whose numbers are one for each
+/// box.
 struct BoxValueFiles {
   std::vector<std::filesystem::path> margins{};
   std::vector<std::filesystem::path> groups{};
@@ -21,8 +22,8 @@ struct BoxValueFiles {
   std::vector<std::filesystem::path> masks{};
 };
 
-/// NumPy files of one number for each box that are read a part at a time: arrays of shape (n,), in either byte order, taken
-/// one after the other. Margins are float16, float32, float64 or integers, all else are integers of any width;
+/// NumPy files of one number for each box that are read a part at a time: arrays of shape (n,), in either byte order,
+/// taken one after the other. Margins are float16, float32, float64 or integers, all else are integers of any width;
 /// bools count as 0 and 1.
 ///
 /// Bad input: anything else, and more or fewer numbers than boxes, throw FileError.
@@ -38,9 +39,9 @@ class BoxValues {
 
   /// Reads the numbers from that of box `begin` on, as many as fit.
   ///
-  /// Bad input: a range that is not within the files, or numbers of the other kind, throws InvalidArgument; a margin that
-  ///            is a NaN or -infinity, a label beyond 32 bits, an integer margin beyond 2^53, and a file that cannot be read or has changed, throw
-  ///            FileError, which names the file and the number in it.
+  /// Bad input: a range that is not within the files, or numbers of the other kind, throws InvalidArgument; a margin
+  ///            that is a NaN or -infinity, a label beyond 32 bits, an integer margin beyond 2^53, and a file that
+  ///            cannot be read or has changed, throw FileError, which names the file and the number in it.
   void read(std::uint64_t begin, Span<double> margins);
   void read(std::uint64_t begin, Span<std::uint32_t> labels);
 

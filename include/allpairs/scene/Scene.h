@@ -35,9 +35,11 @@ struct ModelSource {
   std::string kind{};    ///< What it is in the format's own words: "IfcColumn"; else empty.
   std::string id{};      ///< What identifies it for good, an IFC's GlobalId; else empty.
   std::string given{};  ///< What append() or a reader of several files named the model last; empty: as the file has it.
-  /// The body of its file that it is a part of besides its owner: an IFC's product, of which mapped items are parts; else empty.
+  /// The body of its file that it is a part of besides its owner: an IFC's product, of which mapped items are parts;
+  /// else empty.
   std::string body{};
-  /// The assembly that it is in: in IFC the outermost product, else what is below the node of the file where it first branches.
+  /// The assembly that it is in: in IFC the outermost product, else what is below the node of the file where it first
+  /// branches.
   std::string assembly{};
 };
 
@@ -64,7 +66,8 @@ struct Scene {
   std::vector<Remark> warnings{};  ///< Where the result may not be what is expected, though no part was skipped.
   /// Where a scene has several: searchesOf() gives each its models, and the method and region above are the first's.
   std::vector<ScenePipeline> pipelines{};
-  /// The axis that points up, where the format or its gravity says so: 1 to 3 for x to z, below 0 for the other way; else 0.
+  /// The axis that points up, where the format or its gravity says so: 1 to 3 for x to z, below 0 for the other way;
+  /// else 0.
   int up = 0;
   std::optional<double> metresPerUnit{};  ///< The length of a unit, where the format says so.
 };
@@ -87,15 +90,15 @@ struct SceneSearch {
 
 /// Appends the models of `more` to those of `scene`.
 ///
-/// Where files have objects of the same name, or of one that says nothing, such as "default" or "Cylinder.002", their models are
-/// named by file and object: "left.obj › wheel"; where the object's name says nothing and it is alone in its file, by the file
-/// alone: "left.obj". Models of the same name that this does not tell apart get a number: "wheel#2". Names that setName() has
-/// given since stay. The first method and the
-/// first region that a file names apply to all; others give a remark. The first input that says which axis is up, and how long
-/// a unit is, says it for all.
+/// Where files have objects of the same name, or of one that says nothing, such as "default" or "Cylinder.002", their
+/// models are named by file and object: "left.obj › wheel"; where the object's name says nothing and it is alone in its
+/// file, by the file alone: "left.obj". Models of the same name that this does not tell apart get a number: "wheel#2".
+/// Names that setName() has given since stay. The first method and the
+/// first region that a file names apply to all; others give a remark. The first input that says which axis is up, and
+/// how long a unit is, says it for all.
 ///
-/// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method, and
-///            nothing says which of them would take the others.
+/// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method,
+///            and nothing says which of them would take the others.
 /// Cost:      linear in the models of both, since any of them may get another name. Append many scenes together.
 void append(Scene& scene, Scene more);
 

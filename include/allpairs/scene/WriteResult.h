@@ -92,8 +92,8 @@ void writeCsv(const ResultView& result, ByteSink sink);
 /// A name as a field of CSV: quoted where it needs to be (RFC 4180).
 [[nodiscard]] std::string csvField(const std::string& name);
 
-/// What stands before the numbers of a .npy file (format 1.0) that holds an array in C order; they begin at a multiple of
-/// 64 bytes. `type` is theirs as NumPy names it: "<u4", "<f8".
+/// What stands before the numbers of a .npy file (format 1.0) that holds an array in C order; they begin at a multiple
+/// of 64 bytes. `type` is theirs as NumPy names it: "<u4", "<f8".
 [[nodiscard]] std::string npyHeader(std::string_view type, Span<const std::uint64_t> shape);
 
 /// Writes the pairs as a NumPy array of shape (m, 2), uint32, little-endian.

@@ -14,7 +14,8 @@
 
 namespace allpairs::engine {
 
-/// How many boxes ahead of those that are gathered into blocks others are prefetched (allpairs bench uniform -n 1000000).
+/// How many boxes ahead of those that are gathered into blocks others are prefetched (allpairs bench uniform -n
+/// 1000000).
 inline constexpr std::size_t kPrefetchBoxes = 32;
 
 /// The blocks that so many boxes, or blocks of the level below, fill.

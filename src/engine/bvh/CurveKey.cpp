@@ -37,8 +37,8 @@ unsigned bitsForLine(std::size_t boxes) { return std::min(static_cast<unsigned>(
 
 float centreOf(const LaneBox& box, std::size_t axis) { return 0.5F * box.bound[axis] + 0.5F * box.bound[axis + 3]; }
 
-/// Whether boxes lie along a straight line, which most often the first ones disprove: each meets it, or is no farther from it
-/// than `distance`.
+/// Whether boxes lie along a straight line, which most often the first ones disprove: each meets it, or is no farther
+/// from it than `distance`.
 bool areAlongLine(std::span<const LaneBox> boxes, std::size_t widestAxis, float distance) {
   const auto isBefore = [=](const LaneBox& a, const LaneBox& b) {
     return centreOf(a, widestAxis) < centreOf(b, widestAxis);
@@ -69,7 +69,8 @@ float nth(std::span<float> values, std::size_t n) {
   return *place;
 }
 
-/// Whether four fifths of the values are in two neighbouring parts of so many as outliers are far away: else there are none.
+/// Whether four fifths of the values are in two neighbouring parts of so many as outliers are far away: else there are
+/// none.
 bool mayHaveOutliers(std::span<const float> values, float least, float width) {
   const float partWidth = width / static_cast<float>(kOutlierFactor);
   if (!(partWidth > 0.0F)) return false;

@@ -24,8 +24,8 @@ class HilbertSort {
   explicit HilbertSort(std::pmr::memory_resource* memory)
       : m_chunks(memory), m_radix(memory), m_denseCells(memory), m_boxes(memory) {}
 
-  /// The boxes of the reader in order; those that can overlap nothing only on demand. `spare` holds at least as many values as
-  /// the reader has boxes, and is overwritten.
+  /// The boxes of the reader in order; those that can overlap nothing only on demand. `spare` holds at least as many
+  /// values as the reader has boxes, and is overwritten.
   std::span<const CurveKey> sort(const BoxReader& reader, std::span<CurveKey> spare, Executor& executor,
                                  bool emptyToo = false);
 

@@ -10,9 +10,9 @@
 
 namespace allpairs::engine {
 
-/// Sorts numbers by their bits [begin, end): a pass for each digit from the lowest up, back and forth between two arrays.
-/// Numbers that agree in those bits keep their order; the bits above `end` are the same in all of them. For fewer than 2^32
-/// numbers. Returns which of the two arrays holds the result. For std::uint32_t and std::uint64_t.
+/// Sorts numbers by their bits [begin, end): a pass for each digit from the lowest up, back and forth between two
+/// arrays. Numbers that agree in those bits keep their order; the bits above `end` are the same in all of them. For
+/// fewer than 2^32 numbers. Returns which of the two arrays holds the result. For std::uint32_t and std::uint64_t.
 template <class Number>
 [[nodiscard]] Number* radixSort(Number* from, Number* to, std::size_t size, unsigned begin, unsigned end) noexcept;
 

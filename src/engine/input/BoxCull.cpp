@@ -106,8 +106,8 @@ std::uint32_t* chooseTouching(const BoxRun<T>& boxes, std::size_t first, const s
 
 }  // namespace
 
-/// Restricts the reader to the boxes that choose(begin, end, ids) writes the ids of, part by part; it returns the end of what it
-/// wrote.
+/// Restricts the reader to the boxes that choose(begin, end, ids) writes the ids of, part by part; it returns the end
+/// of what it wrote.
 template <class Choose>
 void BoxCull::keep(BoxReader& reader, Ids& ids, Executor& executor, const Choose& choose) {
   ids.require(reader.size());

@@ -71,7 +71,8 @@ class BoxReader {
   }
   [[nodiscard]] const BoxView& boxes() const noexcept { return *m_boxes; }
 
-  /// Whether these are all boxes of a set, one after the other in memory as boxes of this precision, and their own bounds decide.
+  /// Whether these are all boxes of a set, one after the other in memory as boxes of this precision, and their own
+  /// bounds decide.
   template <class T>
   [[nodiscard]] bool areBoundsOf() const noexcept {
     return m_ids == nullptr && m_distance == 0.0 && !m_boxes->hasMargins() && areRun<T>(*m_boxes);
@@ -85,8 +86,8 @@ class BoxReader {
   /// Reads up to sixteen boxes into the first lanes of a block; the others stay as they are.
   BlockRead read(const BoxList& boxes, LaneBlock& block) const;
 
-  /// Reads all boxes, in their order, into a list that is as long, with their ids; boxes that can overlap nothing become lanes
-  /// that never overlap. Returns whether the lanes are exactly the boxes.
+  /// Reads all boxes, in their order, into a list that is as long, with their ids; boxes that can overlap nothing
+  /// become lanes that never overlap. Returns whether the lanes are exactly the boxes.
   bool readAll(const LaneList& list) const;
 
   /// Prefetches the memory of box i.

@@ -119,7 +119,8 @@ bool isMargin(double value) { return !std::isnan(value) && value != -std::numeri
 
 }  // namespace
 
-/// Written value by value: reading structs of arguments back from the stack would wait for it, which takes longer than checking a box.
+/// Written value by value: reading structs of arguments back from the stack would wait for it, which takes longer than
+/// checking a box.
 template <class T>
 BoxView BoxView::ofCorners(std::size_t size, const T* min, const T* max, std::ptrdiff_t boxStride) {
   BoxView set;

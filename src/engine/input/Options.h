@@ -19,7 +19,8 @@ struct Sets {
   return bits.categories.empty() && bits.masks.empty() && bits.groups.empty();
 }
 
-/// Whether only the bounds of boxes decide which of them are paired; then no option but the instruction set can be invalid.
+/// Whether only the bounds of boxes decide which of them are paired; then no option but the instruction set can be
+/// invalid.
 [[nodiscard]] inline bool onlyBoundsMatter(const Sets& sets, const OverlapOptions& options) noexcept {
   return options.distance == 0.0 && !options.region && !options.filter.accept && isEmpty(options.filter.first) &&
          isEmpty(options.filter.second) && !sets.first.hasMargins() && !sets.second.hasMargins();

@@ -8,8 +8,8 @@
 
 namespace allpairs::engine {
 
-/// Boxes, rows or pairs of a task, or that are passed on at once: some ten microseconds of work, beside which starting it takes
-/// little time.
+/// Boxes, rows or pairs of a task, or that are passed on at once: some ten microseconds of work, beside which starting
+/// it takes little time.
 inline constexpr std::size_t kPartSize = 4096;
 
 /// Tests of boxes, or partners that are copied, between two looks at a flag that stops them: some milliseconds of work.

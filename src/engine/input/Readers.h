@@ -17,8 +17,8 @@ namespace allpairs::engine {
 /// The point that the lanes of two sets are relative to: near the boxes if they are float64 and so far from the origin
 /// that float32 would tell few of them apart, else the origin. Any point gives the same pairs.
 ///
-/// Float64 boxes that are far only because of a few outliers in the sample keep the origin. On an axis on which they are all the
-/// same point, it is that point if float32 does not have it, so that its lanes are exact.
+/// Float64 boxes that are far only because of a few outliers in the sample keep the origin. On an axis on which they
+/// are all the same point, it is that point if float32 does not have it, so that its lanes are exact.
 [[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
   /// Boxes farther from the origin than this many times the extent of the sample lose more bits than this has.
   constexpr double kFarAway = 16.0;

@@ -10,7 +10,8 @@
 
 namespace allpairs::engine {
 
-/// One index from each of `count` equal parts of [0, size), of which each has at least one, at a pseudo-random but fixed position.
+/// One index from each of `count` equal parts of [0, size), of which each has at least one, at a pseudo-random but
+/// fixed position.
 ///
 /// Not equidistant: input is often periodic, and a sample with the same period would see only one kind of box.
 [[nodiscard]] inline std::size_t sampleIndex(std::size_t part, std::size_t count, std::size_t size) noexcept {

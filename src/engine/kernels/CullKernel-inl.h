@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes as they lie in the caller's memory against one box: which of them touch it, the pairs of some such boxes, and whether any
-// value is a NaN.
+// Boxes as they lie in the caller's memory against one box: which of them touch it, the pairs of some such boxes, and
+// whether any value is a NaN.
 
 #if defined(ALLPAIRS_CULL_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_CULL_KERNEL_INL_H
@@ -72,7 +72,8 @@ struct CornerLimits {
   }
 };
 
-/// A bit for each three values that are not above those at the same places of another corner, at the place of the first.
+/// A bit for each three values that are not above those at the same places of another corner, at the place of the
+/// first.
 template <class T>
 HWY_INLINE std::uint64_t areBelow(const T* min, const T* max) {
   const hn::CappedTag<T, kFanOut> d;
@@ -103,8 +104,8 @@ HWY_INLINE std::uint64_t closeUp(std::uint64_t bits) {
 #endif
 }
 
-/// The bits of whole vectors, which other boxes follow where three values more are read; returns the box that follows the last
-/// one.
+/// The bits of whole vectors, which other boxes follow where three values more are read; returns the box that follows
+/// the last one.
 template <class T>
 HWY_INLINE std::size_t touchWhole(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t* words) {
   using Limits = CornerLimits<T>;
@@ -173,7 +174,8 @@ HWY_INLINE std::uint64_t spreadOut(std::uint64_t bits) {
   return (bits | bits << 7) & 0x0101010101010101U;
 }
 
-/// Pairs of some boxes, from `first` on, with others: a bit for each, those of a box next to each other, of kStep others.
+/// Pairs of some boxes, from `first` on, with others: a bit for each, those of a box next to each other, of kStep
+/// others.
 template <std::size_t kStep, bool kOthersSecond>
 HWY_INLINE std::size_t writeTouchingWord(std::uint64_t bits, std::uint32_t first, std::uint32_t firstOther,
                                          Pair* pairs) {

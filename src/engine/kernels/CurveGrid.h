@@ -16,7 +16,8 @@ namespace allpairs::engine {
 /// The key is a class, for boxes much larger than most, above the position along Hilbert's curve of the cell of the
 /// box's centre. Large boxes are thus grouped together and do not enlarge the bounds of blocks of small ones.
 ///
-/// Of boxes along a straight line the position on the widest axis is the key: as fine as cells of three axes, with fewer bits.
+/// Of boxes along a straight line the position on the widest axis is the key: as fine as cells of three axes, with
+/// fewer bits.
 struct CurveGrid {
   /// Keys then have 30 bits with the class, which three passes sort.
   static constexpr unsigned kMaxBitsPerAxis = 9;

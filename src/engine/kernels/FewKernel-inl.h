@@ -24,7 +24,8 @@ namespace {  // Each file that compiles the kernels has its own.
 /// Pairs of a row that are written unasked: most rows of few boxes have no more (few_benchmark).
 constexpr std::size_t kUnaskedOfFew = 2;
 
-/// From so many pairs in a word on they are selected by vectors, which takes the same time for any number (few_benchmark).
+/// From so many pairs in a word on they are selected by vectors, which takes the same time for any number
+/// (few_benchmark).
 constexpr int kManyBits = 8;
 
 /// Boxes as they are, of float32 or of float64, an array for each bound.
@@ -62,8 +63,8 @@ HWY_INLINE void readAllColumns(const T* rows, std::size_t count, FewColumns<T>& 
   readColumns(rest.data(), columns, at);
 }
 
-/// The columns in vectors from `begin` up to `end`, all in one word, that a row overlaps, as bits of that word. No comparison is
-/// true of an empty box, and nothing is rounded.
+/// The columns in vectors from `begin` up to `end`, all in one word, that a row overlaps, as bits of that word. No
+/// comparison is true of an empty box, and nothing is rounded.
 template <class T>
 HWY_INLINE std::uint64_t hitsOf(const T* row, const FewColumns<T>& columns, std::size_t begin, std::size_t end) {
   const hn::CappedTag<T, kFanOut> d;

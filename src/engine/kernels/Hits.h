@@ -51,8 +51,8 @@ struct Hits {
   void* receiver = nullptr;
 
   /// If set, returns where that many pairs may be written at once, which is cheaper where there are many; what is
-  /// stored is taken first. `pairsBefore` others precede them, of which the first begins a cache line. takePairs() says how
-  /// many there were. Pairs are of the sides that `rowSecond` says.
+  /// stored is taken first. `pairsBefore` others precede them, of which the first begins a cache line. takePairs() says
+  /// how many there were. Pairs are of the sides that `rowSecond` says.
   Pair* (*roomForPairs)(void* receiver, Hits& hits, std::size_t most) = nullptr;
   std::size_t pairsBefore = 0;
   void (*takePairs)(void* receiver, std::size_t count) = nullptr;
@@ -64,8 +64,8 @@ struct Hits {
   }
 };
 
-/// Where a join puts the partners of each box of `first`, its neighbors, in ascending order: one list after the other, in
-/// the order of the hierarchy.
+/// Where a join puts the partners of each box of `first`, its neighbors, in ascending order: one list after the other,
+/// in the order of the hierarchy.
 struct NeighborLists {
   /// Which hits the exact test has to see.
   enum class Tested : std::uint8_t {

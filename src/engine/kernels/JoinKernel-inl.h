@@ -318,8 +318,8 @@ class JoinRun {
     return size;
   }
 
-  /// The partners of each box of a leaf. First come the hits, a bit for each box of the leaf, of one box near it after the
-  /// other; then the lists, since now their lengths are known.
+  /// The partners of each box of a leaf. First come the hits, a bit for each box of the leaf, of one box near it after
+  /// the other; then the lists, since now their lengths are known.
   template <Columns kKept>
   void listLeaf(std::size_t number, const LaneBox& bounds) {
     const Leaf leaf(*m_task.first, number);

@@ -47,8 +47,8 @@ struct KernelList {
   }
 };
 
-/// The targets of Highway that run here. Highway would ask the processor again, which takes a virtual machine longer than
-/// most searches of few boxes.
+/// The targets of Highway that run here. Highway would ask the processor again, which takes a virtual machine longer
+/// than most searches of few boxes.
 std::int64_t supportedTargets() {
 #if !ALLPAIRS_KNOWS_PROCESSOR
   return hwy::SupportedTargets();

@@ -132,8 +132,8 @@ struct JoinTask {
   NeighborLists* lists = nullptr;
 };
 
-/// Pairs as numbers, the key that orders them above the other index, in a row for each key. There is room for a vector after the
-/// last one.
+/// Pairs as numbers, the key that orders them above the other index, in a row for each key. There is room for a vector
+/// after the last one.
 struct NumberRows {
   std::uint32_t* numbers = nullptr;  ///< Of 31 bits.
   std::size_t size = 0;
@@ -164,8 +164,8 @@ struct BlockRead {
   std::uint32_t emptyLanes = 0;  ///< A bit for each that is empty.
 };
 
-/// The most boxes that others are compared with together: each takes a pass over the others, and up to so many take less time than
-/// reading the others for the search of any two sets (few_benchmark).
+/// The most boxes that others are compared with together: each takes a pass over the others, and up to so many take
+/// less time than reading the others for the search of any two sets (few_benchmark).
 inline constexpr std::size_t kMostOthers = 8;
 
 /// Which of some boxes touch each of a few others, as touchBoxes() writes it.
@@ -180,8 +180,8 @@ struct TouchedBoxes {
 /// The functions for boxes as they lie in memory, which are not rounded.
 template <class T>
 struct PlainKernels {
-  /// Writes the pairs, by row, of as many of the rows that are left as there is room for, and up to kVectorSlack past the last
-  /// one. Returns how many there are.
+  /// Writes the pairs, by row, of as many of the rows that are left as there is room for, and up to kVectorSlack past
+  /// the last one. Returns how many there are.
   std::size_t (*searchFew)(PlainSearch<T>& search, Pair* pairs);
 
   /// Writes, as bits of words, which boxes of a run are not empty and touch a box, which is not empty either.
@@ -201,7 +201,8 @@ struct Kernels {
   /// So many tests of a join take as long as putting a pair in order by buckets (docs/decisions/0025).
   double testsForPair;
 
-  /// Tests rows of a list against a range of columns each, without any hierarchy; against all but their own only for lists.
+  /// Tests rows of a list against a range of columns each, without any hierarchy; against all but their own only for
+  /// lists.
   void (*searchFlat)(const FlatSearch& search, Hits& hits);
 
   PlainKernels<float> plain32;
@@ -216,8 +217,8 @@ struct Kernels {
     }
   }
 
-  /// Writes the pairs of boxes that touch others, in the order of the boxes and then of the others, and up to kVectorSlack past the
-  /// last one. Returns how many there are.
+  /// Writes the pairs of boxes that touch others, in the order of the boxes and then of the others, and up to
+  /// kVectorSlack past the last one. Returns how many there are.
   std::size_t (*writeTouching)(const TouchedBoxes& touched, bool othersSecond, Pair* pairs);
 
   /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.

@@ -76,8 +76,9 @@ HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t 
 ///
 /// A lane is within one unit in the last place of the bound that it was rounded from. If a minimum, increased by eight
 /// units of its own, does not exceed a maximum, then the bounds that they were rounded from do not either: if both are
-/// of similar magnitude, a unit of one is at most two of the other; else they are far apart. Lanes that were widened may
-/// differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane was rounded, and none is moved.
+/// of similar magnitude, a unit of one is at most two of the other; else they are far apart. Lanes that were widened
+/// may differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane was rounded, and none is
+/// moved.
 HWY_INLINE Query inward(const Query& q, const LaneSlack& most) {
   const FloatTag d;
   const auto slack = [&](FloatVector value, float add) HWY_ATTR {
@@ -109,8 +110,8 @@ HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
 
 /// The lanes whose bits are set, first; what follows them is unspecified.
 ///
-/// Not hn::Compress for vectors of 4 and 8 lanes: GCC 12 copies its table to the stack for each call, which took AVX2 half of
-/// the time of a search (docs/decisions/0024).
+/// Not hn::Compress for vectors of 4 and 8 lanes: GCC 12 copies its table to the stack for each call, which took AVX2
+/// half of the time of a search (docs/decisions/0024).
 template <class D>
 HWY_INLINE hn::Vec<D> lanesOfBits(D d, hn::Vec<D> values, std::uint64_t bits) {
   if constexpr (hn::MaxLanes(D()) == 8) {

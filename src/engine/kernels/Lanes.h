@@ -86,7 +86,8 @@ struct alignas(64) LaneBlock {
   }
 };
 
-/// Up to a fixed number of boxes with their ids, one array per bound, small enough for the first-level cache and for the stack.
+/// Up to a fixed number of boxes with their ids, one array per bound, small enough for the first-level cache and for
+/// the stack.
 ///
 /// The distance between the arrays is a constant, so that kernels reach them all from one register.
 struct alignas(64) LaneTile {
@@ -140,12 +141,13 @@ struct BvhView {
 };
 
 /// Added to, or subtracted from, a result in float32 so that it bounds the result in double: much more than its four
-/// roundings can amount to, and than underflow can lose. The exactness of results rests on it too: it is what the lanes that
-/// overlap for certain have to spare, at least eight units in the last place.
+/// roundings can amount to, and than underflow can lose. The exactness of results rests on it too: it is what the lanes
+/// that overlap for certain have to spare, at least eight units in the last place.
 inline constexpr float kQuerySlack = 0x1p-20F;
 inline constexpr float kQueryTiny = 1e-36F;
 
-/// What the lanes of each axis may differ from what they were rounded from, beyond their rounding; 0 where they do not differ.
+/// What the lanes of each axis may differ from what they were rounded from, beyond their rounding; 0 where they do not
+/// differ.
 using LaneSlack = std::array<float, 3>;
 inline constexpr LaneSlack kRoundedLanes{kQueryTiny, kQueryTiny, kQueryTiny};
 
@@ -178,8 +180,8 @@ struct BoxRun {
   }
 };
 
-/// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What follows
-/// them is the first byte.
+/// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What
+/// follows them is the first byte.
 template <std::size_t kLanes, std::size_t kLaneBytes>
 using LaneSelections = std::array<std::array<std::uint8_t, kLanes * kLaneBytes>, std::size_t{1} << kLanes>;
 

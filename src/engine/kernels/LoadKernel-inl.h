@@ -69,8 +69,8 @@ HWY_INLINE void zipUpper(const FloatVector* from, FloatVector& first, FloatVecto
 
 /// As many boxes as a vector has lanes, from corners anywhere in memory.
 ///
-/// Corners are loaded and transposed, which takes half the time of gathering each bound. Of a row of six the second load
-/// begins one value before the maximum, so that both are whole vectors.
+/// Corners are loaded and transposed, which takes half the time of gathering each bound. Of a row of six the second
+/// load begins one value before the maximum, so that both are whole vectors.
 template <Reach kReach>
 HWY_INLINE void loadCorners(const BoxPlaces<float>& places, std::size_t at, FloatVector* bound) {
   const FloatTag d;

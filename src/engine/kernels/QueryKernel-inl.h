@@ -39,8 +39,8 @@ struct SlabInterval {
   FloatVector enter, leave;
   FloatMask possible;
 
-  /// Clips it to the times of one axis, from how far the query is from where it meets boxes and leaves them, by the inverse of
-  /// its speed. Overflow and NaN are resolved conservatively, so that no hit is lost.
+  /// Clips it to the times of one axis, from how far the query is from where it meets boxes and leaves them, by the
+  /// inverse of its speed. Overflow and NaN are resolved conservatively, so that no hit is lost.
   HWY_INLINE void clip(FloatVector near, FloatVector far, FloatVector inverse) {
     const FloatTag d;
     const auto most = hn::Set(d, kLaneMax);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sixteen boxes from the caller's memory to a block of lanes, and the bounds and the keys along the curve of such blocks.
+// Sixteen boxes from the caller's memory to a block of lanes, and the bounds and the keys along the curve of such
+// blocks.
 
 #if defined(ALLPAIRS_READ_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_READ_KERNEL_INL_H
@@ -169,8 +170,8 @@ struct Widener {
 
 /// Sixteen boxes whose bounds are read as doubles: load(i, bound) reads those of the boxes from i on.
 ///
-/// Emptiness is tested before anything is added: rounded outward, an empty box may no longer be empty. A negative margin
-/// may invert a box, which can still overlap a larger one; with its bounds swapped it is no smaller.
+/// Emptiness is tested before anything is added: rounded outward, an empty box may no longer be empty. A negative
+/// margin may invert a box, which can still overlap a larger one; with its bounds swapped it is no smaller.
 template <bool kWidens, class Load>
 HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, LaneBlock& block) {
   const DoubleTag d;

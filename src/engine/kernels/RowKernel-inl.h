@@ -57,8 +57,8 @@ struct HitWriter {
 /// Boxes of a hierarchy that a leaf is compared with at once: their hits fit the buffer.
 constexpr std::size_t kStretch = 64;
 
-/// Emits hits, and then the positions of those that need a test in double. It keeps the vectors with hits until the end: a
-/// branch for each would be mispredicted too often.
+/// Emits hits, and then the positions of those that need a test in double. It keeps the vectors with hits until the
+/// end: a branch for each would be mispredicted too often.
 class DoubtWriter {
  public:
   static HWY_INLINE DoubtWriter ofRow(const Hits& hits, std::uint32_t row) { return {HitWriter::ofRow(hits, row)}; }
@@ -210,8 +210,8 @@ void writePairs(const Hits& hits, PairSide side, Pair* pairs) {
   }
 }
 
-/// Calls write(place, key, other) for each number. Its place is what its rank says: how many of its row are less. The rows after
-/// it are greater, so that whole vectors count.
+/// Calls write(place, key, other) for each number. Its place is what its rank says: how many of its row are less. The
+/// rows after it are greater, so that whole vectors count.
 template <class Write>
 HWY_INLINE void placeByRank(const NumberRows& rows, const Write& write) {
   const hn::RebindToSigned<IdTag> d;

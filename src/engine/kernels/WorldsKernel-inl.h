@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The exhaustive search of many small worlds: hits of each box as bits, and then pairs of bits. Vectors do the one, other
-// units of the processor the other, so that they overlap.
+// The exhaustive search of many small worlds: hits of each box as bits, and then pairs of bits. Vectors do the one,
+// other units of the processor the other, so that they overlap.
 
 #if defined(ALLPAIRS_WORLDS_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_WORLDS_KERNEL_INL_H
@@ -32,8 +32,8 @@ using WorldHits = std::array<std::uint64_t, kMostInWorld + 1>;
 /// Boxes that a row is tested against at once: as many as hits make a byte.
 constexpr std::size_t kColumnsAtOnce = 8;
 
-/// Vectors of 32 bytes, although AVX-512 has longer ones: a processor that cuts those in two spends units on broadcasts to
-/// them that it does not on these, and fewer of the boxes tested precede the row (worlds_benchmark).
+/// Vectors of 32 bytes, although AVX-512 has longer ones: a processor that cuts those in two spends units on broadcasts
+/// to them that it does not on these, and fewer of the boxes tested precede the row (worlds_benchmark).
 template <class T>
 using WorldTag = hn::CappedTag<T, 32 / sizeof(T)>;
 using WorldFloats = hn::Vec<WorldTag<float>>;
@@ -99,8 +99,8 @@ class BoundsTest {
   hn::Vec<D> m_columns[kVectors][6];
 };
 
-/// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the two.
-/// Where that sum is NaN they are not apart. Whether a box is empty is the caller's to say.
+/// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the
+/// two. Where that sum is NaN they are not apart. Whether a box is empty is the caller's to say.
 template <bool kPreceding>
 class WideTest {
  public:
@@ -149,8 +149,8 @@ class WideTest {
   std::size_t m_place = 0;
 };
 
-/// The hits of the rows of a word from the one of `begin` on, by place, with the boxes that follow, or precede them. Hits
-/// with others are stored too, or what was there before, and so are those of a few rows before.
+/// The hits of the rows of a word from the one of `begin` on, by place, with the boxes that follow, or precede them.
+/// Hits with others are stored too, or what was there before, and so are those of a few rows before.
 template <bool kPreceding, class Test>
 HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin, WorldHits& hits) {
   const std::size_t firstOfWord = begin / kWordBoxes * kWordBoxes;
@@ -182,8 +182,8 @@ HWY_INLINE std::uint32_t lowestBit(std::uint64_t bits) {
 #endif
 }
 
-/// Writes a box's pairs with the lowest so many bits of a word, and clears these. A function, not a lambda: GCC does not inline a
-/// lambda that is called several times.
+/// Writes a box's pairs with the lowest so many bits of a word, and clears these. A function, not a lambda: GCC does
+/// not inline a lambda that is called several times.
 template <bool kPreceding, std::size_t kCount>
 HWY_INLINE void writeLowest(std::uint64_t& bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* to) {
   if constexpr (kCount != 0) {
@@ -199,8 +199,8 @@ HWY_INLINE void writeLowest(std::uint64_t& bits, std::uint32_t box, std::uint32_
   }
 }
 
-/// Writes the pairs of a box with those of a word: the first few without asking whether there are as many, which would be
-/// mispredicted too often. Returns how many there are.
+/// Writes the pairs of a box with those of a word: the first few without asking whether there are as many, which would
+/// be mispredicted too often. Returns how many there are.
 template <bool kPreceding, std::size_t kUnasked>
 HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* pairs) {
   // Of the others: where there are many, a tenth of the time of all (few_benchmark).
@@ -240,7 +240,8 @@ struct Partners {
   }
 };
 
-/// The hits of rows in [begin, end) as pairs. With kUnasked pairs of a word that are written unasked; 0 counts pairs only.
+/// The hits of rows in [begin, end) as pairs. With kUnasked pairs of a word that are written unasked; 0 counts pairs
+/// only.
 template <bool kPreceding, std::size_t kUnasked>
 HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
                          const Partners partners, WorldSink& sink) {
@@ -263,7 +264,8 @@ HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::s
   sink.size = size;
 }
 
-/// All pairs of one world. Of worlds of one word most rows have hits in it; of larger ones few words have more than two.
+/// All pairs of one world. Of worlds of one word most rows have hits in it; of larger ones few words have more than
+/// two.
 template <bool kPreceding, bool kCount, class Test>
 HWY_INLINE void searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
   WorldHits hits;

@@ -12,8 +12,8 @@
 
 namespace allpairs::engine {
 
-/// The most boxes of a world that the kernels for worlds take: no fewer than any instruction set tests exhaustively, and
-/// the boxes and the hits of 64 of them fit the first-level cache (worlds_benchmark).
+/// The most boxes of a world that the kernels for worlds take: no fewer than any instruction set tests exhaustively,
+/// and the boxes and the hits of 64 of them fit the first-level cache (worlds_benchmark).
 inline constexpr std::size_t kMostInWorld = 448;
 
 /// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are
@@ -25,8 +25,8 @@ inline constexpr std::size_t kWordBoxes = 64;
 
 static_assert(kMostInWorld % kWordBoxes == 0);
 
-/// The places of a world's boxes among lanes and bits: its last box has the last place of a word, so that the boxes that
-/// follow a box are in as few vectors as possible.
+/// The places of a world's boxes among lanes and bits: its last box has the last place of a word, so that the boxes
+/// that follow a box are in as few vectors as possible.
 struct WorldPlaces {
   std::size_t first;  ///< The place of box 0.
   std::size_t end;
@@ -85,8 +85,8 @@ struct WorldSink {
   }
 };
 
-/// Worlds of float32 boxes, one after the other, all pairs of each tested, up to a world that is too large or that there
-/// may be no room for.
+/// Worlds of float32 boxes, one after the other, all pairs of each tested, up to a world that is too large or that
+/// there may be no room for.
 struct WorldsRun {
   BoxRun<float> boxes;
   const Worlds* worlds = nullptr;

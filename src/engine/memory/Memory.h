@@ -24,9 +24,10 @@ namespace allpairs::engine {
   return memory != nullptr ? memory : defaultMemory();
 }
 
-/// Whether the largest block of a search of so many boxes is asked for so amply that it is larger than all others together. Only
-/// what is used of it is ever touched, but glibc returns freed memory at the end of its heap to the system once it is more than twice
-/// the largest block that was freed before, up to 32 MiB: less, and the pages are there for the next search (docs/decisions/0015).
+/// Whether the largest block of a search of so many boxes is asked for so amply that it is larger than all others
+/// together. Only what is used of it is ever touched, but glibc returns freed memory at the end of its heap to the
+/// system once it is more than twice the largest block that was freed before, up to 32 MiB: less, and the pages are
+/// there for the next search (docs/decisions/0015).
 [[nodiscard]] inline bool isAmple(const std::pmr::memory_resource* memory, std::size_t boxes) noexcept {
   return memory == defaultMemory() && boxes < std::size_t{1} << 17;
 }
@@ -81,8 +82,8 @@ class Buffer {
     grow(size, [] {});
   }
 
-  /// The same, which calls look() between pieces of the contents: copying all of many may take long. If that throws, the buffer
-  /// is unchanged.
+  /// The same, which calls look() between pieces of the contents: copying all of many may take long. If that throws,
+  /// the buffer is unchanged.
   template <class Look>
   void grow(std::size_t size, const Look& look) {
     if (size <= m_capacity) return;

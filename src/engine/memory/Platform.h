@@ -21,18 +21,19 @@
 
 namespace allpairs::engine {
 
-// What systems and compilers have, and standard C++ has not. All of the engine that asks on which system it runs is here.
+// What systems and compilers have, and standard C++ has not. All of the engine that asks on which system it runs is
+// here.
 
-/// Requests large pages for each aligned range within a block. If the system ignores the request, or knows of none, only
-/// first touches are slower. Aligning blocks to large pages costs more than it gains (docs/decisions/0015).
+/// Requests large pages for each aligned range within a block. If the system ignores the request, or knows of none,
+/// only first touches are slower. Aligning blocks to large pages costs more than it gains (docs/decisions/0015).
 void adviseLargePages(void* memory, std::size_t bytes) noexcept;
 
 /// Instruction sets that the processor and the system support, each with those before it.
 enum class ProcessorLevel { Baseline, Ssse3, Sse4, Avx2, Avx3, Avx3Dl };
 
 #if ALLPAIRS_KNOWS_PROCESSOR
-/// As the C library found it at the start of the process: the processor itself takes a virtual machine some 70 microseconds
-/// to ask. Where every processor of the kind has the same, the baseline.
+/// As the C library found it at the start of the process: the processor itself takes a virtual machine some 70
+/// microseconds to ask. Where every processor of the kind has the same, the baseline.
 [[nodiscard]] ProcessorLevel processorLevel() noexcept;
 #endif
 
@@ -45,7 +46,8 @@ inline void prefetchLine([[maybe_unused]] const void* address) noexcept {
 #endif
 }
 
-// A flag that threads share, and signal handlers: std::atomic_ref, which LLVM's standard library has since its version 19.
+// A flag that threads share, and signal handlers: std::atomic_ref, which LLVM's standard library has since its version
+// 19.
 #if defined(__GNUC__) || defined(__clang__)
 static_assert(__atomic_always_lock_free(sizeof(bool), nullptr));
 

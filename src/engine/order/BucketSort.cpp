@@ -58,7 +58,8 @@ void forEachNumber(const Bucket& bucket, const Use& use) {
   }
 }
 
-/// Where the row of each key begins: in `next`, which has room for one more than the keys. Returns the length of the longest.
+/// Where the row of each key begins: in `next`, which has room for one more than the keys. Returns the length of the
+/// longest.
 std::size_t measureRows(const Bucket& bucket, std::uint32_t* next) noexcept {
   const unsigned otherBits = bucket.rule.otherBits;
   std::fill_n(next, bucket.keys() + 1, 0U);
@@ -75,7 +76,8 @@ void putInRows(const Bucket& bucket, std::uint32_t* next, std::uint32_t* rows) n
   forEachNumber(bucket, [=](std::uint32_t number) { rows[next[number >> otherBits]++] = number; });
 }
 
-/// Scratch memory in which a bucket is counted: where the pairs of each key and of each other index begin, and the numbers.
+/// Scratch memory in which a bucket is counted: where the pairs of each key and of each other index begin, and the
+/// numbers.
 struct Counts {
   std::uint32_t* beginOfKey;
   std::uint32_t* beginOfOther;
@@ -102,7 +104,8 @@ void countPairs(const Bucket& bucket, const Counts& counts) noexcept {
                 [=](std::uint32_t number) { counts.numbers[counts.beginOfOther[number & otherMask]++] = number; });
 }
 
-/// Calls write(place, number) for each number: the moves to where its key's row begins keep the order of the other index.
+/// Calls write(place, number) for each number: the moves to where its key's row begins keep the order of the other
+/// index.
 template <class Write>
 void placeByKey(const Bucket& bucket, const Counts& counts, const Write& write) noexcept {
   const std::size_t size = bucket.size();
@@ -133,8 +136,8 @@ std::uint32_t* radixSortBucket(const Bucket& bucket, std::size_t size, std::uint
   return radixSort(from, to, size, 0, bucket.rule.keyBits + bucket.rule.otherBits);
 }
 
-/// The rows of a bucket in scratch memory, to be measured and filled: where each begins, and behind that their numbers. While
-/// they are filled, where the next number of a key goes stands where the row of the following key will begin.
+/// The rows of a bucket in scratch memory, to be measured and filled: where each begins, and behind that their numbers.
+/// While they are filled, where the next number of a key goes stands where the row of the following key will begin.
 NumberRows emptyRows(const Bucket& bucket, std::span<std::uint32_t> scratch, std::size_t size) noexcept {
   scratch[0] = 0;
   return {scratch.data() + bucket.keys() + 2,

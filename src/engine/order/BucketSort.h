@@ -15,12 +15,12 @@
 
 namespace allpairs::engine {
 
-/// Orders pairs that several workers find: each worker puts them into buckets as they come, and then each bucket is put in order
-/// into its place in the result.
+/// Orders pairs that several workers find: each worker puts them into buckets as they come, and then each bucket is put
+/// in order into its place in the result.
 ///
-/// If they are counted, each pair goes to where those of its other index are, and from there to its key's row. Else, if no key has
-/// many, each pair goes to its key's row, and then to where its rank in the row says. Where they do not fit into the scratch memory,
-/// or a key has many, they are radix sorted in the memory of the result.
+/// If they are counted, each pair goes to where those of its other index are, and from there to its key's row. Else, if
+/// no key has many, each pair goes to its key's row, and then to where its rank in the row says. Where they do not fit
+/// into the scratch memory, or a key has many, they are radix sorted in the memory of the result.
 class BucketSort {
  public:
   explicit BucketSort(std::pmr::memory_resource* memory) : m_ofWorkers(memory), m_places(memory) {}
@@ -34,8 +34,8 @@ class BucketSort {
   /// Ends the adding; returns the number of pairs.
   std::size_t finish();
 
-  /// Writes the pairs in order. `memory.withScratch(size, use)` calls use(scratch) with memory for so many numbers at least, that
-  /// no other task has meanwhile.
+  /// Writes the pairs in order. `memory.withScratch(size, use)` calls use(scratch) with memory for so many numbers at
+  /// least, that no other task has meanwhile.
   template <class Memory>
   void sort(std::span<Pair> to, Executor& executor, Memory& memory) const {
     executor.run(m_order.buckets, [&](std::size_t bucket) {

@@ -6,8 +6,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Keys of a bucket, 256: the places of their rows, and two to twenty pairs a key, then fit the first-level cache and the
-/// scratch memory (dense_benchmark).
+/// Keys of a bucket, 256: the places of their rows, and two to twenty pairs a key, then fit the first-level cache and
+/// the scratch memory (dense_benchmark).
 constexpr unsigned kLeastKeyBits = 8;
 
 /// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
@@ -42,7 +42,8 @@ void PairBuckets::start(const PairOrder& rule, std::size_t workers) {
     m_next[bucket] = bucket * kChunk;
     m_fullChunks[bucket] = 0;
   }
-  // Of the default memory only what is used is taken: room for dense scenes too, so that no pairs are copied to fresh pages.
+  // Of the default memory only what is used is taken: room for dense scenes too, so that no pairs are copied to fresh
+  // pages.
   const std::size_t keys = rule.buckets << rule.keyBits;
   const bool isRoomy = m_memory == defaultMemory() && keys <= kMostBuckets << kLeastKeyBits;
   const std::size_t pairs = (isAmple(m_memory, keys) ? 16 : isRoomy ? 4 : 1) * kLikelyPairs * keys / workers;

@@ -16,8 +16,8 @@ namespace allpairs::engine {
 /// Pairs of a box in a scene as most are.
 inline constexpr std::size_t kLikelyPairs = 4;
 
-/// The order of pairs as numbers, the key above the other index, and how it cuts them into buckets of neighbouring keys. The key is
-/// the index that they are ordered by first.
+/// The order of pairs as numbers, the key above the other index, and how it cuts them into buckets of neighbouring
+/// keys. The key is the index that they are ordered by first.
 struct PairOrder {
   bool bySecond = false;
   unsigned allKeyBits = 0;
@@ -33,10 +33,11 @@ struct PairOrder {
   [[nodiscard]] bool packs() const noexcept { return otherBits < 31 && keyBits + otherBits <= 31; }
 };
 
-/// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they are
-/// found, so that they need not be written and read once more. Within a bucket, 31 bits tell a pair.
+/// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they
+/// are found, so that they need not be written and read once more. Within a bucket, 31 bits tell a pair.
 ///
-/// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have; only one alone is a list.
+/// A bucket is a chain of chunks from a common store, since nobody knows how many pairs it will have; only one alone is
+/// a list.
 class PairBuckets {
  public:
   explicit PairBuckets(std::pmr::memory_resource* memory)

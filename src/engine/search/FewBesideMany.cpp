@@ -41,8 +41,8 @@ bool isEmptyRow(const Row<T>& row) {
 /// Which boxes of a run touch a box, as bits.
 using Words = std::array<std::uint64_t, kAtOnce / kWordBoxes>;
 
-/// Which boxes of a part of the many touch each of the few; the words of each of these are written to memory that outlives the
-/// result.
+/// Which boxes of a part of the many touch each of the few; the words of each of these are written to memory that
+/// outlives the result.
 template <class T>
 TouchedBoxes touchEach(const BoxRun<T>& part, std::span<const Row<T>> few, const Kernels& kernels, Words* words) {
   TouchedBoxes touched;
@@ -61,8 +61,8 @@ TouchedBoxes touchEach(const BoxRun<T>& part, std::span<const Row<T>> few, const
 
 bool isFewSecond(const Sets& sets) { return sets.second.size() < sets.first.size(); }
 
-/// Whether pairs come in the order of the few. Unordered ones come by first box, as from the search of any two sets with so few:
-/// the result does not depend on which of the two searches it was.
+/// Whether pairs come in the order of the few. Unordered ones come by first box, as from the search of any two sets
+/// with so few: the result does not depend on which of the two searches it was.
 bool areByFew(const Sets& sets, Order order) { return (order == Order::BySecond) == isFewSecond(sets); }
 
 /// Compares the few with parts of the many: all of them, or one after the other where pairs come in their order.

@@ -12,8 +12,8 @@
 
 namespace allpairs::engine {
 
-/// Whether findFewBesideMany() takes these sets: a few boxes in one of them, of which only the bounds matter, and so many in the
-/// other that preparing a search of any two sets would take longer than this search.
+/// Whether findFewBesideMany() takes these sets: a few boxes in one of them, of which only the bounds matter, and so
+/// many in the other that preparing a search of any two sets would take longer than this search.
 [[nodiscard]] bool areFewBesideMany(const Sets& sets, const OverlapOptions& options);
 
 /// Calls take(pairs) with parts of the pairs, in order. Boxes are compared as they lie in the caller's memory.

@@ -103,8 +103,8 @@ bool arePlain(const Sets& sets, const OverlapOptions& options) {
                                              (areRows<double>(sets.first) && areRows<double>(sets.second)));
 }
 
-/// The search of two sets of rows, or of one twice, by the index that pairs are ordered by. All boxes against a single one are
-/// in its order too if that is the row, which takes fewer tests of a vector.
+/// The search of two sets of rows, or of one twice, by the index that pairs are ordered by. All boxes against a single
+/// one are in its order too if that is the row, which takes fewer tests of a vector.
 template <class T>
 PlainSearch<T> plainSearch(const Sets& sets, Order order) {
   const T* const first = cornersOf<T>(sets.first).min.data;
@@ -121,7 +121,8 @@ PlainSearch<T> plainSearch(const Sets& sets, Order order) {
   return {first, second, firstSize, secondSize, Columns::All, false};
 }
 
-/// Finds the pairs of the rows that are left, or of some of them if there are many; without kernels, tests one pair after the other.
+/// Finds the pairs of the rows that are left, or of some of them if there are many; without kernels, tests one pair
+/// after the other.
 template <class T>
 std::size_t searchSome(PlainSearch<T>& search, const Kernels* kernels, Pair* pairs) {
   return kernels == nullptr ? testAll(search, pairs) : kernels->plain<T>().searchFew(search, pairs);

@@ -16,9 +16,9 @@ namespace allpairs::engine {
 /// by a hierarchy; or up to four of them beside any number. An unknown instruction set is refused by findFew().
 [[nodiscard]] bool areFew(const Sets& sets, const OverlapOptions& options);
 
-/// Calls take(pairs) with the pairs of a few boxes, in an order that may be another than that of the options, and in parts; an
-/// unordered search gives them by first box. Uses up to 75 KB of stack and no other memory: with so few boxes, preparing a search would take
-/// longer than the search.
+/// Calls take(pairs) with the pairs of a few boxes, in an order that may be another than that of the options, and in
+/// parts; an unordered search gives them by first box. Uses up to 75 KB of stack and no other memory: with so few
+/// boxes, preparing a search would take longer than the search.
 ///
 /// Bad input: as for Search::find().
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,

@@ -94,14 +94,15 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
   }
 }
 
-/// Runs a part piece by piece, with a look at the flag before each. How many units make a piece depends on the tests that
-/// the last one took: a unit may have any number of partners.
+/// Runs a part piece by piece, with a look at the flag before each. How many units make a piece depends on the tests
+/// that the last one took: a unit may have any number of partners.
 void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
   const Hits& hits = worker.sink.hits();
   std::size_t units = kRowsAtOnce;
   while (begin < end) {
     checkStop(m_stop);
-    // Lists are made for all leaf blocks of a node at once, unless they are so long that only some are between two looks.
+    // Lists are made for all leaf blocks of a node at once, unless they are so long that only some are between two
+    // looks.
     const bool isWhole = worker.lists != nullptr && units >= kFanOut;
     const std::size_t next = std::min(end, isWhole ? (begin + units) / kFanOut * kFanOut : begin + units);
     const std::uint64_t before = hits.boxTests + hits.groupTests;

@@ -51,8 +51,8 @@ class JoinRunner {
   /// Resets, with one worker per thread of the executor; returns their number. The options must outlive the runs.
   std::size_t start(const SinkOptions& options, const Executor& executor);
 
-  /// An estimate of how many boxes of the second hierarchy overlap a box of the first, and of how many are tested for that, from a
-  /// few of its leaf blocks.
+  /// An estimate of how many boxes of the second hierarchy overlap a box of the first, and of how many are tested for
+  /// that, from a few of its leaf blocks.
   [[nodiscard]] std::pair<double, double> partnersPerBox(const Job& job);
 
   /// Runs all tasks of a job. Sinks keep what they have.
@@ -70,7 +70,8 @@ class JoinRunner {
     });
   }
 
-  /// Calls use(scratch), between runs, with memory of a worker, for so many numbers at least, that no other task has meanwhile.
+  /// Calls use(scratch), between runs, with memory of a worker, for so many numbers at least, that no other task has
+  /// meanwhile.
   template <class Use>
   void withScratch(std::size_t size, const Use& use) {
     m_workers.withOne([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory(size)); });

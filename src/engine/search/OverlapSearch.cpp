@@ -123,18 +123,20 @@ void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisi
 
 namespace {
 
-/// The size of a block for all memory of one search: what dense scenes need, or half of that, or nothing where that is too much.
+/// The size of a block for all memory of one search: what dense scenes need, or half of that, or nothing where that is
+/// too much.
 ///
-/// glibc returns the end of its heap to the system once it is more than twice the largest block that was freed before. The block,
-/// of which only what is used is ever touched, and a result that is smaller are not that much: their pages are still there
-/// for the next call. A larger block gains in a program that does nothing else, and loses in others (docs/decisions/0015).
+/// glibc returns the end of its heap to the system once it is more than twice the largest block that was freed before.
+/// The block, of which only what is used is ever touched, and a result that is smaller are not that much: their pages
+/// are still there for the next call. A larger block gains in a program that does nothing else, and loses in others
+/// (docs/decisions/0015).
 std::size_t blockFor(std::size_t boxes) {
   const std::size_t most = std::size_t{7} << 20;
   return 256 * boxes <= most ? std::min(512 * boxes, most) : 0;
 }
 
-/// Memory of one search, all in a block of this size while that lasts, or if there is memory for it. It is as operator new aligns
-/// it: glibc splits off what precedes an address that is aligned better, a piece that divides its heap.
+/// Memory of one search, all in a block of this size while that lasts, or if there is memory for it. It is as operator
+/// new aligns it: glibc splits off what precedes an address that is aligned better, a piece that divides its heap.
 ///
 /// Threads: any number may allocate, if it says so.
 class BlockMemory final : public std::pmr::memory_resource {
@@ -177,8 +179,8 @@ auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use
   return use(search);
 }
 
-/// Memory for so many pairs, 16 MiB: what needs more than a part gets it at once, or less if there cannot be as many pairs. Of that
-/// only what is used takes memory, while a vector that grows is copied from page to fresh page.
+/// Memory for so many pairs, 16 MiB: what needs more than a part gets it at once, or less if there cannot be as many
+/// pairs. Of that only what is used takes memory, while a vector that grows is copied from page to fresh page.
 constexpr std::size_t kLargeResult = std::size_t{1} << 21;
 
 std::vector<Pair> takeAmongFew(const engine::Sets& sets, const OverlapOptions& options) {

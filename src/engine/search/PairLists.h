@@ -17,18 +17,20 @@
 
 namespace allpairs::engine {
 
-/// The partners of each box as a join lists them, by worker, and what they are put together to: pairs in order, or rows. What
-/// PairSink does with hits this does with lists: it applies the exact test and the filters, and keeps to the limit.
+/// The partners of each box as a join lists them, by worker, and what they are put together to: pairs in order, or
+/// rows. What PairSink does with hits this does with lists: it applies the exact test and the filters, and keeps to the
+/// limit.
 class PairLists {
  public:
   explicit PairLists(std::pmr::memory_resource* memory)
       : m_ofWorkers(memory), m_partners(memory), m_begin(memory), m_length(memory), m_places(memory) {}
 
-  /// Empties the lists of so many rows, for a search with so many workers that is likely to find so many partners; memory is kept.
+  /// Empties the lists of so many rows, for a search with so many workers that is likely to find so many partners;
+  /// memory is kept.
   void start(std::size_t rows, std::size_t columns, std::size_t workers, std::size_t likely);
 
-  /// Which partners the lists have: by their ids, and by the test of pairs, in which rows are on that side if a pair is listed
-  /// once. The options must outlive the search.
+  /// Which partners the lists have: by their ids, and by the test of pairs, in which rows are on that side if a pair is
+  /// listed once. The options must outlive the search.
   void select(Columns kept, PairSide side, const SinkOptions& options);
 
   [[nodiscard]] std::span<NeighborLists> ofWorkers() noexcept { return m_ofWorkers; }

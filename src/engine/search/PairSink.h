@@ -83,7 +83,8 @@ class PairSink {
 
   [[nodiscard]] Buffer<Pair>& pairs() noexcept { return m_pairs; }
 
-  /// The memory that hits are received in, free between a search and the start() of the next; at least for so many numbers.
+  /// The memory that hits are received in, free between a search and the start() of the next; at least for so many
+  /// numbers.
   [[nodiscard]] std::span<std::uint32_t> idleMemory(std::size_t size) {
     m_memory.require(size);
     return {m_memory.data(), m_memory.capacity()};

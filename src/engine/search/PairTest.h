@@ -18,8 +18,8 @@
 
 namespace allpairs::engine {
 
-/// What lies in no order, such as the boxes of pairs in doubt and the lists of boxes in the order of a hierarchy, is prefetched so many
-/// ahead (dense_benchmark).
+/// What lies in no order, such as the boxes of pairs in doubt and the lists of boxes in the order of a hierarchy, is
+/// prefetched so many ahead (dense_benchmark).
 inline constexpr std::size_t kPrefetchDistance = 8;
 
 /// Whether each side accepts the other's category.
@@ -69,9 +69,9 @@ class PairTest {
     findRows();
   }
 
-  /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the kernels can
-  /// tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes are exactly unless they
-  /// are widened: there nothing is in doubt.
+  /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the
+  /// kernels can tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes
+  /// are exactly unless they are widened: there nothing is in doubt.
   void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin,
                                const std::array<bool, 3>& isFlat = {}) noexcept {
     m_exact = required;
@@ -144,7 +144,8 @@ class PairTest {
     return kept;
   }
 
-  /// Calls use(i) for each of `size` pairs, pairAt(i), that does not touch. Their boxes lie in no order, and are prefetched.
+  /// Calls use(i) for each of `size` pairs, pairAt(i), that does not touch. Their boxes lie in no order, and are
+  /// prefetched.
   template <class PairAt, class Use>
   void forEachApart(std::size_t size, const PairAt& pairAt, const Use& use) const {
     for (std::size_t i = 0; i < size + kPrefetchDistance; ++i) {
@@ -196,9 +197,9 @@ class PairTest {
     return m_distance != 0.0 || m_first.boxes->hasMargins() || m_second.boxes->hasMargins();
   }
 
-  /// The sums of a bound, the distance, margins and the origin are off by no more than some units in the last place of the
-  /// largest of them; to those of the bound, the slack that is relative to lanes is enough. A box that shrinks may be
-  /// inverted, whose lanes say nothing.
+  /// The sums of a bound, the distance, margins and the origin are off by no more than some units in the last place of
+  /// the largest of them; to those of the bound, the slack that is relative to lanes is enough. A box that shrinks may
+  /// be inverted, whose lanes say nothing.
   [[nodiscard]] float slackOf(const std::array<double, 3>& origin) const noexcept {
     const BoxView& first = *m_first.boxes;
     const BoxView& second = *m_second.boxes;
@@ -228,7 +229,8 @@ class PairTest {
     return isPlain ? boxes.float64().min.data : nullptr;
   }
 
-  /// Moves the pairs to the front of which the one at each of some positions, ascending, touches or is at no such position.
+  /// Moves the pairs to the front of which the one at each of some positions, ascending, touches or is at no such
+  /// position.
   [[nodiscard]] std::size_t selectInDoubt(std::span<Pair> pairs, std::span<const std::uint32_t> doubts) const {
     std::size_t kept = 0;
     std::size_t begin = 0;  // of those that have not been moved

@@ -14,8 +14,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes are tested exhaustively against a set of any size: ordering a box of it takes some 30 ns, a test of it
-/// in a vector one (docs/decisions/0022).
+/// Up to this many boxes are tested exhaustively against a set of any size: ordering a box of it takes some 30 ns, a
+/// test of it in a vector one (docs/decisions/0022).
 constexpr std::size_t kFewRows = 32;
 
 /// Above this many boxes, Automatic never chooses the exhaustive search, however many of a sample overlap: a
@@ -23,14 +23,14 @@ constexpr std::size_t kFewRows = 32;
 constexpr std::size_t kMostOverlapping = std::size_t{1} << 15;
 
 /// From this share of all pairs on, so few tests can be skipped that the exhaustive search is faster; it finds pairs in
-/// order, so that for ordered output the share is smaller (allpairs bench cubes.csv --strategy exhaustive, and bvh, of cubes with
-/// sides of 0.2 to 0.6 at random places in a unit cube).
+/// order, so that for ordered output the share is smaller (allpairs bench cubes.csv --strategy exhaustive, and bvh, of
+/// cubes with sides of 0.2 to 0.6 at random places in a unit cube).
 constexpr double kMuchUnordered = 0.4;
 constexpr double kMuchOrdered = 0.1;
 
-/// From so many partners a box on, ordered pairs come from a list for each box and not from buckets. In one set, where each pair
-/// is then found from both sides, it takes more if finding them takes many tests, but never more than this (docs/decisions/0025,
-/// dense_benchmark).
+/// From so many partners a box on, ordered pairs come from a list for each box and not from buckets. In one set, where
+/// each pair is then found from both sides, it takes more if finding them takes many tests, but never more than this
+/// (docs/decisions/0025, dense_benchmark).
 constexpr double kDense = 9.0;
 constexpr double kDenseBothWays = 70.0;
 
@@ -45,11 +45,13 @@ constexpr std::size_t kFewForThreads = 2048;
 /// boxes more than those within its reach.
 constexpr std::size_t kMostRowsPerBox = 4;
 
-/// What memory is reserved for where a sample tells of so many: some more, but no more than 16 million, since a sample may err.
+/// What memory is reserved for where a sample tells of so many: some more, but no more than 16 million, since a sample
+/// may err.
 std::size_t likelyOf(double sampled) noexcept { return static_cast<std::size_t>(std::min(1.25 * sampled, 0x1p24)) + 1; }
 
-/// The axes on which all boxes of two sets are the same point: those on which all lanes are, which is cheap to see, if the
-/// boxes are, which takes a pass over them. Equal lanes do not prove it: float32 may overflow, or the processor flush tiny numbers to zero.
+/// The axes on which all boxes of two sets are the same point: those on which all lanes are, which is cheap to see, if
+/// the boxes are, which takes a pass over them. Equal lanes do not prove it: float32 may overflow, or the processor
+/// flush tiny numbers to zero.
 std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const BvhView& second) {
   std::array<bool, 3> isFlat{};
   if (first.depth == 0 || second.depth == 0) return isFlat;
@@ -68,8 +70,8 @@ std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const
 /// Boxes of a sample: 1,128 pairs, which vectors test in less than half a microsecond.
 constexpr std::size_t kSample = 3 * kFanOut;
 
-/// The share of the pairs of kSample boxes that overlap: a row and the column of the same number may be one box. Fewer are
-/// there if others overlap nothing.
+/// The share of the pairs of kSample boxes that overlap: a row and the column of the same number may be one box. Fewer
+/// are there if others overlap nothing.
 double shareOfOverlaps(const Kernels& kernels, LaneTile& rows, LaneTile& columns, std::size_t size) {
   FlatSearch search{{&rows, size}, {&columns, size}};
   search.rowEnd = size;

@@ -43,7 +43,8 @@ class Batches {
   std::uint64_t m_given = 0;
 };
 
-/// Where a result is put, asked for once its size is known: a vector, or memory of the caller, which may be too small and throw.
+/// Where a result is put, asked for once its size is known: a vector, or memory of the caller, which may be too small
+/// and throw.
 using PairRoom = FunctionRef<std::span<Pair>(std::uint64_t pairs)>;
 using RowRoom = FunctionRef<NeighborsMemory(std::size_t rows, std::uint64_t indices)>;
 
@@ -68,8 +69,8 @@ class Search {
   /// With a room, pairs that have to be put together or in order are put there.
   std::span<const Pair> find(const Sets& sets, const OverlapOptions& options, const PairRoom* room = nullptr);
 
-  /// The pairs of find(), of more than a few boxes, as a vector, into which they are put at once: another copy of many pairs is memory
-  /// that is touched for the first time.
+  /// The pairs of find(), of more than a few boxes, as a vector, into which they are put at once: another copy of many
+  /// pairs is memory that is touched for the first time.
   [[nodiscard]] std::vector<Pair> take(const Sets& sets, const OverlapOptions& options);
 
   /// The same in memory of the caller; returns how much of it. Throws LimitExceeded if it is too small.
@@ -111,8 +112,8 @@ class Search {
 
   void joinBoth(bool one, Plan& plan);
 
-  /// Reserves memory for the pairs of a join that this object has none for: where it grows as they come, most of it is touched for the
-  /// first time twice.
+  /// Reserves memory for the pairs of a join that this object has none for: where it grows as they come, most of it is
+  /// touched for the first time twice.
   void expectPairs(const Sets& sets, Plan& plan);
 
   /// Reserves as much more as makes the pairs' block the largest one, where isAmple().
@@ -130,7 +131,8 @@ class Search {
   bool findInBuckets(const Sets& sets, Plan& plan);
   [[nodiscard]] PairOrder orderOf(const Sets& sets, Order order) const;
 
-  /// Finds pairs and adds them to buckets. Does nothing and returns false where a bucket cannot hold the pairs of this order.
+  /// Finds pairs and adds them to buckets. Does nothing and returns false where a bucket cannot hold the pairs of this
+  /// order.
   bool fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
 
   /// Finds pairs in order by lists of the partners of each box if that pays off; else does nothing and returns false.

@@ -19,8 +19,8 @@ void writeHalfRows(std::span<const Pair> pairs, const NeighborsMemory& place) no
   std::fill(place.offsets.begin() + static_cast<std::ptrdiff_t>(row), place.offsets.end(), pairs.size());
 }
 
-/// The same with each pair in both rows. In the order of the pairs a box comes second to all that are less before it comes
-/// first to those that are greater: what is appended to its row ascends.
+/// The same with each pair in both rows. In the order of the pairs a box comes second to all that are less before it
+/// comes first to those that are greater: what is appended to its row ascends.
 void writeFullRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
   const std::span<std::uint64_t> offsets = place.offsets;
   std::fill(offsets.begin(), offsets.end(), 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the objects that keep a search have in common: a state with options, a mark of use and, after a move, none at all.
+// What the objects that keep a search have in common: a state with options, a mark of use and, after a move, none at
+// all.
 #pragma once
 
 #include <atomic>
@@ -19,7 +20,8 @@ namespace allpairs::engine {
 /// Threads: tasks of the running work may call check().
 class InUse {
  public:
-  /// Whether several threads may call the object at once, as const members: then a mark takes as long as a search of two boxes.
+  /// Whether several threads may call the object at once, as const members: then a mark takes as long as a search of
+  /// two boxes.
   explicit InUse(bool isShared = false) noexcept : m_isShared(isShared) {}
 
   /// Marks the object as running while the result exists.

@@ -8,8 +8,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// The initial and the maximum number of boxes in a range of an ordered stream: the first pairs come soon, and memory is
-/// bounded. A range of several boxes holds at most kLikelyPairs * kLastRange pairs, 32 MiB.
+/// The initial and the maximum number of boxes in a range of an ordered stream: the first pairs come soon, and memory
+/// is bounded. A range of several boxes holds at most kLikelyPairs * kLastRange pairs, 32 MiB.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
 

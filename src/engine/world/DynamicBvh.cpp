@@ -10,16 +10,17 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to this many boxes, four blocks, most blocks overlap each other in any order (moving_benchmark --boxes 100, and 64).
+/// Up to this many boxes, four blocks, most blocks overlap each other in any order (moving_benchmark --boxes 100, and
+/// 64).
 constexpr std::size_t kFewInAnyOrder = 4 * kFanOut;
 
-/// If the blocks have become this many times as wide as when the boxes were last ordered, there is no order left, as after
-/// the reset of a simulation: so much wider are eight blocks in any order, and fewer lose little by it. Ordering the boxes
-/// and joining them then takes less time than joining them.
+/// If the blocks have become this many times as wide as when the boxes were last ordered, there is no order left, as
+/// after the reset of a simulation: so much wider are eight blocks in any order, and fewer lose little by it. Ordering
+/// the boxes and joining them then takes less time than joining them.
 constexpr double kMostSpread = 2.0;
 
-/// Reads sixteen boxes, of which those with a bit in `used` exist, and are not empty, into lanes; the others become lanes
-/// that overlap nothing. Returns whether the lanes are exactly the boxes.
+/// Reads sixteen boxes, of which those with a bit in `used` exist, and are not empty, into lanes; the others become
+/// lanes that overlap nothing. Returns whether the lanes are exactly the boxes.
 bool readLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t used, LaneBlock& lanes) {
   BlockRead read = reader.read({ids, 0, kFanOut}, lanes);
   const std::uint32_t unused = read.emptyLanes | (~used & 0xFFFFU);

@@ -28,8 +28,8 @@ struct BoxHome {
 ///
 /// Each box has a place in curve order, as of the last build. Boxes that move keep their places, and the bounds are
 /// updated; boxes that are added get places at the end, ordered among themselves; places of removed boxes stay empty.
-/// Changes are noted first, and take effect when the hierarchy is built or refitted. When one of these throws, it has to be
-/// built again.
+/// Changes are noted first, and take effect when the hierarchy is built or refitted. When one of these throws, it has
+/// to be built again.
 class DynamicBvh {
  public:
   explicit DynamicBvh(std::pmr::memory_resource* memory)

@@ -21,9 +21,9 @@ namespace allpairs::engine {
 
 /// The pairs of the last step in order, and those of this one as they are found.
 ///
-/// After a join of all boxes, the pairs are put in order, by buckets unless they come in order, and compared with the old list.
-/// After a join of changed boxes only, each pair is looked up among the old ones and marked, and new ones are sorted: an unmarked
-/// pair has ended, or neither of its boxes changed.
+/// After a join of all boxes, the pairs are put in order, by buckets unless they come in order, and compared with the
+/// old list. After a join of changed boxes only, each pair is looked up among the old ones and marked, and new ones are
+/// sorted: an unmarked pair has ended, or neither of its boxes changed.
 /// Memory: until a step completes, the pairs are those of the last completed step.
 class PairHistory {
  public:
@@ -47,7 +47,8 @@ class PairHistory {
   /// Starts a step, without pairs. All ids are below the bound. `workers` is the number of concurrent workers.
   void begin(std::size_t idBound, std::size_t workers, Joined looksFor);
 
-  /// Adds pairs that were found, each with first < second and once per step; those of a call may be known to be in order.
+  /// Adds pairs that were found, each with first < second and once per step; those of a call may be known to be in
+  /// order.
   ///
   /// Threads: one call at a time per worker.
   void take(std::span<const Pair> found, std::size_t worker, bool areInOrder = false) {

@@ -10,10 +10,10 @@ namespace allpairs::engine {
 
 /// What is kept between steps is made again as a whole if more than one box in this many has changed.
 ///
-/// Hierarchies and lists have room for so many boxes more, and are made again when more have come, or come and gone: one in 16
-/// makes them again twice as often, one in 4 takes twice as much memory beyond need. If so many have moved, all blocks of a
-/// hierarchy are read again: most would be anyway (moving_benchmark --scene one-percent, of which fewer move; --scene slow, of
-/// which all do).
+/// Hierarchies and lists have room for so many boxes more, and are made again when more have come, or come and gone:
+/// one in 16 makes them again twice as often, one in 4 takes twice as much memory beyond need. If so many have moved,
+/// all blocks of a hierarchy are read again: most would be anyway (moving_benchmark --scene one-percent, of which fewer
+/// move; --scene slow, of which all do).
 inline constexpr std::size_t kShareOfChange = 8;
 
 /// The boxes that a join tested against the others.

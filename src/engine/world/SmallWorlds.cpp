@@ -13,8 +13,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Boxes of every world are tested in each world like its own, up to so many: about as many as robots have grounds, walls
-/// and ramps. Of more, a hierarchy finds those that matter.
+/// Boxes of every world are tested in each world like its own, up to so many: about as many as robots have grounds,
+/// walls and ramps. Of more, a hierarchy finds those that matter.
 constexpr std::size_t kMostShared = 32;
 
 }  // namespace
@@ -50,8 +50,8 @@ std::span<const BoxId> SmallWorlds::idsOf(std::size_t world, Worker& worker) con
   return {worker.ids.data(), end};
 }
 
-/// Lists the worlds, from the first on, whose boxes follow each other in the store, so that the kernel takes them in one call;
-/// returns their number.
+/// Lists the worlds, from the first on, whose boxes follow each other in the store, so that the kernel takes them in
+/// one call; returns their number.
 std::size_t SmallWorlds::listRow(std::span<const std::uint32_t> worlds, Worker& worker) const {
   if (!m_isPlain || !m_members.shared().empty()) return 0;
   worker.begin.require(worlds.size() + 2);

@@ -30,8 +30,8 @@ class SmallWorlds {
   /// Releases all memory.
   void release() noexcept { m_workers = Workers<Worker>(m_workers.memory()); }
 
-  /// Starts searches by so many threads, of a store that the worlds are up to date with. The search itself is exact: the test
-  /// has to filter only. Both must outlive the searches.
+  /// Starts searches by so many threads, of a store that the worlds are up to date with. The search itself is exact:
+  /// the test has to filter only. Both must outlive the searches.
   void start(const BoxStore& store, const PairTest& filter, std::size_t threads);
 
   /// Whether a world is so small that this search is the fastest one.

@@ -136,8 +136,8 @@ std::uint32_t WorldForest::takeUnused() {
   return tree;
 }
 
-/// Tells the trees which boxes have changed. If many have, all blocks are read again of trees that have some, without checking
-/// which; most would be anyway.
+/// Tells the trees which boxes have changed. If many have, all blocks are read again of trees that have some, without
+/// checking which; most would be anyway.
 void WorldForest::noteChanged(const BoxStore& store) {
   const bool areMany = store.stale().size() * kShareOfChange > store.size();
   if (areMany && !store.isNumbered()) {

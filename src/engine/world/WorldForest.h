@@ -15,8 +15,8 @@
 
 namespace allpairs::engine {
 
-/// The hierarchies of a store: of each world one over its dynamic boxes and one over its static ones, if it has such. They are
-/// kept between steps; an update passes the changes of the store on to those whose boxes they concern.
+/// The hierarchies of a store: of each world one over its dynamic boxes and one over its static ones, if it has such.
+/// They are kept between steps; an update passes the changes of the store on to those whose boxes they concern.
 class WorldForest {
  public:
   explicit WorldForest(std::pmr::memory_resource* memory)

@@ -16,9 +16,9 @@ namespace allpairs::engine {
 
 /// The lists of the last step, by world.
 ///
-/// A pair belongs to the world of its boxes in that step, one that ended to theirs in the step before it; one of two boxes
-/// of every world to kEveryWorld. A pair whose box has gone to another world, and which is still a pair because the other
-/// one is of every world, has ended there and begun here.
+/// A pair belongs to the world of its boxes in that step, one that ended to theirs in the step before it; one of two
+/// boxes of every world to kEveryWorld. A pair whose box has gone to another world, and which is still a pair because
+/// the other one is of every world, has ended there and begun here.
 class WorldLists {
  public:
   WorldLists(std::pmr::memory_resource* memory, Order order)

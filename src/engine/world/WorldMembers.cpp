@@ -62,8 +62,8 @@ void WorldMembers::list(const BoxStore& store, Executor& executor) {
   for (std::size_t i = own; i < store.size(); ++i) m_worldOf[m_boxes[i]] = static_cast<std::uint32_t>(everyWorld());
 }
 
-/// Copies the lists without boxes that have gone and with those that have come, all of which have been touched since the
-/// last step. Does nothing, and returns false, if they are many.
+/// Copies the lists without boxes that have gone and with those that have come, all of which have been touched since
+/// the last step. Does nothing, and returns false, if they are many.
 bool WorldMembers::follow(const BoxStore& store) {
   m_worldOf.resize(std::max(m_worldOf.size(), store.idBound()), BoxHome::kNowhere);
   m_keyed.require(store.touched().size());

@@ -15,8 +15,9 @@
 
 namespace allpairs::engine {
 
-/// The boxes of each world of a store, by ascending id; the worlds by ascending number. After the last one come the boxes
-/// of every world, as one more. A store without numbers is a single world, of which all boxes are, and has no lists.
+/// The boxes of each world of a store, by ascending id; the worlds by ascending number. After the last one come the
+/// boxes of every world, as one more. A store without numbers is a single world, of which all boxes are, and has no
+/// lists.
 class WorldMembers {
  public:
   explicit WorldMembers(std::pmr::memory_resource* memory)

@@ -112,9 +112,9 @@ void WorldSearch::countTouched(const BoxStore& store) {
   std::sort(m_chosen.begin(), m_chosen.end());
 }
 
-/// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up each pair
-/// among those of the last step would then take longer than comparing the lists. Returns whether all worlds are searched, as a
-/// whole.
+/// Chooses the worlds to search: those in which a box has changed, or all if these have many boxes, since looking up
+/// each pair among those of the last step would then take longer than comparing the lists. Returns whether all worlds
+/// are searched, as a whole.
 bool WorldSearch::chooseWorlds(const BoxStore& store) {
   const std::size_t most = store.size() / kShareOfChanged;
   if (store.touched().size() <= most && chooseChanged(store) <= most) return false;
@@ -126,8 +126,8 @@ bool WorldSearch::chooseWorlds(const BoxStore& store) {
   return true;
 }
 
-/// Chooses the worlds in which a box has changed; of large worlds with few changed boxes only these are joined. Returns how many
-/// boxes are searched: all, if one of every world has changed.
+/// Chooses the worlds in which a box has changed; of large worlds with few changed boxes only these are joined. Returns
+/// how many boxes are searched: all, if one of every world has changed.
 std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   countTouched(store);
   if (m_touchedIn[m_members.everyWorld()] != 0) return store.size();
@@ -196,7 +196,8 @@ void WorldSearch::join(const BoxStore& store) {
   noteTotals();
 }
 
-/// Finds the pairs of the large worlds in their hierarchies: a task has some worlds, or a part of a huge or the only one.
+/// Finds the pairs of the large worlds in their hierarchies: a task has some worlds, or a part of a huge or the only
+/// one.
 void WorldSearch::joinTrees() {
   const std::span<const std::uint32_t> worlds = m_large;
   const auto sizeOf = [&](std::uint32_t world) { return m_members.size(world); };
@@ -232,7 +233,8 @@ void WorldSearch::joinWorld(std::size_t world, const JoinOne& joinOne) {
   joinTwo(staticBoxes, m_forest.tree(m_members.everyWorld(), false));
 }
 
-/// Lists the changed boxes of the worlds in m_partly, in m_runs where those of each begin and in m_touchedIn where they end.
+/// Lists the changed boxes of the worlds in m_partly, in m_runs where those of each begin and in m_touchedIn where they
+/// end.
 void WorldSearch::listTouched(const BoxStore& store) {
   m_runs.clear();
   std::uint32_t size = 0;

@@ -25,8 +25,8 @@ namespace allpairs::engine {
 /// sides (moving_benchmark --scene one-percent, and the others, in which all move).
 inline constexpr std::size_t kShareOfChanged = 4;
 
-/// The pairs of a world, or of each world of a store with world numbers (docs/decisions/0031): the hierarchies over its boxes,
-/// and what was found in them.
+/// The pairs of a world, or of each world of a store with world numbers (docs/decisions/0031): the hierarchies over its
+/// boxes, and what was found in them.
 class WorldSearch {
  public:
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)

@@ -30,8 +30,8 @@ void startByWorld(const Worlds& worlds, std::pmr::vector<std::uint64_t>& begin) 
   begin.assign(2, 0);
 }
 
-/// Calls take(pair) for each of some pairs, in the order of the boxes of all worlds, with its box numbered within its world. In
-/// `begin` is where the pairs of each world begin so far, and where those of the last one end.
+/// Calls take(pair) for each of some pairs, in the order of the boxes of all worlds, with its box numbered within its
+/// world. In `begin` is where the pairs of each world begin so far, and where those of the last one end.
 template <class Take>
 void takeByWorld(std::span<const Pair> pairs, const Worlds& worlds, std::pmr::vector<std::uint64_t>& begin,
                  const Take& take) {

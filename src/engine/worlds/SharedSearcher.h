@@ -13,8 +13,8 @@
 
 namespace allpairs::engine {
 
-/// Searches the boxes of many worlds against boxes that are in every world: all of them at once, since it does not matter
-/// for such a pair which world a box is of.
+/// Searches the boxes of many worlds against boxes that are in every world: all of them at once, since it does not
+/// matter for such a pair which world a box is of.
 class SharedSearcher {
  public:
   explicit SharedSearcher(std::pmr::memory_resource* memory)

@@ -145,8 +145,8 @@ Span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds, const BoxVie
 
 namespace {
 
-/// Calls write(), which writes pairs where the offsets say and returns the offsets of those that it found; throws unless
-/// they are the same.
+/// Calls write(), which writes pairs where the offsets say and returns the offsets of those that it found; throws
+/// unless they are the same.
 template <class Write>
 void writeAt(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs, const Write& write) {
   if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {

@@ -13,22 +13,22 @@
 
 namespace allpairs::engine {
 
-/// Whether the values of a filter are those of one world, for all; throws InvalidArgument if they are neither that, nor one
-/// for each box, nor none.
+/// Whether the values of a filter are those of one world, for all; throws InvalidArgument if they are neither that, nor
+/// one for each box, nor none.
 [[nodiscard]] bool isForOneWorld(std::span<const std::uint32_t> values, const Worlds& worlds, const char* name);
 
-/// Which overlapping boxes of a world are pairs: the filter of the options, and the pairs that worlds ignore. What is the
-/// same for all worlds is prepared once, as bits that the kernels read.
+/// Which overlapping boxes of a world are pairs: the filter of the options, and the pairs that worlds ignore. What is
+/// the same for all worlds is prepared once, as bits that the kernels read.
 class WorldsFilter {
  public:
   explicit WorldsFilter(std::pmr::memory_resource* memory) : m_allowed(memory), m_ignored(memory) {}
 
-  /// Checks the options, and prepares the filter of worlds of up to that many boxes. Worlds and options must outlive its
-  /// use.
+  /// Checks the options, and prepares the filter of worlds of up to that many boxes. Worlds and options must outlive
+  /// its use.
   void prepare(const Worlds& worlds, const OverlapOptions& options, std::size_t mostBoxes);
 
-  /// For each box of a world, by index, the places of the boxes that it may be paired with; null if that differs from world
-  /// to world, or nothing is filtered out.
+  /// For each box of a world, by index, the places of the boxes that it may be paired with; null if that differs from
+  /// world to world, or nothing is filtered out.
   [[nodiscard]] const std::uint64_t* allowed() const noexcept { return m_allowed.empty() ? nullptr : m_allowed.data(); }
 
   /// Whether select() may remove pairs that allowed() has left.

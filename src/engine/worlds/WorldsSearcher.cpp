@@ -17,13 +17,14 @@ namespace {
 /// The work that a part is worth: some fifty microseconds.
 constexpr std::size_t kLeastWork = std::size_t{1} << 16;
 
-/// What a world takes, very roughly in vector tests: some for the world, for each box its columns or its part of a hierarchy.
+/// What a world takes, very roughly in vector tests: some for the world, for each box its columns or its part of a
+/// hierarchy.
 std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
   return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
-/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, until a hierarchy is
-/// faster: it does not round, nor put pairs in order (worlds_benchmark).
+/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, until a hierarchy
+/// is faster: it does not round, nor put pairs in order (worlds_benchmark).
 constexpr std::size_t kTimesFlat = 2;
 
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.

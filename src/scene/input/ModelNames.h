@@ -10,12 +10,13 @@
 
 namespace allpairs::scene {
 
-/// Notes that the models behind the last source were read from a file, under the names that they have now. An empty path is of
-/// no file.
+/// Notes that the models behind the last source were read from a file, under the names that they have now. An empty
+/// path is of no file.
 void noteSources(Scene& scene, const std::filesystem::path& file);
 
-/// Names all models by their sources: by file and object where several files have the object's name or it says nothing, else
-/// by the object. Names that repeat within a file stay as they are, and so do those that a caller gave with setName().
+/// Names all models by their sources: by file and object where several files have the object's name or it says nothing,
+/// else by the object. Names that repeat within a file stay as they are, and so do those that a caller gave with
+/// setName().
 ///
 /// Cost: a model is named in constant expected time.
 void nameModels(Scene& scene);

@@ -13,7 +13,8 @@
 
 namespace allpairs::scene {
 
-/// What reading one input may touch: the files that it may name, and the memory that it may take; and whether it is to go on.
+/// What reading one input may touch: the files that it may name, and the memory that it may take; and whether it is to
+/// go on.
 ///
 /// Files:  regular ones in the input's own folder, in the search roots, and below these, symbolic links resolved; all
 ///         where ReadOptions::allowOutside is set.

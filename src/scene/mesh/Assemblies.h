@@ -15,8 +15,9 @@ struct NestedNode {
   std::string name{};
 };
 
-/// Of each node the name of the assembly that it is in: what lies below the node where the file first branches, leaving out nodes
-/// that show nothing, such as cameras. Names are told apart. Empty: in none, as all nodes of a file with one object are.
+/// Of each node the name of the assembly that it is in: what lies below the node where the file first branches, leaving
+/// out nodes that show nothing, such as cameras. Names are told apart. Empty: in none, as all nodes of a file with one
+/// object are.
 ///
 /// Cost: linear in the nodes.
 [[nodiscard]] std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes);

@@ -140,7 +140,8 @@ class NodeReader {
     }
   }
 
-  /// Parts of an IFC's product, such as mapped items, are called by it: window/IfcMappedItem, or where one is all of it, window.
+  /// Parts of an IFC's product, such as mapped items, are called by it: window/IfcMappedItem, or where one is all of
+  /// it, window.
   void nameParts() {
     std::size_t part = 0;
     for (MeshObject& object : m_objects) {

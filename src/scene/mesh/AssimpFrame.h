@@ -14,8 +14,8 @@ namespace allpairs::scene {
 
 [[nodiscard]] Transform transformOf(const aiMatrix4x4t<float>& matrix);
 
-/// The transform of a scene's root into the coordinates of its file. Assimp turns some formats so that y is up, and measures
-/// in metres, by the root's own transform: of IFC, COLLADA, 3DS and Blender files this is taken back.
+/// The transform of a scene's root into the coordinates of its file. Assimp turns some formats so that y is up, and
+/// measures in metres, by the root's own transform: of IFC, COLLADA, 3DS and Blender files this is taken back.
 ///
 /// Reference: Assimp 5.2, the ends of IFCLoader, ColladaLoader, 3DSConverter and BlenderLoader; UpAxis in FBXConverter.
 [[nodiscard]] Transform rootOfFile(const aiScene& scene, const std::string& extension, MeshFrame& frame);

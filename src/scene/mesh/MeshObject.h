@@ -45,8 +45,8 @@ struct MeshFrame {
 /// Bad input: throws FileError. Nothing is allocated for elements that a header only claims.
 [[nodiscard]] std::vector<MeshObject> readPlyObjects(const std::filesystem::path& path, ReadScope& scope);
 
-/// Reads an OFF file in double, with what precedes its first word: COFF, NOFF and the like. Without faces its vertices are
-/// points.
+/// Reads an OFF file in double, with what precedes its first word: COFF, NOFF and the like. Without faces its vertices
+/// are points.
 ///
 /// Bad input: throws FileError with its line. Nothing is allocated for what a header only claims.
 [[nodiscard]] std::vector<MeshObject> readOffObjects(const std::filesystem::path& path, ReadScope& scope);
@@ -62,9 +62,9 @@ struct MeshFrame {
 /// Bad input: throws FileError; so do a node with two parents and a mesh that is compressed.
 [[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope);
 
-/// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double to
-/// positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to measure in
-/// metres, as for IFC, is undone, and `frame` says which axis is up in the file and how long its unit is.
+/// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double
+/// to positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to
+/// measure in metres, as for IFC, is undone, and `frame` says which axis is up in the file and how long its unit is.
 ///
 /// Bad input: throws FileError. Assimp runs in a process of its own: a file that makes it fail, or loop, or take all
 ///            memory, fails, loops and takes it there.

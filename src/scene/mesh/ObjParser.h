@@ -32,8 +32,8 @@ struct ObjSyntax {
 /// What is wrong with an index.
 enum class ObjProblem { NoNumber, NoPosition, IsZero, BeforeFirst, TooLarge };
 
-/// Parses a Wavefront file, statement by statement. What becomes of them, and in which words an error says what is wrong,
-/// is up to the reader that derives from this.
+/// Parses a Wavefront file, statement by statement. What becomes of them, and in which words an error says what is
+/// wrong, is up to the reader that derives from this.
 class ObjParser {
  public:
   ObjParser(const ObjParser&) = delete;

@@ -293,7 +293,8 @@ TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
               HasSubstr("two frames or more"));
 }
 
-/// Two bodies, the second on a joint at x = 1 of the first and at x = -1 of itself, and a point in the second one's middle.
+/// Two bodies, the second on a joint at x = 1 of the first and at x = -1 of itself, and a point in the second one's
+/// middle.
 std::string articulated(const std::string& values, const std::string& axes, const std::string& center = "",
                         const std::string& mapping = "", const std::string& second = "0 0 0 0 0 0 1") {
   return "<MechanicalObject name='base' template='Rigid3' position='0 0 9 0 0 0 1  0 0 5 0 0 0 1'/>"

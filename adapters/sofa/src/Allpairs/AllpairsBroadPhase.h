@@ -18,11 +18,11 @@ namespace allpairs::plugin {
 /// Geometry:  as SOFA's: closed boxes, per axis, in double, within the intersection method's distance.
 /// Bad input: settings that make no sense are reported as errors of the component, and the default is used. Boxes that
 ///            are reversed or hold a NaN are tested by SOFA's own intersection method, as without the plugin.
-/// Cost:      one pass over the models and that of allpairs::OverlapSearch on their root boxes. A method that isn't one of
-///            SOFA's own can't be bounded: each pair of models is asked then, as BruteForceBroadPhase does.
-/// Threads:   the search runs on `threads` threads; SOFA's models and methods are called from the calling thread. Two of
-///            these components that share a model, as two pipelines may, must not run at once: reading links the model's
-///            Data.
+/// Cost:      one pass over the models and that of allpairs::OverlapSearch on their root boxes. A method that isn't one
+///            of SOFA's own can't be bounded: each pair of models is asked then, as BruteForceBroadPhase does.
+/// Threads:   the search runs on `threads` threads; SOFA's models and methods are called from the calling thread. Two
+///            of these components that share a model, as two pipelines may, must not run at once: reading links the
+///            model's Data.
 class ALLPAIRS_SOFA_API AllpairsBroadPhase : public sofa::core::collision::BroadPhaseDetection {
  public:
   SOFA_CLASS(AllpairsBroadPhase, sofa::core::collision::BroadPhaseDetection);

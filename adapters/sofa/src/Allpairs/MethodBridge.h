@@ -13,8 +13,8 @@ namespace allpairs::plugin {
 /// intersectors.
 class AskingMethod final : public collision::Intersection {
  public:
-  /// `bounded`: root boxes further apart than the method's alarm distance, which is finite, never intersect, not counting
-  /// the roots' contact distances where those are added.
+  /// `bounded`: root boxes further apart than the method's alarm distance, which is finite, never intersect, not
+  /// counting the roots' contact distances where those are added.
   void setMethod(sofa::core::collision::Intersection& method, bool bounded, bool addsContactDistances);
 
   [[nodiscard]] collision::ElementIntersector* findIntersector(collision::CollisionModel* first,
@@ -45,8 +45,9 @@ class AskingMethod final : public collision::Intersection {
 
 /// Finds the method of ours that does for a step's models what SOFA's does.
 ///
-/// SOFA's own methods are known by their type: they compare root boxes as our own methods do, which then stand for them.
-/// A subclass, a user's method, or one whose comparison of boxes somebody has replaced may do anything, and is asked.
+/// SOFA's own methods are known by their type: they compare root boxes as our own methods do, which then stand for
+/// them. A subclass, a user's method, or one whose comparison of boxes somebody has replaced may do anything, and is
+/// asked.
 class MethodBridge {
  public:
   /// The method to test a step's models with, as the pool describes them so far.

@@ -13,7 +13,8 @@ namespace allpairs::plugin {
 
 /// Our models that stand for SOFA's of a step, one for each that is added, kept from step to step.
 ///
-/// SOFA adds its models in the same order in nearly every step, so each is looked for first where it was in the last one.
+/// SOFA adds its models in the same order in nearly every step, so each is looked for first where it was in the last
+/// one.
 class ModelPool {
  public:
   /// Begins a step.

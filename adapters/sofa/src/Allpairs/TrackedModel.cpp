@@ -60,8 +60,8 @@ bool isProper(const Box& box) {
 
 }  // namespace
 
-/// SOFA's models are kilobytes each and lie far apart: a step mostly waits for memory. Short loops let the processor wait
-/// for several models at once.
+/// SOFA's models are kilobytes each and lie far apart: a step mostly waits for memory. Short loops let the processor
+/// wait for several models at once.
 void TrackedModel::read(std::span<TrackedModel* const> models) {
   for (TrackedModel* model : models) {
     if (!model->hasSameLevels()) model->readLevels();

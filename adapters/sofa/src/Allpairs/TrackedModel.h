@@ -22,8 +22,8 @@ namespace allpairs::plugin {
 /// SOFA's Data, and are read when SOFA reports a change: this object depends on them in SOFA's graph of Data. The root
 /// and the last level are held, so that no other model can have their addresses.
 ///
-/// Of a model with four levels and more, a level that is neither first nor last and that somebody links to another model
-/// goes unnoticed. SOFA itself makes and removes levels at the root only.
+/// Of a model with four levels and more, a level that is neither first nor last and that somebody links to another
+/// model goes unnoticed. SOFA itself makes and removes levels at the root only.
 class TrackedModel final : public sofa::core::objectmodel::DDGNode {
  public:
   explicit TrackedModel(sofa::core::CollisionModel& root) : m_root(&root) {}

@@ -47,7 +47,8 @@ class GltfDocument {
   [[nodiscard]] std::vector<double> numbers(const GltfItem& item, const char* key, std::size_t size) const;
   [[nodiscard]] std::string text(const GltfItem& item, const char* key) const;
   [[nodiscard]] bool hasExtension(const GltfItem& item, const char* name) const;
-  /// The names of the extensions without which, as the document says, it cannot be read; none that has the form of no name.
+  /// The names of the extensions without which, as the document says, it cannot be read; none that has the form of no
+  /// name.
   [[nodiscard]] std::vector<std::string> requiredExtensions() const;
 
   /// The bytes of a buffer view.

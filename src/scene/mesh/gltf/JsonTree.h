@@ -14,8 +14,8 @@ struct JsonProblem {
   bool isTooDeep = false;
 };
 
-/// A JSON document that needs no memory to be destroyed. That of the library alone does, even one that could not be read
-/// for want of memory, and ends the program where there is none.
+/// A JSON document that needs no memory to be destroyed. That of the library alone does, even one that could not be
+/// read for want of memory, and ends the program where there is none.
 class JsonTree {
  public:
   JsonTree() = default;

@@ -59,7 +59,8 @@ Mesh inputOf(Evaluation& evaluation, const Component& engine) {
   return mesh;
 }
 
-/// A mesh in two parts. If each part numbers its points from 0, the points that both parts share have the lowest numbers.
+/// A mesh in two parts. If each part numbers its points from 0, the points that both parts share have the lowest
+/// numbers.
 class Parting {
  public:
   Parting(const Mesh& mesh, const Regions& regions, bool renumber)

@@ -16,8 +16,8 @@ struct CubeSurface {
   bool inner = false;  ///< Points inside count too.
 };
 
-/// The points, edges and quads of the surface, numbered as SOFA does: the bottom, the top, then the sides layer by layer;
-/// with points inside or with less than two on an axis, all row by row.
+/// The points, edges and quads of the surface, numbered as SOFA does: the bottom, the top, then the sides layer by
+/// layer; with points inside or with less than two on an axis, all row by row.
 [[nodiscard]] Mesh meshOf(const CubeSurface& cube);
 
 }  // namespace allpairs::scene::sofa

@@ -12,11 +12,11 @@
 
 namespace allpairs {
 
-/// Bullet's hashed pair cache, whose pairs can be put in the order of the m_uniqueId of their proxies, ascending, that of
-/// the first proxy before that of the second. A pair keeps its collision algorithm and so its contacts.
+/// Bullet's hashed pair cache, whose pairs can be put in the order of the m_uniqueId of their proxies, ascending, that
+/// of the first proxy before that of the second. A pair keeps its collision algorithm and so its contacts.
 ///
-/// Cost:    order() a pass over the pairs if any was added or removed since the last call, and a sort of those that are not
-///          in their place; about 72 bytes of scratch memory per pair, which are kept.
+/// Cost:    order() a pass over the pairs if any was added or removed since the last call, and a sort of those that are
+///          not in their place; about 72 bytes of scratch memory per pair, which are kept.
 /// Threads: one call at a time, as in Bullet's caches.
 /// Memory:  if order() throws std::bad_alloc, the cache is as before.
 class OrderedPairCache : public btHashedOverlappingPairCache {

@@ -29,20 +29,20 @@ struct CoalHost {
 /// A broad phase for Coal, the successor of hpp-fcl: use it where you use a coal::DynamicAABBTreeCollisionManager.
 ///
 /// It is to Coal what FclBroadPhaseManager is to FCL, with the same promises; docs/fcl.md has them. In short: callbacks
-/// get the pairs whose boxes overlap, each once, first the object that was registered first, in an order that is the same
-/// each time; a distance callback gets every pair whose boxes overlap or are within the smallest distance
+/// get the pairs whose boxes overlap, each once, first the object that was registered first, in an order that is the
+/// same each time; a distance callback gets every pair whose boxes overlap or are within the smallest distance
 /// that it has set so far. A callback that returns true ends the query; its init() is called before each.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(). Planes, half-spaces and
 /// octrees count with their boxes, which may be infinite, as in coal::NaiveCollisionManager.
-/// Other managers: a query takes any manager as the other. A DynamicAABBTreeCollisionManager takes this one as the other;
-///            no other manager of Coal may, for each takes the other for one of its own kind without asking.
+/// Other managers: a query takes any manager as the other. A DynamicAABBTreeCollisionManager takes this one as the
+///            other; no other manager of Coal may, for each takes the other for one of its own kind without asking.
 /// Geometry:  boxes are closed, in double precision. An empty box has no pairs and no distance; a flat one is a box.
-/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps the
-///            box that it had. No object, a null pointer, is none.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps
+///            the box that it had. No object, a null pointer, is none.
 /// Cost:      nothing is searched before it is asked for, as in FclBroadPhaseManager.
-/// Threads:   const members, queries, may be called concurrently, each with a callback of its own, while no other member
-///            runs. A callback may query the manager, and must not register, update or unregister.
+/// Threads:   const members, queries, may be called concurrently, each with a callback of its own, while no other
+///            member runs. A callback may query the manager, and must not register, update or unregister.
 class CoalBroadPhaseManager : public HostManager<CoalHost> {
  public:
   using CollisionCallBack = ::coal::CollisionCallBackBase;

@@ -33,23 +33,23 @@ struct FclHost {
 /// takes the place of one that left. The order of the pairs is the same each time. A callback that returns true ends
 /// the query.
 ///
-/// For distances, a callback gets no pair twice, and near pairs early. It gets every pair whose boxes overlap, and every
-/// pair whose boxes are no farther apart than the smallest distance that it has set so far. So a callback that always
-/// sets the same distance, a threshold or 0, gets all pairs within it.
+/// For distances, a callback gets no pair twice, and near pairs early. It gets every pair whose boxes overlap, and
+/// every pair whose boxes are no farther apart than the smallest distance that it has set so far. So a callback that
+/// always sets the same distance, a threshold or 0, gets all pairs within it.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(), as in FCL's managers; an
 /// octree counts with its box, like any other geometry. An object that is registered again, or that leaves without
 /// having come, changes nothing else.
 /// Other managers: a query with another manager takes that one's objects, of whatever kind it is. The other way round,
-///            a DynamicAABBTreeCollisionManager takes this one as the other manager; size() keeps a tree for it. No other
-///            manager of FCL may get this one: each takes the other for one of its own kind without asking.
+///            a DynamicAABBTreeCollisionManager takes this one as the other manager; size() keeps a tree for it. No
+///            other manager of FCL may get this one: each takes the other for one of its own kind without asking.
 /// Geometry:  boxes are closed, in the precision of S. An empty box has no pairs and no distance.
-/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps the
-///            box that it had. No object, a null pointer, is none.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps
+///            the box that it had. No object, a null pointer, is none.
 /// Cost:      nothing is searched before it is asked for. The first collide() after a change finds the pairs, by a
 ///            search of all boxes or, where few change, by a step of allpairs::World; each further one is a pass over
-///            them. The first queries with an object after a change scan all boxes; more, O(log n + found). A query outside
-///            of all boxes since the last clear() ends at once.
+///            them. The first queries with an object after a change scan all boxes; more, O(log n + found). A query
+///            outside of all boxes since the last clear() ends at once.
 /// Threads:   const members, queries, may be called concurrently while no other member runs. A callback may query the
 ///            manager, and must not register, update or unregister.
 template <class S>

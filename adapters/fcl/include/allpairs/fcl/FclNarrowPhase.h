@@ -34,9 +34,10 @@ struct ExactOptions {
 /// own type is NotExamined. Each model's hierarchy is built when it is first in a pair, once in a step.
 /// Geometry:  a mesh whose triangles close (each edge is shared by as many one way as the other, or by an even number
 ///            of them) is a solid, with holes where inner surfaces face inward; any other mesh is a surface without
-///            volume, of which nothing is guessed: whether it encloses another model is Undecided. Where models stand now: contact distances and velocities play no part. The depth is that of the
-///            deepest of the vertices, and of the middles of edges and triangles, of what lies in the other's box:
-///            never more than the true one, and equal to it where a vertex or a flat face is deepest.
+///            volume, of which nothing is guessed: whether it encloses another model is Undecided. Where models stand
+///            now: contact distances and velocities play no part. The depth is that of the deepest of the vertices, and
+///            of the middles of edges and triangles, of what lies in the other's box: never more than the true one, and
+///            equal to it where a vertex or a flat face is deepest.
 /// Bad input: a null model throws InvalidArgument; options that are negative or NaN too.
 /// Cost:      per pair, FCL's distance or collision of the two, and for a pair that meets a distance for each vertex
 ///            that lies in the other.

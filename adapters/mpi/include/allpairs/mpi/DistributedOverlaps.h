@@ -74,9 +74,9 @@ struct DistributedOptions {
 /// boxes, whatever the number of ranks.
 ///
 /// Geometry:  as OverlapSearch; float32 and float64 may be mixed.
-/// Bad input: as onAllRanks(): what one rank throws is thrown on all, and the object can be used on. Ranks that do not make
-///            the same call with the same settings, and an object that has been moved from, throw InvalidArgument. A call of MPI
-///            that fails throws MpiError on the ranks that see it.
+/// Bad input: as onAllRanks(): what one rank throws is thrown on all, and the object can be used on. Ranks that do not
+///            make the same call with the same settings, and an object that has been moved from, throw InvalidArgument.
+///            A call of MPI that fails throws MpiError on the ranks that see it.
 /// Cost:      each box travels once, and once more for each further cell that it reaches; boxes that reach many cells,
 ///            or lie where no cut divides them, are sent to all ranks, a part at a time. Beside the result a rank holds
 ///            4 bytes for each of its boxes and copies, one cell at a time, the pairs of one cell or part, and as much
@@ -87,8 +87,8 @@ class DistributedOverlaps {
  public:
   /// Collective: the communicator is duplicated. The destructor is collective too.
   ///
-  /// Bad input: no communicator, one between two groups, or MPI before it is initialized or after it is finalized, throws
-  ///            InvalidArgument.
+  /// Bad input: no communicator, one between two groups, or MPI before it is initialized or after it is finalized,
+  ///            throws InvalidArgument.
   explicit DistributedOverlaps(MPI_Comm communicator, const DistributedOptions& options = {});
   ~DistributedOverlaps();
   DistributedOverlaps(DistributedOverlaps&&) noexcept;

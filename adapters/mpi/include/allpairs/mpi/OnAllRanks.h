@@ -14,13 +14,13 @@ class MpiError : public Error {
   using Error::Error;
 };
 
-/// Does work on every rank of a communicator, and throws on all ranks what it throws on one: no rank goes on, and waits,
-/// for one that has failed.
+/// Does work on every rank of a communicator, and throws on all ranks what it throws on one: no rank goes on, and
+/// waits, for one that has failed.
 ///
 /// Collective. The work is each rank's own: it must not communicate.
 /// Bad input: where several ranks fail, all throw the exception of the lowest. Its message begins with that rank where
-///            there are several. InvalidArgument, InvalidBox, LimitExceeded, Stopped and std::bad_alloc keep their type;
-///            anything else keeps it on its own rank and is an Error on the others.
+///            there are several. InvalidArgument, InvalidBox, LimitExceeded, Stopped and std::bad_alloc keep their
+///            type; anything else keeps it on its own rank and is an Error on the others.
 /// Cost:      one reduction.
 void onAllRanks(MPI_Comm communicator, FunctionRef<void()> work);
 

@@ -12,12 +12,12 @@
 
 namespace allpairs {
 
-/// A host's broad-phase manager without its queries, whose callbacks each host has of its own: objects that come, move and
-/// go, in an ObjectBroadPhase.
+/// A host's broad-phase manager without its queries, whose callbacks each host has of its own: objects that come, move
+/// and go, in an ObjectBroadPhase.
 ///
-/// It is also one of the host's own trees. The host's DynamicAABBTreeCollisionManager takes the other manager of a query for
-/// one of its own kind without asking, calls its size(), and reads its tree. So here is such a tree, which is empty and
-/// costs nothing until somebody calls size().
+/// It is also one of the host's own trees. The host's DynamicAABBTreeCollisionManager takes the other manager of a
+/// query for one of its own kind without asking, calls its size(), and reads its tree. So here is such a tree, which is
+/// empty and costs nothing until somebody calls size().
 ///
 /// Host says what these are: Object, Base, Tree, and update(tree, objects), which has the tree read the boxes of those
 /// objects, which are all that it has.
@@ -77,8 +77,8 @@ class HostManager : public Host::Tree {
 
   [[nodiscard]] bool empty() const override { return m_objects.rows().size() == 0; }
 
-  /// The first call after an update or a registration brings the host's tree up to date, which the host's trees read after
-  /// they have called this.
+  /// The first call after an update or a registration brings the host's tree up to date, which the host's trees read
+  /// after they have called this.
   [[nodiscard]] std::size_t size() const override {
     bringTree();
     return m_objects.rows().size();

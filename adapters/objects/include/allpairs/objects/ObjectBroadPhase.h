@@ -23,7 +23,8 @@ struct ObjectBroadPhaseOptions {
   /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// Orders the pairs within a manager by the registration of their first object, and then of their second. It takes time.
+  /// Orders the pairs within a manager by the registration of their first object, and then of their second. It takes
+  /// time.
   bool isOrdered = false;
 };
 
@@ -33,8 +34,8 @@ struct ObjectBroadPhaseOptions {
 /// Object has getAABB(), a box with min_ and max_, overlap() and distance(). Objects stay the caller's; their boxes are
 /// read by add() and update().
 /// Geometry:  boxes are closed, in their own precision. An empty box has no pairs and no distance.
-/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not added, one that is there keeps the
-///            box that it had. No object, a null pointer, is none.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not added, one that is there keeps
+///            the box that it had. No object, a null pointer, is none.
 /// Threads:   const members may be called concurrently while no other member runs; a visitor may call them too.
 template <class HostObject>
 class ObjectBroadPhase {

@@ -11,8 +11,8 @@ namespace allpairs {
 
 /// The numbers of objects by their addresses: one table, so that a manager that is made for one query allocates little.
 ///
-/// A place is empty, or has an object that belongs there or at a place before, without an empty one between. At most half
-/// of the places are taken.
+/// A place is empty, or has an object that belongs there or at a place before, without an empty one between. At most
+/// half of the places are taken.
 class ObjectNumbers {
  public:
   /// The number of an object; kNoBox if it has none.

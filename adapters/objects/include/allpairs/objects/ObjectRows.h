@@ -131,7 +131,8 @@ class ObjectRows {
     return hasBox(number);
   }
 
-  /// Whether a box that is not empty overlaps the box around all that were read since the last clear(): else it overlaps none.
+  /// Whether a box that is not empty overlaps the box around all that were read since the last clear(): else it
+  /// overlaps none.
   [[nodiscard]] bool mayOverlap(const Bounds& other) const { return m_hull.overlap(other); }
 
   /// The square of the distance of an object's box from another box.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stand-in for the few interfaces of SOFA that the plugin uses, so that it can be compiled and tested without SOFA. It
-// does what SOFA's documentation says of them and no more.
+// A stand-in for the few interfaces of SOFA that the plugin uses, so that it can be compiled and tested without SOFA.
+// It does what SOFA's documentation says of them and no more.
 #pragma once
 
 #define SOFA_EXPORT_DYNAMIC_LIBRARY

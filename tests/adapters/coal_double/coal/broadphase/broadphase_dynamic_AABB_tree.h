@@ -11,7 +11,8 @@
 namespace coal {
 
 /// No tree: a double loop over the boxes as they were when they were last read. As Coal's tree does, it takes the other
-/// manager for one of its own kind, reads what that one has after its size(), and refuses to update all where a box is flat.
+/// manager for one of its own kind, reads what that one has after its size(), and refuses to update all where a box is
+/// flat.
 class DynamicAABBTreeCollisionManager : public BroadPhaseCollisionManager {
  public:
   void registerObject(CollisionObject* object) override { m_bounds[object] = object->getAABB(); }
