@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "kernels/Kernels.h"
 
@@ -104,6 +107,64 @@ TEST_P(QueryLanes, ABoxTouchesThoseThatItOverlaps) {
     touched += expected != 0 ? 1U : 0U;
   }
   EXPECT_GT(touched, 100U);
+}
+
+/// Cells of a quarter or a half over a part of the grid, of which some are marked; on some axes there is only one.
+struct GridCells {
+  std::array<double, 3> origin;
+  double scale;
+  std::array<int, 3> count;
+  std::vector<std::uint32_t> marks;
+
+  explicit GridCells(GridNumbers& numbers)
+      : origin(numbers.point()), scale(numbers.below(2) == 0 ? 2.0 : 4.0), count(), marks(256, 0) {
+    for (int& cells : count) cells = 1 + static_cast<int>(numbers.below(20) * numbers.below(2));
+    for (std::uint32_t& word : marks) {
+      for (unsigned bit = 0; bit < 32; ++bit) word |= (numbers.below(3) == 0 ? 1U : 0U) << bit;
+    }
+  }
+
+  [[nodiscard]] MarkedCells cells() const {
+    MarkedCells result;
+    for (std::size_t axis = 0; axis < 3; ++axis) result.origin[axis] = static_cast<float>(origin[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) result.count[axis] = count[axis];
+    result.scale = static_cast<float>(scale);
+    result.marks = marks.data();
+    return result;
+  }
+
+  [[nodiscard]] int cellOf(double bound, std::size_t axis) const {
+    return std::clamp(static_cast<int>(std::floor((bound - origin[axis]) * scale)), 0, count[axis] - 1);
+  }
+
+  [[nodiscard]] bool mayTouch(const GridBox& box) const {
+    std::size_t number = 0;
+    bool isLong = false;
+    for (const std::size_t axis : {2U, 1U, 0U}) {
+      const int first = cellOf(box.min[axis], axis);
+      number = number * static_cast<std::size_t>(count[axis]) + static_cast<std::size_t>(first);
+      isLong = isLong || cellOf(box.max[axis], axis) > first + 1;
+    }
+    return isLong || (marks[number / 32] >> (number % 32) & 1U) != 0;
+  }
+};
+
+TEST_P(QueryLanes, ABoxMayTouchWhatIsInAMarkedCellOrIsLongerThanTwoCells) {
+  std::size_t far = 0;
+  for (int round = 0; round < 1000; ++round) {
+    fill();
+    const GridCells cells(m_numbers);
+    const std::uint32_t expected = bitsOf([&](const GridBox& box) { return cells.mayTouch(box); });
+    ASSERT_EQ(m_kernels.markedLanes(m_block, cells.cells()) & ((1U << m_size) - 1U), expected) << "round " << round;
+    for (std::size_t lane = 0; lane < m_size; ++lane) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double min = m_boxes[lane].min[axis];
+        ASSERT_EQ(cells.cells().cellOf(static_cast<float>(min), axis), cells.cellOf(min, axis));
+      }
+    }
+    far += m_size - static_cast<std::size_t>(std::popcount(expected));
+  }
+  EXPECT_GT(far, 1000U);
 }
 
 /// A box that moves by a power of two along each axis, rests on it, or is tested on the others only.

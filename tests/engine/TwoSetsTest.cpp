@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
@@ -61,7 +62,10 @@ std::vector<Meeting> meetings() {
       {boxesIn(kMany, 11, 20, 0), boxesIn(kMany, 12, 20, 40)},  // nowhere
       {boxesIn(kMany, 13, 20, 0), boxesIn(kMany, 14, 20, 0)},   // everywhere
       {boxesIn(kMany, 15, 20, 0), std::vector<Box>(3, kEmptyBox)},
+      {boxesIn(kMany, 16, 20, 0), boxesIn(60, 17, 20, 0)},     // few that lie everywhere
+      {boxesIn(kMany, 18, 15, 1), boxesIn(kMany, 19, 20, 0)},  // also in a part of space
   };
+  all.back().first.resize(12);
   // Empty boxes have no say in what the bounds are, and infinite ones have.
   std::swap(all[2].second[5].min[1], all[2].second[5].max[1]);
   all[2].second[6] = kEmptyBox;
@@ -161,6 +165,55 @@ TEST(TwoSets, AreFilteredByTheIdsThatBoxesHaveInTheirSets) {
   options.filter.first.groups = groups;
   options.filter.second.groups = others;
   EXPECT_EQ(overlaps(first, second, options), expected);
+}
+
+/// Boxes of any form: `flat` of three axes have no width and one place for all.
+std::vector<Box> boxesOfAnyForm(std::size_t n, std::mt19937& random, std::size_t flat, double length) {
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Box> boxes(n);
+  for (Box& box : boxes) {
+    // Some are much longer than most.
+    const double longest = length * (uniform(random) < 0.05 ? 30.0 : 1.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = axis < flat ? 0.5 : uniform(random);
+      box.min[axis] = place;
+      box.max[axis] = axis < flat ? place : place + longest * uniform(random);
+    }
+    if (uniform(random) < 0.02) std::swap(box.min[2], box.max[2]);
+  }
+  return boxes;
+}
+
+TEST(TwoSets, OfWhichFewLieAmongManyGiveTheOraclesPairs) {
+  std::mt19937 random(51);
+  for (int round = 0; round < 60; ++round) {
+    const std::size_t n = 1100 + random() % 2000;
+    const std::size_t m = 9 + random() % (n / 32 - 8);
+    const std::size_t flat = random() % 4;
+    std::vector<Box> many = boxesOfAnyForm(n, random, flat, 0.01 + 0.05 * static_cast<double>(random() % 3));
+    std::vector<Box> few = boxesOfAnyForm(m, random, random() % 2 == 0 ? flat : 0, 0.02);
+    if (round % 7 == 0) few[random() % m] = {{-test::kInfinity, 0, 0}, {test::kInfinity, 0.1, 0.1}};
+    if (round % 5 == 0) many[random() % n] = {{-1e300, 0, 0}, {1e300, 1, 1}};
+    const double distance = round % 4 == 3 ? 0.01 : 0.0;
+    OverlapOptions options;
+    options.distance = distance;
+    ASSERT_EQ(overlaps(many, few, options), test::oracleBetween(many, few, distance)) << "round " << round;
+    ASSERT_EQ(overlaps(few, many, options), test::oracleBetween(few, many, distance)) << "round " << round;
+    const std::vector<BoxF> manyInFloat = inFloat(many);
+    const std::vector<BoxF> fewInFloat = inFloat(few);
+    ASSERT_EQ(overlaps(manyInFloat, fewInFloat),
+              test::oracleBetween(test::toDouble(manyInFloat), test::toDouble(fewInFloat)))
+        << "round " << round;
+  }
+}
+
+TEST(TwoSets, OfWhichFewLieAmongManyNeedFewTests) {
+  std::mt19937 random(52);
+  const std::vector<Box> many = boxesOfAnyForm(kMany, random, 0, 0.01);
+  const std::vector<Box> few = boxesOfAnyForm(20, random, 0, 0.01);
+  OverlapSearch search;
+  EXPECT_EQ(test::toVector(search.find(many, few)), test::oracleBetween(many, few));
+  EXPECT_LT(search.statistics().boxTests, kMany * 20 / 8);
 }
 
 TEST(TwoSets, ThatMeetInASmallPartOfSpaceNeedFewTests) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "input/BoxRuns.h"
@@ -16,8 +17,12 @@ namespace {
 /// Fewer boxes are not worth a pass that leaves some out (docs/decisions/0022).
 constexpr std::size_t kLeastBoxes = 1024;
 
-/// A set is restricted if at most half of this many sampled boxes touch the other set's bounds.
-constexpr std::size_t kSample = 64;
+/// Up to one box in this many of the other set, what takes another pass over a set pays off (docs/decisions/0022).
+constexpr std::size_t kTimesLarger = 32;
+
+/// Cells for each box whose cells are marked: so many that few are marked, of boxes much smaller than the space between
+/// them (docs/decisions/0022).
+constexpr std::size_t kCellsPerBox = 1024;
 
 /// The bounds of all boxes that may overlap something.
 LaneBox boundsOf(const BoxReader& reader) {
@@ -44,29 +49,58 @@ LaneBox boundsOf(const BoxReader& reader) {
   return result;
 }
 
-bool areMostlyOutside(const BoxReader& reader, const LaneBox& bounds) {
-  std::size_t inside = 0;
-  sampleBoxes(reader, kSample, [&](const LaneBox& box) { inside += touch(box, bounds) ? 1U : 0U; });
-  return 2 * inside <= kSample;
+/// Boxes of a set, or lanes that touch nothing.
+using Sample = std::array<LaneBlock, kSample / kFanOut>;
+
+Sample sampleOf(const BoxReader& reader) {
+  Sample sample;
+  for (LaneBlock& block : sample) block.clear();
+  std::size_t size = 0;
+  sampleBoxes(reader, kSample, [&](const LaneBox& box) {
+    sample[size / kFanOut].set(size % kFanOut, box);
+    ++size;
+  });
+  return sample;
 }
 
-/// Writes the ids of those of some boxes that touch the bounds; returns the end of what it wrote.
-std::uint32_t* chooseTouching(const BoxReader& reader, const BoxList& boxes, const LaneBox& bounds,
-                              std::uint32_t* ids) {
+/// How many boxes of a sample are near, which near(block) says of lanes.
+template <class Near>
+std::size_t countNear(const Sample& sample, const Near& near) {
+  std::size_t count = 0;
+  for (const LaneBlock& block : sample) count += static_cast<std::size_t>(std::popcount(near(block)));
+  return count;
+}
+
+/// A length that nine in ten boxes of a sample do not exceed on any axis.
+double usualLength(const Sample& sample) {
+  std::array<float, kSample> longest;
+  for (std::size_t i = 0; i < kSample; ++i) {
+    const LaneBox box = sample[i / kFanOut].get(i % kFanOut);
+    longest[i] = 0.0F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      longest[i] = std::max(longest[i], box.bound[axis + 3] - box.bound[axis]);
+    }
+  }
+  const auto most = longest.begin() + kSample * 9 / 10;
+  std::nth_element(longest.begin(), most, longest.end());
+  return static_cast<double>(*most);
+}
+
+/// Writes the ids of those of some boxes that are near, which near(block) says of lanes; returns the end of what it
+/// wrote.
+template <class Near>
+std::uint32_t* chooseNear(const BoxReader& reader, const BoxList& boxes, const Near& near, std::uint32_t* ids) {
   LaneBlock block;
   for (std::size_t lane = 0; lane < kFanOut; ++lane) block.set(lane, kNeverLanes);
   for (std::size_t i = 0; i < boxes.size; i += kFanOut) {
     const BoxList some = boxes.part(i, kFanOut);
     const std::uint32_t empty = reader.read(some, block).emptyLanes;
-    std::uint32_t lanes = reader.kernels().touchingLanes(block, bounds) & ~empty & ((1U << some.size) - 1U);
-    for (; lanes != 0; lanes &= lanes - 1) *ids++ = some[static_cast<std::size_t>(std::countr_zero(lanes))];
+    std::uint32_t lanes = near(block) & ~empty & ((1U << some.size) - 1U);
+    for (; lanes != 0; lanes &= lanes - 1)
+      *ids++ = reader.idOf(some[static_cast<std::size_t>(std::countr_zero(lanes))]);
   }
   return ids;
 }
-
-/// Up to one box in this many of the other set, finding the bounds of a set once more, exactly, takes less time than it
-/// saves (docs/decisions/0022).
-constexpr std::size_t kBoundedAgain = 8;
 
 /// The bounds of all boxes of a set that are not empty, in the precision of the boxes.
 template <class T>
@@ -86,19 +120,62 @@ std::array<T, 6> exactBoundsOf(const BoxReader& reader) {
   return result;
 }
 
-/// The same of boxes as they lie in memory, `first` being the number of the first.
+/// Cubic cells over the bounds, so many at most and of so long a side at least. The scale is 0 if the bounds are
+/// shorter than a side on all axes, or are those of no box.
+MarkedCells cellsOver(const LaneBox& bounds, std::size_t most, double leastSide) {
+  MarkedCells cells;
+  cells.count = {1, 1, 1};
+  std::array<double, 3> width;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cells.origin[axis] = bounds.bound[axis];
+    width[axis] = static_cast<double>(bounds.bound[axis + 3]) - static_cast<double>(bounds.bound[axis]);
+  }
+  std::array<std::size_t, 3> axes{0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return width[a] > width[b]; });
+  // An axis on which the boxes are narrower than a cell has one cell, and the others have more.
+  for (std::size_t used = 3; used > 0; --used) {
+    double volume = 1.0;
+    for (std::size_t k = 0; k < used; ++k) volume *= std::max(width[axes[k]], 0.0);
+    const double side =
+        std::max(std::pow(volume / static_cast<double>(most), 1.0 / static_cast<double>(used)), leastSide);
+    if (!(width[axes[used - 1]] > side)) continue;
+    for (std::size_t k = 0; k < used; ++k) cells.count[axes[k]] = static_cast<std::int32_t>(width[axes[k]] / side);
+    cells.scale = static_cast<float>(1.0 / side);
+    break;
+  }
+  return cells;
+}
+
+/// Marks the cells of a box, and those before them on each axis, unless these are too many; returns how many they are.
+std::size_t markBox(const MarkedCells& cells, const LaneBox& box, std::size_t most, std::uint32_t* marks) {
+  std::array<std::size_t, 3> begin{};
+  std::array<std::size_t, 3> end{};
+  std::size_t size = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    begin[axis] = static_cast<std::size_t>(std::max(cells.cellOf(box.bound[axis], axis) - 1, 0));
+    end[axis] = static_cast<std::size_t>(cells.cellOf(box.bound[axis + 3], axis)) + 1;
+    size *= end[axis] - begin[axis];
+  }
+  if (size > most) return size;
+  const auto rowLength = static_cast<std::size_t>(cells.count[0]);
+  for (std::size_t z = begin[2]; z < end[2]; ++z) {
+    for (std::size_t y = begin[1]; y < end[1]; ++y) {
+      const std::size_t row = (z * static_cast<std::size_t>(cells.count[1]) + y) * rowLength;
+      for (std::size_t cell = row + begin[0]; cell < row + end[0]; ++cell) marks[cell / 32] |= 1U << (cell % 32);
+    }
+  }
+  return size;
+}
+
+/// The same of a part of the boxes as they lie in memory, `first` being the number of the first.
 template <class T>
-std::uint32_t* chooseTouching(const BoxRun<T>& boxes, std::size_t first, const std::array<T, 6>& bounds,
+std::uint32_t* chooseTouching(const BoxRun<T>& part, std::size_t first, const std::array<T, 6>& bounds,
                               const Kernels& kernels, std::uint32_t* ids) {
-  std::array<std::uint64_t, 16> words;
-  constexpr std::size_t kAtOnce = words.size() * kWordBoxes;
-  for (std::size_t begin = 0; begin < boxes.size; begin += kAtOnce) {
-    const BoxRun<T> part = boxes.part(begin, kAtOnce);
-    kernels.plain<T>().touchBoxes(part, bounds, words.data());
-    for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
-      for (std::uint64_t bits = words[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
-        *ids++ = static_cast<std::uint32_t>(first + begin + i + static_cast<std::size_t>(std::countr_zero(bits)));
-      }
+  std::array<std::uint64_t, kPartSize / kWordBoxes> words;
+  kernels.plain<T>().touchBoxes(part, bounds, words.data());
+  for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
+    for (std::uint64_t bits = words[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
+      *ids++ = static_cast<std::uint32_t>(first + i + static_cast<std::size_t>(std::countr_zero(bits)));
     }
   }
   return ids;
@@ -136,28 +213,75 @@ void BoxCull::keepTouching(BoxReader& reader, const BoxReader& other, Ids& ids, 
   });
 }
 
-bool BoxCull::restrict(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
-  if (reader.size() < kLeastBoxes) return false;
+/// Restricts the reader to the boxes that are near, which isNear(block) says of lanes.
+template <class Near>
+void BoxCull::keepNear(BoxReader& reader, const Near& isNear, Ids& ids, Executor& executor) {
+  keep(reader, ids, executor, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    return chooseNear(reader, {nullptr, begin, end - begin}, isNear, to);
+  });
+}
+
+/// Leaves out the boxes outside of the other set's bounds, if these are many of a sample.
+void BoxCull::restrictToBounds(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
   const LaneBox bounds = boundsOf(other);
-  if (!areMostlyOutside(reader, bounds)) return false;
-  const bool isBoundedAgain = other.size() <= reader.size() / kBoundedAgain;
-  if (isBoundedAgain && reader.areBoundsOf<float>() && other.areBoundsOf<float>()) {
+  const auto isNear = [&](const LaneBlock& block) { return reader.kernels().touchingLanes(block, bounds); };
+  if (2 * countNear(sampleOf(reader), isNear) > kSample) return;
+  const bool isLarger = other.size() <= reader.size() / kTimesLarger;
+  if (isLarger && reader.areBoundsOf<float>() && other.areBoundsOf<float>()) {
     keepTouching<float>(reader, other, ids, executor);
-  } else if (isBoundedAgain && reader.areBoundsOf<double>() && other.areBoundsOf<double>()) {
+  } else if (isLarger && reader.areBoundsOf<double>() && other.areBoundsOf<double>()) {
     keepTouching<double>(reader, other, ids, executor);
   } else {
-    keep(reader, ids, executor, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-      return chooseTouching(reader, {nullptr, begin, end - begin}, bounds, to);
-    });
+    keepNear(reader, isNear, ids, executor);
+  }
+}
+
+/// Marks the cells of a set's boxes; returns false, soon, if they are many: then they leave out little.
+bool BoxCull::mark(const BoxReader& reader, MarkedCells& cells) {
+  const std::size_t words = cells.size() / 32 + 1;
+  m_marks.require(words);
+  std::fill_n(m_marks.data(), words, 0U);
+  cells.marks = m_marks.data();
+  std::size_t marked = 0;
+  LaneBlock block;
+  for (std::size_t i = 0; i < reader.size(); i += kFanOut) {
+    const std::size_t most = std::min(kCellsPerBox / 16 * (i + kFanOut), cells.size() / 2);
+    const BoxList some = BoxList{nullptr, 0, reader.size()}.part(i, kFanOut);
+    std::uint32_t lanes = ~reader.read(some, block).emptyLanes & ((1U << some.size) - 1U);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const LaneBox box = block.get(static_cast<std::size_t>(std::countr_zero(lanes)));
+      marked += markBox(cells, box, most, m_marks.data());
+    }
+    if (marked > most) return false;
   }
   return true;
+}
+
+/// Leaves out the boxes that are in no cell with a box of the other set, if these are many of a sample.
+void BoxCull::restrictToCells(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
+  if (other.size() > reader.size() / kTimesLarger) return;
+  const LaneBox bounds = boundsOf(other);
+  const Sample sample = sampleOf(reader);
+  // So many that float32 tells them all apart; with so much smaller a set, no more bytes than ids have.
+  const std::size_t mostCells = std::min(kCellsPerBox * other.size(), std::size_t{1} << 24);
+  MarkedCells cells = cellsOver(bounds, mostCells, usualLength(sample));
+  if (!std::isnormal(cells.scale) || !mark(other, cells)) return;
+  const Kernels& kernels = reader.kernels();
+  const auto isNear = [&](const LaneBlock& block) {
+    return kernels.touchingLanes(block, bounds) & kernels.markedLanes(block, cells);
+  };
+  if (3 * countNear(sample, isNear) <= kSample) keepNear(reader, isNear, ids, executor);
 }
 
 void BoxCull::apply(BoxReader& first, BoxReader& second, Executor& executor) {
   const bool firstIsSmall = first.size() <= second.size();
   BoxReader& small = firstIsSmall ? first : second;
   BoxReader& large = firstIsSmall ? second : first;
-  if (restrict(large, small, m_largeIds, executor)) restrict(small, large, m_smallIds, executor);
+  const std::size_t size = large.size();
+  if (size < kLeastBoxes) return;
+  restrictToBounds(large, small, m_largeIds, executor);
+  if (large.size() >= kLeastBoxes) restrictToCells(large, small, m_largeIds, executor);
+  if (large.size() != size && small.size() >= kLeastBoxes) restrictToBounds(small, large, m_smallIds, executor);
 }
 
 }  // namespace allpairs::engine

@@ -52,6 +52,7 @@ const Kernels* kernelTable() {
                              &readWide32,
                              &readWide64,
                              &touchingLanes,
+                             &markedLanes,
                              &meetingLanes,
                              &nearLanes};
   return &table;

@@ -177,6 +177,25 @@ struct TouchedBoxes {
   std::uint32_t firstOther = 0;  ///< And of the first of the others.
 };
 
+/// Cubic cells over some boxes. A cell is marked if one of the boxes touches it, or the cell after it on some axes: a
+/// box of two cells on each axis, or one, can touch one of the boxes only if its first cell is marked.
+struct MarkedCells {
+  std::array<float, 3> origin{};
+  float scale = 0.0F;                    ///< Cells per unit of length, a normal number.
+  std::array<std::int32_t, 3> count{};   ///< On an axis with one cell, bounds are not looked at.
+  const std::uint32_t* marks = nullptr;  ///< A bit for each cell, those along x next to each other, then along y.
+
+  [[nodiscard]] std::size_t size() const noexcept {
+    return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(count[2]);
+  }
+
+  /// The cell of a bound; it never decreases from one bound to a greater one, however it is rounded.
+  [[nodiscard]] std::int32_t cellOf(float bound, std::size_t axis) const noexcept {
+    const float cell = (bound - origin[axis]) * scale;
+    return static_cast<std::int32_t>(std::min(std::max(cell, 0.0F), static_cast<float>(count[axis] - 1)));
+  }
+};
+
 /// The functions for boxes as they lie in memory, which are not rounded.
 template <class T>
 struct PlainKernels {
@@ -254,6 +273,7 @@ struct Kernels {
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
   /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that contains it.
   std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
+  std::uint32_t (*markedLanes)(const LaneBlock& block, const MarkedCells& cells);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
   std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& point, float limit, float* squares);
 };

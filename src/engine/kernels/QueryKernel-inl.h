@@ -34,6 +34,37 @@ std::uint32_t touchingLanes(const LaneBlock& block, const LaneBox& box) {
   return bitsOfBlock([&](std::size_t i) HWY_ATTR { return overlapping(query, block.bound, i); });
 }
 
+/// What MarkedCells::cellOf() gives, of a vector of bounds.
+HWY_INLINE hn::Vec<hn::RebindToSigned<FloatTag>> cellsOf(FloatVector bounds, const MarkedCells& cells,
+                                                         std::size_t axis) {
+  const FloatTag d;
+  const auto cell = hn::Mul(hn::Sub(bounds, hn::Set(d, cells.origin[axis])), hn::Set(d, cells.scale));
+  const auto last = hn::Set(d, static_cast<float>(cells.count[axis] - 1));
+  return hn::ConvertTo(hn::RebindToSigned<FloatTag>(), hn::Min(hn::Max(cell, hn::Zero(d)), last));
+}
+
+/// Which lanes have a first cell that is marked, or more than two cells on an axis.
+std::uint32_t markedLanes(const LaneBlock& block, const MarkedCells& cells) {
+  return bitsOfBlock([&](std::size_t i) HWY_ATTR {
+    const FloatTag d;
+    const IdTag du;
+    const hn::RebindToSigned<FloatTag> di;
+    auto number = hn::Zero(di);
+    auto further = hn::Zero(di);
+    for (std::size_t axis = 3; axis-- > 0;) {
+      if (cells.count[axis] == 1) continue;
+      const auto first = cellsOf(hn::LoadU(d, &block.bound[axis][i]), cells, axis);
+      const auto last = cellsOf(hn::LoadU(d, &block.bound[axis + 3][i]), cells, axis);
+      further = hn::Max(further, hn::Sub(last, first));
+      number = hn::Add(hn::Mul(number, hn::Set(di, cells.count[axis])), first);
+    }
+    const auto marks = hn::GatherIndex(du, cells.marks, hn::ShiftRight<5>(number));
+    const auto bit = hn::Shl(hn::Set(du, 1U), hn::BitCast(du, hn::And(number, hn::Set(di, 31))));
+    const auto isMarked = hn::Ne(hn::And(marks, bit), hn::Zero(du));
+    return hn::RebindMask(d, hn::Or(isMarked, hn::RebindMask(du, hn::Gt(further, hn::Set(di, 1)))));
+  });
+}
+
 /// The interval of times at which a query can be within boxes.
 struct SlabInterval {
   FloatVector enter, leave;

@@ -67,9 +67,6 @@ std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const
   return isFlat;
 }
 
-/// Boxes of a sample: 1,128 pairs, which vectors test in less than half a microsecond.
-constexpr std::size_t kSample = 3 * kFanOut;
-
 /// The share of the pairs of kSample boxes that overlap: a row and the column of the same number may be one box. Fewer
 /// are there if others overlap nothing.
 double shareOfOverlaps(const Kernels& kernels, LaneTile& rows, LaneTile& columns, std::size_t size) {
