@@ -101,7 +101,8 @@ void MeshTopology::add(const MeshView& mesh) {
   }
   const auto first = static_cast<std::uint32_t>(next.vertices);
   const std::size_t count = mesh.triangles.size() / 3;
-  m_triangles.reserve(next.triangles + count);
+  const std::size_t room = next.triangles + count;
+  if (room > m_triangles.capacity()) m_triangles.reserve(std::max(room, 2 * m_triangles.capacity()));
   for (std::size_t t = 0; t < count; ++t) {
     Triangle triangle{};
     for (std::size_t corner = 0; corner < 3; ++corner) {

@@ -107,6 +107,17 @@ TEST(Allocation, AOneShotCallAllocatesABlockAndItsResult) {
   }
 }
 
+TEST(Allocation, AResultOfFewBoxesBesideManyGrowsInFewSteps) {
+  const std::vector<BoxF> few(8, BoxF{{0, 0, 0}, {1, 1, 1}});
+  const std::vector<BoxF> many(500000, BoxF{{0, 0, 0}, {1, 1, 1}});
+  for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+    const std::size_t before = test::allocatedBytes();
+    const std::size_t pairs = overlaps(many, few, {.order = order}).size();
+    EXPECT_EQ(pairs, few.size() * many.size());
+    EXPECT_LE(test::allocatedBytes() - before, 4 * pairs * sizeof(Pair));
+  }
+}
+
 TEST(Allocation, AOneShotCallTakesMemoryOfTheCallerOnly) {
   const std::vector<BoxF> boxes = test::randomBoxes(5000, 45);
   test::CountingMemory memory;

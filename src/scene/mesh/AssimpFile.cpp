@@ -168,7 +168,6 @@ class NodeReader {
     const std::size_t base = object.positions.size();
     if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) fail(object, "has too many vertices");
     m_scope.take(mesh.mNumVertices * sizeof(Point));
-    object.positions.reserve(base + mesh.mNumVertices);
     for (const aiVector3D& position : std::span(mesh.mVertices, mesh.mNumVertices)) {
       object.positions.push_back(placed(world, pointOf(position)));
     }
