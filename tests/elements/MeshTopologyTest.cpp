@@ -9,6 +9,7 @@
 #include <string>
 
 #include "allpairs/Error.h"
+#include "support/AllocationCount.h"
 
 namespace allpairs::elements {
 namespace {
@@ -32,6 +33,15 @@ TEST(MeshTopology, NamesEachEdgeOfASquareOnceInOrder) {
   EXPECT_THAT(topology.triangles(), ElementsAre(Triangle{2, 1, 0}, Triangle{3, 2, 0}));
   EXPECT_EQ(topology.counts(), (ElementCounts{4, 5, 2}));
   EXPECT_TRUE(topology.meshOfVertex().empty());
+}
+
+TEST(MeshTopology, OfManyMeshesTakesMemoryByTheirSize) {
+  const Indices triangle{0, 1, 2};
+  const std::vector<MeshView> meshes(20000, MeshView{3, triangle});
+  const std::size_t before = test::allocatedBytes();
+  const MeshTopology topology(meshes);
+  EXPECT_EQ(topology.triangles().size(), meshes.size());
+  EXPECT_LT(test::allocatedBytes() - before, 1000 * meshes.size());
 }
 
 TEST(MeshTopology, NumbersSeveralMeshesThrough) {
