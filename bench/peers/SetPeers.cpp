@@ -69,7 +69,7 @@ std::vector<SetPeer<float>> peersOfTwoSets() {
 
 /// Those that have to be built from their own sources, whatever the sets are.
 template <class T>
-void addPeersWithoutPackages(std::vector<SetPeer<T>>& peers) {
+void addPeersWithoutPackages([[maybe_unused]] std::vector<SetPeer<T>>& peers) {
   if constexpr (std::is_same_v<T, float>) {
 #ifdef ALLPAIRS_PEER_PHYSX
     peers.push_back(physxOfSets());
