@@ -243,7 +243,7 @@ class Match {
     }
   }
 
-  /// Who begins finds the boxes in no cache: another one each time.
+  /// The contender that begins finds the boxes in no cache, so another one begins each time.
   void takeRound() {
     for (std::size_t i = 0; i < m_scenes->groups(); ++i) {
       std::rotate(m_order.begin(), m_order.begin() + 1, m_order.end());

@@ -57,12 +57,6 @@ bool areAlongLine(std::span<const LaneBox> boxes, std::size_t widestAxis, float 
   });
 }
 
-float longestSide(const LaneBox& box) {
-  float longest = 0.0F;
-  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, box.bound[axis + 3] - box.bound[axis]);
-  return longest;
-}
-
 float nth(std::span<float> values, std::size_t n) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(n);
   std::nth_element(values.begin(), place, values.end());

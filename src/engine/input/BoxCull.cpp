@@ -74,13 +74,7 @@ std::size_t countNear(const Sample& sample, const Near& near) {
 /// A length that nine in ten boxes of a sample do not exceed on any axis.
 double usualLength(const Sample& sample) {
   std::array<float, kSample> longest;
-  for (std::size_t i = 0; i < kSample; ++i) {
-    const LaneBox box = sample[i / kFanOut].get(i % kFanOut);
-    longest[i] = 0.0F;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      longest[i] = std::max(longest[i], box.bound[axis + 3] - box.bound[axis]);
-    }
-  }
+  for (std::size_t i = 0; i < kSample; ++i) longest[i] = longestSide(sample[i / kFanOut].get(i % kFanOut));
   const auto most = longest.begin() + kSample * 9 / 10;
   std::nth_element(longest.begin(), most, longest.end());
   return static_cast<double>(*most);
@@ -222,8 +216,8 @@ void BoxCull::keepNear(BoxReader& reader, const Near& isNear, Ids& ids, Executor
 }
 
 /// Leaves out the boxes outside of the other set's bounds, if these are many of a sample.
-void BoxCull::restrictToBounds(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
-  const LaneBox bounds = boundsOf(other);
+void BoxCull::restrictToBounds(BoxReader& reader, const BoxReader& other, const LaneBox& bounds, Ids& ids,
+                               Executor& executor) {
   const auto isNear = [&](const LaneBlock& block) { return reader.kernels().touchingLanes(block, bounds); };
   if (2 * countNear(sampleOf(reader), isNear) > kSample) return;
   const bool isLarger = other.size() <= reader.size() / kTimesLarger;
@@ -258,9 +252,9 @@ bool BoxCull::mark(const BoxReader& reader, MarkedCells& cells) {
 }
 
 /// Leaves out the boxes that are in no cell with a box of the other set, if these are many of a sample.
-void BoxCull::restrictToCells(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor) {
+void BoxCull::restrictToCells(BoxReader& reader, const BoxReader& other, const LaneBox& bounds, Ids& ids,
+                              Executor& executor) {
   if (other.size() > reader.size() / kTimesLarger) return;
-  const LaneBox bounds = boundsOf(other);
   const Sample sample = sampleOf(reader);
   // So many that float32 tells them all apart; with so much smaller a set, no more bytes than ids have.
   const std::size_t mostCells = std::min(kCellsPerBox * other.size(), std::size_t{1} << 24);
@@ -279,9 +273,11 @@ void BoxCull::apply(BoxReader& first, BoxReader& second, Executor& executor) {
   BoxReader& large = firstIsSmall ? second : first;
   const std::size_t size = large.size();
   if (size < kLeastBoxes) return;
-  restrictToBounds(large, small, m_largeIds, executor);
-  if (large.size() >= kLeastBoxes) restrictToCells(large, small, m_largeIds, executor);
-  if (large.size() != size && small.size() >= kLeastBoxes) restrictToBounds(small, large, m_smallIds, executor);
+  const LaneBox bounds = boundsOf(small);
+  restrictToBounds(large, small, bounds, m_largeIds, executor);
+  if (large.size() >= kLeastBoxes) restrictToCells(large, small, bounds, m_largeIds, executor);
+  if (large.size() == size || small.size() < kLeastBoxes) return;
+  restrictToBounds(small, large, boundsOf(large), m_smallIds, executor);
 }
 
 }  // namespace allpairs::engine

@@ -29,8 +29,9 @@ class BoxCull {
  private:
   using Ids = Buffer<std::uint32_t>;
 
-  void restrictToBounds(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor);
-  void restrictToCells(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor);
+  /// The bounds are those of the other set.
+  void restrictToBounds(BoxReader& reader, const BoxReader& other, const LaneBox& bounds, Ids& ids, Executor& executor);
+  void restrictToCells(BoxReader& reader, const BoxReader& other, const LaneBox& bounds, Ids& ids, Executor& executor);
   bool mark(const BoxReader& reader, MarkedCells& cells);
   template <class T>
   void keepTouching(BoxReader& reader, const BoxReader& other, Ids& ids, Executor& executor);

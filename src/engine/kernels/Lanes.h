@@ -68,13 +68,22 @@ template <class Rows>
   return {{rows[0][i], rows[1][i], rows[2][i], rows[3][i], rows[4][i], rows[5][i]}};
 }
 
+template <class Rows>
+void setBoxAt(Rows& rows, std::size_t i, const LaneBox& box) noexcept {
+  for (std::size_t row = 0; row < 6; ++row) rows[row][i] = box.bound[row];
+}
+
+[[nodiscard]] inline float longestSide(const LaneBox& box) noexcept {
+  float longest = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, box.bound[axis + 3] - box.bound[axis]);
+  return longest;
+}
+
 /// Sixteen boxes, a row for each bound: what one vector, or a few, can test at once.
 struct alignas(64) LaneBlock {
   std::array<std::array<float, kFanOut>, 6> bound;
 
-  void set(std::size_t lane, const LaneBox& box) noexcept {
-    for (std::size_t row = 0; row < 6; ++row) bound[row][lane] = box.bound[row];
-  }
+  void set(std::size_t lane, const LaneBox& box) noexcept { setBoxAt(bound, lane, box); }
   [[nodiscard]] LaneBox get(std::size_t lane) const noexcept { return boxAt(bound, lane); }
 
   /// Has all lanes overlap nothing.
@@ -97,9 +106,7 @@ struct alignas(64) LaneTile {
   std::array<std::uint32_t, kCapacity + kVectorSlack> id;
 
   /// Leaves the id as it is.
-  void set(std::size_t i, const LaneBox& box) noexcept {
-    for (std::size_t row = 0; row < 6; ++row) bound[row][i] = box.bound[row];
-  }
+  void set(std::size_t i, const LaneBox& box) noexcept { setBoxAt(bound, i, box); }
   [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 };
 
