@@ -209,7 +209,8 @@ void PairHistory::mergeFresh() noexcept {
   const Pair* next = persisted.data();
   const Pair* const end = next + persisted.size();
   for (const Pair& pair : m_result.began) {
-    // Runs are short: copying pair by pair costs less than a call.
+    for (; static_cast<std::size_t>(end - next) >= kRun && keyOf(next[kRun - 1]) < keyOf(pair); next += kRun)
+      to = std::copy_n(next, kRun, to);
     while (next != end && keyOf(*next) < keyOf(pair)) *to++ = *next++;
     *to++ = pair;
   }
