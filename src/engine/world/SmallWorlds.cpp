@@ -17,6 +17,11 @@ namespace {
 /// walls and ramps. Of more, a hierarchy finds those that matter.
 constexpr std::size_t kMostShared = 32;
 
+/// What a join of changed boxes with all takes, for itself and for each changed box, in tests of two float32 boxes in
+/// an exhaustive search (moving_benchmark).
+constexpr std::size_t kTestsOfJoin = 1500;
+constexpr std::size_t kTestsOfChanged = 1000;
+
 }  // namespace
 
 void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size_t threads) {
@@ -25,13 +30,19 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   m_boxes = store.tested().boxes;
   m_isPlain = !m_boxes->isFloat64() && !m_boxes->hasMargins() && m_options.distance == 0.0;
   m_mostBoxes = std::min({kMostInWorld, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : kMostInDouble});
-  if (store.isNumbered()) m_workers.require(threads);
+  m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }
 
 bool SmallWorlds::takes(std::size_t world) const noexcept {
   const std::size_t shared = world == m_members.everyWorld() ? 0 : m_members.shared().size();
-  return m_store->isNumbered() && shared <= kMostShared && m_members.boxes(world).size() + shared <= m_mostBoxes;
+  return shared <= kMostShared && m_members.size(world) + shared <= m_mostBoxes;
+}
+
+/// The worlds of a numbered store have no hierarchies as long as they are small: a step that needs some would build all.
+bool SmallWorlds::takesChanged(std::size_t world, std::size_t changed) const noexcept {
+  const std::size_t tests = WorldSink::pairsOf(m_members.size(world)) * (m_isPlain ? 1 : 2);
+  return takes(world) && (m_store->isNumbered() || tests <= kTestsOfJoin + changed * kTestsOfChanged);
 }
 
 std::uint64_t SmallWorlds::boxTests() const noexcept {

@@ -37,6 +37,9 @@ class SmallWorlds {
   /// Whether a world is so small that this search is the fastest one.
   [[nodiscard]] bool takes(std::size_t world) const noexcept;
 
+  /// Whether it takes a world and, if only so many boxes of it have changed, is faster than joining these with all.
+  [[nodiscard]] bool takesChanged(std::size_t world, std::size_t changed) const noexcept;
+
   /// Calls take(pairs, worker) with the pairs of some worlds, those of a world in order, one world's after the other's.
   template <class Take>
   void search(std::span<const std::uint32_t> worlds, const Take& take) {

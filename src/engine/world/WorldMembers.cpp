@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bvh/CurveKey.h"
+#include "kernels/WorldsRun.h"
 #include "world/DynamicBvh.h"
 #include "world/RebuildRule.h"
 
@@ -24,12 +25,15 @@ std::span<const std::uint64_t> takeWorld(std::span<const std::uint64_t>& keys, s
 }  // namespace
 
 void WorldMembers::update(const BoxStore& store, Executor& executor) {
-  m_unlisted = store.isNumbered() ? 0 : store.size();
-  if (!store.isNumbered()) {
+  const bool wasWhole = std::exchange(m_isWhole, false);
+  const bool isListed = store.isNumbered() || (store.size() != 0 && store.size() <= kMostInWorld);
+  m_unlisted = isListed ? 0 : store.size();
+  if (!isListed) {
     m_numbers.assign(1, 0);
+    m_begin.clear();
+    m_worldOf.clear();
     return;
   }
-  const bool wasWhole = std::exchange(m_isWhole, false);
   if (!wasWhole || (m_membership != store.membership() && !follow(store))) list(store, executor);
   m_membership = store.membership();
   m_isWhole = true;

@@ -17,7 +17,7 @@ namespace allpairs::engine {
 
 /// The boxes of each world of a store, by ascending id; the worlds by ascending number. After the last one come the
 /// boxes of every world, as one more. A store without numbers is a single world, of which all boxes are, and has no
-/// lists.
+/// lists if it is larger than small worlds are.
 class WorldMembers {
  public:
   explicit WorldMembers(std::pmr::memory_resource* memory)
@@ -79,7 +79,7 @@ class WorldMembers {
   bool follow(const BoxStore& store);
   void copyWorlds(std::span<const std::uint64_t> gone, std::span<const std::uint64_t> come);
 
-  std::size_t m_unlisted = 0;  ///< The number of boxes of a store without numbers.
+  std::size_t m_unlisted = 0;  ///< The number of boxes of a store without lists.
   std::pmr::vector<std::uint32_t> m_numbers;
   std::pmr::vector<std::size_t> m_begin;
   std::pmr::vector<BoxId> m_boxes;

@@ -69,7 +69,7 @@ StepResult WorldSearch::step(BoxStore& store) {
   m_statistics.joinedAll = chooseWorlds(store);
   moveLarge();
   // Small worlds are searched without hierarchies; but `accept` may ask queries.
-  if (!m_large.empty() || !m_partly.empty() || m_options.accept || !store.isNumbered()) update(store);
+  if (!m_large.empty() || !m_partly.empty() || m_options.accept) update(store);
   m_statistics.boxTests = 0;
   m_statistics.groupTests = 0;
   m_statistics.exactTests = 0;
@@ -137,7 +137,7 @@ std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   std::size_t whole = 0;
   for (const std::uint32_t world : m_chosen) {
     const std::size_t size = m_members.size(world);
-    if (m_touchedIn[world] <= size / kShareOfChanged && !m_small.takes(world)) {
+    if (m_touchedIn[world] <= size / kShareOfChanged && !m_small.takesChanged(world, m_touchedIn[world])) {
       m_partly.push_back(world);
       boxes += m_touchedIn[world];
     } else {
