@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What statistics say, and what they show that no result does: that a world rebuilds its hierarchy when it has
 // degraded.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -309,6 +310,38 @@ TEST(Statistics, SmallWorldsCountATestForEachPairOfBoxes) {
   const std::vector<BoxF> ofFloats(3 * 20, BoxF{{0, 0, 0}, {1, 1, 1}});
   static_cast<void>(search.find(Worlds::ofEqualSize(ofFloats, 3)));
   EXPECT_EQ(search.statistics().boxTests, 3U * 190U);
+}
+
+TEST(Statistics, AStepOfAFewBoxesTestsThemAsTheyLieWithoutHierarchies) {
+  std::vector<BoxF> boxes = test::randomBoxes(40, 76);
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
+  (void)world.step();
+  EXPECT_TRUE(world.statistics().joinedAll);
+  EXPECT_EQ(world.statistics().boxTests, 40U * 39U / 2U);
+
+  for (const std::size_t i : {std::size_t{3}, std::size_t{17}}) boxes[i].max[0] += 2.0F;
+  world.move(ids, boxes);  // Two of which change.
+  EXPECT_EQ(test::toVector(world.step().pairs), test::oracle(test::toDouble(boxes)));
+  EXPECT_FALSE(world.statistics().joinedAll);
+  EXPECT_EQ(world.statistics().boxTests, 2U * 40U);
+  EXPECT_EQ(world.statistics().groupTests, 0U);
+  EXPECT_EQ(world.statistics().rebuilds, 0U);
+
+  EXPECT_THAT(world.findOverlapping(world.box(ids[3])), ::testing::Contains(ids[3]));
+  EXPECT_EQ(world.statistics().rebuilds, 1U);  // A query needs one.
+}
+
+TEST(Statistics, AStepOfMoreBoxesJoinsThemInHierarchies) {
+  std::vector<BoxF> boxes = test::randomBoxes(700, 77);
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
+  (void)world.step();
+  EXPECT_LT(world.statistics().boxTests, 700U * 699U / 2U);
+  boxes[5].max[0] += 2.0F;
+  world.move(ids, boxes);
+  EXPECT_EQ(test::toVector(world.step().pairs), test::oracle(test::toDouble(boxes)));
+  EXPECT_LT(world.statistics().boxTests, 700U);
 }
 
 TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {

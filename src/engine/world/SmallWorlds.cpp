@@ -17,10 +17,8 @@ namespace {
 /// walls and ramps. Of more, a hierarchy finds those that matter.
 constexpr std::size_t kMostShared = 32;
 
-/// What a join of changed boxes with all takes, for itself and for each changed box, in tests of two float32 boxes in
-/// an exhaustive search (moving_benchmark).
-constexpr std::size_t kTestsOfJoin = 1500;
-constexpr std::size_t kTestsOfChanged = 1000;
+/// Changed boxes whose rows are copied to the stack at a time.
+constexpr std::size_t kChangedAtOnce = 64;
 
 }  // namespace
 
@@ -28,7 +26,11 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   m_store = &store;
   m_filter = &filter;
   m_boxes = store.tested().boxes;
-  m_isPlain = !m_boxes->isFloat64() && !m_boxes->hasMargins() && m_options.distance == 0.0;
+  const bool onlyBoundsMatter = !m_boxes->hasMargins() && m_options.distance == 0.0;
+  m_isPlain = onlyBoundsMatter && !m_boxes->isFloat64();
+  // Half as many again as are tested exhaustively: a quarter of the boxes at most has changed.
+  const std::size_t most = std::min(kMostFew, m_kernels.flatBoxes + m_kernels.flatBoxes / 2);
+  m_takesChanged = onlyBoundsMatter && !store.isNumbered() && m_boxes->size() <= most;
   m_mostBoxes = std::min({kMostInWorld, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : kMostInDouble});
   m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
@@ -37,12 +39,6 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
 bool SmallWorlds::takes(std::size_t world) const noexcept {
   const std::size_t shared = world == m_members.everyWorld() ? 0 : m_members.shared().size();
   return shared <= kMostShared && m_members.size(world) + shared <= m_mostBoxes;
-}
-
-/// The worlds of a numbered store have no hierarchies as long as they are small: a step that needs some would build all.
-bool SmallWorlds::takesChanged(std::size_t world, std::size_t changed) const noexcept {
-  const std::size_t tests = WorldSink::pairsOf(m_members.size(world)) * (m_isPlain ? 1 : 2);
-  return takes(world) && (m_store->isNumbered() || tests <= kTestsOfJoin + changed * kTestsOfChanged);
 }
 
 std::uint64_t SmallWorlds::boxTests() const noexcept {
@@ -157,7 +153,31 @@ std::uint64_t SmallWorlds::runWide(std::span<const BoxId> ids, Worker& worker) c
   return sink.size;
 }
 
-/// Moves the pairs that are pairs of this world to the front; returns their number.
+/// Rows of the store against all of them as they lie in memory: no row of an unused id is hit.
+template <class T>
+void SmallWorlds::findChanged(std::span<const BoxId> changed, Worker& worker,
+                              FunctionRef<void(std::span<Pair>)> take) const {
+  const T* const rows = cornersOf<T>(*m_boxes).min.data;
+  std::array<T, 6 * kChangedAtOnce> some;
+  worker.pairs.require(2 * kMostFew + kVectorSlack);
+  worker.boxTests += changed.size() * m_boxes->size();
+  for (; !changed.empty(); changed = changed.subspan(std::min(changed.size(), kChangedAtOnce))) {
+    PlainSearch<T> search{some.data(), rows, std::min(changed.size(), kChangedAtOnce), m_boxes->size()};
+    search.room = 2 * kMostFew;
+    for (std::size_t i = 0; i < search.rowCount; ++i) std::copy_n(rows + std::size_t{6} * changed[i], 6, &some[6 * i]);
+    while (search.rowBegin < search.rowCount) {
+      const std::span<Pair> pairs(worker.pairs.data(), m_kernels.plain<T>().searchFew(search, worker.pairs.data()));
+      for (Pair& pair : pairs) pair.first = changed[pair.first];
+      take(pairs);
+    }
+  }
+}
+
+template void SmallWorlds::findChanged<float>(std::span<const BoxId>, Worker&,
+                                              FunctionRef<void(std::span<Pair>)>) const;
+template void SmallWorlds::findChanged<double>(std::span<const BoxId>, Worker&,
+                                               FunctionRef<void(std::span<Pair>)>) const;
+
 std::size_t SmallWorlds::select(std::size_t world, std::span<Pair> pairs) const {
   const bool hasShared = world != m_members.everyWorld() && !m_members.shared().empty();
   if (!hasShared && m_store->staticCount() == 0) return m_filter->select(pairs);

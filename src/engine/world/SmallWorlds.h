@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "allpairs/Executor.h"
+#include "allpairs/FunctionRef.h"
 #include "allpairs/Pair.h"
 #include "allpairs/WorldTypes.h"
 #include "kernels/Kernels.h"
@@ -19,7 +20,7 @@
 
 namespace allpairs::engine {
 
-/// The search of small worlds of a numbered store: every box is tested against every other one, from the rows of the
+/// The search of small worlds of a store: every box is tested against every other one, from the rows of the
 /// store, without a hierarchy (docs/decisions/0031).
 class SmallWorlds {
  public:
@@ -37,8 +38,8 @@ class SmallWorlds {
   /// Whether a world is so small that this search is the fastest one.
   [[nodiscard]] bool takes(std::size_t world) const noexcept;
 
-  /// Whether it takes a world and, if only so many boxes of it have changed, is faster than joining these with all.
-  [[nodiscard]] bool takesChanged(std::size_t world, std::size_t changed) const noexcept;
+  /// Whether this search is the fastest one for some boxes of the only world with all: see searchChanged().
+  [[nodiscard]] bool takesChanged() const noexcept { return m_takesChanged; }
 
   /// Calls take(pairs, worker) with the pairs of some worlds, those of a world in order, one world's after the other's.
   template <class Take>
@@ -52,6 +53,19 @@ class SmallWorlds {
       }
     });
   }
+
+  /// Calls take(pairs, worker) with the pairs of some boxes of the only world, each first in its pairs, and of all boxes.
+  /// Also with itself, and twice with another one of the same boxes.
+  template <class Take>
+  void searchChanged(std::span<const BoxId> changed, const Take& take) {
+    m_workers.withOne([&](std::size_t index, Worker& worker) {
+      const auto taken = [&](std::span<Pair> pairs) { take(pairs, index); };
+      m_boxes->isFloat64() ? findChanged<double>(changed, worker, taken) : findChanged<float>(changed, worker, taken);
+    });
+  }
+
+  /// Moves the pairs that are pairs of this world to the front; returns their number.
+  std::size_t select(std::size_t world, std::span<Pair> pairs) const;
 
   /// Of all searches since the start.
   [[nodiscard]] std::uint64_t boxTests() const noexcept;
@@ -77,7 +91,8 @@ class SmallWorlds {
   [[nodiscard]] WorldSink sinkOf(const Worker& worker) const noexcept;
   std::uint64_t runPlain(std::span<const BoxId> ids, Worker& worker) const;
   std::uint64_t runWide(std::span<const BoxId> ids, Worker& worker) const;
-  std::size_t select(std::size_t world, std::span<Pair> pairs) const;
+  template <class T>
+  void findChanged(std::span<const BoxId> changed, Worker& worker, FunctionRef<void(std::span<Pair>)> take) const;
 
   const WorldOptions& m_options;
   const Kernels& m_kernels;
@@ -87,6 +102,7 @@ class SmallWorlds {
   const BoxView* m_boxes = nullptr;
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
   bool m_isPlain = false;       ///< Rows of float32 that the kernel takes as they are.
+  bool m_takesChanged = false;
   Workers<Worker> m_workers;
 };
 

@@ -69,7 +69,8 @@ StepResult WorldSearch::step(BoxStore& store) {
   m_statistics.joinedAll = chooseWorlds(store);
   moveLarge();
   // Small worlds are searched without hierarchies; but `accept` may ask queries.
-  if (!m_large.empty() || !m_partly.empty() || m_options.accept) update(store);
+  const bool joinsTrees = !m_large.empty() || (!m_partly.empty() && !m_small.takesChanged());
+  if (joinsTrees || m_options.accept) update(store);
   m_statistics.boxTests = 0;
   m_statistics.groupTests = 0;
   m_statistics.exactTests = 0;
@@ -137,7 +138,8 @@ std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   std::size_t whole = 0;
   for (const std::uint32_t world : m_chosen) {
     const std::size_t size = m_members.size(world);
-    if (m_touchedIn[world] <= size / kShareOfChanged && !m_small.takesChanged(world, m_touchedIn[world])) {
+    const bool isJoinedWhole = store.isNumbered() && m_small.takes(world);
+    if (m_touchedIn[world] <= size / kShareOfChanged && !isJoinedWhole) {
       m_partly.push_back(world);
       boxes += m_touchedIn[world];
     } else {
@@ -172,33 +174,31 @@ bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
 
 /// Finds the pairs of the chosen worlds.
 void WorldSearch::join(const BoxStore& store) {
-  const PairTest test = testOf(store, m_options.distance, m_forest.exact());
-  const auto takeHits = [&](std::span<Pair> pairs, std::size_t worker) {
-    m_history.take(pairs, worker);
-    return pairs.size();
-  };
   const auto takeSmall = [&](std::span<const Pair> pairs, std::size_t worker) { m_history.take(pairs, worker, true); };
-  SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
-  sink.stop = m_options.stop;
-  sink.emit.emplace(takeHits);
-  const std::size_t workers = std::max(m_runner.start(sink, executor()), executor().concurrency());
-  m_history.begin(store.idBound(), workers, m_statistics.joinedAll ? Joined::All : Joined::Changed);
+  m_history.begin(store.idBound(), executor().concurrency(), m_statistics.joinedAll ? Joined::All : Joined::Changed);
   cutIntoRuns(
       m_chosen, [&](std::uint32_t world) { return m_members.size(world); }, m_runs);
   executor().run(m_runs.size(), [&](std::size_t run) {
     const std::size_t begin = run == 0 ? 0 : m_runs[run - 1];
     m_small.search(std::span(m_chosen).subspan(begin, m_runs[run] - begin), takeSmall);
   });
-  joinTrees();
-  noteTotals();
+  if (!m_large.empty() || m_statistics.joinedAll) joinTrees(store);  // All pairs are ordered in its memory.
   if (m_partly.empty()) return;
-  joinPartly(store);
-  noteTotals();
+  m_small.takesChanged() ? searchChanged(store) : joinPartly(store);
 }
 
 /// Finds the pairs of the large worlds in their hierarchies: a task has some worlds, or a part of a huge or the only
 /// one.
-void WorldSearch::joinTrees() {
+void WorldSearch::joinTrees(const BoxStore& store) {
+  const PairTest test = testOf(store, m_options.distance, m_forest.exact());
+  const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
+    m_history.take(pairs, worker);
+    return pairs.size();
+  };
+  SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
+  sink.stop = m_options.stop;
+  sink.emit.emplace(take);
+  m_runner.start(sink, executor());
   const std::span<const std::uint32_t> worlds = m_large;
   const auto sizeOf = [&](std::uint32_t world) { return m_members.size(world); };
   const auto isHuge = [&](std::uint32_t world) { return worlds.size() == 1 || sizeOf(world) > kPartSize; };
@@ -211,6 +211,7 @@ void WorldSearch::joinTrees() {
   for (const std::uint32_t world : worlds) {
     if (isHuge(world)) joinWorld(world, [&](const JoinRunner::Job& job) { return run(job, m_runner); });
   }
+  noteTotals();
 }
 
 /// The pairs of a world's boxes with each other and with those of every world; joinOne(job) returns the number of box
@@ -250,6 +251,14 @@ void WorldSearch::listTouched(const BoxStore& store) {
   }
 }
 
+/// Tests the changed boxes of the only world against all.
+void WorldSearch::searchChanged(const BoxStore& store) {
+  m_small.searchChanged(store.touched(), [&](std::span<Pair> pairs, std::size_t worker) {
+    const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
+    m_history.take(once.first(m_small.select(m_members.everyWorld(), once)), worker);
+  });
+}
+
 /// Joins the changed boxes of some worlds with all boxes there, one world after the other.
 void WorldSearch::joinPartly(const BoxStore& store) {
   const PairTest test = testOf(store, m_options.distance, m_forest.exact());
@@ -266,12 +275,13 @@ void WorldSearch::joinPartly(const BoxStore& store) {
   m_runner.start(sink, executor());
   if (m_partly.size() == 1) {  // What is of other worlds is not in its hierarchies.
     joinTouched(m_partly[0], store.touched());
-    return;
+  } else {
+    listTouched(store);
+    for (std::size_t i = 0; i < m_partly.size(); ++i) {
+      joinTouched(m_partly[i], std::span(m_touched).subspan(m_runs[i], m_touchedIn[m_partly[i]] - m_runs[i]));
+    }
   }
-  listTouched(store);
-  for (std::size_t i = 0; i < m_partly.size(); ++i) {
-    joinTouched(m_partly[i], std::span(m_touched).subspan(m_runs[i], m_touchedIn[m_partly[i]] - m_runs[i]));
-  }
+  noteTotals();
 }
 
 void WorldSearch::joinTouched(std::size_t world, std::span<const BoxId> touched) {

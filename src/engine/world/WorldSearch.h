@@ -92,10 +92,11 @@ class WorldSearch {
   void moveLarge();
   [[nodiscard]] bool isLookedFor(const BoxStore& store, Pair pair) const noexcept;
   void join(const BoxStore& store);
-  void joinTrees();
+  void joinTrees(const BoxStore& store);
   template <class JoinOne>
   void joinWorld(std::size_t world, const JoinOne& joinOne);
   void listTouched(const BoxStore& store);
+  void searchChanged(const BoxStore& store);
   void joinPartly(const BoxStore& store);
   void joinTouched(std::size_t world, std::span<const BoxId> touched);
   std::uint64_t run(const JoinRunner::Job& job, JoinRunner& runner) const;
