@@ -295,9 +295,9 @@ class JoinRun {
     keys = m_task.lists->sort(keys, keys + size, size, 32, 32 + m_task.lists->idBits);
     for (std::size_t i = 0; i < size; ++i) {
       const auto place = static_cast<std::uint32_t>(keys[i]);
-      const LaneBlock& block = second.level[0].blocks[place / kFanOut];
-      for (std::size_t row = 0; row < 6; ++row) near.bound[row][i] = block.bound[row][place % kFanOut];
-      near.id[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
+      const LaneBox box = second.level[0].blocks[place / kFanOut].get(place % kFanOut);
+      setBoxAt(near.bound, i, box);
+      near.boxes[i] = {box, static_cast<std::uint32_t>(keys[i] >> 32U)};
     }
   }
 
@@ -308,10 +308,12 @@ class JoinRun {
     const std::size_t lanes = hn::Lanes(d);
     const Query q = broadcast(bounds);
     std::uint32_t* const to = near.near.data();
+    const std::array<float*, 6> bound = near.bound;  // In registers: `to` may be of anything.
+    const std::size_t all = near.size;
     std::size_t size = 0;
-    for (std::size_t i = 0; i < near.size; i += lanes) {
-      FloatMask mask = overlapping(q, near.bound, i);
-      if (near.size < i + lanes) mask = hn::And(hn::FirstN(d, near.size - i), mask);
+    for (std::size_t i = 0; i < all; i += lanes) {
+      FloatMask mask = overlapping(q, bound, i);
+      if (all < i + lanes) mask = hn::And(hn::FirstN(d, all - i), mask);
       hn::StoreU(selectedLanes(di, numbersFrom(i), hn::RebindMask(di, mask)), di, to + size);
       size += hn::CountTrue(d, mask);
     }
@@ -319,18 +321,16 @@ class JoinRun {
   }
 
   /// The partners of each box of a leaf. First come the hits, a bit for each box of the leaf, of one box near it after
-  /// the other; then the lists, since now their lengths are known.
+  /// the other; then the lists, since now the room that they take is known.
   template <Columns kKept>
   void listLeaf(std::size_t number, const LaneBox& bounds) {
     const Leaf leaf(*m_task.first, number);
-    std::array<std::uint32_t, kFanOut> lengthOf;
-    findHits<kKept>(leaf, bounds, lengthOf);
-    writeLists(leaf, lengthOf);
+    writeLists(leaf, findHits<kKept>(leaf, bounds));
   }
 
-  /// Notes which boxes of a leaf each box near it overlaps, and how many are overlapped by each box of the leaf.
+  /// Notes which boxes of a leaf each box near it overlaps; returns how many of these overlap some.
   template <Columns kKept>
-  HWY_INLINE void findHits(const Leaf& leaf, const LaneBox& bounds, std::array<std::uint32_t, kFanOut>& lengthOf) {
+  HWY_INLINE std::size_t findHits(const Leaf& leaf, const LaneBox& bounds) {
     const IdTag d;
     NeighborScratch& near = m_task.scratch->neighbors;
     const std::size_t size = listNear(bounds, near);
@@ -338,20 +338,19 @@ class JoinRun {
     std::uint32_t* HWY_RESTRICT const hitBits = near.hitBits.data();
     std::uint32_t* HWY_RESTRICT const hitIds = near.hitIds.data();
     const bool notesDoubts = m_task.lists->tested == NeighborLists::Tested::InDoubt;
-    hn::Vec<IdTag> lengths[Leaf::kVectors];
-    for (auto& length : lengths) length = hn::Zero(d);
+    const NumberedBox* HWY_RESTRICT const boxes = near.boxes.data();
     Doubts doubts;
     std::size_t hits = 0;
+    std::size_t pairs = 0;
     for (std::size_t i = 0; i < size; ++i) {
-      const std::uint32_t id = near.id[places[i]];
-      const Query q = broadcast(near.get(places[i]));
+      const std::uint32_t id = boxes[places[i]].id;
+      const Query q = broadcast(boxes[places[i]].box);
       std::uint32_t bits = 0;
       for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
         auto mask = hn::RebindMask(d, leaf.overlappingWith(q, v));
         if constexpr (kKept == Columns::Others) mask = hn::And(mask, hn::Ne(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(leaf.id[v], hn::Set(d, id)));
-        lengths[v] = hn::Sub(lengths[v], hn::VecFromMask(d, mask));
         bits |= allBitsOf(d, mask) << (v * hn::Lanes(d));
       }
       hitBits[hits] = bits;
@@ -364,20 +363,20 @@ class JoinRun {
         }
       }
       hits += bits != 0 ? 1U : 0U;
+      pairs += static_cast<std::size_t>(std::popcount(bits));
     }
     if (doubts.size != 0) doubts.settle(*m_task.lists, hitBits);
     hn::StoreU(hn::Zero(d), d, hitBits + hits);  // The last vector of bits ends behind them.
+    m_task.lists->require(pairs + kVectorSlack);
     m_hits.groupTests += near.size;
     m_hits.boxTests += size * leaf.fill;
-    for (std::size_t v = 0; v < Leaf::kVectors; ++v) hn::StoreU(lengths[v], d, &lengthOf[v * hn::Lanes(d)]);
-    for (std::size_t row = 0; row < kFanOut; ++row) lengthOf[row] -= doubts.apart[row];
+    return hits;
   }
 
   /// Hits that lanes cannot decide, some at a time.
   struct Doubts {
     std::size_t size = 0;
-    std::array<std::uint32_t, kFanOut> apart{};  ///< Hits of each row of the leaf that were none.
-    std::array<Pair, 8 * kFanOut> pairs;         ///< Of a row and a partner; not initialised, as what follows.
+    std::array<Pair, 8 * kFanOut> pairs;  ///< Of a row and a partner; not initialised, as what follows.
     std::array<std::uint32_t, 8 * kFanOut> hit;
     std::array<std::uint8_t, 8 * kFanOut> row;
 
@@ -393,7 +392,6 @@ class JoinRun {
       const std::size_t count = lists.findApart(lists, pairs.data(), size, found.data());
       for (std::size_t i = 0; i < count; ++i) {
         hitBits[hit[found[i]]] &= ~(1U << row[found[i]]);
-        ++apart[row[found[i]]];
       }
       size = 0;
     }
@@ -411,18 +409,17 @@ class JoinRun {
   }
 
   /// Collects the list of each box of a leaf from the hits.
-  void writeLists(const Leaf& leaf, const std::array<std::uint32_t, kFanOut>& lengthOf) {
+  void writeLists(const Leaf& leaf, std::size_t hits) {
     const IdTag d;
     NeighborLists& lists = *m_task.lists;
     const std::uint32_t* const hitBits = m_task.scratch->neighbors.hitBits.data();
     const std::uint32_t* const hitIds = m_task.scratch->neighbors.hitIds.data();
-    lists.require(std::accumulate(lengthOf.begin(), lengthOf.end(), std::size_t{0}) + kVectorSlack);
     for (std::size_t row = 0; row < leaf.fill; ++row) {
       const std::uint32_t id = leaf.ids[row];
       std::uint32_t* const to = lists.partners + lists.size;
       const auto bit = hn::Set(d, 1U << row);
       std::size_t size = 0;
-      for (std::size_t i = 0; size < lengthOf[row]; i += hn::Lanes(d)) {
+      for (std::size_t i = 0; i < hits; i += hn::Lanes(d)) {
         const auto mask = hn::TestBit(hn::LoadU(d, hitBits + i), bit);
         hn::StoreU(selectedLanes(d, hn::LoadU(d, hitIds + i), mask), d, to + size);
         size += hn::CountTrue(d, mask);

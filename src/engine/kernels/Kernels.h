@@ -49,32 +49,38 @@ struct PlainSearch {
   std::size_t rowBegin = 0;  ///< The next row to search; all rows before it have been.
 };
 
-/// Working memory of a join that lists neighbors: the boxes near a node, with their ids, in an array for each bound.
+/// A box with its id, at one place in memory.
+struct alignas(32) NumberedBox {
+  LaneBox box;
+  std::uint32_t id;
+};
+
+/// Working memory of a join that lists neighbors: the boxes near a node, one after the other, and in an array for each
+/// bound.
 class NeighborScratch {
  public:
   explicit NeighborScratch(std::pmr::memory_resource* memory)
-      : keys(memory), id(memory), near(memory), hitBits(memory), hitIds(memory), m_bounds(memory) {}
+      : keys(memory), boxes(memory), near(memory), hitBits(memory), hitIds(memory), m_bounds(memory) {}
 
   /// Room for so many boxes and for whole vectors after them; the contents are lost.
-  void require(std::size_t boxes) {
-    if (boxes + kVectorSlack > m_stride) {
+  void require(std::size_t count) {
+    if (count + kVectorSlack > m_stride) {
       // Not a multiple of many boxes, which would bring the arrays to the same offset in their pages.
-      const std::size_t stride = 2 * boxes / kFanOut * kFanOut + kVectorSlack + 2 * kFanOut;
+      const std::size_t stride = 2 * count / kFanOut * kFanOut + kVectorSlack + 2 * kFanOut;
       m_stride = 0;
       m_bounds.require(6 * stride);
-      for (Buffer<std::uint32_t>* ids : {&id, &near, &hitBits, &hitIds}) ids->require(stride);
+      boxes.require(stride);
+      for (Buffer<std::uint32_t>* numbers : {&near, &hitBits, &hitIds}) numbers->require(stride);
       m_stride = stride;
     }
     for (std::size_t row = 0; row < 6; ++row) bound[row] = m_bounds.data() + row * m_stride;
-    size = boxes;
+    size = count;
   }
-
-  [[nodiscard]] LaneBox get(std::size_t i) const noexcept { return boxAt(bound, i); }
 
   Buffer<std::uint64_t> keys;  ///< An id above a position, twice.
 
+  Buffer<NumberedBox> boxes;
   std::array<float*, 6> bound{};
-  Buffer<std::uint32_t> id;
   std::size_t size = 0;
 
   Buffer<std::uint32_t> near;     ///< The boxes that are near a leaf too.
