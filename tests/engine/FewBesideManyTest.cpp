@@ -132,6 +132,58 @@ TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) 
   }
 }
 
+/// Boxes in a part of space; one of them is empty, and one a point.
+template <class T>
+std::vector<T> localRows(std::size_t boxes, double begin, double side, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> place(begin, begin + side);
+  std::vector<T> rows;
+  for (std::size_t i = 0; i < boxes; ++i) {
+    std::array<double, 6> row;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      row[axis] = place(generator);
+      row[axis + 3] = row[axis] + (i == 1 ? 0.0 : 0.1 * side);
+    }
+    if (i == 2) std::swap(row[1], row[4]);
+    for (const double bound : row) rows.push_back(static_cast<T>(bound));
+  }
+  return rows;
+}
+
+/// Those that touch the common bounds of the few are none, some, or many, in all parts or in some of them.
+TYPED_TEST(FewBesideMany, ThatAreInAPartOfSpaceGiveTheLoopsPairs) {
+  std::vector<TypeParam> many = someRows<TypeParam>(20000, 200, 0.05);
+  for (const bool sorted : {false, true}) {
+    if (sorted) {
+      std::vector<Box> boxes = boxesOf(many);
+      std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min[0] < b.min[0]; });
+      many.clear();
+      for (const Box& box : boxes) {
+        for (const double bound : box.min) many.push_back(static_cast<TypeParam>(bound));
+        for (const double bound : box.max) many.push_back(static_cast<TypeParam>(bound));
+      }
+    }
+    for (const std::size_t few : {3U, 4U, 8U}) {
+      for (const double side : {0.05, 0.3, 0.6}) {
+        SCOPED_TRACE(std::to_string(few) + " in " + std::to_string(side) + (sorted ? ", sorted" : ""));
+        const std::vector<TypeParam> a = localRows<TypeParam>(few, 0.3, side, static_cast<unsigned>(few));
+        const std::vector<Pair> fewFirst = pairsByLoop(a, many);
+        const std::vector<Pair> fewSecond = pairsByLoop(many, a);
+        ASSERT_FALSE(fewFirst.empty());
+        for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+          OverlapSearch search({.order = order});
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(a), BoxView::fromRows(many), fewFirst));
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(many), BoxView::fromRows(a), fewSecond));
+        }
+      }
+    }
+    const std::vector<TypeParam> far = localRows<TypeParam>(8, 50.0, 0.1, 1);
+    OverlapSearch search;
+    ASSERT_NO_FATAL_FAILURE(
+        expectPairs(search, BoxView::fromRows(many), BoxView::fromRows(far), pairsByLoop(many, far)));
+  }
+}
+
 /// All pairs of 8 and 5,000 boxes: more than are collected at once.
 TYPED_TEST(FewBesideMany, ThatAllOverlapGiveAllPairs) {
   const std::vector<TypeParam> box{0, 0, 0, 1, 1, 1};

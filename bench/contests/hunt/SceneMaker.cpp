@@ -12,6 +12,10 @@ namespace allpairs::bench {
 
 namespace {
 
+/// Of a scene, ten times what the family asks for: the lists of all contenders are kept at the same time.
+constexpr double kMostPairs = 1e8;
+constexpr std::size_t kFewBoxes = 10000;  ///< Have no more, whatever they are.
+
 using generate::Random;
 using Point = std::array<double, 3>;
 
@@ -136,6 +140,7 @@ SceneMaker::SceneMaker(const SceneFamily& family) : m_family(family) {
   const std::size_t dimension = dimensionOf(family.support);
   m_sides = {latticeSide(family.first, dimension), latticeSide(family.second, dimension)};
   m_scale = family.spacing == Spacing::Lattice ? latticeScale() : scaleForPairs();
+  while (m_family.boxes() > kFewBoxes && pairsOfAScene() > kMostPairs) m_scale *= 0.75;
 }
 
 SceneMaker::Placed SceneMaker::place(const Draw& draw) const {
@@ -216,6 +221,14 @@ double SceneMaker::scaleForPairs() const {
     (pairs < sample.pairs ? low : high) = middle;
   }
   return std::exp2(0.5 * (low + high));
+}
+
+/// As many as a whole scene has: a sample may tell far fewer.
+double SceneMaker::pairsOfAScene() const {
+  const Scene<float> scene = make<float>(0);
+  OverlapSearch search;
+  const BoxView first = BoxView::fromRows(scene.first);
+  return static_cast<double>(scene.areTwo ? search.count(first, BoxView::fromRows(scene.second)) : search.count(first));
 }
 
 SceneMaker::Sample SceneMaker::drawSample() const {

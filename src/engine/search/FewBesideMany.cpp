@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
@@ -41,10 +43,103 @@ bool isEmptyRow(const Row<T>& row) {
 /// Which boxes of a run touch a box, as bits.
 using Words = std::array<std::uint64_t, kAtOnce / kWordBoxes>;
 
+/// Of so many others, boxes that touch none are left out first by their common bounds, which takes one pass.
+constexpr std::size_t kManyOthers = 3;
+
+/// Copying a box that is not left out takes as long as so many tests of a box as it lies in memory (few_benchmark).
+constexpr std::size_t kTestsOfCopy = 32;
+
+/// The boxes of a part of the many that may touch the few: copied, unless they are many.
+template <class T>
+class NearBoxes {
+ public:
+  /// Those that touch the common bounds of so many.
+  void choose(const BoxRun<T>& part, const Row<T>& bounds, std::size_t others, const Kernels& kernels) {
+    m_size = 0;
+    m_areFew = false;
+    if (m_skipped != 0) return static_cast<void>(--m_skipped);
+    m_skipped = kSkipped;
+    if (countSamples(part, bounds) * kTestsOfCopy > kSamples * (others - 1)) return;
+    Words near;
+    kernels.plain<T>().touchBoxes(part, bounds, near.data());
+    std::size_t touching = 0;
+    for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
+      touching += static_cast<std::size_t>(std::popcount(near[i / kWordBoxes]));
+    }
+    m_areFew = touching * kTestsOfCopy <= part.size * (others - 1);
+    if (!m_areFew) return;
+    m_skipped = 0;
+    for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
+      for (std::uint64_t bits = near[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
+        m_places[m_size] = static_cast<std::uint16_t>(i + static_cast<std::size_t>(std::countr_zero(bits)));
+        m_rows[m_size] = rowOf(part, m_places[m_size]);
+        ++m_size;
+      }
+    }
+  }
+
+  /// Which boxes of the part touch a box.
+  void touch(const BoxRun<T>& part, const Row<T>& box, const Kernels& kernels, Words& words) const {
+    if (!m_areFew) return kernels.plain<T>().touchBoxes(part, box, words.data());
+    words.fill(0);
+    if (m_size == 0) return;
+    Words touching;
+    const T* const rows = m_rows[0].data();
+    kernels.plain<T>().touchBoxes({rows, rows + 3, 6, m_size}, box, touching.data());
+    for (std::size_t i = 0; i < m_size; i += kWordBoxes) {
+      for (std::uint64_t bits = touching[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
+        const std::size_t place = m_places[i + static_cast<std::size_t>(std::countr_zero(bits))];
+        words[place / kWordBoxes] |= std::uint64_t{1} << (place % kWordBoxes);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kSamples = 16;
+  static constexpr std::size_t kSkipped = 7;  ///< Parts after one that was looked at in vain.
+
+  /// How many of some of the boxes touch the bounds.
+  static std::size_t countSamples(const BoxRun<T>& part, const Row<T>& bounds) {
+    std::size_t touching = 0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const Row<T> box = rowOf(part, i * part.size / kSamples);
+      bool isNear = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        isNear &= (box[axis] <= bounds[axis + 3]) & (bounds[axis] <= box[axis + 3]);
+      }
+      touching += isNear ? 1U : 0U;
+    }
+    return touching;
+  }
+
+  std::size_t m_skipped = 0;  ///< So many parts are not looked at.
+  bool m_areFew = false;
+  std::size_t m_size = 0;
+  static constexpr std::size_t kMost = kAtOnce * (kMostOthers - 1) / kTestsOfCopy;
+  std::array<Row<T>, kMost> m_rows;
+  std::array<std::uint16_t, kMost> m_places;
+};
+
+/// The bounds of all boxes that are not empty; an empty box if there are none.
+template <class T>
+Row<T> boundsOf(std::span<const Row<T>> boxes) {
+  constexpr T kInfinity = std::numeric_limits<T>::infinity();
+  Row<T> bounds{kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
+  for (const Row<T>& box : boxes) {
+    if (isEmptyRow(box)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds[axis] = std::min(bounds[axis], box[axis]);
+      bounds[axis + 3] = std::max(bounds[axis + 3], box[axis + 3]);
+    }
+  }
+  return bounds;
+}
+
 /// Which boxes of a part of the many touch each of the few; the words of each of these are written to memory that
 /// outlives the result.
 template <class T>
-TouchedBoxes touchEach(const BoxRun<T>& part, std::span<const Row<T>> few, const Kernels& kernels, Words* words) {
+TouchedBoxes touchEach(const BoxRun<T>& part, const NearBoxes<T>& near, std::span<const Row<T>> few,
+                       const Kernels& kernels, Words* words) {
   TouchedBoxes touched;
   touched.size = part.size;
   for (const Row<T>& box : few) {
@@ -52,7 +147,7 @@ TouchedBoxes touchEach(const BoxRun<T>& part, std::span<const Row<T>> few, const
     if (isEmptyRow(box)) {
       to.fill(0);
     } else {
-      kernels.plain<T>().touchBoxes(part, box, to.data());
+      near.touch(part, box, kernels, to);
     }
     touched.words[touched.others++] = to.data();
   }
@@ -79,12 +174,16 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
   PairsOnStack<kAtOnce * kMostOthers + kVectorSlack> pairs;
   OverlapStatistics statistics;
   const std::size_t together = areByFew(sets, order) ? 1 : run.size;
+  const Row<T> bounds = boundsOf<T>({few.data(), run.size});
+  const bool mayLeaveOut = together >= kManyOthers && !isEmptyRow(bounds);
+  NearBoxes<T> near;
   for (std::size_t i = 0; i < run.size; i += together) {
     for (std::size_t begin = 0; begin < many.size; begin += kAtOnce) {
       if (begin % kPartSize == 0) checkStop(options.stop);
       const BoxRun<T> part = many.part(begin, kAtOnce);
       statistics.boxTests += part.size * together;
-      TouchedBoxes touched = touchEach<T>(part, {few.data() + i, together}, kernels, words.data());
+      if (mayLeaveOut) near.choose(part, bounds, together, kernels);
+      TouchedBoxes touched = touchEach<T>(part, near, {few.data() + i, together}, kernels, words.data());
       touched.first = static_cast<std::uint32_t>(begin);
       touched.firstOther = static_cast<std::uint32_t>(i);
       const std::size_t found = kernels.writeTouching(touched, fewSecond, pairs.data());
