@@ -240,7 +240,7 @@ TEST_F(KeptStep, BoxesSweptOverTheStepAreKeptToo) {
   for (int i = 0; i < 6; ++i) pipeline.step(m_models, 0.5);
   dynamic_cast<BoxModel&>(*m_models[0]).setVelocities({{5.0, 0.0, 0.0}});
   pipeline.step(m_models, 0.5);
-  EXPECT_LT(m_phase.statistics().testsMade, 300U);
+  EXPECT_LT(m_phase.statistics().testsMade, 2U * 300U);  // The one that changed against all.
   const Numbers pairs = numbers(m_phase.getCollisionModelPairs());
   // From 0 to 3.5: the first cube now touches the second, third and fourth besides.
   EXPECT_EQ(Numbers(pairs.begin(), pairs.begin() + 6), (Numbers{{1, 0}, {2, 0}, {2, 1}, {3, 0}, {3, 2}, {4, 3}}));

@@ -167,11 +167,8 @@ std::uint32_t* chooseTouching(const BoxRun<T>& part, std::size_t first, const st
                               const Kernels& kernels, std::uint32_t* ids) {
   std::array<std::uint64_t, kPartSize / kWordBoxes> words;
   kernels.plain<T>().touchBoxes(part, bounds, words.data());
-  for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
-    for (std::uint64_t bits = words[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
-      *ids++ = static_cast<std::uint32_t>(first + i + static_cast<std::size_t>(std::countr_zero(bits)));
-    }
-  }
+  forEachBit(std::span(words).first((part.size + kWordBoxes - 1) / kWordBoxes),
+             [&](std::size_t i) { *ids++ = static_cast<std::uint32_t>(first + i); });
   return ids;
 }
 

@@ -154,7 +154,6 @@ class PairStream {
   }
 
  private:
-  static constexpr std::size_t kLinePairs = 64 / sizeof(Pair);
   static constexpr std::size_t kBatch = 256;  ///< Pairs that are gathered, so that lines are written several at a time.
 
   HWY_INLINE void flush() {

@@ -9,6 +9,9 @@
 
 namespace allpairs::engine {
 
+/// Pairs in a cache line.
+inline constexpr std::size_t kLinePairs = 64 / sizeof(Pair);
+
 /// The order of the two ids of a hit in a pair.
 enum class PairSide : std::uint8_t {
   RowFirst,      ///< (row, partner): two sets, or rows in ascending order against what follows.

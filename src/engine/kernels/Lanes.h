@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "memory/Memory.h"
 
@@ -15,6 +16,16 @@ namespace allpairs::engine {
 /// Contiguous boxes or bounds: the fan-out of the hierarchy, the same for every instruction set
 /// (docs/decisions/0003).
 inline constexpr std::size_t kFanOut = 16;
+
+/// Calls use(i) for each bit i that is set in some words.
+template <class Use>
+void forEachBit(std::span<const std::uint64_t> words, const Use& use) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::uint64_t bits = words[i]; bits != 0; bits &= bits - 1) {
+      use(64 * i + static_cast<std::size_t>(std::countr_zero(bits)));
+    }
+  }
+}
 
 /// Kernels load and store whole vectors: so many values after the end of an array may be read, or written and ignored.
 inline constexpr std::size_t kVectorSlack = 64;

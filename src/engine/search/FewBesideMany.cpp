@@ -43,8 +43,9 @@ bool isEmptyRow(const Row<T>& row) {
 /// Which boxes of a run touch a box, as bits.
 using Words = std::array<std::uint64_t, kAtOnce / kWordBoxes>;
 
-/// Of so many others, boxes that touch none are left out first by their common bounds, which takes one pass.
-constexpr std::size_t kManyOthers = 3;
+std::span<const std::uint64_t> wordsOf(const Words& words, std::size_t boxes) {
+  return std::span(words).first((boxes + kWordBoxes - 1) / kWordBoxes);
+}
 
 /// Copying a box that is not left out takes as long as so many tests of a box as it lies in memory (few_benchmark).
 constexpr std::size_t kTestsOfCopy = 32;
@@ -58,24 +59,20 @@ class NearBoxes {
     m_size = 0;
     m_areFew = false;
     if (m_skipped != 0) return static_cast<void>(--m_skipped);
-    m_skipped = kSkipped;
-    if (countSamples(part, bounds) * kTestsOfCopy > kSamples * (others - 1)) return;
+    m_skipped = kMostOthers;  // After one that was looked at in vain.
+    if (countSamples(part, bounds) * kTestsOfCopy > kFanOut * (others - 1)) return;
     Words near;
     kernels.plain<T>().touchBoxes(part, bounds, near.data());
+    const auto words = wordsOf(near, part.size);
     std::size_t touching = 0;
-    for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
-      touching += static_cast<std::size_t>(std::popcount(near[i / kWordBoxes]));
-    }
+    for (const std::uint64_t bits : words) touching += static_cast<std::size_t>(std::popcount(bits));
     m_areFew = touching * kTestsOfCopy <= part.size * (others - 1);
     if (!m_areFew) return;
     m_skipped = 0;
-    for (std::size_t i = 0; i < part.size; i += kWordBoxes) {
-      for (std::uint64_t bits = near[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
-        m_places[m_size] = static_cast<std::uint16_t>(i + static_cast<std::size_t>(std::countr_zero(bits)));
-        m_rows[m_size] = rowOf(part, m_places[m_size]);
-        ++m_size;
-      }
-    }
+    forEachBit(words, [&](std::size_t place) {
+      m_places[m_size] = static_cast<std::uint16_t>(place);
+      m_rows[m_size++] = rowOf(part, place);
+    });
   }
 
   /// Which boxes of the part touch a box.
@@ -86,23 +83,17 @@ class NearBoxes {
     Words touching;
     const T* const rows = m_rows[0].data();
     kernels.plain<T>().touchBoxes({rows, rows + 3, 6, m_size}, box, touching.data());
-    for (std::size_t i = 0; i < m_size; i += kWordBoxes) {
-      for (std::uint64_t bits = touching[i / kWordBoxes]; bits != 0; bits &= bits - 1) {
-        const std::size_t place = m_places[i + static_cast<std::size_t>(std::countr_zero(bits))];
-        words[place / kWordBoxes] |= std::uint64_t{1} << (place % kWordBoxes);
-      }
-    }
+    forEachBit(wordsOf(touching, m_size), [&](std::size_t i) {
+      words[m_places[i] / kWordBoxes] |= std::uint64_t{1} << (m_places[i] % kWordBoxes);
+    });
   }
 
  private:
-  static constexpr std::size_t kSamples = 16;
-  static constexpr std::size_t kSkipped = 7;  ///< Parts after one that was looked at in vain.
-
   /// How many of some of the boxes touch the bounds.
   static std::size_t countSamples(const BoxRun<T>& part, const Row<T>& bounds) {
     std::size_t touching = 0;
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      const Row<T> box = rowOf(part, i * part.size / kSamples);
+    for (std::size_t i = 0; i < kFanOut; ++i) {
+      const Row<T> box = rowOf(part, i * part.size / kFanOut);
       bool isNear = true;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         isNear &= (box[axis] <= bounds[axis + 3]) & (bounds[axis] <= box[axis + 3]);
@@ -123,8 +114,8 @@ class NearBoxes {
 /// The bounds of all boxes that are not empty; an empty box if there are none.
 template <class T>
 Row<T> boundsOf(std::span<const Row<T>> boxes) {
-  constexpr T kInfinity = std::numeric_limits<T>::infinity();
-  Row<T> bounds{kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
+  const T end = std::numeric_limits<T>::infinity();
+  Row<T> bounds{end, end, end, -end, -end, -end};
   for (const Row<T>& box : boxes) {
     if (isEmptyRow(box)) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -175,7 +166,7 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
   OverlapStatistics statistics;
   const std::size_t together = areByFew(sets, order) ? 1 : run.size;
   const Row<T> bounds = boundsOf<T>({few.data(), run.size});
-  const bool mayLeaveOut = together >= kManyOthers && !isEmptyRow(bounds);
+  const bool mayLeaveOut = together > 2 && !isEmptyRow(bounds);  // The bounds of two spare one pass at most.
   NearBoxes<T> near;
   for (std::size_t i = 0; i < run.size; i += together) {
     for (std::size_t begin = 0; begin < many.size; begin += kAtOnce) {

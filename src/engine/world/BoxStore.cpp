@@ -9,13 +9,10 @@
 
 #include "allpairs/Error.h"
 #include "kernels/Lanes.h"
+#include "world/RebuildRule.h"
 
 namespace allpairs::engine {
 namespace {
-
-/// If at least one id in this many is in a list, iterating over all ids is faster than over the list
-/// (moving_benchmark --setting world).
-constexpr std::size_t kShareOfIds = 16;
 
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {
   throw InvalidBox(
@@ -355,7 +352,7 @@ void BoxStore::noteResettled(BoxId id) {
 
 void BoxStore::settle() noexcept {
   const auto kept = static_cast<std::uint8_t>(~(Stale | Resettled));
-  if (m_staleCount * kShareOfIds > idBound()) {
+  if (m_staleCount * kShareOfChange > idBound()) {
     for (std::uint8_t& flags : m_flags) flags &= kept;
   } else {
     for (const BoxId id : stale()) m_flags[id] &= kept;
@@ -370,7 +367,7 @@ void BoxStore::endStep() noexcept {
   const auto ended = [](std::uint8_t flags) {
     return static_cast<std::uint8_t>((flags & ~Touched) | ((flags & Live) << 4U));
   };
-  if (m_touchedCount * kShareOfIds > idBound()) {
+  if (m_touchedCount * kShareOfChange > idBound()) {
     for (std::uint8_t& flags : m_flags) flags = ended(flags);
   } else {
     for (const BoxId id : touched()) m_flags[id] = ended(m_flags[id]);

@@ -209,8 +209,9 @@ void PairHistory::mergeFresh() noexcept {
   const Pair* next = persisted.data();
   const Pair* const end = next + persisted.size();
   for (const Pair& pair : m_result.began) {
-    for (; static_cast<std::size_t>(end - next) >= kRun && keyOf(next[kRun - 1]) < keyOf(pair); next += kRun)
-      to = std::copy_n(next, kRun, to);
+    for (; static_cast<std::size_t>(end - next) >= kLinePairs && keyOf(next[kLinePairs - 1]) < keyOf(pair);
+         next += kLinePairs)
+      to = std::copy_n(next, kLinePairs, to);
     while (next != end && keyOf(*next) < keyOf(pair)) *to++ = *next++;
     *to++ = pair;
   }

@@ -17,9 +17,6 @@ namespace {
 /// walls and ramps. Of more, a hierarchy finds those that matter.
 constexpr std::size_t kMostShared = 32;
 
-/// Changed boxes whose rows are copied to the stack at a time.
-constexpr std::size_t kChangedAtOnce = 64;
-
 }  // namespace
 
 void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size_t threads) {
@@ -158,11 +155,11 @@ template <class T>
 void SmallWorlds::findChanged(std::span<const BoxId> changed, Worker& worker,
                               FunctionRef<void(std::span<Pair>)> take) const {
   const T* const rows = cornersOf<T>(*m_boxes).min.data;
-  std::array<T, 6 * kChangedAtOnce> some;
+  std::array<T, 6 * kWordBoxes> some;
   worker.pairs.require(2 * kMostFew + kVectorSlack);
   worker.boxTests += changed.size() * m_boxes->size();
-  for (; !changed.empty(); changed = changed.subspan(std::min(changed.size(), kChangedAtOnce))) {
-    PlainSearch<T> search{some.data(), rows, std::min(changed.size(), kChangedAtOnce), m_boxes->size()};
+  for (; !changed.empty(); changed = changed.subspan(std::min(changed.size(), kWordBoxes))) {
+    PlainSearch<T> search{some.data(), rows, std::min(changed.size(), kWordBoxes), m_boxes->size()};
     search.room = 2 * kMostFew;
     for (std::size_t i = 0; i < search.rowCount; ++i) std::copy_n(rows + std::size_t{6} * changed[i], 6, &some[6 * i]);
     while (search.rowBegin < search.rowCount) {
