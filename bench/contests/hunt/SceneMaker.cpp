@@ -13,7 +13,7 @@ namespace allpairs::bench {
 namespace {
 
 /// Of a scene, ten times what the family asks for: the lists of all contenders are kept at the same time.
-constexpr double kMostPairs = 1e8;
+constexpr double kMostPairsKept = 1e8;
 constexpr std::size_t kFewBoxes = 10000;  ///< Have no more, whatever they are.
 
 using generate::Random;
@@ -140,7 +140,7 @@ SceneMaker::SceneMaker(const SceneFamily& family) : m_family(family) {
   const std::size_t dimension = dimensionOf(family.support);
   m_sides = {latticeSide(family.first, dimension), latticeSide(family.second, dimension)};
   m_scale = family.spacing == Spacing::Lattice ? latticeScale() : scaleForPairs();
-  while (m_family.boxes() > kFewBoxes && pairsOfAScene() > kMostPairs) m_scale *= 0.75;
+  while (m_family.boxes() > kFewBoxes && pairsOfAScene() > kMostPairsKept) m_scale *= 0.75;
 }
 
 SceneMaker::Placed SceneMaker::place(const Draw& draw) const {
