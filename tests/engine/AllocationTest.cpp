@@ -107,6 +107,16 @@ TEST(Allocation, AOneShotCallAllocatesABlockAndItsResult) {
   }
 }
 
+TEST(Allocation, AResultOfFewBoxesOfWhichAllOverlapIsNotCopied) {
+  for (const std::size_t count : {70U, 140U, 256U}) {
+    const std::vector<BoxF> boxes(count, BoxF{{0, 0, 0}, {1, 1, 1}});
+    const std::size_t before = test::allocatedBytes();
+    const std::size_t pairs = overlaps(boxes).size();
+    EXPECT_EQ(pairs, count * (count - 1) / 2);
+    EXPECT_EQ(test::allocatedBytes() - before, pairs * sizeof(Pair)) << count;
+  }
+}
+
 TEST(Allocation, AResultOfFewBoxesBesideManyGrowsInFewSteps) {
   const std::vector<BoxF> few(8, BoxF{{0, 0, 0}, {1, 1, 1}});
   const std::vector<BoxF> many(500000, BoxF{{0, 0, 0}, {1, 1, 1}});

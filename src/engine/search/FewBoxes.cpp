@@ -91,12 +91,6 @@ std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
   return found;
 }
 
-/// How many pairs of boxes there are.
-std::size_t pairsOf(const Sets& sets) {
-  const std::size_t size = sets.first.size();
-  return sets.one ? WorldSink::pairsOf(size) : size * sets.second.size();
-}
-
 /// Whether boxes are compared as they are: only their bounds matter, which are rows.
 bool arePlain(const Sets& sets, const OverlapOptions& options) {
   return onlyBoundsMatter(sets, options) && ((areRows<float>(sets.first) && areRows<float>(sets.second)) ||
@@ -180,6 +174,11 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
 }
 
 }  // namespace
+
+std::size_t pairsOf(const Sets& sets) noexcept {
+  const std::size_t size = sets.first.size();
+  return sets.one ? WorldSink::pairsOf(size) : size * sets.second.size();
+}
 
 bool areFew(const Sets& sets, const OverlapOptions& options) {
   const std::size_t size = std::max(sets.first.size(), sets.second.size());

@@ -12,12 +12,15 @@
 
 namespace allpairs::engine {
 
+/// How many pairs of boxes there are.
+[[nodiscard]] std::size_t pairsOf(const Sets& sets) noexcept;
+
 /// Whether findFew() takes these sets: at most kMostFew boxes each that are not to be searched
-/// by a hierarchy; or up to four of them beside any number. An unknown instruction set is refused by findFew().
+/// by a hierarchy; or up to kMostOthers beside any number. An unknown instruction set is refused by findFew().
 [[nodiscard]] bool areFew(const Sets& sets, const OverlapOptions& options);
 
 /// Calls take(pairs) with the pairs of a few boxes, in an order that may be another than that of the options, and in
-/// parts; an unordered search gives them by first box. Uses up to 75 KB of stack and no other memory: with so few
+/// parts; an unordered search gives them by first box. Uses up to 80 KB of stack and no other memory: with so few
 /// boxes, preparing a search would take longer than the search.
 ///
 /// Bad input: as for Search::find().

@@ -179,17 +179,17 @@ auto searchOnce(const engine::Sets& sets, const OverlapOptions& given, const Use
   return use(search);
 }
 
-/// Memory for so many pairs, 16 MiB: what needs more than a part gets it at once, or less if there cannot be as many
-/// pairs. Of that only what is used takes memory, while a vector that grows is copied from page to fresh page. What
-/// needs more than that doubles.
+/// Memory for so many pairs, 16 MiB: what needs more than half a part gets it at once, or less if there cannot be as
+/// many pairs. Of that only what is used takes memory, while a vector that grows is copied from page to fresh page.
+/// What needs more than that doubles.
 constexpr std::size_t kLargeResult = std::size_t{1} << 21;
 
 std::vector<Pair> takeAmongFew(const engine::Sets& sets, const OverlapOptions& options) {
   std::vector<Pair> taken;
   const auto append = [&](std::span<const Pair> pairs) {
     const std::size_t size = taken.size() + pairs.size();
-    const std::size_t most = std::min(sets.first.size() * sets.second.size(), kLargeResult);
-    if (size > engine::kPartSize && taken.capacity() < most) taken.reserve(most);
+    const std::size_t most = std::min(engine::pairsOf(sets), kLargeResult);
+    if (size > engine::kPartSize / 2 && taken.capacity() < most) taken.reserve(most);
     taken.insert(taken.end(), pairs.begin(), pairs.end());
   };
   engine::findFew(sets, options, options.order, append);

@@ -54,8 +54,8 @@ class SmallWorlds {
     });
   }
 
-  /// Calls take(pairs, worker) with the pairs of some boxes of the only world, each first in its pairs, and of all boxes.
-  /// Also with itself, and twice with another one of the same boxes.
+  /// Calls take(pairs, worker) with the pairs of some boxes of the only world, each first in its pairs, and of all
+  /// boxes: also with itself, and twice with another one of the same boxes.
   template <class Take>
   void searchChanged(std::span<const BoxId> changed, const Take& take) {
     m_workers.withOne([&](std::size_t index, Worker& worker) {
