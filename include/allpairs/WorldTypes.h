@@ -94,8 +94,8 @@ struct WorldStatistics {
   std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double.
   std::uint64_t changed = 0;     ///< Boxes that were added, moved, removed or given other properties.
   bool joinedAll = false;        ///< Whether the step joined all boxes, instead of only the changed ones with all.
-  /// The number of full rebuilds of a hierarchy so far, by steps and queries; with world numbers, of how often a
-  /// world's boxes were put in order.
+  /// The number of full rebuilds of a hierarchy up to the last step, by steps and queries; with world numbers, of how
+  /// often a world's boxes were put in order.
   std::uint64_t rebuilds = 0;
 };
 

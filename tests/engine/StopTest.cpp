@@ -165,6 +165,24 @@ struct MovedWorld {
   std::vector<BoxId> ids;
 };
 
+TEST(Stop, OfAStepOfFewBoxesIsHeededHoweverFewHaveChanged) {
+  for (const std::size_t count : {2U, 50U, 200U, 350U}) {
+    StopFlag stop;
+    WorldOptions options;
+    options.stop = &stop;
+    World world(options);
+    const std::vector<BoxId> ids = world.add(test::lent(test::randomBoxes(count, 9)));
+    static_cast<void>(world.step());
+    const std::vector<Pair> before = test::toVector(world.result().pairs);
+    world.move(ids[0], Box{{0, 0, 0}, {100, 100, 100}});
+    stop.set();
+    EXPECT_THROW(static_cast<void>(world.step()), Stopped) << count;
+    EXPECT_EQ(test::toVector(world.result().pairs), before);
+    stop.clear();
+    EXPECT_GE(world.step().pairs.size(), count - 1) << count;
+  }
+}
+
 TEST(Stop, OfAStepAtAnyTaskLeavesItsChangesToTheNext) {
   for (const bool movesAll : {false, true}) {
     std::size_t stops = 0;

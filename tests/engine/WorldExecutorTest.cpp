@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <thread>
 #include <vector>
 
@@ -119,6 +120,33 @@ TEST(WorldQueries, AnswerSeveralThreadsAtOnceEvenTheFirstOnesAfterAMove) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(found, expected);
+    std::ranges::reverse(moved);
+  }
+}
+
+/// The first query after a change brings the order up to date, while others look at boxes and at statistics.
+TEST(WorldQueries, MayBeFirstAfterAStepWhileOtherConstMembersAreCalled) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(60, 83));
+  std::vector<Box> moved = test::toDouble(test::randomBoxes(60, 84));
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
+  const Box all{{-100, -100, -100}, {100, 100, 100}};
+  for (int round = 0; round < 50; ++round) {
+    world.move(ids, moved);
+    static_cast<void>(world.step());
+    std::vector<std::thread> threads;
+    std::vector<std::size_t> found(4);
+    for (std::size_t& size : found) {
+      threads.emplace_back([&] { size = world.findOverlapping(all).size(); });
+      threads.emplace_back([&] {
+        for (const BoxId id : ids) {
+          if (!world.contains(id) || world.properties(id).isStatic || world.box(id) != moved[id]) std::abort();
+        }
+        if (world.statistics().rebuilds > 50 || world.result().pairs.empty()) std::abort();
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(found, std::vector<std::size_t>(4, 60));
     std::ranges::reverse(moved);
   }
 }

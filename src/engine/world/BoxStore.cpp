@@ -101,6 +101,7 @@ void BoxStore::reserve(std::size_t boxes) {
 /// Allocates what boxes with ids below the bound need, and changes nothing else.
 void BoxStore::reserveRoom(std::size_t bound, Needs needs) {
   makeRoom(m_flags, bound);
+  makeRoom(m_marks, bound);
   makeRoom(m_filters, bound);
   makeRoom(m_touched, bound + 1);
   makeRoom(m_stale, bound + 1);
@@ -122,6 +123,7 @@ void BoxStore::prepare(std::size_t bound, Needs needs) {
   const bool margins = needs.margins || !m_margins.empty();
   m_setIsCurrent = m_setIsCurrent && bound == idBound() && m_margins.empty() == !margins;
   m_flags.resize(bound, 0);
+  m_marks.resize(bound, 0);
   m_filters.resize(bound);
   m_touched.resize(bound + 1);
   m_stale.resize(bound + 1);
@@ -136,7 +138,7 @@ void BoxStore::prepare(std::size_t bound, Needs needs) {
 
 void BoxStore::shrink() noexcept {
   std::size_t bound = idBound();
-  while (bound > 0 && m_flags[bound - 1] == 0) --bound;  // Neither live nor in a list of what changed.
+  while (bound > 0 && (m_flags[bound - 1] | m_marks[bound - 1]) == 0) --bound;  // Not live, nor in a list of changes.
   std::erase_if(m_free, [&](BoxId id) { return id >= bound; });
   m_rows32.resize(m_isFloat64 ? 0 : 6 * bound);
   m_rows64.resize(m_isFloat64 ? 6 * bound : 0);
@@ -144,10 +146,11 @@ void BoxStore::shrink() noexcept {
   m_worlds.resize(m_worlds.empty() ? 0 : bound);
   m_filters.resize(bound);
   m_flags.resize(bound);
+  m_marks.resize(bound);
   m_touched.resize(bound + 1);
   m_stale.resize(bound + 1);
   const auto trim = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
-  trim(m_rows32, m_rows64, m_margins, m_worlds, m_filters, m_flags, m_touched, m_stale, m_resettled);
+  trim(m_rows32, m_rows64, m_margins, m_worlds, m_filters, m_flags, m_marks, m_touched, m_stale, m_resettled);
   if (m_removed.empty()) trim(m_free, m_removed);  // Else there is room for them among the free ones, for endStep().
   m_setIsCurrent = false;
 }
@@ -239,13 +242,14 @@ template <class T>
 void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
   ListEnds ends = listEnds();
   std::uint8_t* const flags = m_flags.data();
+  std::uint8_t* const marks = m_marks.data();
   for (const BoxId id : ids) {
     T* const row = to + std::size_t{6} * id;
     // Does not compare bytes: 0 and -0 are the same bound.
     const bool changed = !std::equal(from, from + 6, row);
     std::memcpy(row, from, 6 * sizeof(T));  // std::copy_n is a call of memmove.
     from += 6;
-    if (changed) ends.note(id, flags[id]);
+    if (changed) ends.note(id, flags[id], marks[id]);
   }
   setListEnds(ends);
 }
@@ -346,16 +350,15 @@ const BoxView& BoxStore::set() {
 void BoxStore::noteResettled(BoxId id) {
   note(id);
   ++m_membership;
-  if ((m_flags[id] & Resettled) == 0) m_resettled.push_back(id);
-  m_flags[id] |= Resettled;
+  if ((m_marks[id] & Resettled) == 0) m_resettled.push_back(id);
+  m_marks[id] |= Resettled;
 }
 
 void BoxStore::settle() noexcept {
-  const auto kept = static_cast<std::uint8_t>(~(Stale | Resettled));
   if (m_staleCount * kShareOfChange > idBound()) {
-    for (std::uint8_t& flags : m_flags) flags &= kept;
+    std::fill(m_marks.begin(), m_marks.end(), std::uint8_t{0});
   } else {
-    for (const BoxId id : stale()) m_flags[id] &= kept;
+    for (const BoxId id : stale()) m_marks[id] = 0;
   }
   m_staleCount = 0;
   m_resettled.clear();

@@ -29,15 +29,16 @@ struct FilterRow {
 /// Memory: a call that throws changes nothing; a batch is applied completely or not at all.
 class BoxStore {
  public:
-  /// The state of a box, as bits.
+  /// The state of a box, as bits. Those of the hierarchies are in an array of their own: the first query after a change
+  /// clears them, while others read the rest.
   enum Flag : std::uint8_t {
     Live = 1,
     Static = 2,
     Touched = 4,    ///< Changed since the last step.
-    Stale = 8,      ///< Changed since the hierarchies were updated.
+    Stale = 8,      ///< Of the hierarchies: changed since they were updated.
     Stepped = 16,   ///< Has been part of a step, and so may have pairs.
     Leaving = 32,   ///< While a batch is checked: in it, to be removed.
-    Resettled = 64  ///< May belong to another hierarchy than before.
+    Resettled = 64  ///< Of the hierarchies: may belong to another one than before.
   };
 
   explicit BoxStore(std::pmr::memory_resource* memory)
@@ -47,6 +48,7 @@ class BoxStore {
         m_worlds(memory),
         m_filters(memory),
         m_flags(memory),
+        m_marks(memory),
         m_free(memory),
         m_removed(memory),
         m_touched(memory),
@@ -129,12 +131,13 @@ class BoxStore {
     BoxId* stale;
 
     /// Lists the box as changed, once.
-    void note(BoxId id, std::uint8_t& flags) noexcept {
+    void note(BoxId id, std::uint8_t& flags, std::uint8_t& marks) noexcept {
       *touched = id;
       *stale = id;
       touched += (flags & Touched) == 0 ? 1 : 0;
-      stale += (flags & Stale) == 0 ? 1 : 0;
-      flags = static_cast<std::uint8_t>(flags | Touched | Stale);
+      stale += (marks & Stale) == 0 ? 1 : 0;
+      flags = static_cast<std::uint8_t>(flags | Touched);
+      marks = static_cast<std::uint8_t>(marks | Stale);
     }
   };
   [[nodiscard]] ListEnds listEnds() noexcept {
@@ -146,7 +149,7 @@ class BoxStore {
   }
   void note(BoxId id) noexcept {
     ListEnds ends = listEnds();
-    ends.note(id, m_flags[id]);
+    ends.note(id, m_flags[id], m_marks[id]);
     setListEnds(ends);
   }
   void noteResettled(BoxId id);
@@ -181,6 +184,7 @@ class BoxStore {
   std::pmr::vector<std::uint32_t> m_worlds;  ///< Empty while all are 0.
   std::pmr::vector<FilterRow> m_filters;
   std::pmr::vector<std::uint8_t> m_flags;
+  std::pmr::vector<std::uint8_t> m_marks;  ///< Stale and Resettled.
   std::pmr::vector<BoxId> m_free;
   std::pmr::vector<BoxId> m_removed;  ///< Since the last step: not yet free.
   std::pmr::vector<BoxId> m_touched;  ///< One more than there are ids: written before it is known whether it counts.

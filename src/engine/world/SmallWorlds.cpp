@@ -28,14 +28,17 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   // Half as many again as are tested exhaustively: a quarter of the boxes at most has changed.
   const std::size_t most = std::min(kMostFew, m_kernels.flatBoxes + m_kernels.flatBoxes / 2);
   m_takesChanged = onlyBoundsMatter && !store.isNumbered() && m_boxes->size() <= most;
-  m_mostBoxes = std::min({kMostInWorld, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : kMostInDouble});
+  // The only world half as many: there has to be memory for all pairs.
+  const std::size_t flat = store.isNumbered() ? m_kernels.flatBoxes : m_kernels.flatBoxes / 2;
+  m_mostBoxes = std::min({kMostInWorld, flat, m_isPlain ? kMostInWorld : kMostInDouble});
   m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }
 
 bool SmallWorlds::takes(std::size_t world) const noexcept {
   const std::size_t shared = world == m_members.everyWorld() ? 0 : m_members.shared().size();
-  return shared <= kMostShared && m_members.size(world) + shared <= m_mostBoxes;
+  const std::size_t size = m_members.size(world);
+  return size != 0 && shared <= kMostShared && size + shared <= m_mostBoxes;
 }
 
 std::uint64_t SmallWorlds::boxTests() const noexcept {
@@ -77,7 +80,8 @@ std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done,
   const std::span<const std::uint64_t> begin(worker.begin.data(), row + 2);
   const Worlds worlds(m_boxes->slice(0, begin.back()), begin);
   // Two parts of pairs stay in a second-level cache until they are taken.
-  worker.pairs.require(std::max(2 * kPartSize, WorldSink::roomFor(begin[done + 2] - begin[done + 1])));
+  const std::size_t least = WorldSink::roomFor(begin[done + 2] - begin[done + 1]);
+  worker.pairs.require(done + 1 == row ? least : std::max(2 * kPartSize, least));
   WorldsRun run;
   run.sink = sinkOf(worker);
   run.boxes = runOf<float>(*m_boxes);

@@ -40,7 +40,7 @@ void WorldSearch::update(BoxStore& store) {
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
   m_members.update(store, executor());
-  m_statistics.rebuilds += m_forest.update(store, m_members, reader, executor());
+  m_rebuilds += m_forest.update(store, m_members, reader, executor());
   store.settle();
 }
 
@@ -84,6 +84,7 @@ StepResult WorldSearch::step(BoxStore& store) {
   } else {
     m_history.finishChanged([&](Pair pair) { return isLookedFor(store, pair); }, executor());
   }
+  m_statistics.rebuilds = m_rebuilds;
   m_lists.noteStep(store);
   store.endStep();
   return m_history.result();
@@ -253,7 +254,9 @@ void WorldSearch::listTouched(const BoxStore& store) {
 
 /// Tests the changed boxes of the only world against all.
 void WorldSearch::searchChanged(const BoxStore& store) {
+  checkStop(m_options.stop);
   m_small.searchChanged(store.touched(), [&](std::span<Pair> pairs, std::size_t worker) {
+    checkStop(m_options.stop);
     const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
     m_history.take(once.first(m_small.select(m_members.everyWorld(), once)), worker);
   });

@@ -122,6 +122,7 @@ class WorldSearch {
   PairHistory m_history;
   WorldLists m_lists;
   WorldStatistics m_statistics;
+  std::uint64_t m_rebuilds = 0;  ///< Also by queries since the last step, while others may read the statistics.
 };
 
 }  // namespace allpairs::engine
