@@ -159,6 +159,29 @@ TEST(FailedWorldAllocation, OfAddingOneBoxByOneAddsTheOnesBefore) {
   });
 }
 
+/// Margins that have moved to other memory before the allocation that fails are read there.
+TEST(FailedWorldAllocation, OfAddingBoxesWithMarginsLeavesTheMarginsOfOthers) {
+  const std::vector<Box> boxes = someBoxes(60, 67);
+  const std::vector<Box> more = someBoxes(200, 68);
+  const std::vector<Box> moved = someBoxes(60, 69);
+  BoxProperties wide;
+  wide.margin = 0.125;
+  std::vector<BoxId> added(more.size());
+  test::failEachAllocation([&](test::Fault& fault) {
+    Twins twins;
+    twins.add(boxes, wide);
+    twins.world.shrink();
+    twins.step();
+    const bool passed = fault.during([&] { twins.world.add(more, {&wide, 1}, added); });
+    // Likely to be where the margins were.
+    const std::vector<std::vector<double>> others(4, std::vector<double>(boxes.size(), 100.0));
+    if (passed) twins.noteAdded(added, more, wide);
+    twins.world.move(std::span<const BoxId>(twins.ids).first(moved.size()), moved);
+    for (std::size_t i = 0; i < moved.size(); ++i) twins.oracle.boxes[twins.ids[i]].box = moved[i];
+    twins.compareStep();
+  });
+}
+
 TEST(FailedWorldAllocation, OfMovingBoxesMovesNone) {
   const std::vector<Box> boxes = fineBoxes(120, 66);
   const auto some = [](Twins& twins) { return std::span<const BoxId>(twins.ids).first(120); };

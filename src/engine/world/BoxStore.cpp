@@ -105,12 +105,17 @@ void BoxStore::reserveRoom(std::size_t bound, Needs needs) {
   makeRoom(m_filters, bound);
   makeRoom(m_touched, bound + 1);
   makeRoom(m_stale, bound + 1);
-  if (needs.margins || !m_margins.empty()) makeRoom(m_margins, bound);
   if (needs.worlds || !m_worlds.empty()) makeRoom(m_worlds, bound);
+  // What the set is a view of moves even if the next of these fails.
+  const auto makeRoomOfSet = [this](auto& values, std::size_t size) {
+    m_setIsCurrent = m_setIsCurrent && size <= values.capacity();
+    makeRoom(values, size);
+  };
+  if (needs.margins || !m_margins.empty()) makeRoomOfSet(m_margins, bound);
   if (m_isFloat64 || needs.float64) {
-    makeRoom(m_rows64, 6 * bound);
+    makeRoomOfSet(m_rows64, 6 * bound);
   } else {
-    makeRoom(m_rows32, 6 * bound);
+    makeRoomOfSet(m_rows32, 6 * bound);
   }
 }
 
