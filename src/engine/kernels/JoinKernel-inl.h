@@ -328,7 +328,8 @@ class JoinRun {
     writeLists(leaf, findHits<kKept>(leaf, bounds));
   }
 
-  /// Notes which boxes of a leaf each box near it overlaps; returns how many of these overlap some.
+  /// Notes which boxes of a leaf each box near it overlaps, and makes room for their lists; returns how many boxes near
+  /// it overlap some.
   template <Columns kKept>
   HWY_INLINE std::size_t findHits(const Leaf& leaf, const LaneBox& bounds) {
     const IdTag d;

@@ -93,12 +93,7 @@ class NearBoxes {
   static std::size_t countSamples(const BoxRun<T>& part, const Row<T>& bounds) {
     std::size_t touching = 0;
     for (std::size_t i = 0; i < kFanOut; ++i) {
-      const Row<T> box = rowOf(part, i * part.size / kFanOut);
-      bool isNear = true;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        isNear &= (box[axis] <= bounds[axis + 3]) & (bounds[axis] <= box[axis + 3]);
-      }
-      touching += isNear ? 1U : 0U;
+      touching += areHit(rowOf(part, i * part.size / kFanOut).data(), bounds.data()) ? 1U : 0U;
     }
     return touching;
   }
@@ -165,8 +160,9 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
   PairsOnStack<kAtOnce * kMostOthers + kVectorSlack> pairs;
   OverlapStatistics statistics;
   const std::size_t together = areByFew(sets, order) ? 1 : run.size;
-  const Row<T> bounds = boundsOf<T>({few.data(), run.size});
-  const bool mayLeaveOut = together > 2 && !isEmptyRow(bounds);  // The bounds of two spare one pass at most.
+  // The bounds of two would spare one pass at most.
+  const Row<T> bounds = boundsOf<T>({few.data(), together > 2 ? together : 0});
+  const bool mayLeaveOut = !isEmptyRow(bounds);
   NearBoxes<T> near;
   for (std::size_t i = 0; i < run.size; i += together) {
     for (std::size_t begin = 0; begin < many.size; begin += kAtOnce) {

@@ -28,9 +28,8 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   // Half as many again as are tested exhaustively: a quarter of the boxes at most has changed.
   const std::size_t most = std::min(kMostFew, m_kernels.flatBoxes + m_kernels.flatBoxes / 2);
   m_takesChanged = onlyBoundsMatter && !store.isNumbered() && m_boxes->size() <= most;
-  // The only world half as many: there has to be memory for all pairs.
-  const std::size_t flat = store.isNumbered() ? m_kernels.flatBoxes : m_kernels.flatBoxes / 2;
-  m_mostBoxes = std::min({kMostInWorld, flat, m_isPlain ? kMostInWorld : kMostInDouble});
+  const std::size_t listed = store.isNumbered() ? kMostInWorld : kMostAlone;
+  m_mostBoxes = std::min({listed, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : kMostInDouble});
   m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bvh/CurveKey.h"
-#include "kernels/WorldsRun.h"
 #include "world/DynamicBvh.h"
 #include "world/RebuildRule.h"
 
@@ -26,7 +25,7 @@ std::span<const std::uint64_t> takeWorld(std::span<const std::uint64_t>& keys, s
 
 void WorldMembers::update(const BoxStore& store, Executor& executor) {
   const bool wasWhole = std::exchange(m_isWhole, false);
-  const bool isListed = store.isNumbered() || (store.size() != 0 && store.size() <= kMostInWorld);
+  const bool isListed = store.isNumbered() || (store.size() != 0 && store.size() <= kMostAlone);
   m_unlisted = isListed ? 0 : store.size();
   if (!isListed) {
     m_numbers.assign(1, 0);
