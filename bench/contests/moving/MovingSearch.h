@@ -51,5 +51,6 @@ void addBulletContenders(std::vector<MovingContender>& contenders);
 void addFclContenders(std::vector<MovingContender>& contenders);
 void addEmbreeContenders(std::vector<MovingContender>& contenders);
 void addPhysxContenders(std::vector<MovingContender>& contenders);
+void addJoltContenders(std::vector<MovingContender>& contenders);
 
 }  // namespace allpairs::bench

@@ -17,6 +17,9 @@ std::vector<MovingContender> peerContenders() {
 #ifdef ALLPAIRS_PEER_PHYSX
   addPhysxContenders(contenders);
 #endif
+#ifdef ALLPAIRS_PEER_JOLT
+  addJoltContenders(contenders);
+#endif
   return contenders;
 }
 
