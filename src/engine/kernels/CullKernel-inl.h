@@ -180,12 +180,11 @@ template <std::size_t kStep, bool kOthersSecond>
 HWY_INLINE std::size_t writeTouchingWord(std::uint64_t bits, std::uint32_t first, std::uint32_t firstOther,
                                          Pair* pairs) {
   const IdTag d;
-  constexpr int kShift = std::countr_zero(kStep);
   std::size_t size = 0;
   for (std::size_t i = 0; bits != 0; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
     const std::uint64_t some = bits & lowBits(hn::Lanes(d));
     const auto places = numbersFrom(i);
-    const auto boxes = hn::Add(hn::ShiftRight<kShift>(places), hn::Set(d, first));
+    const auto boxes = hn::Add(hn::ShiftRight<std::countr_zero(kStep)>(places), hn::Set(d, first));
     const auto others = hn::Add(hn::And(places, hn::Set(d, kStep - 1)), hn::Set(d, firstOther));
     storePairs<kOthersSecond>(lanesOfBits(d, others, some), lanesOfBits(d, boxes, some), pairs + size);
     size += static_cast<std::size_t>(std::popcount(some));

@@ -154,7 +154,8 @@ class JoinRun {
   void run() {
     const std::size_t top = m_task.first->depth - 1;
     const std::uint32_t root = 0;
-    descend(top, 0, kEverythingLanes, &root, 1);
+    const LaneBox everything{{-kLaneMax, -kLaneMax, -kLaneMax, kLaneMax, kLaneMax, kLaneMax}};
+    descend(top, 0, everything, &root, 1);
   }
 
  private:

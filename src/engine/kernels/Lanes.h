@@ -52,9 +52,8 @@ struct LaneBox {
   return result;
 }
 
-/// What overlaps nothing, and what overlaps all boxes.
+/// What overlaps nothing.
 inline constexpr LaneBox kNeverLanes{{kNever, kNever, kNever, -kNever, -kNever, -kNever}};
-inline constexpr LaneBox kEverythingLanes{{-kLaneMax, -kLaneMax, -kLaneMax, kLaneMax, kLaneMax, kLaneMax}};
 
 /// The greatest float32 that is not above the value, kept within the finite ones; the lowest for a NaN. No branches.
 [[nodiscard]] inline float roundDown(double value) noexcept {

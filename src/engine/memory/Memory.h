@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory_resource>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -129,6 +130,19 @@ template <class T>
 void reserve(std::vector<T>& values, std::size_t size) {
   values.reserve(size);
   adviseLargePages(values.data(), size * sizeof(T));
+}
+
+/// Appends values. What grows by itself is copied to small pages, one after the other touched for the first time.
+template <class T>
+void append(std::vector<T>& values, std::span<const T> added) {
+  const std::size_t size = values.size() + added.size();
+  if (size > values.capacity()) {
+    std::vector<T> larger;
+    reserve(larger, std::max(size, 2 * values.capacity()));
+    larger.assign(values.begin(), values.end());
+    values.swap(larger);
+  }
+  values.insert(values.end(), added.begin(), added.end());
 }
 
 }  // namespace allpairs::engine

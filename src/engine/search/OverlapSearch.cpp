@@ -190,7 +190,7 @@ std::vector<Pair> takeAmongFew(const engine::Sets& sets, const OverlapOptions& o
     const std::size_t size = taken.size() + pairs.size();
     const std::size_t most = std::min(engine::pairsOf(sets), kLargeResult);
     if (size > engine::kPartSize / 2 && taken.capacity() < most) taken.reserve(most);
-    taken.insert(taken.end(), pairs.begin(), pairs.end());
+    engine::append(taken, pairs);
   };
   engine::findFew(sets, options, options.order, append);
   if (taken.size() < taken.capacity() / 2) taken.shrink_to_fit();

@@ -284,7 +284,7 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
   if (comeInOrder(plan)) {
     expectPairs(sets, plan);
     reserve(taken, plan.sink.likelyPairs);
-    runInto(plan, [&](std::span<const Pair> pairs) { taken.insert(taken.end(), pairs.begin(), pairs.end()); });
+    runInto(plan, [&](std::span<const Pair> pairs) { append(taken, pairs); });
     if (taken.size() < taken.capacity() / 2) taken.shrink_to_fit();
     return taken;
   }
