@@ -9,7 +9,8 @@
 //
 // A call that fails, because memory is exhausted or a visitor stopped it, leaves its handle unchanged and usable: the
 // next allpairs_world_step() reports what has changed since the last one that succeeded. A callback may use other
-// handles; using the handle that is calling it is an ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
+// handles, and what takes a const one; else using the handle that is calling it, of allpairs_world_find_between() both,
+// is an ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
 //
 // Structures may grow at their end: struct_size tells the library which fields the caller has. All fields may be 0.
 #pragma once
@@ -361,8 +362,8 @@ typedef struct allpairs_ids {
   size_t count;
 } allpairs_ids;
 
-/// Adds boxes with the same properties (null: the defaults) and writes their ids, one for each box of the set. Margins
-/// of the set are ignored.
+/// Adds boxes with the same properties (null: the defaults) and writes their ids, one for each box of the set. A set
+/// with margins is an ALLPAIRS_INVALID_ARGUMENT: here a margin is a property.
 ALLPAIRS_C_API allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
                                                   const allpairs_properties* properties, uint32_t* ids);
 
@@ -538,7 +539,8 @@ typedef struct allpairs_nearest_many {
   size_t count;
 } allpairs_nearest_many;
 
-/// The result of allpairs_world_find_overlapping() for each box of a set. Margins of the set are ignored.
+/// The result of allpairs_world_find_overlapping() for each box of a set. A set with margins is an
+/// ALLPAIRS_INVALID_ARGUMENT.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, const allpairs_set* boxes,
                                                                     const allpairs_query_filter* filter,
                                                                     allpairs_id_lists* lists);

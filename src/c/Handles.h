@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -75,6 +76,7 @@ struct allpairs_world {
   allpairs::World world;
 
   std::uint32_t queried = allpairs::kEveryWorld;  ///< The world whose boxes queries consider.
+  std::atomic<int> callingBack = 0;               ///< Calls that run and may ask the caller's accept().
 
   // What the last query of each kind gave.
   std::vector<allpairs::BoxId> ids{};
@@ -150,7 +152,38 @@ template <class Enumerator>
 /// Bad input: a number that is none of the orders throws InvalidArgument.
 [[nodiscard]] Order orderOf(int order);
 
-[[nodiscard]] inline World& worldOf(allpairs_world* world) { return required(world, "world").world; }
+/// Throws InvalidArgument if the world is called by its own callback: results of queries, which a const World gives
+/// away, are kept in the handle.
+inline void checkIdle(const allpairs_world& world) {
+  if (world.callingBack.load(std::memory_order_relaxed) != 0) {
+    throw InvalidArgument("the world is called by its own accept");
+  }
+}
+
+[[nodiscard]] inline World& worldOf(allpairs_world* world, const char* name = "world") {
+  checkIdle(required(world, name));
+  return world->world;
+}
+
+/// A call that may ask the world's accept().
+class CallingBack {
+ public:
+  explicit CallingBack(allpairs_world* world, const char* name = "world")
+      : m_world(worldOf(world, name)), m_calls(world->callingBack) {
+    m_calls.fetch_add(1, std::memory_order_relaxed);
+  }
+  ~CallingBack() { m_calls.fetch_sub(1, std::memory_order_relaxed); }
+  CallingBack(const CallingBack&) = delete;
+  CallingBack& operator=(const CallingBack&) = delete;
+  CallingBack(CallingBack&&) = delete;
+  CallingBack& operator=(CallingBack&&) = delete;
+
+  [[nodiscard]] World& world() const noexcept { return m_world; }
+
+ private:
+  World& m_world;
+  std::atomic<int>& m_calls;
+};
 
 [[nodiscard]] allpairs_pairs toC(std::span<const Pair> pairs);
 [[nodiscard]] Box boxOf(const double* bounds);

@@ -43,8 +43,9 @@ allpairs_status allpairs_world_create(const allpairs_world_options* options, all
     std::unique_ptr<allpairs::Executor> executor = executorFor(given.threads);
     std::unique_ptr<CallerMemory> memory = memoryOf(given.memory);
     allpairs::World made(optionsOf(given, executor.get(), memory.get()));
-    allpairs_world handle{std::move(memory), std::move(executor), std::move(made)};
-    result = std::make_unique<allpairs_world>(std::move(handle)).release();
+    // An atomic does not move: made where it stays.
+    std::unique_ptr<allpairs_world> handle(new allpairs_world{std::move(memory), std::move(executor), std::move(made)});
+    result = handle.release();
   });
 }
 
@@ -145,8 +146,7 @@ allpairs_status allpairs_world_box(const allpairs_world* world, uint32_t id, dou
 allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step) {
   return guarded([&] {
     allpairs_step& result = required(step, "step");
-    const allpairs::StepResult found = worldOf(world).step();
-    result = stepOf(found);
+    result = stepOf(CallingBack(world).world().step());
   });
 }
 
@@ -158,7 +158,10 @@ allpairs_status allpairs_world_result_of(allpairs_world* world, uint32_t number,
 }
 
 allpairs_status allpairs_world_restrict_queries(allpairs_world* world, uint32_t number) {
-  return guarded([&] { required(world, "world").queried = number; });
+  return guarded([&] {
+    static_cast<void>(worldOf(world));
+    world->queried = number;
+  });
 }
 
 // NOLINTEND(readability-identifier-naming)

@@ -188,9 +188,11 @@ allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const al
 allpairs_status allpairs_world_find_between(allpairs_world* world, allpairs_world* other, allpairs_pairs* pairs) {
   return guarded([&] {
     allpairs_pairs& result = required(pairs, "pairs");
-    auto& found = required(world, "world").between;
-    found = worldOf(world).findBetween(required(other, "other").world);
-    result = toC(std::span<const allpairs::Pair>(found));
+    const CallingBack call(world);
+    std::optional<CallingBack> otherCall;
+    if (other != world) otherCall.emplace(other, "other");
+    world->between = call.world().findBetween(otherCall ? otherCall->world() : call.world());
+    result = toC(std::span<const allpairs::Pair>(world->between));
   });
 }
 

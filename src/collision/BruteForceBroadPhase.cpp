@@ -33,6 +33,9 @@ struct BruteForceBroadPhase::State {
   /// Sees to it that rules are those of the method as it is now; rows that came before keep the ones they came with.
   void useMethod(Intersection* method);
 
+  /// Throws InvalidArgument if there is no method, or not the one of the whole step.
+  void checkMethod(const Intersection* method) const;
+
   /// Gives the pairs of all rows that were added and not looked at yet.
   void complete();
 
@@ -46,6 +49,7 @@ struct BruteForceBroadPhase::State {
   ModelTable models;
   PairRules rules{models};
   PairSearch search{models, rules};
+  bool hasOneMethod = true;  ///< All rows of the step came with the same one.
   std::size_t rowsDone = 0;
   std::vector<CollisionModelPair> pairs;
   BroadPhaseStatistics statistics;
@@ -55,7 +59,14 @@ void BruteForceBroadPhase::State::useMethod(Intersection* method) {
   if (method == nullptr) throw InvalidArgument("the broad phase has no intersection method");
   if (!rules.isOutdated(method)) return;
   complete();
+  hasOneMethod = hasOneMethod && models.size() == 0;
   rules.setMethod(method);
+}
+
+void BruteForceBroadPhase::State::checkMethod(const Intersection* method) const {
+  if (method == nullptr) throw InvalidArgument("the broad phase has no intersection method");
+  if (models.size() == 0 || (hasOneMethod && !rules.isOutdated(method))) return;
+  throw InvalidArgument("the intersection method is not as it was in the whole step: nothing to verify the step by");
 }
 
 void BruteForceBroadPhase::State::complete() {
@@ -117,6 +128,7 @@ void BruteForceBroadPhase::reinit() {
 void BruteForceBroadPhase::beginBroadPhase() {
   m_state->models.clear();
   m_state->rules.forget();
+  m_state->hasOneMethod = true;
   m_state->pairs.clear();
   m_state->rowsDone = 0;
   m_state->statistics = {};
@@ -129,7 +141,10 @@ void BruteForceBroadPhase::addCollisionModel(core::CollisionModel* cm) {
   const bool ours = state.models.isOurs(last);
   if (ModelTable::isEmpty(last, ours)) return;
   state.useMethod(getIntersectionMethod());
-  if (!last.hasBoundingTree()) last.computeBoundingTree(0);
+  if (!last.hasBoundingTree()) {
+    last.computeBoundingTree(0);
+    if (cm != &last) cm = last.getFirst();  // what was given may be gone with the old tree
+  }
   if (state.region && !intersectWithBoxModel(cm)) return;
   const bool mayHaveSelfPair = !ours || last.getSelfCollision();
   state.models.add(cm, ours, mayHaveSelfPair && doesSelfCollide(cm));
@@ -171,7 +186,6 @@ void BruteForceBroadPhase::clearBox() { m_state->box.reset(); }
 const std::optional<Box>& BruteForceBroadPhase::getBox() const { return m_state->box; }
 
 void BruteForceBroadPhase::setStrategy(Strategy strategy) {
-  m_state->complete();
   m_state->strategy = strategy;
   m_state->search.setStrategy(strategy);
 }
@@ -190,6 +204,7 @@ const BroadPhaseStatistics& BruteForceBroadPhase::statistics() const { return m_
 
 void BruteForceBroadPhase::verify() {
   m_state->complete();
+  m_state->checkMethod(getIntersectionMethod());
   std::vector<CollisionModelPair> expected;
   for (std::size_t newer = 0; newer < m_state->models.size(); ++newer) {
     checkStop(m_state->stop);

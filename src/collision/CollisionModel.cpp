@@ -43,12 +43,11 @@ void CollisionModel::setRoot(const Box& box, const NormalCone& cone) {
   BoundingTreeBuilder::setRoot(*m_last, box, cone);
 }
 
-CollisionModel* CollisionModel::getFirst() {
-  return m_last->m_levels.empty() ? m_last : m_last->m_levels.front().get();
-}
+// Levels that are not linked are left over from a bounding tree that was not finished.
+CollisionModel* CollisionModel::getFirst() { return m_last->m_hasLevels ? m_last->m_levels.front().get() : m_last; }
 
 const CollisionModel* CollisionModel::getFirst() const {
-  return m_last->m_levels.empty() ? m_last : m_last->m_levels.front().get();
+  return m_last->m_hasLevels ? m_last->m_levels.front().get() : m_last;
 }
 
 const std::vector<int>& CollisionModel::getGroups() const {
@@ -61,8 +60,11 @@ void CollisionModel::setGroups(std::vector<int> groups) {
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
   std::uint64_t bits = 0;
   for (const int group : groups) bits |= std::uint64_t{1} << (static_cast<unsigned>(group) % 64U);
+  std::shared_ptr<const std::vector<int>> made;
+  if (!groups.empty()) made = std::make_shared<const std::vector<int>>(std::move(groups));
+  // Nothing below throws.
+  m_last->m_groups = std::move(made);
   m_last->m_groupBits = bits;
-  m_last->m_groups = groups.empty() ? nullptr : std::make_shared<const std::vector<int>>(std::move(groups));
 }
 
 void CollisionModel::addGroup(int group) {

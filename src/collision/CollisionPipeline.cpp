@@ -52,16 +52,17 @@ void CollisionPipeline::computeBoundingTrees(Span<CollisionModel* const> models,
       m_broadPhase->needsDeepBoundingTree() || (m_narrowPhase != nullptr && m_narrowPhase->needsDeepBoundingTree());
   for (CollisionModel* model : models) {
     if (model == nullptr || model->getLast()->empty() || !model->isActive()) continue;
-    if (model->isMoving() || !model->hasBoundingTree()) computeBoundingTree(*model, dt, deep ? m_depth : 0);
-    m_active.push_back(model->getLast());
+    CollisionModel* const last = model->getLast();  // a level above it may be gone with its old bounding tree
+    if (last->isMoving() || !last->hasBoundingTree()) computeBoundingTree(*last, dt, deep ? m_depth : 0);
+    m_active.push_back(last);
   }
 }
 
 void CollisionPipeline::computeBoundingTree(CollisionModel& model, double dt, int depth) const {
   if (m_method->isContinuous()) {
-    model.getLast()->computeContinuousBoundingTree(dt, depth);
+    model.computeContinuousBoundingTree(dt, depth);
   } else {
-    model.getLast()->computeBoundingTree(depth);
+    model.computeBoundingTree(depth);
   }
 }
 

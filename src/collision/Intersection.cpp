@@ -36,8 +36,10 @@ ElementIntersector* Intersection::findIntersector(CollisionModel* first, Collisi
 
 void Intersection::add(std::type_index first, std::type_index second, std::shared_ptr<ElementIntersector> intersector,
                        bool bothWays) {
+  // Both places before either is filled: nothing has changed if there is no memory for one.
+  Entry& entry = m_intersectors[{first, second}];
   if (bothWays) m_intersectors[{second, first}] = {intersector, true};
-  m_intersectors[{first, second}] = {std::move(intersector), false};
+  entry = {std::move(intersector), false};
   settingsChanged();
 }
 

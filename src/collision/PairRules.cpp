@@ -2,6 +2,7 @@
 #include "PairRules.h"
 
 #include <cmath>
+#include <limits>
 #include <typeinfo>
 #include <utility>
 
@@ -32,7 +33,9 @@ bool onlyComparesBoxes(const ElementIntersector& intersector) {
 
 void PairRules::setMethod(Intersection* method) {
   const double distance = method->maximumDistance();
-  if (std::isnan(distance)) throw InvalidArgument("the intersection method's maximum distance is NaN");
+  if (std::isnan(distance) || distance == -std::numeric_limits<double>::infinity()) {
+    throw InvalidArgument("the intersection method's maximum distance is NaN or -infinity");
+  }
   m_method = method;
   m_revision = method->revision();
   m_maximumDistance = distance;
@@ -101,8 +104,10 @@ bool PairRules::arePlain() {
 
 void PairRules::countTypes() {
   if (m_types == m_models.typeCount()) return;
-  m_types = m_models.typeCount();
-  m_links.assign(m_types * m_types, Link{});
+  const std::size_t types = m_models.typeCount();
+  m_types = 0;  // until there are links
+  m_links.assign(types * types, Link{});
+  m_types = types;
 }
 
 PairRules::Link PairRules::linkOf(const ModelRow& newer, const ModelRow& older) {

@@ -20,7 +20,7 @@ class PairRules {
 
   /// Looks at a method.
   ///
-  /// Bad input: a method whose maximumDistance() is a NaN throws InvalidArgument.
+  /// Bad input: a method whose maximumDistance() is NaN or -infinity throws InvalidArgument.
   void setMethod(Intersection* method);
 
   /// Forgets the method, and which types of root go with which number.

@@ -14,7 +14,7 @@ void SolidModel::setVelocities(std::vector<Vec3> velocities) {
 
 Box SolidModel::elementSweptBox(std::size_t index, double dt) const {
   const Box start = elementBox(index);
-  if (index >= m_velocities.size()) return start;
+  if (index >= m_velocities.size() || isEmpty(start)) return start;  // however far it moves, and however that rounds
   const Vec3& v = m_velocities[index];
   return allpairs::merge(start, boxAt(index, {dt * v[0], dt * v[1], dt * v[2]}));
 }

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "ElementBoxes.h"
 #include "PairChecks.h"
+#include "allpairs/Error.h"
 #include "memory/Memory.h"
 #include "search/SearchState.h"
 
@@ -170,8 +173,13 @@ void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVis
   });
 }
 
-ElementCandidates::ElementCandidates(MeshTopology topology, CandidateOptions options)
-    : m_state(std::make_unique<State>(std::move(topology), options)) {}
+ElementCandidates::ElementCandidates(MeshTopology topology, CandidateOptions options) {
+  // Searches that want nothing would not look at it.
+  if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
+    throw InvalidArgument("the distance is NaN or -infinity");
+  }
+  m_state = std::make_unique<State>(std::move(topology), options);
+}
 ElementCandidates::~ElementCandidates() = default;
 ElementCandidates::ElementCandidates(ElementCandidates&&) noexcept = default;
 ElementCandidates& ElementCandidates::operator=(ElementCandidates&&) noexcept = default;
@@ -232,6 +240,7 @@ std::uint64_t ElementCandidates::count(CandidateKind kind) {
 }
 
 void ElementCandidates::stream(CandidateKind kind, PairVisitor visitor, std::size_t batchSize) {
+  if (batchSize == 0) throw InvalidArgument("a batch size of 0 pairs");
   State& state = this->state();
   const auto mark = state.inUse.mark();
   state.streamIn(state.options.order, kind, visitor, batchSize);

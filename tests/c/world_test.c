@@ -160,7 +160,68 @@ static void worldsAreApart(void) {
   allpairs_world_destroy(world);
 }
 
+struct Caller {
+  allpairs_world* world;
+  allpairs_world* other;
+};
+
+/// Uses the worlds that call it: as const handles only.
+static bool callBack(void* context, uint32_t first, uint32_t second) {
+  const struct Caller* caller = context;
+  allpairs_world* const worlds[2] = {caller->world, caller->other};
+  double box[6];
+  for (size_t i = 0; i < 2 && worlds[i] != NULL; ++i) {
+    const allpairs_ray ray = {{0, 0, 0}, {1, 0, 0}, 1};
+    const allpairs_nearest nearest = {{0, 0, 0}, 1};
+    allpairs_step step;
+    allpairs_ids found;
+    allpairs_hit hit;
+    allpairs_hits hits;
+    allpairs_neighbors neighbors;
+    allpairs_pairs pairs;
+    ALLPAIRS_CHECK(allpairs_world_contains(worlds[i], 0) && allpairs_world_size(worlds[i]) == 2);
+    ALLPAIRS_CHECK(allpairs_world_box(worlds[i], 0, box) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(allpairs_world_step(worlds[i], &step) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_result_of(worlds[i], 0, &step) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_find_overlapping(worlds[i], box, NULL, &found) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_find_first(worlds[i], &ray, NULL, &hit) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_find_all(worlds[i], &ray, NULL, &hits) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_find_nearest(worlds[i], &nearest, NULL, &neighbors) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_find_between(worlds[i], worlds[i], &pairs) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_restrict_queries(worlds[i], 5) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_world_shrink(worlds[i]) == ALLPAIRS_INVALID_ARGUMENT);
+  }
+  return first <= second;
+}
+
+static void aWorldIsNotUsedByItsOwnCallback(size_t threads) {
+  const double data[12] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
+  struct Caller caller = {NULL, NULL};
+  allpairs_world_options options = {.struct_size = sizeof options, .threads = threads};
+  allpairs_step step;
+  allpairs_pairs pairs;
+  allpairs_ids found;
+  options.accept = callBack;
+  options.accept_context = &caller;
+  allpairs_set* set = setOf(data, 2);
+  ALLPAIRS_CHECK(allpairs_world_create(&options, &caller.world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(caller.world, set, NULL, ids) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_step(caller.world, &step) == ALLPAIRS_OK && step.pairs.count == 1);
+  ALLPAIRS_CHECK(allpairs_world_find_between(caller.world, caller.world, &pairs) == ALLPAIRS_OK && pairs.count == 3);
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &caller.other) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(caller.other, set, NULL, ids) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_find_between(caller.world, caller.other, &pairs) == ALLPAIRS_OK && pairs.count == 3);
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(caller.other, data, NULL, &found) == ALLPAIRS_OK && found.count == 2);
+  ALLPAIRS_CHECK(allpairs_set_margin(set, 0.5) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(caller.other, set, NULL, ids) == ALLPAIRS_INVALID_ARGUMENT);
+  allpairs_world_destroy(caller.other);
+  allpairs_world_destroy(caller.world);
+  allpairs_set_destroy(set);
+}
+
 int main(void) {
+  aWorldIsNotUsedByItsOwnCallback(0);
+  aWorldIsNotUsedByItsOwnCallback(2);
   worldsAreApart();
   allpairs_world* world = NULL;
   allpairs_world_options options = {.struct_size = sizeof options, .distance = 0.5, .threads = 2};

@@ -97,6 +97,27 @@ TEST_F(Component, AModelWhosePositionsWereSetGetsANewRootWhenItIsAdded) {
   EXPECT_EQ(step(), (Numbers{{1, 0}}));
 }
 
+TEST_F(Component, AModelGivenByALevelThatIsGoneIsNamedByItsNewRoot) {
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive}) {
+    BoxModel model("many", std::vector<Box>(16, unitBoxAt(5.0)));
+    BoxModel other("other", unitBoxAt(0.0));
+    other.setOwner(&other);
+    model.computeBoundingTree(3);
+    CollisionModel* const level = model.getFirst()->getNext();
+    m_phase.setStrategy(strategy);
+    m_phase.beginBroadPhase();
+    m_phase.addCollisionModel(level);
+    EXPECT_EQ(m_phase.getCollisionModelPairs().size(), 0U);
+    model.setBox(7, unitBoxAt(0.5));  // its tree is made again, and has one level then
+    m_phase.beginBroadPhase();
+    m_phase.addCollisionModel(level);
+    m_phase.addCollisionModel(&other);
+    const std::vector<CollisionModelPair> wanted{{&other, model.getFirst()}};
+    EXPECT_EQ(m_phase.getCollisionModelPairs(), wanted);
+    m_phase.verify();
+  }
+}
+
 TEST_F(Component, ATreeThatWasComputedIsUsedAsItIs) {
   add(unitBoxAt(0.0));
   add(unitBoxAt(5.0)).setVelocities({{-10.0, 0.0, 0.0}});
@@ -288,6 +309,46 @@ TEST_F(Component, VerifyShowsAMethodThatSaysLessThanItDoes) {
   EXPECT_NO_THROW(m_phase.verify());
 }
 
+TEST_F(Component, VerifyTakesTheMethodOfTheWholeStepOnly) {
+  addTouching(2);
+  m_owned[0]->setSelfCollision(true);
+  m_phase.setIntersectionMethod(nullptr);
+  EXPECT_THROW(m_phase.verify(), InvalidArgument);
+  m_phase.setIntersectionMethod(&m_method);
+  m_phase.verify();  // of no step
+  EXPECT_EQ(step(), (Numbers{{0, 0}, {1, 0}}));
+  m_phase.verify();
+  m_phase.setIntersectionMethod(nullptr);
+  EXPECT_THROW(m_phase.verify(), InvalidArgument);
+  MinProximityIntersection other;
+  m_phase.setIntersectionMethod(&other);
+  EXPECT_THROW(m_phase.verify(), InvalidArgument);
+  m_phase.setIntersectionMethod(&m_method);
+  m_phase.verify();
+  m_method.setAlarmDistance(0.5);
+  EXPECT_THROW(m_phase.verify(), InvalidArgument);
+  m_phase.addCollisionModel(m_models[0]);  // now there is a row of either setting
+  EXPECT_THROW(m_phase.verify(), InvalidArgument);
+  step();
+  m_phase.verify();
+}
+
+/// Says that no two models can touch at all.
+class MethodOfNothing : public MinProximityIntersection {
+ public:
+  [[nodiscard]] double maximumDistance() const override { return -kInfinity; }
+};
+
+TEST_F(Component, ADistanceOfMinusInfinityIsRefusedByEveryStrategy) {
+  addTouching(2);
+  MethodOfNothing method;
+  m_phase.setIntersectionMethod(&method);
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+    m_phase.setStrategy(strategy);
+    EXPECT_THROW(step(), InvalidArgument);
+  }
+}
+
 TEST_F(Component, AStepCanChangeItsMethodOnTheWay) {
   for (const double x : {0.0, 1.5, 3.0}) add(unitBoxAt(x));
   MinProximityIntersection wide;
@@ -338,6 +399,23 @@ TEST_F(Component, WhatARuleThrowsOnLeavesNoPairTwice) {
     EXPECT_THROW(m_phase.addCollisionModels(m_models), std::runtime_error);
     EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
   }
+}
+
+TEST_F(Component, WhatIsSetAfterAStepThatThrewDoesNotTouchItsModels) {
+  {
+    BoxModel model("one", unitBoxAt(0.0));
+    ReluctantModel reluctant("reluctant", unitBoxAt(0.0));
+    reluctant.setOwner(&reluctant);
+    m_phase.beginBroadPhase();
+    m_phase.addCollisionModel(&model);
+    m_phase.addCollisionModel(&reluctant);
+    EXPECT_THROW(m_phase.endBroadPhase(), std::runtime_error);
+  }
+  m_phase.setStrategy(Strategy::Exhaustive);
+  m_phase.setKeepsSearch(false);
+  m_phase.setIntersectionMethod(&m_method);
+  addTouching(2);
+  EXPECT_EQ(step(), (Numbers{{1, 0}}));
 }
 
 }  // namespace

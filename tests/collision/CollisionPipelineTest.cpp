@@ -66,6 +66,19 @@ TEST_F(Pipeline, NullAndEmptyModelsAreLeftOut) {
   EXPECT_EQ(empty.computed, 0);
 }
 
+TEST_F(Pipeline, AModelMayBeGivenByAnyOfItsLevels) {
+  BoxModel model("many", std::vector<Box>(16, unitBoxAt(0.25)));
+  model.setOwner(&model);
+  for (const std::size_t above : {0U, 1U, 2U}) {
+    model.computeBoundingTree(3);
+    CollisionModel* level = model.getFirst();
+    for (std::size_t i = 0; i < above; ++i) level = level->getNext();
+    const std::vector<CollisionModel*> models{level, m_models[0]};
+    const std::vector<CollisionModelPair> wanted{{m_models[0], &model}};
+    EXPECT_EQ(m_pipeline.step(models), wanted);  // its tree has one level now
+  }
+}
+
 TEST_F(Pipeline, TreesOfModelsThatDoNotMoveAreMadeOnce) {
   m_counting[0]->setMoving(false);
   for (int i = 0; i < 3; ++i) m_pipeline.step(m_models);

@@ -12,6 +12,8 @@
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/CollisionPipeline.h"
 #include "allpairs/collision/DiscreteIntersection.h"
+#include "allpairs/collision/ElementIntersector.h"
+#include "allpairs/collision/HostedModel.h"
 #include "support/Boxes.h"
 #include "support/FailingAllocation.h"
 
@@ -41,9 +43,13 @@ class Scene {
 
   void step() { static_cast<void>(m_pipeline.step(m_list)); }
 
-  void addOneByOne() {
+  void add() {
     phase.beginBroadPhase();
     for (CollisionModel* model : m_list) phase.addCollisionModel(model);
+  }
+
+  void addOneByOne() {
+    add();
     phase.endBroadPhase();
   }
 
@@ -139,6 +145,101 @@ TEST_P(FailedComponentAllocation, WhileModelsAreAddedLeavesTheNextStepRight) {
         ASSERT_EQ(scene.names(), wanted);
       },
       5);
+}
+
+/// The exhaustive strategy finds pairs while models are added.
+TEST(FailedReadingAllocation, IsMadeUpForByReadingAgain) {
+  for (const Strategy strategy : {Strategy::Automatic, Strategy::Bvh}) {
+    Scene fresh(strategy);
+    fresh.addOneByOne();
+    const Names wanted = fresh.names();
+    test::failEachAllocation([&](test::Fault& fault) {
+      Scene scene(strategy);
+      scene.add();
+      static_cast<void>(fault.during([&] { scene.phase.endBroadPhase(); }));
+      ASSERT_EQ(scene.names(), wanted);
+    });
+  }
+}
+
+/// The pairs of two models, by a new component.
+std::size_t pairsOf(CollisionModel& first, CollisionModel& second, Strategy strategy) {
+  DiscreteIntersection method;
+  BruteForceBroadPhase phase;
+  phase.setIntersectionMethod(&method);
+  phase.setStrategy(strategy);
+  phase.beginBroadPhase();
+  phase.addCollisionModel(&first);
+  phase.addCollisionModel(&second);
+  phase.verify();
+  return phase.getCollisionModelPairs().size();
+}
+
+constexpr Box kCube{{0, 0, 0}, {1, 1, 1}};
+
+TEST_P(FailedComponentAllocation, OfAModelsGroupsLeavesThoseThatItHad) {
+  using Groups = std::vector<int>;
+  for (const auto& [before, after] : {std::pair(Groups{}, Groups{1}), std::pair(Groups{1}, Groups{2})}) {
+    test::failEachAllocation([&, before = before, after = after](test::Fault& fault) {
+      BoxModel model("one", kCube);
+      BoxModel other("other", kCube);
+      model.setOwner(&model);
+      model.setGroups(before);
+      other.setGroups({1});
+      const bool passed = fault.during([&] { model.setGroups(after); });
+      const Groups& wanted = passed ? after : before;
+      ASSERT_EQ(model.getGroups(), wanted);
+      const bool collide = wanted != Groups{1};
+      ASSERT_EQ(model.canCollideWith(&other), collide);
+      ASSERT_EQ(pairsOf(model, other, GetParam()), collide ? 1U : 0U);
+    });
+  }
+}
+
+TEST_P(FailedComponentAllocation, OfABoundingTreeLeavesAModelThatCanBeUsedOn) {
+  const Box moved{{0.5, 0.5, 0.5}, {9, 9, 9}};
+  test::failEachAllocation([&](test::Fault& fault) {
+    HostedModel model;
+    BoxModel other("other", kCube);
+    other.setOwner(&other);
+    static_cast<void>(fault.during([&] {
+      model.setBox(kCube);
+      model.computeBoundingTree(2);
+    }));
+    model.setBox(moved);
+    ASSERT_EQ(model.getFirst()->elementBox(0), moved);
+    ASSERT_EQ(pairsOf(model, other, GetParam()), 1U);
+    model.computeBoundingTree(2);
+    ASSERT_EQ(model.getFirst()->elementBox(0), moved);
+    ASSERT_EQ(pairsOf(other, model, GetParam()), 1U);
+  });
+  test::failEachAllocation([&](test::Fault& fault) {
+    BoxModel model("many", std::vector<Box>(20, kCube));
+    BoxModel other("other", kCube);
+    other.setOwner(&other);
+    static_cast<void>(fault.during([&] { model.computeBoundingTree(3); }));
+    ASSERT_EQ(pairsOf(model, other, GetParam()), 1U);
+  });
+}
+
+TEST(FailedMethodAllocation, OfAnIntersectorLeavesTheTable) {
+  class First : public BoxModel {
+   public:
+    using BoxModel::BoxModel;
+  };
+  test::failEachAllocation([&](test::Fault& fault) {
+    DiscreteIntersection method;
+    First first("first", kCube);
+    BoxModel second("second", kCube);
+    const auto revision = method.revision();
+    const auto intersector = std::make_shared<BoxIntersector>();
+    const bool passed = fault.during([&] { method.add<First, BoxModel>(intersector); });
+    bool swap = false;
+    ElementIntersector* const wanted = passed ? intersector.get() : nullptr;
+    ASSERT_EQ(method.findIntersector(&first, &second, swap), wanted);
+    ASSERT_EQ(method.findIntersector(&second, &first, swap), wanted);
+    ASSERT_EQ(method.revision() != revision, passed);
+  });
 }
 
 }  // namespace

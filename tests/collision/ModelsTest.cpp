@@ -161,6 +161,12 @@ TEST(Models, ContinuousBoxesOfSolidsHoldStartAndEndOfTheStep) {
   }
 }
 
+TEST(Models, AnEmptyElementThatMovesStaysEmptyHoweverItsEndIsRounded) {
+  BoxModel box("b", Box{{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}});
+  box.setVelocities({{1e17, 1e17, 1e17}});
+  EXPECT_TRUE(isEmpty(box.elementSweptBox(0, 1.0)));
+}
+
 TEST(Models, WithoutCurvatureNothingIsKnownOfNormals) {
   TriangleModel model("t", kPoints, {{0, 1, 2}});
   EXPECT_EQ(model.elementCone(0).halfAngle, 2.0 * std::numbers::pi);

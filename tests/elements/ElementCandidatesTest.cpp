@@ -189,9 +189,21 @@ TEST(ElementCandidates, RefuseANumberThatIsNotFiniteNamingMeshAndVertex) {
 TEST(ElementCandidates, RefuseAMeshThatIsNotThereAndADistanceThatIsNone) {
   ElementCandidates candidates = candidatesOf({kTriangle});
   EXPECT_THROW(candidates.setPositions(1, std::span<const double>(), {}), InvalidArgument);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(static_cast<void>(candidatesOf({kTriangle}, {.distance = nan}).find(CandidateKind::EdgeEdge)),
-               InvalidArgument);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double distance : {std::numeric_limits<double>::quiet_NaN(), -kInfinity}) {
+    for (const bool within : {true, false}) {  // without, one mesh has no candidates, and nothing is searched
+      EXPECT_THROW(candidatesOf({kTriangle}, {.distance = distance, .withinMeshes = within}), InvalidArgument);
+    }
+  }
+}
+
+TEST(ElementCandidates, RefuseBatchesOfNone) {
+  for (const bool within : {true, false}) {
+    ElementCandidates candidates = candidatesOf({kTriangle}, {.withinMeshes = within});
+    EXPECT_THROW(candidates.stream(
+                     CandidateKind::FaceFace, [](Span<const Pair>) {}, 0),
+                 InvalidArgument);
+  }
 }
 
 }  // namespace

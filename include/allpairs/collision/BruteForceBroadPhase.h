@@ -35,9 +35,10 @@ class VerificationError : public Error {
 /// Each model that is added is tested against all that were added before it in the step. The result is that of the
 /// double loop, pair by pair in its order and orientation, whatever the strategy: (1,0) (2,0) (2,1) (3,0) … for models
 /// that all overlap, with (m,m) before the others of m if m may touch itself. A model's root box, flags, groups,
-/// distance and owner are read when it is added; the rest of it must not change before the result is read. If a model
-/// has no bounding tree, or its positions were set since, its root is computed then (without motion, also with a
-/// continuous method).
+/// distance and owner are read when it is added, and again for each of its pairs by Strategy::Exhaustive and verify();
+/// the rest of it must not change before the result is read. If a model has no bounding tree, or its positions were set
+/// since, its root is computed then (without motion, also with a continuous method); where it was given by a level
+/// above the elements, its pairs name the new root.
 ///
 /// Geometry:  closed boxes, per axis, in double, as allpairs::overlap() with the method's distance.
 /// Bad input: a root box with a NaN throws InvalidBox, which names the model; a missing method throws InvalidArgument.
@@ -103,7 +104,8 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
   [[nodiscard]] const BroadPhaseStatistics& statistics() const;
 
   /// Repeats the step with the plain double loop and throws VerificationError, which names the first pair that
-  /// differs, if the lists are not equal. Cost: n(n-1)/2 calls of the rules.
+  /// differs, if the lists are not equal. A method that is missing, or that was changed or exchanged since the first
+  /// model of the step, throws InvalidArgument. Cost: n(n-1)/2 calls of the rules.
   void verify();
 
  protected:

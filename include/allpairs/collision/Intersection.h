@@ -66,7 +66,8 @@ class Intersection {
   [[nodiscard]] virtual double distanceBetween(const CollisionModel& first, const CollisionModel& second) const;
 
   /// The largest gap per axis between two root boxes at which canIntersect() can be true, without the models' own
-  /// contact distances. Infinity, the default, means that there is no bound, and every pair is tested.
+  /// contact distances. Infinity, the default, means that there is no bound, and every pair is tested; NaN and
+  /// -infinity are refused by the broad phase.
   [[nodiscard]] virtual double maximumDistance() const { return std::numeric_limits<double>::infinity(); }
 
   /// Whether the contact distances of both models are added to maximumDistance().
