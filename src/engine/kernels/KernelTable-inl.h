@@ -23,13 +23,12 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Measured by few_benchmark (docs/decisions/0009): wide vectors that store selected lanes in one instruction test more
-/// pairs.
-constexpr std::size_t kFlatBoxes = HWY_TARGET == HWY_SCALAR ? 72 : HWY_TARGET <= HWY_AVX3 ? 256 : 192;
+/// Measured by few_benchmark (docs/decisions/0009): wide vectors test more pairs.
+constexpr std::size_t kFlatBoxes = HWY_TARGET == HWY_SCALAR ? 72 : HWY_TARGET <= HWY_AVX2 ? 256 : 192;
 static_assert(kFlatBoxes <= kMostFew);
 
 /// Measured by dense_benchmark --axes 1, 2 and 3, with each instruction set.
-constexpr double kTestsForPair = HWY_TARGET <= HWY_AVX3 ? 10.0 : HWY_TARGET <= HWY_AVX2 ? 6.0 : 5.0;
+constexpr double kTestsForPair = HWY_TARGET <= HWY_AVX2 ? 10.0 : 5.0;
 
 const Kernels* kernelTable() {
   static const Kernels table{hwy::TargetName(HWY_TARGET),

@@ -139,7 +139,11 @@ void PairLists::forEachList(Executor& executor, const Use& use) {
       return {partners + (first & ((std::uint64_t{1} << kPlaceBits) - 1)), m_length[row]};
     };
     for (std::size_t row = begin; row < end; ++row) {
-      if (row + kPrefetchDistance < end) prefetchLine(listOf(row + kPrefetchDistance).data());
+      if (row + kPrefetchDistance < end) {
+        const std::span<const std::uint32_t> ahead = listOf(row + kPrefetchDistance);
+        prefetchLine(ahead.data());
+        prefetchLine(ahead.data() + ahead.size());
+      }
       const std::span<const std::uint32_t> list = listOf(row);
       use(row, list, before);
       before += list.size();
