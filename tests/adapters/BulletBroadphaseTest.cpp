@@ -127,6 +127,32 @@ TEST(BulletBroadphase, GroupsAndMasksChangedInAProxyCountWhenItIsNextMoved) {
   for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
 }
 
+TEST(BulletBroadphase, AProxyOfNoGroupOrMaskHasNoPairsAndIsHitByRaysAndBoxes) {
+  BulletBroadphase broadphase;
+  auto* const plain = addUnitCube(broadphase, 0, -1, -1);
+  auto* const noMask = addUnitCube(broadphase, 0, 1, 0);
+  auto* const noGroup = addUnitCube(broadphase, 0, 0, -1);
+  const auto pairsAfterAStep = [&] {
+    broadphase.calculateOverlappingPairs(nullptr);
+    return pairsOf(*broadphase.getOverlappingPairCache());
+  };
+  EXPECT_THAT(pairsAfterAStep(), IsEmpty());
+  Collector ray;
+  broadphase.rayTest({-1, 0.5F, 0.5F}, {3, 0.5F, 0.5F}, ray);
+  EXPECT_THAT(ray.found, ::testing::UnorderedElementsAre(plain, noMask, noGroup));
+  Collector box;
+  broadphase.aabbTest({0, 0, 0}, {1, 1, 1}, box);
+  EXPECT_THAT(box.found, ::testing::UnorderedElementsAre(plain, noMask, noGroup));
+  noMask->m_collisionFilterMask = -1;
+  noMask->m_collisionFilterGroup = -1;
+  broadphase.setAabb(noMask, noMask->m_aabbMin, noMask->m_aabbMax, nullptr);
+  EXPECT_EQ(pairsAfterAStep(), sorted({{plain, noMask}}));
+  noMask->m_collisionFilterGroup = 0;
+  broadphase.setAabb(noMask, noMask->m_aabbMin, noMask->m_aabbMax, nullptr);
+  EXPECT_THAT(pairsAfterAStep(), IsEmpty());
+  for (auto* proxy : {plain, noMask, noGroup}) broadphase.destroyProxy(proxy, nullptr);
+}
+
 TEST(BulletBroadphase, AFilterCallbackTakesThePlaceOfGroupsAndMasks) {
   struct Switch : btOverlapFilterCallback {
     bool isOn = true;

@@ -2,6 +2,7 @@
 #include <fcl/broadphase/broadphase_bruteforce.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/distance.h>
 #include <gmock/gmock.h>
@@ -44,6 +45,43 @@ TYPED_TEST(FclManager, FindsTheCollisionsOfTheNaiveManager) {
       EXPECT_EQ(this->collisions(this->m_ours, probe), this->collisions(this->m_naive, probe));
     }
   }
+}
+
+TYPED_TEST(FclManager, TellsItsSizeWithHalfSpacesToo) {
+  using S = TypeParam;
+  const auto objects = this->addObjects(19, S(10));
+  this->m_ours.registerObjects(objects);
+  auto ground = std::make_unique<::fcl::CollisionObject<S>>(
+      std::make_shared<::fcl::Halfspace<S>>(::fcl::Vector3<S>(0, 0, 1), S(0)));
+  ground->computeAABB();
+  this->m_ours.registerObject(ground.get());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(this->m_ours.size(), 20U);
+    this->m_ours.update();
+  }
+  this->m_ours.unregisterObject(ground.get());
+  EXPECT_EQ(this->m_ours.size(), 19U);
+}
+
+TYPED_TEST(FclManager, ReadsTheBoxesOfAnotherOfItsKindAsTheyWereLastUpdated) {
+  using S = TypeParam;
+  const auto mine = this->addObjects(5, S(1));
+  const auto theirs = this->addObjects(5, S(1));
+  this->m_ours.registerObjects(mine);
+  FclBroadPhaseManager<S> other;
+  other.registerObjects(theirs);
+  const auto count = [&] {
+    int asked = 0;
+    this->m_ours.distance(&other, &asked, [](auto*, auto*, void* data, S&) {
+      ++*static_cast<int*>(data);
+      return false;
+    });
+    return asked;
+  };
+  EXPECT_EQ(count(), 25);
+  const_cast<::fcl::AABB<S>&>(theirs[2]->getAABB()).min_[0] = std::numeric_limits<S>::quiet_NaN();
+  EXPECT_EQ(count(), 25);
+  EXPECT_THROW(other.update(), InvalidBox);
 }
 
 TYPED_TEST(FclManager, FindsTheLeastDistancesOfTheNaiveManager) {

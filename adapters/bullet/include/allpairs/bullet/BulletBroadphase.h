@@ -216,7 +216,8 @@ class BulletBroadphase : public btBroadphaseInterface {
     WorldOptions options;
     options.executor = m_executor;
     options.accept = [this](BoxId a, BoxId b) {
-      return m_filter == nullptr || m_filter->needBroadphaseCollision(m_proxies[a].get(), m_proxies[b].get());
+      if (m_filter == nullptr) return !isOfNoGroup(*m_proxies[a]) && !isOfNoGroup(*m_proxies[b]);
+      return m_filter->needBroadphaseCollision(m_proxies[a].get(), m_proxies[b].get());
     };
     return World(std::move(options));
   }
@@ -244,9 +245,13 @@ class BulletBroadphase : public btBroadphaseInterface {
     proxy.m_uniqueId = number;
   }
 
-  /// A filter callback takes the place of groups and masks.
+  /// Whether no pair is demanded of a proxy, which rays and boxes hit all the same.
+  static bool isOfNoGroup(const Proxy& proxy) { return proxy.knownGroup == 0 || proxy.knownMask == 0; }
+
+  /// A filter callback takes the place of groups and masks. No query would find a box of no category or with no mask:
+  /// its pairs are refused one by one.
   [[nodiscard]] BoxProperties propertiesOf(int group, int mask) const {
-    if (m_filter != nullptr) return {};
+    if (m_filter != nullptr || group == 0 || mask == 0) return {};
     BoxProperties properties;
     properties.category = static_cast<std::uint32_t>(group);
     properties.mask = static_cast<std::uint32_t>(mask);
@@ -292,7 +297,9 @@ class BulletBroadphase : public btBroadphaseInterface {
   void noteFilters() {
     for (const auto& proxy : m_proxies) {
       if (!proxy->isThere || proxy->hasKnownFilter()) continue;
-      m_world.setProperties(idOf(*proxy), propertiesOf(proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask));
+      const BoxId id = idOf(*proxy);
+      m_world.setProperties(id, propertiesOf(proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask));
+      m_world.invalidate(Span<const BoxId>(&id, 1));  // of no group, it may have the same properties
       proxy->knownGroup = proxy->m_collisionFilterGroup;
       proxy->knownMask = proxy->m_collisionFilterMask;
     }

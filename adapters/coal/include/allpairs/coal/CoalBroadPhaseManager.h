@@ -90,6 +90,10 @@ class CoalBroadPhaseManager : public HostManager<CoalHost> {
     callback->init();
     S least = std::numeric_limits<S>::max();
     const auto ask = [&](Object* own, Object* other, S& now) { return (*callback)(own, other, now); };
+    if (const auto* ours = dynamic_cast<const CoalBroadPhaseManager*>(otherManager)) {
+      objects().eachNearPairWith(ours->objects(), ask, least);
+      return;
+    }
     objects().eachNearPairWith(objectsOf(*otherManager), ask, least);
   }
 };

@@ -95,6 +95,10 @@ class FclBroadPhaseManager : public HostManager<FclHost<S>> {
     if (otherManager == this) return distance(data, callback);
     S least = std::numeric_limits<S>::max();
     const auto ask = [&](Object* own, Object* other, S& now) { return callback(own, other, data, now); };
+    if (const auto* ours = dynamic_cast<const FclBroadPhaseManager*>(otherManager)) {
+      objects().eachNearPairWith(ours->objects(), ask, least);
+      return;
+    }
     objects().eachNearPairWith(objectsOf(*otherManager), ask, least);
   }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -106,8 +108,19 @@ class HostManager : public Host::Tree {
     if (m_isCurrent.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(m_bringing);
     if (m_isCurrent.load(std::memory_order_relaxed)) return;
-    if (!empty()) const_cast<HostManager*>(this)->bringIn();  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    if (!empty()) const_cast<HostManager*>(this)->makeTree();  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     m_isCurrent.store(true, std::memory_order_release);
+  }
+
+  /// A tree that was not finished holds objects that nobody has noted: it is begun again by the next call.
+  void makeTree() {
+    try {
+      bringIn();
+    } catch (...) {
+      Tree::clear();
+      m_isInTree.clear();
+      throw;
+    }
   }
 
   void bringIn() {
@@ -118,12 +131,31 @@ class HostManager : public Host::Tree {
       if (m_isInTree[number] != 0) known.push_back(rows[number]);
     }
     Host::update(*this, known);
-    Tree::setup();  // balances it; the tree has called that of the manager, which does nothing
+    // Balances it; the tree has called that of the manager, which does nothing. It takes a node whose squared size
+    // overflows for none.
+    if (haveSizes(known)) Tree::setup();
     for (BoxId number = 0; number < rows.bound(); ++number) {
       if (rows[number] == nullptr || m_isInTree[number] != 0) continue;
       Tree::registerObject(rows[number]);
       m_isInTree[number] = 1;
     }
+  }
+
+  /// Whether the square of the size of the box around all objects is a number.
+  static bool haveSizes(const std::vector<Object*>& objects) {
+    if (objects.empty()) return true;
+    auto min = objects.front()->getAABB().min_;
+    auto max = objects.front()->getAABB().max_;
+    typename ObjectRows<Object>::S squares = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Object* object : objects) {
+        min[axis] = std::min(min[axis], object->getAABB().min_[axis]);
+        max[axis] = std::max(max[axis], object->getAABB().max_[axis]);
+      }
+      const auto side = max[axis] - min[axis];
+      squares += side * side;
+    }
+    return std::isfinite(squares);
   }
 
   ObjectBroadPhase<Object> m_objects;

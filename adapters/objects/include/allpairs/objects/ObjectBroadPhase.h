@@ -80,9 +80,10 @@ class ObjectBroadPhase {
     if (number != kNoBox) refresh(number);
   }
 
+  /// Removes all objects, or none where that throws std::bad_alloc.
   void clear() {
-    m_rows.clear();
     m_search.clear();
+    m_rows.clear();
   }
 
   [[nodiscard]] const ObjectRows<Object>& rows() const { return m_rows; }
@@ -124,11 +125,7 @@ class ObjectBroadPhase {
   /// make that smaller. Objects whose boxes overlap its box are asked about however small it is.
   template <class Ask>
   bool eachNear(const Object& object, const Ask& ask, S& least) const {
-    const Bounds& bounds = object.getAABB();
-    const auto askAbout = [&](BoxId id) { return ask(m_rows[id], least); };
-    const auto isWanted = [](BoxId) { return true; };
-    return isBox(bounds) &&
-           askNear(Question<decltype(isWanted), decltype(askAbout)>{bounds, isWanted, askAbout}, least);
+    return eachNearBox(object.getAABB(), ask, least);
   }
 
   /// The same for the pairs of objects here: ask(first, second, least).
@@ -144,6 +141,16 @@ class ObjectBroadPhase {
   }
 
   /// The same for the pairs of an object here and one of others: ask(own, other, least).
+  template <class Ask>
+  bool eachNearPairWith(const ObjectBroadPhase& others, const Ask& ask, S& least) const {
+    for (BoxId id = 0; id < others.m_rows.bound(); ++id) {
+      const auto askOf = [&](Object* own, S& now) { return ask(own, others.m_rows[id], now); };
+      if (others.m_rows.hasBox(id) && eachNearBox(others.m_rows.bounds(id), askOf, least)) return true;
+    }
+    return false;
+  }
+
+  /// The same with a host's objects as they lie, those of a manager of another kind.
   template <class Ask>
   bool eachNearPairWith(const std::vector<Object*>& others, const Ask& ask, S& least) const {
     return std::any_of(others.begin(), others.end(), [&](Object* other) {
@@ -190,6 +197,15 @@ class ObjectBroadPhase {
     if (min[0] <= max[0] && min[1] <= max[1] && min[2] <= max[2]) return true;
     if (hasNan(toBox(bounds))) throw InvalidBox(0, "the box of the query has a NaN");
     return false;
+  }
+
+  /// eachNear() of a box.
+  template <class Ask>
+  bool eachNearBox(const Bounds& bounds, const Ask& ask, S& least) const {
+    const auto askAbout = [&](BoxId id) { return ask(m_rows[id], least); };
+    const auto isWanted = [](BoxId) { return true; };
+    return isBox(bounds) &&
+           askNear(Question<decltype(isWanted), decltype(askAbout)>{bounds, isWanted, askAbout}, least);
   }
 
   /// Calls visit(id) for the objects whose boxes overlap a box until it returns true, and says whether it did.
