@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -37,8 +38,14 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
 /// is not complete.
 class PartFile {
  public:
+  /// Bad input: a place that is taken by what is no file, such as a device, throws FileError.
   explicit PartFile(const fs::path& target)
-      : m_target(target), m_part(target.string() + '.' + std::to_string(::getpid()) + ".part") {}
+      : m_target(linked(target)), m_part(m_target.string() + '.' + std::to_string(::getpid()) + ".part") {
+    const fs::file_status there = fs::status(m_target);
+    if (!fs::exists(there)) return;
+    if (!fs::is_regular_file(there)) throw FileError(target, "is there and is no file that can be replaced");
+    m_mode = there.permissions();
+  }
   ~PartFile() {
     std::error_code ignored;
     if (m_isThere) fs::remove(m_part, ignored);
@@ -55,18 +62,33 @@ class PartFile {
 
   void commit() {
     std::error_code problem;
-    fs::rename(m_part, m_target, problem);
+    if (m_mode) fs::permissions(m_part, *m_mode, problem);
+    if (!problem) fs::rename(m_part, m_target, problem);
     if (problem) throw FileError(m_target, "cannot be replaced: " + problem.message());
     m_isThere = false;
   }
 
  private:
+  /// What a link leads to in the end: the link stays.
+  static fs::path linked(const fs::path& path) {
+    return fs::is_symlink(fs::symlink_status(path)) ? fs::weakly_canonical(path) : path;
+  }
+
   fs::path m_target;
   fs::path m_part;
+  std::optional<fs::perms> m_mode;  ///< Of the file that is replaced.
   WorkFile m_file;
   bool m_isThere = false;
   std::uint64_t m_position = 0;
 };
+
+/// A join reads its inputs to its end, and again if it is resumed.
+void checkIsNoInput(const fs::path& output, std::span<const fs::path> inputs) {
+  std::error_code ignored;  // a file that is not there is none, or is refused when it is read
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(input, output, ignored)) throw FileError(output, "is an input; the output needs another name");
+  }
+}
 
 bool hasAny(const scene::BoxValueFiles& files) {
   return !files.margins.empty() || !files.groups.empty() || !files.categories.empty() || !files.masks.empty();
@@ -108,6 +130,11 @@ JoinSummary joinFiles(Span<const fs::path> inputs, const fs::path& output, const
   if (output.filename().empty() || fs::is_directory(output)) throw FileError(output, "is no name for a file");
   JoinOptions options = given;
   if (options.work.empty()) options.work = output.string() + ".work";
+  checkIsNoInput(output, inputs);
+  checkIsNoInput(output, options.second);
+  for (const scene::BoxValueFiles& files : {options.values, options.secondValues}) {
+    for (const auto& of : {files.margins, files.groups, files.categories, files.masks}) checkIsNoInput(output, of);
+  }
   PartFile part(output);
   options.commit = [&part] { part.commit(); };
   return joinFiles(inputs, ResultSink([&part](std::string_view bytes) { part.write(bytes); }), options);

@@ -2,6 +2,7 @@
 #include "allpairs/partition/Cell.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,13 @@ double greatestReach(double margin, double distance, double maxMargin) {
 }
 
 bool hasAll(const Cell& cell) { return cell == Cell(); }
+
+void checkCell(const Cell& cell) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!std::isnan(cell.min[axis]) && !std::isnan(cell.max[axis])) continue;
+    throw InvalidArgument("the cell has a NaN on the " + std::string(1, "xyz"[axis]) + " axis");
+  }
+}
 
 void checkIds(const BoxView& boxes, std::span<const std::uint64_t> ids) {
   if (ids.size() == boxes.size()) return;
@@ -121,6 +129,7 @@ void CellSearch::setFilter(Filter filter) {
 }
 
 void CellSearch::stream(const BoxView& boxes, const Cell& cell, PairVisitor visitor) {
+  checkCell(cell);
   State& state = *m_state;
   state.count = 0;
   if (hasAll(cell)) {
@@ -133,6 +142,7 @@ void CellSearch::stream(const BoxView& boxes, const Cell& cell, PairVisitor visi
 }
 
 void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell& cell, PairVisitor visitor) {
+  checkCell(cell);
   State& state = *m_state;
   state.count = 0;
   if (hasAll(cell)) {

@@ -15,7 +15,14 @@ namespace {
 
 constexpr double kGreatestShare = 0.9;  // of the boxes on one side: a cut that divides less only makes copies
 
+void checkDistance(double distance) {
+  if (std::isnan(distance) || distance == -std::numeric_limits<double>::infinity()) {
+    throw InvalidArgument("the distance is NaN or -infinity");
+  }
+}
+
 std::vector<Box> reachesOf(const BoxView& boxes, double distance) {
+  checkDistance(distance);
   const double maxMargin = greatestMargin(boxes);  // of no box it is not asked for
   std::vector<Box> reaches;
   reaches.reserve(boxes.size());
@@ -220,6 +227,8 @@ double greatestMargin(const BoxView& boxes) noexcept {
 
 std::vector<std::uint64_t> boxesPerCell(const Partition& partition, const BoxView& boxes, double distance,
                                         double maxMargin) {
+  checkDistance(distance);
+  if (std::isnan(maxMargin)) throw InvalidArgument("the greatest margin is NaN");
   const double greatest = std::max(maxMargin, greatestMargin(boxes));
   std::vector<std::uint64_t> counts(partition.size());
   std::vector<std::uint32_t> cells;

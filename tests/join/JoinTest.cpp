@@ -37,6 +37,42 @@ TEST(Join, WritesAFileAndLeavesNothingElse) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(with.folder.path()), {}), 2);
 }
 
+TEST(Join, ReplacesAFileAndNothingElse) {
+  namespace fs = std::filesystem;
+  const std::vector<Box> boxes = toDouble(randomBoxes(200, 11));
+  const JoinCase with(boxes);
+  const fs::path output = with.folder.write("pairs.npy", "old");
+  const fs::perms secret = fs::perms::owner_read | fs::perms::owner_write;
+  fs::permissions(output, secret);
+  const fs::path link = with.folder.path() / "link.npy";
+  fs::create_symlink("pairs.npy", link);
+  joinFiles(with.paths, link);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_TRUE(bytesOfFile(output) == expectedBytes(boxes));
+  EXPECT_EQ(fs::status(output).permissions(), secret);
+  ASSERT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THROW(joinFiles(with.paths, "/dev/null", with.options()), FileError);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(Join, NoInputIsReplaced) {
+  const JoinCase with(toDouble(randomBoxes(200, 11)));
+  const std::string before = bytesOfFile(with.paths[0]);
+  const std::filesystem::path link = with.folder.path() / "link.npy";
+  std::filesystem::create_symlink(with.paths[0].filename(), link);
+  for (const auto& output : {with.paths[0], link}) {
+    EXPECT_THROW(joinFiles(with.paths, output), FileError);
+    join::JoinOptions options;
+    options.second = with.paths;
+    const JoinCase others(toDouble(randomBoxes(20, 12)));
+    EXPECT_THROW(joinFiles(others.paths, output, options), FileError);
+    options.second.clear();
+    options.values.margins = with.paths;
+    EXPECT_THROW(joinFiles(others.paths, output, options), FileError);
+  }
+  EXPECT_EQ(bytesOfFile(with.paths[0]), before);
+}
+
 TEST(Join, InTheLeastMemoryAndWithThreadsItIsTheSearchInMemory) {
   const std::vector<Box> boxes = toDouble(randomBoxes(300'000, 12));
   const JoinCase with(boxes);

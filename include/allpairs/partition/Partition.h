@@ -38,6 +38,7 @@ class Partition {
   /// fewest boxes lie on both sides; what no cut divides stays one cell.
   ///
   /// The sample stands for all boxes: some hundred for each cell suffice. Its margins count.
+  /// Bad input: a distance that is NaN or -infinity throws InvalidArgument.
   /// Cost: O(s log(cells)) for a sample of s boxes.
   Partition(const BoxView& sample, std::size_t cells, double distance = 0.0);
 
