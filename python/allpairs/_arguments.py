@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Literal, NamedTuple, TypeVar, Union, cast
 
@@ -54,14 +55,18 @@ def strategy_of(strategy: str) -> _core.Strategy:
     return choice("strategy", strategy, _STRATEGIES)
 
 
-def whole(name: str, value: int, least: int = 0, most: int = _UINT64_MAX) -> int:
-    """An argument that counts something."""
+def integer(name: str, value: int) -> int:
     try:
-        number = operator.index(value)
+        return operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {_shown(value)}; it takes an integer") from None
+
+
+def whole(name: str, value: int, least: int = 0, most: int = _UINT64_MAX) -> int:
+    """An argument that counts something."""
+    number = integer(name, value)
     if number < least:
-        raise InvalidArgument(f"{name} is {number}; it is at least {least}")
+        raise InvalidArgument(f"{name} is {_shown(number)}; it is at least {least}")
     if number > most:
         raise InvalidArgument(f"{name} is {_shown(number)}; it is at most {most}")
     return number
@@ -95,6 +100,31 @@ def _shown(value: object) -> str:
     return text if len(text) <= 80 else text[:77] + "..."
 
 
+def path_of(name: str, value: str | bytes | os.PathLike[Any]) -> str:
+    """A path of a file or folder."""
+    try:
+        path = os.fsdecode(value)
+        encoded = os.fsencode(path)
+    except TypeError:
+        raise TypeError(f"{name} is {_shown(value)}; it takes a path") from None
+    except UnicodeError:
+        raise InvalidArgument(f"{name} is {_shown(value)}, which no file can be called") from None
+    if b"\0" in encoded:
+        raise InvalidArgument(f"{name} is {_shown(value)}, which no file can be called")
+    return path
+
+
+def paths_of(name: str, value: Any) -> list[str]:
+    """One path or several."""
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return [path_of(name, value)]
+    try:
+        each = list(value)
+    except TypeError:
+        raise TypeError(f"{name} is {_shown(value)}; it takes a path or several") from None
+    return [path_of(name, path) for path in each]
+
+
 def is_one(value: object) -> bool:
     """Whether it is a single value, and no array."""
     return bool(np.isscalar(value)) or (isinstance(value, np.ndarray) and value.ndim == 0)
@@ -104,10 +134,20 @@ def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """The value as an array; NumPy would drop the mask of a masked one, and what it hides would count."""
     if type(value) is np.ndarray:
         return value
-    rows = value if isinstance(value, (list, tuple)) else (value,)
-    if any(np.any(row.mask) for row in rows if isinstance(row, np.ma.MaskedArray)):
+    if _hides(value):
         raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
-    return np.asarray(value)
+    try:
+        return np.asarray(value)
+    except ValueError as error:  # of rows of several lengths
+        raise InvalidArgument(f"{name} is no array: {_shown(str(error))}") from None
+
+
+def _hides(value: object) -> bool:
+    """Whether it is a masked array with masked entries, or a list that has one."""
+    if isinstance(value, (list, tuple)):
+        of_numbers = bool(value) and isinstance(value[0], (int, float))  # a row, of which there may be many
+        return not of_numbers and any(_hides(row) for row in value if isinstance(row, (list, tuple, np.ma.MaskedArray)))
+    return isinstance(value, np.ma.MaskedArray) and bool(np.any(value.mask))
 
 
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
@@ -270,8 +310,9 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     if array.dtype.kind == "i" or array.dtype.itemsize > 4:
         outside = (array < 0) | (array > _UINT32_MAX)
         if outside.any():
-            index = int(np.argwhere(outside)[0][0])
-            raise InvalidBox(f"{name}[{index}] is {array[index]}; it takes 0 to {_UINT32_MAX}", index)
+            place = tuple(int(i) for i in np.argwhere(outside)[0])
+            where = f"{name}[{', '.join(map(str, place))}]" if place else name
+            raise InvalidBox(f"{where} is {array[place]}; it takes 0 to {_UINT32_MAX}", place[0] if place else 0)
     return contiguous(array, np.uint32)
 
 
@@ -284,7 +325,9 @@ def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint3
 
 
 def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
-    """Boxes of a world by number."""
+    """Boxes of a world by number. Booleans, which choose entries of an array elsewhere, are none."""
+    if array_of("ids", value).dtype.kind == "b":
+        raise InvalidArgument("ids has dtype bool; it takes the numbers of boxes")
     array = _uint32("ids", value)
     if array.ndim != 1:
         raise InvalidArgument(f"ids has shape {array.shape}; it takes (k,)")

@@ -47,7 +47,7 @@ class JoinSummary(NamedTuple):
 
 
 def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:
-    names = [os.fsdecode(path) for path in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)]
+    names = _arguments.paths_of(argument, paths)
     if not names:
         raise InvalidArgument(f"{argument} names no file")
     return names
@@ -138,7 +138,7 @@ def join(
     from . import _reading
 
     names = _names_of("inputs", inputs)
-    target = None if output is None else os.fsdecode(output)
+    target = None if output is None else _arguments.path_of("output", output)
     options = _reading.JoinOptions()
     options.distance = _arguments.number("distance", distance)
     options.memory = _arguments.whole("memory", memory)
@@ -149,7 +149,7 @@ def join(
         options.second_values = others[0]
     if region is not None:
         options.set_region(_arguments.region_of(region))
-    options.work = os.fsdecode(work) if work is not None else (target or names[0]) + ".work"
+    options.work = _arguments.path_of("work", work) if work is not None else (target or names[0]) + ".work"
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
 
@@ -418,6 +418,9 @@ class Partition:
         """
         boxes = _arguments.with_margins(_arguments.boxes_of(lower, upper), margin)
         apart, greatest = _arguments.number("distance", distance), _arguments.number("max_margin", max_margin)
+        for name, value in (("distance", apart), ("max_margin", greatest)):
+            if np.isnan(value) or (name == "distance" and value == -np.inf):
+                raise InvalidArgument(f"{name} is {value}")
         rows = np.asarray(self._cells.cells_of(boxes, apart, greatest)).reshape(-1, 2)
         return rows.view(np.int64)
 

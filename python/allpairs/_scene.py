@@ -80,7 +80,10 @@ class Scene:
 
     def __getitem__(self, index: int) -> Model:
         """The model with this index."""
-        return Model(*self._core.model(index + len(self) if index < 0 else index))
+        number = _arguments.integer("index", index)
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"there is no model {number if abs(number) < 2**64 else 'of that number'}; the scene has {len(self)}")
+        return Model(*self._core.model(number % len(self)))
 
     def __iter__(self) -> Iterator[Model]:
         return (self[i] for i in range(len(self)))
@@ -159,7 +162,7 @@ def load(
     Parameters
     ----------
     path : str or path
-    search_roots : iterable of str or path
+    search_roots : str or path, or several
         Folders to search for files that a scene names, after its own folder.
     partial : bool
         Skip models that cannot be placed, with a remark, instead of raising.
@@ -180,10 +183,10 @@ def load(
     """
     from . import _reading
 
-    roots = [os.fsdecode(root) for root in search_roots]
+    roots = _arguments.paths_of("search_roots", search_roots)
     version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
     memory = _arguments.whole("max_memory", max_memory)
-    return Scene(_reading.load(os.fsdecode(path), roots, bool(partial), version, bool(allow_outside), memory))
+    return Scene(_reading.load(_arguments.path_of("path", path), roots, bool(partial), version, bool(allow_outside), memory))
 
 
 def detect(

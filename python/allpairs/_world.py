@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core
+from ._errors import InvalidArgument
 from ._search import Pairs
 
 #: Boxes of a World by number: shape (n,).
@@ -63,7 +64,7 @@ def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
     query.mask = _arguments.bits("mask", values["mask"])
     query.static, query.moving = bool(values["static"]), bool(values["moving"])
     if values["world"] is not None:
-        query.world = _arguments.bits("world", values["world"])
+        query.world = _arguments.whole("world", values["world"], most=_core.EVERY_WORLD - 1)
     return query
 
 
@@ -119,11 +120,10 @@ class World:
 
     def __getstate__(self) -> dict[str, Any]:
         """The settings, and ids, bounds and properties of all boxes."""
-        ids = np.asarray(self._core.ids())
-        properties, margin = map(np.asarray, self._core.properties(ids))
+        ids, boxes, properties, margin = map(np.asarray, self._core.state())
         names = ("category", "mask", "group", "static", "world")
         columns = {name: properties[:, i].copy() for i, name in enumerate(names)}
-        return {"settings": self._settings, "ids": ids, "boxes": self.boxes(ids), "margin": margin, **columns}
+        return {"settings": self._settings, "ids": ids, "boxes": boxes, "margin": margin, **columns}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._settings = state["settings"]
@@ -287,7 +287,8 @@ class World:
         static, moving : bool
             Whether to consider static boxes, and others.
         world : int, optional
-            Only boxes of this world and those of every world. Without it, all worlds are searched one after the other.
+            Only boxes of this world and those of every world; not EVERY_WORLD. Without it, all worlds are searched one
+            after the other.
 
         Returns
         -------
@@ -328,8 +329,13 @@ class World:
         """
         query = _query_filter(locals())
         start, way = _arguments.rays(origins, directions)
+        if len(start) != len(way) and 1 not in (len(start), len(way)):
+            raise InvalidArgument(f"origins has {len(start)} rows and directions {len(way)}")
         start, way = np.broadcast_arrays(start, way)
-        end = np.broadcast_to(_arguments.floats("length", length).astype(np.float64), (len(start),))
+        end = _arguments.floats("length", length).astype(np.float64)
+        if end.shape not in ((), (1,), (len(start),)):
+            raise InvalidArgument(f"length has shape {end.shape}; for {len(start)} rays it takes ({len(start)},)")
+        end = np.broadcast_to(end, (len(start),))
         ids, t = self._core.first_hits(np.column_stack([start, way, end]), query)
         return np.asarray(ids), np.asarray(t)
 

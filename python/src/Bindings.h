@@ -3,6 +3,10 @@
 
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
+#include <string>
+#include <string_view>
+
 namespace allpairs::python {
 
 /// The parts of the modules _core and _files.
@@ -15,5 +19,21 @@ void bindJoin(pybind11::module_& module);
 void bindScene(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindWorlds(pybind11::module_& module);
+
+/// Text as Python has it: of a file, whose bytes may be no UTF-8 and are then shown by number.
+[[nodiscard]] inline pybind11::object textOf(std::string_view text) {
+  const auto size = static_cast<Py_ssize_t>(text.size());
+  PyObject* const made = PyUnicode_DecodeUTF8(text.data(), size, "backslashreplace");
+  if (made == nullptr) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::object>(made);
+}
+
+/// A path as os.fsdecode() would give it.
+[[nodiscard]] inline pybind11::object pathOf(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  PyObject* const made = PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<Py_ssize_t>(text.size()));
+  if (made == nullptr) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::object>(made);
+}
 
 }  // namespace allpairs::python

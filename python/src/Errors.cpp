@@ -22,15 +22,15 @@ void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const InvalidBox& error) {
-    raise("InvalidBox", error.what(), error.index());
+    raise("InvalidBox", textOf(error.what()), error.index());
   } catch (const LimitExceeded& error) {
-    raise("LimitExceeded", error.what(), error.count());
+    raise("LimitExceeded", textOf(error.what()), error.count());
   } catch (const FileError& error) {
-    raise("FileError", error.what(), error.path().string(), error.line(), error.column());
+    raise("FileError", textOf(error.what()), pathOf(error.path()), error.line(), error.column());
   } catch (const InvalidArgument& error) {
-    raise("InvalidArgument", error.what());
+    raise("InvalidArgument", textOf(error.what()));
   } catch (const Error& error) {
-    raise("Error", error.what());
+    raise("Error", textOf(error.what()));
   }
 }
 

@@ -172,30 +172,27 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
 }
 
-MovingBoxes::Ids MovingBoxes::ids() {
+py::tuple MovingBoxes::state() {
   std::vector<BoxId> ids;
-  alone([&](World& world) {
-    ids.reserve(world.size());
-    for (BoxId id = 0; id < world.idBound(); ++id) {
-      if (world.contains(id)) ids.push_back(id);
-    }
-  });
-  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
-}
-
-py::tuple MovingBoxes::properties(const py::buffer& ids) {
-  const IdView view(ids);
+  std::vector<double> bounds;
   std::vector<std::uint32_t> bits;
   std::vector<double> margins;
   alone([&](World& world) {
-    for (const BoxId id : view.ids()) {
+    for (BoxId id = 0; id < world.idBound(); ++id) {
+      if (!world.contains(id)) continue;
+      ids.push_back(id);
+      const Box box = world.box(id);
+      bounds.insert(bounds.end(), box.min.begin(), box.min.end());
+      bounds.insert(bounds.end(), box.max.begin(), box.max.end());
       const BoxProperties properties = world.properties(id);
       bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U,
                                properties.world});
       margins.push_back(properties.margin);
     }
   });
-  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 5),
+  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(ids)),
+                        std::make_unique<NumberArray<double>>(std::move(bounds), 6),
+                        std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 5),
                         std::make_unique<NumberArray<double>>(std::move(margins)));
 }
 

@@ -53,11 +53,9 @@ class MovingBoxes {
   [[nodiscard]] bool contains(BoxId id);
   [[nodiscard]] Numbers boxes(const pybind11::buffer& ids);
 
-  /// All ids, ascending.
-  [[nodiscard]] Ids ids();
-
-  /// In each row category, mask, group, whether the box is static, and its world; and the margins.
-  [[nodiscard]] pybind11::tuple properties(const pybind11::buffer& ids);
+  /// All ids, and for each the box; in each row category, mask, group, whether the box is static, and its world; and the
+  /// margins.
+  [[nodiscard]] pybind11::tuple state();
 
   /// Pairs, and those that began, persisted and ended.
   [[nodiscard]] pybind11::tuple step();

@@ -43,15 +43,17 @@ std::unique_ptr<PairArray> detect(LoadedScene& scene, const DetectionOptions& op
 /// The fields of the package's Model, in its order.
 py::tuple modelOf(const LoadedScene& scene, std::size_t index) {
   const scene::ModelRecord record = scene.model(index);
-  return py::make_tuple(record.name, record.type, record.elements, record.active, record.simulated, record.moving,
-                        record.selfCollision, py::tuple(py::cast(record.groups)), record.contactDistance);
+  return py::make_tuple(textOf(record.name), textOf(record.type), record.elements, record.active, record.simulated,
+                        record.moving, record.selfCollision, py::tuple(py::cast(record.groups)),
+                        record.contactDistance);
 }
 
 /// The fields of the package's Remark, in its order.
 py::list remarkList(std::span<const scene::Remark> from) {
   py::list remarks;
   for (const scene::Remark& remark : from) {
-    remarks.append(py::make_tuple(remark.file.string(), remark.line, remark.subject, remark.reason, remark.isPartial));
+    remarks.append(py::make_tuple(pathOf(remark.file), remark.line, textOf(remark.subject), textOf(remark.reason),
+                                  remark.isPartial));
   }
   return remarks;
 }
@@ -79,7 +81,7 @@ void bindScene(py::module_& module) {
       .def("model", &modelOf)
       .def("remarks", [](const LoadedScene& scene) { return remarkList(scene.remarks()); })
       .def("warnings", [](const LoadedScene& scene) { return remarkList(scene.warnings()); })
-      .def("method", &LoadedScene::method)
+      .def("method", [](const LoadedScene& scene) { return textOf(scene.method()); })
       .def("alarm_distance", &LoadedScene::alarmDistance)
       .def("region", &regionOf)
       .def("detect", &detect);

@@ -101,6 +101,22 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: allpairs.load("a.scn", max_memory=-1), "max_memory is -1; it is at least 0"),
         (lambda: allpairs.load("a.scn", sofa="21.06"), "sofa is '21.06'; it can be '', '20.06', '26.12'"),
         (lambda: allpairs.overlaps(BOXES, order="x" * 1000), "order is 'xxx.*; it can be 'first'"),
+        (lambda: WORLD.remove(-1), "ids is -1; it takes 0 to"),
+        (lambda: WORLD.remove(np.array([False])), "ids has dtype bool"),
+        (lambda: allpairs.overlaps(BOXES, group=np.full((3, 1000), -1)), r"group\[0, 0\] is -1"),
+        (lambda: allpairs.overlaps(BOXES, threads=-(10**5000)), "threads is a large integer; it is at least 0"),
+        (lambda: WORLD.first_hits(np.zeros((2, 3)), np.ones((3, 3))), "origins has 2 rows and directions 3"),
+        (lambda: WORLD.first_hits([0, 0, 0], [1, 0, 0], [1.0, 2.0]), r"length has shape \(2,\)"),
+        (lambda: WORLD.overlapping(BOXES, world=allpairs.EVERY_WORLD), "world is 4294967295; it is at most 4294967294"),
+        (lambda: allpairs.overlaps([[1, 2], [3]]), "lower is no array"),
+        (lambda: allpairs.overlaps_in_worlds([[np.ma.masked_less(BOXES, 2)] * 2]), ".* has masked entries"),
+        (lambda: allpairs.Partition(BOXES, cells=2, distance=np.nan), "the distance is NaN"),
+        (lambda: allpairs.Partition(BOXES, cells=2).cells_of(BOXES, distance=np.nan), "distance is nan"),
+        (lambda: allpairs.Partition(BOXES, cells=2).cells_of(BOXES, max_margin=np.nan), "max_margin is nan"),
+        (lambda: allpairs.overlaps_in_cell(BOXES, None, [0] * len(BOXES), [[0, 0, np.nan], [1, 1, 1]]), "the cell has a NaN"),
+        (lambda: allpairs.MeshCandidates(**MESH, distance=np.nan), "the distance is NaN"),
+        (lambda: allpairs.load("a\0b.csv"), "path is 'a.*which no file can be called"),
+        (lambda: allpairs.load("\ud800.csv"), "path is .*which no file can be called"),
     ],
 )
 def test_numbers_out_of_range_are_named_on_one_line(call, message):
@@ -122,6 +138,8 @@ def test_numbers_out_of_range_are_named_on_one_line(call, message):
         (lambda: WORLD.overlapping(BOXES, mask=0.5), "mask is 0.5; it takes an integer"),
         (lambda: allpairs.MeshCandidates(**MESH, distance=[]), r"distance is \[\]; it takes a number"),
         (lambda: allpairs.load("a.scn", max_memory="1G"), "max_memory is '1G'; it takes an integer"),
+        (lambda: allpairs.join(5), "inputs is 5; it takes a path or several"),
+        (lambda: allpairs.load(5), "path is 5; it takes a path"),
     ],
 )
 def test_values_of_another_type_are_named_on_one_line(call, message):

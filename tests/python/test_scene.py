@@ -140,3 +140,25 @@ def test_a_scene_without_a_pipeline_warns(tmp_path):
     assert allpairs.load(path, sofa="26.12").names == ["/PointCollisionModel1"]
     with pytest.raises(ValueError, match="26.12"):
         allpairs.load(path, sofa="27")
+
+
+def test_names_and_errors_of_files_that_are_no_utf8_show_their_bytes(tmp_path):
+    row = b"Tor\xe9,0,0,0,1,1,1\n"
+    path = tmp_path / "boxes.csv"
+    path.write_bytes(row + row)
+    assert allpairs.load(path).names == ["Tor\\xe9", "Tor\\xe9"]
+    path.write_bytes(b"Tor\xe9,0,0,0,1,x,1\n")
+    with pytest.raises(allpairs.FileError):
+        allpairs.load(path)
+    with pytest.raises(allpairs.FileError, match="missing"):
+        allpairs.load(bytes(tmp_path) + b"/missing\xff.csv")
+
+
+def test_an_index_of_no_model_is_an_index_error():
+    scene = allpairs.load(SCENE)
+    assert scene[-1] == scene[len(scene) - 1]
+    for index in (len(scene), -len(scene) - 1, 2**70):
+        with pytest.raises(IndexError, match="there is no model"):
+            scene[index]
+    with pytest.raises(TypeError, match="index is 1.0"):
+        scene[1.0]

@@ -253,3 +253,28 @@ def test_a_copy_of_a_world_without_boxes_is_one():
     assert len(twin) == 0
     assert twin.add([[0, 0, 0, 1, 1, 1], [2, 2, 2, 3, 3, 3]]).tolist() == [0, 1]
     assert twin.step().pairs.tolist() == [[0, 1]]
+
+
+def test_a_copy_while_others_change_the_world_is_of_one_moment():
+    world = allpairs.World()
+    fixed = world.add(np.tile([0.0, 0, 0, 1, 1, 1], (50, 1)))
+    done = threading.Event()
+
+    def replace():
+        while not done.is_set():
+            ids = world.add(np.tile([5.0, 5, 5, 6, 6, 6], (300, 1)), group=7)
+            world.step()
+            world.remove(ids)
+
+    threads = [threading.Thread(target=replace) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    try:
+        for _ in range(30):
+            state = copy.copy(world).__getstate__()
+            assert set(fixed) <= set(state["ids"])
+            assert ((state["group"] == 7) == (state["boxes"][:, 0] == 5)).all()
+    finally:
+        done.set()
+        for thread in threads:
+            thread.join()
