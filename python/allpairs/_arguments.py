@@ -326,9 +326,10 @@ def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint3
 
 def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """Boxes of a world by number. Booleans, which choose entries of an array elsewhere, are none."""
-    if array_of("ids", value).dtype.kind == "b":
+    given = array_of("ids", value)
+    if given.dtype.kind == "b":
         raise InvalidArgument("ids has dtype bool; it takes the numbers of boxes")
-    array = _uint32("ids", value)
+    array = _uint32("ids", given)
     if array.ndim != 1:
         raise InvalidArgument(f"ids has shape {array.shape}; it takes (k,)")
     return array

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -173,12 +171,9 @@ void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVis
   });
 }
 
-ElementCandidates::ElementCandidates(MeshTopology topology, CandidateOptions options) {
-  // Searches that want nothing would not look at it.
-  if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
-    throw InvalidArgument("the distance is NaN or -infinity");
-  }
-  m_state = std::make_unique<State>(std::move(topology), options);
+ElementCandidates::ElementCandidates(MeshTopology topology, CandidateOptions options)
+    : m_state(std::make_unique<State>(std::move(topology), options)) {
+  static_cast<void>(m_state->search.count(BoxView()));  // refuses a distance that makes no sense, wanted or not
 }
 ElementCandidates::~ElementCandidates() = default;
 ElementCandidates::ElementCandidates(ElementCandidates&&) noexcept = default;

@@ -9,17 +9,15 @@
 #include <utility>
 
 #include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
 
 namespace allpairs::partition {
 namespace {
 
 constexpr double kGreatestShare = 0.9;  // of the boxes on one side: a cut that divides less only makes copies
 
-void checkDistance(double distance) {
-  if (std::isnan(distance) || distance == -std::numeric_limits<double>::infinity()) {
-    throw InvalidArgument("the distance is NaN or -infinity");
-  }
-}
+/// Refuses a distance that a search refuses.
+void checkDistance(double distance) { static_cast<void>(countOverlaps(BoxView(), {.distance = distance})); }
 
 std::vector<Box> reachesOf(const BoxView& boxes, double distance) {
   checkDistance(distance);
