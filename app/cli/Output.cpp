@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/TargetFile.h"
 #include "cli/ExitStatus.h"
 #include "cli/SignalCleanup.h"
 #include "cli/TargetFile.h"
@@ -76,7 +77,7 @@ void Output::openTarget() {
 }
 
 void Output::openBeside() {
-  const fs::path place = resolvedTarget(m_target);
+  const fs::path place = scene::resolvedTarget(m_target);
   if (::access(place.c_str(), F_OK) == 0 && ::access(place.c_str(), W_OK) != 0) fail("replaced");
   m_descriptor = openNameless(place);
   m_isNameless = m_descriptor >= 0;
@@ -95,7 +96,7 @@ void Output::openNamed(const fs::path& place) {
 /// A link cannot replace a file, and a rename can: the complete file gets a name beside its place first.
 void Output::giveName() {
   const std::string source = descriptorPath(m_descriptor);
-  const std::string base = resolvedTarget(m_target).string() + '.' + std::to_string(::getpid());
+  const std::string base = scene::resolvedTarget(m_target).string() + '.' + std::to_string(::getpid());
   for (int attempt = 0; m_temporary.empty(); ++attempt) {
     std::string name = base + '-' + std::to_string(attempt);
     if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
@@ -131,7 +132,7 @@ void Output::commit() {
   if (m_isNameless) giveName();
   if (::close(std::exchange(m_descriptor, -1)) != 0) fail("written");
   if (m_temporary.empty()) return;
-  if (::rename(m_temporary.c_str(), resolvedTarget(m_target).c_str()) != 0) fail("put in its place");
+  if (::rename(m_temporary.c_str(), scene::resolvedTarget(m_target).c_str()) != 0) fail("put in its place");
   keepOnSignal(m_temporary);
   m_temporary.clear();
 }

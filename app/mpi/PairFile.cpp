@@ -15,6 +15,7 @@
 
 #include "allpairs/mpi/OnAllRanks.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/TargetFile.h"
 #include "allpairs/scene/WriteResult.h"
 #include "cli/TargetFile.h"
 
@@ -32,9 +33,7 @@ fs::path checkedTarget(const fs::path& target) {
   const fs::file_status status = fs::status(target, problem);
   if (fs::is_directory(status)) throw FileError(target, "is a folder; -o takes a file");
   if (fs::exists(status) && !fs::is_regular_file(status)) throw FileError(target, "is no file that can be replaced");
-  if (fs::exists(status)) return resolvedTarget(target);
-  if (fs::is_symlink(fs::symlink_status(target, problem))) throw FileError(target, "is a link to nothing");
-  return target;
+  return scene::resolvedTarget(target);
 }
 
 }  // namespace

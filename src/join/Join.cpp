@@ -16,6 +16,7 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadOptions.h"
+#include "allpairs/scene/TargetFile.h"
 
 namespace allpairs::join {
 namespace {
@@ -40,7 +41,8 @@ class PartFile {
  public:
   /// Bad input: a place that is taken by what is no file, such as a device, throws FileError.
   explicit PartFile(const fs::path& target)
-      : m_target(linked(target)), m_part(m_target.string() + '.' + std::to_string(::getpid()) + ".part") {
+      : m_target(scene::resolvedTarget(target)),
+        m_part(m_target.string() + '.' + std::to_string(::getpid()) + ".part") {
     const fs::file_status there = fs::status(m_target);
     if (!fs::exists(there)) return;
     if (!fs::is_regular_file(there)) throw FileError(target, "is there and is no file that can be replaced");
@@ -69,11 +71,6 @@ class PartFile {
   }
 
  private:
-  /// What a link leads to in the end: the link stays.
-  static fs::path linked(const fs::path& path) {
-    return fs::is_symlink(fs::symlink_status(path)) ? fs::weakly_canonical(path) : path;
-  }
-
   fs::path m_target;
   fs::path m_part;
   std::optional<fs::perms> m_mode;  ///< Of the file that is replaced.

@@ -17,9 +17,9 @@ namespace {
 /// Whether it has the form of a UUID: it becomes the name of a folder.
 bool isGuid(std::string_view text) {
   constexpr std::string_view kForm = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
-  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view kHexDigits = "0123456789abcdef";
   return std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), [&](char c, char form) {
-    return form == 'x' ? kDigits.find(c) != std::string_view::npos : c == form;
+    return form == 'x' ? kHexDigits.find(c) != std::string_view::npos : c == form;
   });
 }
 

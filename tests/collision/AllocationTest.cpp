@@ -5,6 +5,7 @@
 
 #include "Fixture.h"
 #include "support/AllocationCount.h"
+#include "support/Strategies.h"
 
 namespace allpairs::test {
 namespace {
@@ -34,8 +35,7 @@ class AllocationTest : public BroadPhaseTest {
 
 class ComponentAllocation : public AllocationTest, public ::testing::WithParamInterface<Strategy> {};
 
-INSTANTIATE_TEST_SUITE_P(EachStrategy, ComponentAllocation,
-                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh));
+INSTANTIATE_TEST_SUITE_P(EachStrategy, ComponentAllocation, ::testing::ValuesIn(kStrategies));
 
 TEST_P(ComponentAllocation, ASecondStepLikeTheFirstAllocatesNothing) {
   addRandom(1200);

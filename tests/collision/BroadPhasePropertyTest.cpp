@@ -8,6 +8,7 @@
 #include "SceneGenerator.h"
 #include "SceneOracle.h"
 #include "SceneWorld.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -18,7 +19,7 @@ using test::IndexPair;
 using test::SceneSpec;
 using test::SceneWorld;
 
-constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
+using test::kStrategies;
 
 std::vector<IndexPair> detectAtOnce(const SceneWorld& world, Strategy strategy) {
   BruteForceBroadPhase phase;

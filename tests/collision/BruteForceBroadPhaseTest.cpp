@@ -7,6 +7,7 @@
 #include "SceneWorld.h"
 #include "allpairs/Overlaps.h"
 #include "support/Numbers.h"
+#include "support/Strategies.h"
 
 namespace allpairs::test {
 namespace {
@@ -343,7 +344,7 @@ TEST_F(Component, ADistanceOfMinusInfinityIsRefusedByEveryStrategy) {
   addTouching(2);
   MethodOfNothing method;
   m_phase.setIntersectionMethod(&method);
-  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+  for (const Strategy strategy : kStrategies) {
     m_phase.setStrategy(strategy);
     EXPECT_THROW(step(), InvalidArgument);
   }

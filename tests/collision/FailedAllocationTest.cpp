@@ -16,6 +16,7 @@
 #include "allpairs/collision/HostedModel.h"
 #include "support/Boxes.h"
 #include "support/FailingAllocation.h"
+#include "support/Strategies.h"
 
 namespace allpairs::collision {
 namespace {
@@ -78,8 +79,7 @@ class Scene {
 
 class FailedComponentAllocation : public ::testing::TestWithParam<Strategy> {};
 
-INSTANTIATE_TEST_SUITE_P(OfEachStrategy, FailedComponentAllocation,
-                         ::testing::Values(Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh));
+INSTANTIATE_TEST_SUITE_P(OfEachStrategy, FailedComponentAllocation, ::testing::ValuesIn(test::kStrategies));
 
 TEST_P(FailedComponentAllocation, OfAFirstStepIsMadeUpForByTheNext) {
   Scene fresh(GetParam());

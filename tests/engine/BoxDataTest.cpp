@@ -13,6 +13,7 @@
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
 #include "support/Data.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -59,7 +60,7 @@ TEST(BoxData, PublishedBoxesGiveThePublishedPairs) {
     if (name.ends_with(".pairs.npy") || !name.ends_with(".npy")) continue;
     ++files;
     for (const std::string_view instructionSet : instructionSets()) {
-      for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+      for (const Strategy strategy : test::kStrategies) {
         OverlapOptions options;
         options.strategy = strategy;
         options.instructionSet = instructionSet;

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <random>
 #include <span>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "allpairs/Overlaps.h"
 #include "support/Boxes.h"
+#include "support/Numbers.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
@@ -69,7 +69,7 @@ TEST(Lines, InAnyDirectionGiveTheDoubleLoopsPairs) {
 }
 
 TEST(Lines, WithOthersBesideThemGiveTheDoubleLoopsPairs) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  using test::kInfinity;
   std::vector<Box> boxes = alongLine(1200, {1, 1, 0}, 2.0);
   boxes[5] = Box{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
   boxes[77] = Box{{0, 0, 0}, {900, 1, 1}};         // long

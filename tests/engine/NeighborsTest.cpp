@@ -22,6 +22,7 @@
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -51,7 +52,7 @@ Rows rowsIn(const Found& found) {
 }
 
 constexpr NeighborRows kKinds[] = {NeighborRows::Full, NeighborRows::Half};
-constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
+using test::kStrategies;
 
 /// Each instruction set on one thread, and the best on several.
 std::vector<OverlapOptions> waysToSearch(Strategy strategy) {

@@ -15,6 +15,7 @@
 #include "support/AnyBoxes.h"
 #include "support/Boxes.h"
 #include "support/Oracle.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -30,7 +31,7 @@ OverlapOptions optionsWith(Strategy strategy, double d) {
   return options;
 }
 
-constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
+using test::kStrategies;
 
 void showBoxes(const std::vector<Box>& boxes) {
   RC_CLASSIFY(boxes.size() > 16, "more than a block");

@@ -22,6 +22,7 @@
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -158,7 +159,7 @@ TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
       }
     }
   }
-  for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+  for (const Strategy strategy : test::kStrategies) {
     OverlapOptions options;
     options.strategy = strategy;
     OverlapSearch search(options);

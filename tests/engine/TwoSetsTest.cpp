@@ -13,6 +13,7 @@
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -77,7 +78,7 @@ std::vector<Meeting> meetings() {
 TEST(TwoSets, ThatMeetAnywhereGiveTheOraclesPairs) {
   for (const Meeting& meeting : meetings()) {
     const std::vector<Pair> expected = test::oracleBetween(meeting.first, meeting.second);
-    for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+    for (const Strategy strategy : test::kStrategies) {
       OverlapOptions options;
       options.strategy = strategy;
       ASSERT_EQ(overlaps(meeting.first, meeting.second, options), expected);

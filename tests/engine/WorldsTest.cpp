@@ -20,6 +20,7 @@
 #include "support/Oracle.h"
 #include "support/PoolExecutor.h"
 #include "support/Sanitizers.h"
+#include "support/Strategies.h"
 
 namespace allpairs {
 namespace {
@@ -89,7 +90,7 @@ TYPED_TEST(WorldsOf, EverySizeGiveTheDoubleLoopsPairs) {
 TYPED_TEST(WorldsOf, MixedSizesGiveWhatEachGivesAloneInEveryOrderOnEveryInstructionSet) {
   for (const std::string_view instructionSet : instructionSets()) {
     for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
-      for (const Strategy strategy : {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh}) {
+      for (const Strategy strategy : test::kStrategies) {
         SCOPED_TRACE(std::string(instructionSet) + ' ' + std::to_string(static_cast<int>(order)) + ' ' +
                      std::to_string(static_cast<int>(strategy)));
         const WorldsScene<TypeParam> scene(mixedSizes(60, static_cast<unsigned>(order)), 7);

@@ -50,6 +50,11 @@ TEST(Join, ReplacesAFileAndNothingElse) {
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_TRUE(bytesOfFile(output) == expectedBytes(boxes));
   EXPECT_EQ(fs::status(output).permissions(), secret);
+  const fs::path toNothing = with.folder.path() / "to-nothing.npy";
+  fs::create_symlink("new.npy", toNothing);
+  joinFiles(with.paths, toNothing);
+  EXPECT_TRUE(fs::is_symlink(toNothing));
+  EXPECT_TRUE(bytesOfFile(with.folder.path() / "new.npy") == expectedBytes(boxes));
   ASSERT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_THROW(joinFiles(with.paths, "/dev/null", with.options()), FileError);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));

