@@ -55,9 +55,9 @@ std::string moreLine(std::size_t left) {
 }
 
 std::size_t mostOfName(const TableNotes& notes, std::size_t others) {
-  constexpr std::size_t kLeast = 12;  // less says nothing, and a line that wraps is better
+  constexpr std::size_t kLeastLength = 12;  // less says nothing, and a line that wraps is better
   if (!notes.width) return std::numeric_limits<std::size_t>::max();
-  return std::max(kLeast, (*notes.width - std::min(*notes.width, others)) / 2);
+  return std::max(kLeastLength, (*notes.width - std::min(*notes.width, others)) / 2);
 }
 
 std::string tableHead(const scene::ResultView& result, const TableNotes& notes) {
