@@ -22,7 +22,8 @@ class Executor {
   /// The number of tasks that may run concurrently; at least 1. It determines how work is divided, never the result.
   [[nodiscard]] virtual std::size_t concurrency() const noexcept = 0;
 
-  /// Calls task(0) … task(count - 1), each once, in any order and on any thread, and returns when all are done.
+  /// Calls task(0) … task(count - 1), each once, in any order and on any thread, and returns when all are done. A thread
+  /// that waits for its tasks here runs no tasks of other calls meanwhile: it may hold a lock that they wait for.
   ///
   /// Bad input: if tasks throw, one of their exceptions is rethrown here, once no task is running.
   virtual void run(std::size_t count, FunctionRef<void(std::size_t)> task) = 0;

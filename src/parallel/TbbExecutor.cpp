@@ -6,8 +6,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "TaskFence.h"
 #include "allpairs/Error.h"
@@ -18,30 +21,76 @@ namespace {
 int checkedThreads(std::size_t threads) {
   constexpr std::size_t kMost = 65535;
   if (threads > kMost) throw InvalidArgument(std::to_string(threads) + " threads; at most 65535 can be asked for");
-  return threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads);
+  return threads == 0 ? tbb::info::default_concurrency() : static_cast<int>(threads);
 }
+
+/// The executor whose task runs on this thread; null for none.
+thread_local const TbbExecutor* current = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+/// Marks the task that runs.
+class Inside {
+ public:
+  explicit Inside(const TbbExecutor* executor) noexcept : m_outer(std::exchange(current, executor)) {}
+  ~Inside() { current = m_outer; }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+
+ private:
+  const TbbExecutor* m_outer;
+};
 
 }  // namespace
 
-struct TbbExecutor::Arena {
-  explicit Arena(int threads) : tasks(threads) {
+/// An arena for each call that runs at the same time: a thread that comes from outside would wait for a place in one
+/// whose threads all wait, for a lock that it holds.
+class TbbExecutor::Arenas {
+ public:
+  explicit Arenas(int threads) : m_threads(threads) {
     // oneTBB starts no more workers than the machine has cores, and warns on standard error, unless it is told to.
     if (threads > tbb::info::default_concurrency()) {
-      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+      m_limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     }
   }
 
-  std::optional<tbb::global_control> limit;
-  tbb::task_arena tasks;
+  [[nodiscard]] int threads() const noexcept { return m_threads; }
+
+  template <class Work>
+  void execute(const Work& work) {
+    const auto putBack = [this](tbb::task_arena* arena) { put(arena); };
+    const std::unique_ptr<tbb::task_arena, decltype(putBack)> arena(take(), putBack);
+    arena->execute(work);
+  }
+
+ private:
+  tbb::task_arena* take() {
+    const std::lock_guard lock(m_mutex);
+    if (m_idle.empty()) {
+      m_idle.reserve(m_all.size() + 1);  // so that each can be put back
+      m_all.push_back(std::make_unique<tbb::task_arena>(m_threads));
+      return m_all.back().get();
+    }
+    tbb::task_arena* const arena = m_idle.back();
+    m_idle.pop_back();
+    return arena;
+  }
+
+  void put(tbb::task_arena* arena) noexcept {
+    const std::lock_guard lock(m_mutex);
+    m_idle.push_back(arena);
+  }
+
+  int m_threads;
+  std::optional<tbb::global_control> m_limit;
+  std::mutex m_mutex;
+  std::vector<std::unique_ptr<tbb::task_arena>> m_all;
+  std::vector<tbb::task_arena*> m_idle;
 };
 
-TbbExecutor::TbbExecutor(std::size_t threads) : m_arena(std::make_unique<Arena>(checkedThreads(threads))) {}
+TbbExecutor::TbbExecutor(std::size_t threads) : m_arenas(std::make_unique<Arenas>(checkedThreads(threads))) {}
 
 TbbExecutor::~TbbExecutor() = default;
 
-std::size_t TbbExecutor::concurrency() const noexcept {
-  return static_cast<std::size_t>(m_arena->tasks.max_concurrency());
-}
+std::size_t TbbExecutor::concurrency() const noexcept { return static_cast<std::size_t>(m_arenas->threads()); }
 
 void TbbExecutor::run(std::size_t count, FunctionRef<void(std::size_t)> task) {
   // A single task needs no other thread: entering the arena would take longer than most such tasks.
@@ -52,9 +101,14 @@ void TbbExecutor::run(std::size_t count, FunctionRef<void(std::size_t)> task) {
   TaskFence fence;
   const auto runOne = [&](std::size_t i) {
     const TaskFence::Task mark(fence);
+    const Inside inside(this);
     task(i);
   };
-  m_arena->tasks.execute([&] { tbb::parallel_for(std::size_t{0}, count, runOne, tbb::simple_partitioner()); });
+  // Isolated: a thread that waits for its tasks takes none of other calls, which may need what it holds.
+  const auto runAll = [&] {
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, runOne, tbb::simple_partitioner()); });
+  };
+  current == this ? runAll() : m_arenas->execute(runAll);
 }
 
 }  // namespace allpairs::parallel

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/World.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
 
@@ -147,6 +149,73 @@ TEST(TbbExecutor, RunsEachTaskOnce) {
   executor.run(runs.size(), [&](std::size_t i) { ++runs[i]; });
   for (const std::atomic<int>& count : runs) EXPECT_EQ(count.load(), 1);
   executor.run(0, [](std::size_t) { FAIL() << "there is no task"; });
+}
+
+/// It may hold a lock for which the other task waits.
+TEST(TbbExecutor, AThreadThatWaitsForTasksBeginsNoneOfAnotherCall) {
+  parallel::TbbExecutor executor(4);
+  static thread_local bool isWithin = false;
+  std::atomic<int> begunWithin = 0;
+  executor.run(200, [&](std::size_t) {
+    if (isWithin) ++begunWithin;
+    isWithin = true;
+    executor.run(8, [](std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(100)); });
+    isWithin = false;
+  });
+  EXPECT_EQ(begunWithin.load(), 0);
+}
+
+/// As where it holds a lock for which they wait.
+TEST(TbbExecutor, AThreadFromOutsideNeedsNoneOfThoseThatWaitForIt) {
+  constexpr auto kPatience = std::chrono::seconds(30);  // a deadlock otherwise
+  parallel::TbbExecutor executor(2);
+  std::atomic<int> waiting = 0;
+  std::atomic<bool> isDone = false;
+  std::thread outside([&] {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (waiting < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    executor.run(4, [](std::size_t) {});
+    isDone = true;
+  });
+  std::atomic<int> given = 0;
+  executor.run(2, [&](std::size_t) {
+    ++waiting;
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!isDone && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    if (isDone) ++given;
+  });
+  EXPECT_EQ(given.load(), 2);
+  outside.join();
+}
+
+TEST(World, QueriesOfOneWorldFromTasksAndFromOutsideNeverWaitForEachOther) {
+  parallel::TbbExecutor executor(4);
+  WorldOptions options;
+  options.executor = &executor;
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(20000, 5));
+  World world(options);
+  const std::vector<BoxId> ids = world.add(boxes);
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < 32; ++i) expected += world.findOverlapping(boxes[i]).size();
+  for (int round = 0; round < 20; ++round) {
+    world.move(ids, boxes);
+    std::vector<Box> moved = boxes;
+    moved[0].max[0] += 1e-9;  // so that the hierarchies have to be updated
+    world.move(ids, moved);
+    world.move(ids, boxes);
+    std::atomic<std::size_t> found = 0;
+    std::atomic<std::size_t> foundOutside = 0;
+    const auto ask = [&](std::size_t i, std::atomic<std::size_t>& sum) {
+      sum += world.findOverlapping(boxes[i]).size();
+    };
+    std::thread outside([&] {
+      for (std::size_t i = 0; i < 32; ++i) ask(i, foundOutside);
+    });
+    executor.run(32, [&](std::size_t i) { ask(i, found); });
+    outside.join();
+    EXPECT_EQ(found.load(), expected);
+    EXPECT_EQ(foundOutside.load(), expected);
+  }
 }
 
 TEST(TbbExecutor, HasTheThreadsItWasAskedFor) {

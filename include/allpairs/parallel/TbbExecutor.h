@@ -8,9 +8,11 @@
 
 namespace allpairs::parallel {
 
-/// Runs tasks on oneTBB, in its own arena.
+/// Runs tasks on oneTBB, in arenas of its own.
 ///
-/// Threads: run() may be called from several threads at once, and from inside a task.
+/// Threads: run() may be called from several threads at once, each of which has all threads of the executor, and from
+///          inside a task. A thread that calls it runs tasks of that call alone, and waits for no other: it may hold a
+///          lock.
 class TbbExecutor final : public Executor {
  public:
   /// `threads` includes the calling thread; 0 means one per hardware thread. More than that raise oneTBB's process-wide
@@ -24,8 +26,8 @@ class TbbExecutor final : public Executor {
   void run(std::size_t count, FunctionRef<void(std::size_t)> task) override;
 
  private:
-  struct Arena;
-  std::unique_ptr<Arena> m_arena;
+  class Arenas;
+  std::unique_ptr<Arenas> m_arenas;
 };
 
 }  // namespace allpairs::parallel
