@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Whatever takes long lets other Python threads run meanwhile."""
 
+import functools
 import pathlib
 import sys
+import tempfile
 import threading
 
 import allpairs
@@ -10,8 +12,8 @@ import numpy as np
 import pytest
 from conftest import random_boxes
 
-SCENE = pathlib.Path(__file__).parents[2] / "examples" / "scenes" / "demo.scn"
 BOXES = np.hstack(random_boxes(3000))
+FOLDER = tempfile.TemporaryDirectory()
 
 
 def a_search(size):
@@ -57,12 +59,20 @@ def candidates(size):
     return lambda: mesh.find("face-face")
 
 
-def reading(_):
-    return lambda: allpairs.load(SCENE)
+@functools.lru_cache
+def written(size):
+    path = pathlib.Path(FOLDER.name) / f"{size}.csv"
+    np.savetxt(path, BOXES[:size], delimiter=",")
+    return path
 
 
-def a_detection(_):
-    return allpairs.load(SCENE).detect
+def reading(size):
+    path = written(size)
+    return lambda: allpairs.load(path)
+
+
+def a_detection(size):
+    return allpairs.load(written(size)).detect
 
 
 def lets_others_run(work):
