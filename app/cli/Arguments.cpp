@@ -158,6 +158,20 @@ scene::BoxValueFiles filesOf(const ValueArguments& arguments) {
           .masks = pathsOf(arguments.masks)};
 }
 
+std::vector<std::filesystem::path> filesOf(const BoxSetArguments& arguments) {
+  std::vector<std::filesystem::path> files;
+  const auto add = [&files](const std::vector<std::string>& names) {
+    files.insert(files.end(), names.begin(), names.end());
+  };
+  add(arguments.paths);
+  add(arguments.with);
+  for (const ValueArguments* const values : {&arguments.values, &arguments.withValues}) {
+    for (const auto* const names : {&values->margins, &values->groups, &values->categories, &values->masks})
+      add(*names);
+  }
+  return files;
+}
+
 Box parseRegion(const std::string& text) {
   std::array<double, 6> values{};
   std::size_t count = 0;

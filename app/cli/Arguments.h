@@ -76,6 +76,9 @@ void addBoxValues(CLI::App& command, BoxSetArguments& arguments);
 [[nodiscard]] std::vector<std::filesystem::path> pathsOf(const std::vector<std::string>& names);
 [[nodiscard]] scene::BoxValueFiles filesOf(const ValueArguments& arguments);
 
+/// All files that are named.
+[[nodiscard]] std::vector<std::filesystem::path> filesOf(const BoxSetArguments& arguments);
+
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///
 /// Bad input: throws UsageError.

@@ -20,10 +20,17 @@ struct Removed {
 
 // A signal handler sees nothing but what is global.
 std::atomic<const Removed*> newest = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<StopFlag*> stopped = nullptr;      // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<int> signalSeen = 0;               // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 static_assert(std::atomic<const Removed*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 /// Calls only what is safe in a handler.
 extern "C" void removeAndEnd(int signal) {
+  if (StopFlag* const flag = stopped.exchange(nullptr)) {
+    signalSeen = signal;
+    flag->set();
+    return;
+  }
   for (const Removed* one = newest; one != nullptr; one = one->older) {
     if (one->isSet && ::unlink(one->path.c_str()) != 0) ::rmdir(one->path.c_str());
   }
@@ -50,6 +57,13 @@ void installSignalCleanup() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     if (std::signal(signal, removeAndEnd) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup wants it
   }
+}
+
+StopOnSignal::StopOnSignal() noexcept { stopped = &m_flag; }
+
+StopOnSignal::~StopOnSignal() {
+  stopped = nullptr;
+  if (const int signal = signalSeen.exchange(0); signal != 0) std::raise(signal);
 }
 
 }  // namespace allpairs::app

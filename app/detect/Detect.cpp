@@ -13,6 +13,7 @@
 #include "Commands.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
+#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
@@ -186,6 +187,7 @@ void makeScene(Inputs& inputs) {
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
+  scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
   Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
   if (settings.format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");

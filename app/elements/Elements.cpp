@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "Commands.h"
+#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/NpyOutput.h"
@@ -144,6 +145,7 @@ void checkElementsExtension(const std::string& path) {
 
 void runElements(const ElementSettings& settings) {
   checkElementsExtension(settings.output);
+  scene::checkIsNoInput(settings.output, pathsOf(settings.paths));
   ElementReport report;
   report.distance = parseDistance(settings.distance);
   report.betweenOnly = settings.between;

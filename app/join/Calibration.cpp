@@ -16,6 +16,7 @@
 #include "allpairs/scene/FileError.h"
 #include "cli/NpyOutput.h"
 #include "cli/Output.h"
+#include "cli/SignalCleanup.h"
 #include "cli/Timer.h"
 
 namespace allpairs::app {
@@ -68,6 +69,8 @@ double JoinCost::secondsFor(const join::JoinSummary& plan) const {
 
 /// Counting has no pairs to write, so that the difference is theirs.
 JoinCost measureJoinCost(const fs::path& place, const join::JoinSummary& plan, join::JoinOptions options) {
+  const StopOnSignal signals;  // before the folder, which is gone when the program ends
+  options.stop = signals.flag();
   const Folder folder(place);
   const std::array<fs::path, 1> input{folder.file("boxes.npy")};
   writeBoxes(input[0], boxesFor(plan, options.memory));

@@ -14,6 +14,7 @@
 #include "Commands.h"
 #include "allpairs/join/Join.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/TargetFile.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -100,6 +101,7 @@ void runJoin(const JoinSettings& settings) {
   if (!extension.empty() && extension != ".npy") {
     throw UsageError("join writes .npy files; the name of its output ends in something else");
   }
+  scene::checkIsNoInput(settings.output, filesOf(settings.shared.sets));
   join::JoinOptions options = joinOptions(settings.shared);
   const std::unique_ptr<Executor> executor = executorOf(settings.threads);
   options.executor = executor.get();
@@ -121,7 +123,8 @@ void runJoin(const JoinSettings& settings) {
           inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
     }
   } catch (const FileError& problem) {
-    if (problem.path() == options.work || !std::filesystem::exists(options.work / "manifest")) throw;
+    const std::filesystem::path manifest = options.work / "manifest";
+    if (problem.path() == options.work || problem.path() == manifest || !std::filesystem::exists(manifest)) throw;
     throw FileError(problem.path(),
                     problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }

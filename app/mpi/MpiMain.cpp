@@ -20,6 +20,7 @@
 #include "allpairs/mpi/OnAllRanks.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
@@ -109,6 +110,9 @@ class Join {
     if (output.empty() && !m_settings.count) throw UsageError("join takes -o FILE, or --count");
     if (!output.empty() && m_settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
     if (!output.empty() && !output.ends_with(".npy")) throw UsageError("join writes .npy files; name its output so");
+    allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [this] {
+      if (m_rank == 0) allpairs::scene::checkIsNoInput(m_settings.output, allpairs::app::filesOf(m_settings.sets));
+    });
   }
 
   void say(std::uint64_t pairs, const std::string& boxes) const {

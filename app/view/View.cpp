@@ -18,6 +18,8 @@
 #include "WritePage.h"
 #include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/TargetFile.h"
+#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -103,6 +105,7 @@ view::ViewScene sceneOf(const ViewSettings& settings) {
 }
 
 void runView(const ViewSettings& settings) {
+  scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
   const view::ViewScene scene = sceneOf(settings);
   std::optional<std::filesystem::path> path;
   if (!settings.output.empty()) path = settings.output;

@@ -172,6 +172,25 @@ def _ids_of(value: npt.ArrayLike, length: int, prefix: str = "") -> npt.NDArray[
     return _arguments.contiguous(array, dtype=np.uint64)
 
 
+def _by_id(values: dict[str, Any]) -> dict[str, Any]:
+    """The boxes in the order of their ids, in which the margins of two are added up; all as it is where that is the same."""
+    if values["margin"] is None or _arguments.is_one(values["margin"]):
+        return values
+    ids = _arguments.array_of("ids", values["ids"])
+    if ids.ndim != 1 or ids.dtype.kind not in "iu" or (ids[1:] >= ids[:-1]).all():
+        return values
+    order = np.argsort(ids, kind="stable")
+    given = {name: values[name] for name in ("lower", "upper", "ids", *_arguments.OF_EACH_BOX)}
+    arrays = {
+        name: _arguments.array_of(name, value)
+        for name, value in given.items()
+        if value is not None and not _arguments.is_one(value)
+    }
+    if any(array.ndim == 0 or len(array) != len(order) for array in arrays.values()):
+        return values  # which is an error, and said as one
+    return {**values, **{name: array[order] for name, array in arrays.items()}}
+
+
 def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
     """Boxes of a cell, and the settings of a search of them."""
     boxes = _arguments.with_margins(_arguments.boxes_of(values["lower"], values["upper"]), values["margin"])
@@ -242,8 +261,9 @@ def overlaps_in_cell(
     array([[50, 60],
            [60, 70]], dtype=uint64)
     """
-    boxes, options = _one(locals())
-    return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(ids, len(boxes)), _cell_of(cell), options))
+    values = _by_id(locals())
+    boxes, options = _one(values)
+    return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(values["ids"], len(boxes)), _cell_of(cell), options))
 
 
 def overlaps_between_in_cell(

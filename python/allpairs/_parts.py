@@ -29,8 +29,8 @@ class BoxParts(NamedTuple):
     sizes: list[int]
     values: list[Values]
     """Of each part, what was given."""
-    whose: str
-    """What errors call the set."""
+    places: list[tuple[str, int]]
+    """Of each part, what errors call what it is of, and the number there of its first box."""
 
     @property
     def begins(self) -> list[int]:
@@ -39,7 +39,18 @@ class BoxParts(NamedTuple):
 
 
 def _read(path: str) -> Array:
-    array: Array = np.load(path, mmap_mode="r", allow_pickle=False)
+    """An array in a file, which is mapped."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise InvalidArgument(f"{path} is no file")
+    try:
+        array = np.load(path, mmap_mode="r", allow_pickle=False)
+    except (ValueError, EOFError) as problem:
+        raise InvalidArgument(f"{path} cannot be read as .npy: {problem}") from None
+    if not isinstance(array, np.ndarray):
+        raise InvalidArgument(f"{path} cannot be read as .npy: it holds several arrays")
+    end = getattr(array, "offset", 0) + array.nbytes
+    if isinstance(array, np.memmap) and array.size and end != os.path.getsize(path):
+        raise InvalidArgument(f"{path} is {os.path.getsize(path)} bytes long; its array ends at {end}")
     return array
 
 
@@ -60,14 +71,14 @@ def _check_chunks(argument: str, array: Any) -> None:
         raise InvalidArgument(f"{argument} has chunks of unknown sizes; call compute_chunk_sizes() before")
 
 
-def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int]]:
-    """The boxes as parts that tasks read, and the number of boxes in each."""
+def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int], list[str]]:
+    """The boxes as parts that tasks read, the number of boxes in each, and the files, if they are of files."""
     if isinstance(boxes, DaskArray):
         if boxes.ndim != 2 or boxes.shape[1] != 6:
             raise InvalidArgument(f"{argument} has shape {boxes.shape}; it takes (n, 6)")
         _check_chunks(argument, boxes)
         rows = boxes.rechunk({1: 6})
-        return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]]
+        return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]], []
     names = _files_of(boxes)
     if names is None:
         raise TypeError(f"{argument} is {type(boxes).__name__}; it takes a dask array, or .npy files")
@@ -77,7 +88,7 @@ def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int]]:
     for name, shape in zip(names, shapes):
         if len(shape) != 2 or shape[1] != 6:
             raise InvalidArgument(f"{name} has shape {shape}; boxes are (n, 6)")
-    return [delayed(_read)(name) for name in names], [shape[0] for shape in shapes]
+    return [delayed(_read)(name) for name in names], [shape[0] for shape in shapes], names
 
 
 def _checked(name: str, values: Array, called: str, begin: int) -> Array:
@@ -168,7 +179,10 @@ def box_parts(boxes: Sequence[Union[Any, None]], values: Values) -> list[BoxPart
     prefixes = [""] if len(given) == 1 else ["first set: ", "second set: "]
     sets = []
     for i, (argument, each) in enumerate(zip(("boxes", "second"), given)):
-        plain = BoxParts(*_boxes_of(argument, each), [], called[i])
+        parts, sizes, files = _boxes_of(argument, each)
+        plain = BoxParts(parts, sizes, [], [(file, 0) for file in files])
+        if not files:
+            plain = plain._replace(places=[(called[i], begin) for begin in plain.begins[:-1]])
         columns = {
             name: _of_each_part(name, pair[i], plain.begins, prefixes[i]) for name, pair in own.items() if pair[i] is not None
         }

@@ -8,10 +8,11 @@ Dask (Debian: python3-dask, and python3-distributed for several processes).
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple, Optional, Union
+from uuid import uuid4
 
 import numpy as np
 import numpy.typing as npt
@@ -72,15 +73,15 @@ def _chosen(value: Any, rows: Array) -> Any:
     return value if _arguments.is_one(value) else value[rows]
 
 
-def _divide(part: Array, values: Values, plan: _Plan, *, begin: int, whose: str) -> list[_Piece]:
-    """The boxes of a part by cell, with their numbers."""
+def _divide(part: Array, values: Values, plan: _Plan, *, begin: int, place: tuple[str, int]) -> list[_Piece]:
+    """The boxes of a part by cell, with their numbers; errors call them by their place."""
     boxes = _arguments.floats("boxes", _arguments.contiguous(part))
     try:
         homes = plan.partition.cells_of(
             boxes, distance=plan.distance, margin=values.get("margin"), max_margin=plan.greatest
         )
     except InvalidBox as problem:
-        raise InvalidArgument(f"box {begin + problem.index} of {whose}: {problem}") from None
+        raise InvalidArgument(f"box {place[1] + problem.index} of {place[0]}: {problem}") from None
     order = np.argsort(homes[:, 1], kind="stable")
     bounds = np.searchsorted(homes[order, 1], np.arange(len(plan.partition) + 1))
     pieces = []
@@ -140,10 +141,27 @@ def _merge(found: list[Array]) -> Array:
 
 def _write(pairs: Array, path: str) -> int:
     """The file appears when it is complete, whoever else writes it too."""
-    with tempfile.NamedTemporaryFile(dir=os.path.dirname(path), suffix=".part", delete=False) as file:
-        np.save(file, pairs)
-    os.replace(file.name, path)
+    beside = f"{path}.{uuid4().hex}.part"
+    try:
+        with open(beside, "xb") as file:
+            np.save(file, pairs)
+        os.replace(beside, path)
+    except BaseException:
+        with suppress(OSError):
+            os.remove(beside)
+        raise
     return len(pairs)
+
+
+def _names_in(output: PathLike, count: int) -> list[str]:
+    """The files of a result in a folder, which is made if it is not there."""
+    folder = Path(os.path.abspath(os.fsdecode(output)))
+    folder.mkdir(parents=True, exist_ok=True)
+    names = [str(folder / f"part-{number:05d}.npy") for number in range(count)]
+    others = sorted({str(path) for path in folder.glob("part-*.npy")} - set(names))
+    if others:
+        raise InvalidArgument(f"{others[0]} is of another result, with more parts than the {count} of this one: remove it")
+    return names
 
 
 def _picked(items: Any, index: int) -> Any:
@@ -185,8 +203,8 @@ def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> li
     plan = delayed(_Plan)(partition, distance, greatest)
     divided = [
         [
-            delayed(_divide)(part, values, plan, begin=begin, whose=each.whose)
-            for part, values, begin in zip(each.parts, each.values, each.begins)
+            delayed(_divide)(part, values, plan, begin=begin, place=place)
+            for part, values, begin, place in zip(each.parts, each.values, each.begins, each.places)
         ]
         for each in sets
     ]
@@ -223,7 +241,8 @@ def overlaps(
         A second set: the pairs are those of a box of the first and a box of this, as in `allpairs.overlaps_between`. Both
         sets are numbered by themselves.
     output : path of a folder
-        Write the pairs there, as part-00000.npy and so on, and return their number.
+        Write the pairs there, as part-00000.npy and so on, and return their number. Parts of a result with more parts
+        must not be there.
     distance, region
         As in `allpairs.overlaps`.
     margin, group, category, mask : number, dask array or array_like of shape (n,), path, or list of paths
@@ -257,9 +276,7 @@ def overlaps(
     pick = delayed(_picked)
     merged = [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(sets[0].parts))]
     if output is not None:
-        folder = Path(os.path.abspath(os.fsdecode(output)))
-        folder.mkdir(parents=True, exist_ok=True)
-        names = [str(folder / f"part-{number:05d}.npy") for number in range(len(merged))]
+        names = _names_in(output, len(merged))
         counts: Iterable[int] = compute(*[delayed(_write)(pairs, name) for pairs, name in zip(merged, names)])
         return sum(counts)
     chunks = [from_delayed(pairs, (np.nan, 2), dtype=dtype) for pairs in merged]

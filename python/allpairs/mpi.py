@@ -35,7 +35,7 @@ _Made = TypeVar("_Made")
 _FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto"}
 
 
-def _portable(problem: Optional[Exception]) -> Optional[Exception]:
+def _portable(problem: Optional[BaseException]) -> Optional[BaseException]:
     """An exception that arrives at other ranks as it left; of one that would not, its text."""
     try:
         if type(pickle.loads(pickle.dumps(problem))) is type(problem):
@@ -47,13 +47,13 @@ def _portable(problem: Optional[Exception]) -> Optional[Exception]:
 
 def _on_all_ranks(comm: MPI.Comm, make: Callable[[], _Made]) -> _Made:
     """Makes something on each rank, and raises on all ranks what one raises."""
-    problem: Optional[Exception] = None
+    problem: Optional[BaseException] = None
     made = None
     try:
         made = make()
-    except Exception as raised:
+    except BaseException as raised:  # the others wait, whatever it is
         problem = raised
-    problems: list[Optional[Exception]] = comm.allgather(_portable(problem))
+    problems: list[Optional[BaseException]] = comm.allgather(_portable(problem))
     for rank, found in enumerate(problems):
         if found is not None and comm.size > 1:
             if rank == comm.rank and problem is not None and not isinstance(problem, Error):

@@ -79,14 +79,6 @@ class PartFile {
   std::uint64_t m_position = 0;
 };
 
-/// A join reads its inputs to its end, and again if it is resumed.
-void checkIsNoInput(const fs::path& output, std::span<const fs::path> inputs) {
-  std::error_code ignored;  // a file that is not there is none, or is refused when it is read
-  for (const fs::path& input : inputs) {
-    if (fs::equivalent(input, output, ignored)) throw FileError(output, "is an input; the output needs another name");
-  }
-}
-
 bool hasAny(const scene::BoxValueFiles& files) {
   return !files.margins.empty() || !files.groups.empty() || !files.categories.empty() || !files.masks.empty();
 }
@@ -127,10 +119,11 @@ JoinSummary joinFiles(Span<const fs::path> inputs, const fs::path& output, const
   if (output.filename().empty() || fs::is_directory(output)) throw FileError(output, "is no name for a file");
   JoinOptions options = given;
   if (options.work.empty()) options.work = output.string() + ".work";
-  checkIsNoInput(output, inputs);
-  checkIsNoInput(output, options.second);
+  scene::checkIsNoInput(output, inputs);
+  scene::checkIsNoInput(output, options.second);
   for (const scene::BoxValueFiles& files : {options.values, options.secondValues}) {
-    for (const auto& of : {files.margins, files.groups, files.categories, files.masks}) checkIsNoInput(output, of);
+    for (const auto& of : {files.margins, files.groups, files.categories, files.masks})
+      scene::checkIsNoInput(output, of);
   }
   PartFile part(output);
   options.commit = [&part] { part.commit(); };

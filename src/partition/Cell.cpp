@@ -31,6 +31,16 @@ void checkIds(const BoxView& boxes, std::span<const std::uint64_t> ids) {
   throw InvalidArgument(std::to_string(ids.size()) + " ids for " + std::to_string(boxes.size()) + " boxes");
 }
 
+/// The margins of a pair are added up in the order of its ids.
+void checkAscend(const BoxView& boxes, std::span<const std::uint64_t> ids) {
+  if (boxes.leastMargin() == boxes.greatestMargin()) return;
+  const auto descent = std::is_sorted_until(ids.begin(), ids.end());
+  if (descent == ids.end()) return;
+  throw InvalidArgument("box " + std::to_string(descent - ids.begin()) +
+                        " has a lesser id than the one before; boxes with margins of their own are given in the order "
+                        "of their ids");
+}
+
 void orderPairs(std::vector<IdPair>& pairs, Order order) {
   if (order == Order::ByFirst) std::sort(pairs.begin(), pairs.end());
   if (order != Order::BySecond) return;
@@ -159,6 +169,7 @@ void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell&
 std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,
                                    const OverlapOptions& options) {
   checkIds(boxes, ids);
+  checkAscend(boxes, ids);
   std::vector<IdPair> pairs;
   CellSearch search(unordered(options));
   search.stream(boxes, cell, [&](std::span<const Pair> batch) {

@@ -236,5 +236,19 @@ TEST_F(JoinCommand, APlanLeavesNothing) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
 }
 
+TEST(PlanCommand, LeavesNothingWhereASignalEndsIt) {
+  const TempFolder folder;
+  const std::string boxes = folder.write("boxes.npy", npyBytes(toDouble(randomBoxes(300, 5))));
+  const std::filesystem::path work = folder.path() / "work";
+  std::filesystem::create_directory(work);
+  for (const char* signal : {"TERM", "HUP"}) {
+    const ProgramRun run = runScript(
+        "\"$0\" plan '" + boxes + "' --work '" + work.string() + "' & i=0; until [ -n \"$(ls '" + work.string() +
+        "')\" ] || [ $i = 600 ]; do sleep 0.05; i=$((i + 1)); done; kill -" + signal + " $!; wait $!");
+    EXPECT_GT(run.status, 128) << signal << ": " << run.err;
+    EXPECT_TRUE(std::filesystem::is_empty(work)) << signal;
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -42,6 +42,43 @@ TEST(OutputFile, ReplacesOneThatIsThere) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
+TEST(OutputFile, IsNoInput) {
+  const TempFolder folder;
+  const std::string boxes = twoBoxes(folder);
+  const std::string cloth = folder.write("cloth.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string table = folder.write("boxes.csv", "0,0,0,1,1,1\n0,0,0,1,1,1\n");
+  const std::string before = readBytes(boxes);
+  const std::string clothBefore = readBytes(cloth);
+  const std::string link = folder.path() / "link.npy";
+  std::filesystem::create_symlink("boxes.npy", link);
+  const std::string margins = folder.write("margins.npy", "not read yet");
+  const std::string other = folder.write("other.npy", before);
+  const std::vector<std::vector<std::string>> commands = {{"detect", boxes, "-o", boxes},
+                                                          {"detect", table, "-o", table},
+                                                          {"detect", boxes, "-o", link},
+                                                          {"track", other, boxes, "-o", boxes},
+                                                          {"elements", cloth, "--format", "json", "-o", cloth},
+                                                          {"join", boxes, "-o", boxes},
+                                                          {"join", other, "-o", link, "--with", boxes},
+                                                          {"join", other, "-o", margins, "--margins", margins}};
+  for (const std::vector<std::string>& command : commands) {
+    const ProgramRun run = runProgram(command);
+    EXPECT_EQ(run.status, 3) << command.front() << ": " << run.err;
+    EXPECT_NE(run.err.find("is an input; the output needs another name"), std::string::npos) << run.err;
+  }
+  EXPECT_TRUE(readBytes(boxes) == before);
+  EXPECT_TRUE(readBytes(cloth) == clothBefore);
+  EXPECT_EQ(readBytes(margins), "not read yet");
+}
+
+TEST(OutputFile, ThatIsALinkToItselfIsAnError) {
+  const TempFolder folder;
+  const std::string link = folder.path() / "link.csv";
+  std::filesystem::create_symlink("link.csv", link);
+  expectFailure(runProgram({"detect", twoBoxes(folder), "-o", link}), 3, link + ": is a link that leads nowhere");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
 TEST(OutputFile, ThatMeansADescriptorIsWrittenThere) {
   const TempFolder folder;
   const std::string boxes = twoBoxes(folder);

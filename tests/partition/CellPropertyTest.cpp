@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -45,8 +46,15 @@ Partition anyPartition() {
   return Partition::fromCuts(cuts);
 }
 
-/// Numbers that are neither dense nor in order.
-std::uint64_t idOf(std::size_t i) { return (std::uint64_t{1} << 40) + (i * 37) % 1009; }
+/// Numbers that are not dense, nor in order unless margins differ.
+std::vector<std::uint64_t> idsOf(const std::vector<double>& margins) {
+  std::vector<std::uint64_t> ids(margins.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = (std::uint64_t{1} << 40) + (i * 37) % 1009;
+  if (std::adjacent_find(margins.begin(), margins.end(), std::not_equal_to()) != margins.end()) {
+    std::sort(ids.begin(), ids.end());
+  }
+  return ids;
+}
 
 struct CellBoxes {
   std::vector<Box> boxes{};
@@ -57,6 +65,7 @@ struct CellBoxes {
 CellBoxes boxesOf(const Partition& partition, std::uint32_t cell, const std::vector<Box>& boxes,
                   const std::vector<double>& margins, double d, double maxMargin) {
   CellBoxes result;
+  const std::vector<std::uint64_t> ids = idsOf(margins);
   std::vector<std::uint32_t> cells;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box reach = reachOf(boxes[i], margins[i], d, maxMargin);
@@ -65,7 +74,7 @@ CellBoxes boxesOf(const Partition& partition, std::uint32_t cell, const std::vec
     RC_ASSERT(isIn == touches(partition.cell(cell), reach));
     if (!isIn) continue;
     result.boxes.push_back(boxes[i]);
-    result.ids.push_back(idOf(i));
+    result.ids.push_back(ids[i]);
     result.margins.push_back(margins[i]);
   }
   return result;
@@ -85,9 +94,10 @@ RC_GTEST_PROP(CellProperty, TheCellsOfAnyCutsHaveTheOraclesPairsOnce, ()) {
   const std::vector<double> margins = someMargins(boxes.size());
   const double d = *distance();
   const Partition partition = anyPartition();
+  const std::vector<std::uint64_t> ids = idsOf(margins);
   std::vector<IdPair> expected;
   for (const Pair pair : test::oracle(boxes, d, margins)) {
-    const auto [low, high] = std::pair(idOf(pair.first), idOf(pair.second));
+    const auto [low, high] = std::pair(ids[pair.first], ids[pair.second]);
     expected.push_back({std::min(low, high), std::max(low, high)});
   }
   std::sort(expected.begin(), expected.end());
@@ -112,9 +122,11 @@ RC_GTEST_PROP(CellProperty, TheCellsHaveThePairsOfTwoSetsOnce, ()) {
   const std::vector<double> secondMargins(second.size(), 0.0);
   const double d = *distance();
   const Partition partition = anyPartition();
+  const std::vector<std::uint64_t> firstIds = idsOf(firstMargins);
+  const std::vector<std::uint64_t> secondIds = idsOf(secondMargins);
   std::vector<IdPair> expected;
   for (const Pair pair : test::oracleBetween(first, second, d)) {
-    expected.push_back({idOf(pair.first), idOf(pair.second)});
+    expected.push_back({firstIds[pair.first], secondIds[pair.second]});
   }
   std::sort(expected.begin(), expected.end());
   std::vector<IdPair> found;

@@ -95,6 +95,21 @@ TEST(Cell, IdsThatDoNotFitAreNamed) {
   EXPECT_THROW((void)overlapsInCell(kRow, std::vector<std::uint64_t>{4, 4, 2, 3}, Cell()), InvalidArgument);
 }
 
+/// The sum of a pair's margins depends on which is added first.
+TEST(Cell, BoxesWithMarginsAreGivenInTheOrderOfTheirIds) {
+  const std::vector<Box> boxes{cube(0, 0, 0), cube(5, 0, 0), cube(9, 0, 0)};
+  BoxView view(boxes);
+  const std::vector<double> margins{0.1, 0.2, 0.3};
+  view.setMargins(margins);
+  const std::vector<std::uint64_t> ascending{4, 5, 9};
+  const std::vector<std::uint64_t> descending{4, 9, 5};
+  EXPECT_NO_THROW((void)overlapsInCell(view, ascending, Cell()));
+  EXPECT_THROW((void)overlapsInCell(view, descending, Cell()), InvalidArgument);
+  view.setMargins({});
+  view.setMargin(0.1);
+  EXPECT_NO_THROW((void)overlapsInCell(view, descending, Cell()));
+}
+
 TEST(Cell, TheLimitCountsPairsOfTheCellOnly) {
   const Cell left{{-kInfinity, -kInfinity, -kInfinity}, {1.5, kInfinity, kInfinity}};
   EXPECT_EQ(overlapsInCell(kRow, kIds, left, {.maxPairs = 1}).size(), 1U);

@@ -288,3 +288,43 @@ def test_masked_entries_in_chunks_are_refused(name):
     values = dask.array.from_array(np.ma.array([1, 1, 1, 1], mask=[0, 0, 0, 1]), chunks=2, asarray=False)
     with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has masked entries"):
         allpairs.dask.overlaps(boxes, **{name: values}).compute()
+
+
+def test_files_that_are_no_arrays_are_named(tmp_path):
+    good = tmp_path / "good.npy"
+    boxes = boxes_of("uniform", np.float32)[:100]
+    np.save(good, boxes)
+    written = good.read_bytes()
+    files = {"empty": b"", "text": b"0,0,0,1,1,1\n", "cut": written[:-40], "longer": written + b"\0" * 24}
+    for name, content in files.items():
+        (tmp_path / f"{name}.npy").write_bytes(content)
+    np.savez(tmp_path / "several.npz", boxes, boxes)
+    os.mkfifo(tmp_path / "pipe.npy")
+    for name in ("empty.npy", "text.npy", "cut.npy", "longer.npy", "several.npz", "pipe.npy"):
+        with pytest.raises(allpairs.InvalidArgument, match=f"^/.*/{name} ") as problem:
+            allpairs.dask.count([good, tmp_path / name])
+        assert "\n" not in str(problem.value)
+        with pytest.raises(allpairs.InvalidArgument, match=f"^/.*/{name} "):
+            allpairs.dask.count([good], margin=tmp_path / name)
+    boxes[7, 2] = np.nan
+    np.save(tmp_path / "nan.npy", boxes)
+    with pytest.raises(allpairs.InvalidArgument, match="^box 7 of /.*/nan.npy: "):
+        allpairs.dask.count([good, tmp_path / "nan.npy"])
+
+
+def test_a_folder_holds_the_parts_of_one_result(tmp_path):
+    boxes = boxes_of("uniform", np.float32)
+    folder = tmp_path / "pairs"
+    first = allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(1000, 6)), folder)
+    assert sorted(path.name for path in folder.iterdir()) == [f"part-0000{i}.npy" for i in range(3)]
+    (tmp_path / "plain").write_text("")
+    assert (folder / "part-00000.npy").stat().st_mode == (tmp_path / "plain").stat().st_mode
+    before = [path.read_bytes() for path in sorted(folder.iterdir())]
+    fewer = dask.array.from_array(boxes, chunks=(2000, 6))
+    with pytest.raises(allpairs.InvalidArgument, match="^/.*/pairs/part-00002.npy is of another result"):
+        allpairs.dask.overlaps(fewer, folder)
+    assert [path.read_bytes() for path in sorted(folder.iterdir())] == before
+    (folder / "part-00002.npy").unlink()
+    assert allpairs.dask.overlaps(fewer, folder) == first
+    found = np.concatenate([np.load(path) for path in sorted(folder.iterdir())])
+    assert found.tobytes() == allpairs.overlaps(boxes).tobytes()

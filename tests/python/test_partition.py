@@ -147,6 +147,28 @@ def test_ids_have_64_bits():
     ]
 
 
+def test_margins_are_added_in_the_order_of_ids():
+    rng = np.random.default_rng(7)
+    n = 400
+    margin = rng.random(n)
+    group = np.arange(n) // 7 + 1
+    lower = np.zeros((n, 3))
+    # Each box touches the first one if the sum of their margins is rounded up.
+    lower[1:, 0] = np.maximum((0.1 + margin[0]) + margin[1:], (0.1 + margin[1:]) + margin[0])
+    upper = lower + 1
+    lower[0], upper[0] = -1, 0
+    upper[1:, 1:], lower[1:, 1:] = 0, 0
+    expected = allpairs.overlaps(lower, upper, distance=0.1, margin=margin, group=group)
+    order = np.arange(n)[::-1]
+    own = {"distance": 0.1, "margin": margin[order], "group": group[order]}
+    space = [[-np.inf] * 3, [np.inf] * 3]
+    found = allpairs.overlaps_in_cell(lower[order], upper[order], order, space, **own)
+    assert found.tolist() == expected.tolist()
+    rows = np.hstack([lower, upper])[order]
+    assert allpairs.overlaps_in_cell(rows, None, order, space, **own).tolist() == found.tolist()
+    assert len(allpairs.overlaps(rows, **own)) > len(expected)  # so that the order decides
+
+
 def test_a_join_of_files_is_the_search_in_memory(tmp_path):
     boxes = some_boxes(400)
     np.save(tmp_path / "a.npy", boxes[:150])

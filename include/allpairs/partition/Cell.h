@@ -114,7 +114,8 @@ class CellSearch {
 ///
 /// `boxes` are those whose reach touches the cell; more do no harm.
 /// Bad input: as overlaps(); ids of another number than boxes, or one id of two boxes that are a pair, throw
-///            InvalidArgument.
+///            InvalidArgument. So do ids that do not ascend, of boxes whose margins differ: those of a pair are added up
+///            in that order.
 [[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,
                                                  const OverlapOptions& options = {});
 
@@ -123,7 +124,7 @@ class CellSearch {
                                                  const BoxView& second, Span<const std::uint64_t> secondIds,
                                                  const Cell& cell, const OverlapOptions& options = {});
 
-/// The number of pairs of overlapsInCell().
+/// The number of pairs of overlapsInCell(), of boxes in the order of their ids.
 [[nodiscard]] std::uint64_t countOverlapsInCell(const BoxView& boxes, const Cell& cell,
                                                 const OverlapOptions& options = {});
 [[nodiscard]] std::uint64_t countOverlapsInCell(const BoxView& first, const BoxView& second, const Cell& cell,

@@ -3,10 +3,19 @@
 
 #include <filesystem>
 
+#include "allpairs/Span.h"
+
 namespace allpairs::scene {
 
 /// The file that a path means in the end, there or not: what is written in its place replaces the target of a link, and
 /// the link stays.
+///
+/// Bad input: links that lead to each other throw FileError.
 [[nodiscard]] std::filesystem::path resolvedTarget(const std::filesystem::path& path);
+
+/// Makes sure that a result takes the place of none of the files that it is made from.
+///
+/// Bad input: an output that is one of the inputs, by whatever name, throws FileError.
+void checkIsNoInput(const std::filesystem::path& output, Span<const std::filesystem::path> inputs);
 
 }  // namespace allpairs::scene

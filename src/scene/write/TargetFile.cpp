@@ -4,6 +4,8 @@
 #include <new>
 #include <system_error>
 
+#include "allpairs/scene/FileError.h"
+
 namespace allpairs::scene {
 
 namespace fs = std::filesystem;
@@ -17,7 +19,16 @@ fs::path resolvedTarget(const fs::path& path) {
   }
   target = fs::weakly_canonical(target, problem);
   if (problem == std::errc::not_enough_memory) throw std::bad_alloc();  // it may be a link all the same
+  if (problem == std::errc::too_many_symbolic_link_levels) throw FileError(path, "is a link that leads nowhere");
   return target.empty() ? path : target;
+}
+
+void checkIsNoInput(const fs::path& output, Span<const fs::path> inputs) {
+  std::error_code ignored;  // a file that is not there is none, or is refused when it is read
+  if (!fs::is_regular_file(output, ignored)) return;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(input, output, ignored)) throw FileError(output, "is an input; the output needs another name");
+  }
 }
 
 }  // namespace allpairs::scene
