@@ -114,8 +114,8 @@ class CellSearch {
 ///
 /// `boxes` are those whose reach touches the cell; more do no harm.
 /// Bad input: as overlaps(); ids of another number than boxes, or one id of two boxes that are a pair, throw
-///            InvalidArgument. So do ids that do not ascend, of boxes whose margins differ: those of a pair are added up
-///            in that order.
+///            InvalidArgument. So do ids that do not ascend, of boxes whose margins differ: those of a pair are added
+///            up in that order.
 [[nodiscard]] std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,
                                                  const OverlapOptions& options = {});
 
