@@ -50,6 +50,11 @@ template <class T>
   return false;
 }
 
+/// Whether a number can be a distance or a margin: it is no NaN, and not -infinity.
+[[nodiscard]] constexpr bool isDistance(double value) noexcept {
+  return value > -std::numeric_limits<double>::infinity();
+}
+
 /// Whether two boxes are at most `distance` apart on every axis; with distance 0, whether they overlap.
 ///
 /// Geometry:  closed, per axis and not Euclidean, in double: apart if min1 > max2 + d or min2 > max1 + d on some axis,

@@ -8,9 +8,7 @@
 namespace allpairs::collision {
 
 void Intersection::setAlarmDistance(double distance) {
-  if (std::isnan(distance) || distance == -std::numeric_limits<double>::infinity()) {
-    throw InvalidArgument("the alarm distance is NaN or -infinity");
-  }
+  if (!isDistance(distance)) throw InvalidArgument("the alarm distance is NaN or -infinity");
   m_alarmDistance = distance;
   settingsChanged();
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "PairRules.h"
 
-#include <cmath>
-#include <limits>
 #include <typeinfo>
 #include <utility>
 
@@ -33,7 +31,7 @@ bool onlyComparesBoxes(const ElementIntersector& intersector) {
 
 void PairRules::setMethod(Intersection* method) {
   const double distance = method->maximumDistance();
-  if (std::isnan(distance) || distance == -std::numeric_limits<double>::infinity()) {
+  if (!isDistance(distance)) {
     throw InvalidArgument("the intersection method's maximum distance is NaN or -infinity");
   }
   m_method = method;

@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -85,9 +83,7 @@ bool hasAny(const scene::BoxValueFiles& files) {
 
 void checkOptions(std::span<const fs::path> inputs, const JoinOptions& options) {
   if (inputs.empty()) throw InvalidArgument("a join of no files");
-  if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
-    throw InvalidArgument("the distance is not a number that can be added");
-  }
+  if (!isDistance(options.distance)) throw InvalidArgument("the distance is NaN or -infinity");
   if (options.region) (void)countOverlaps(BoxView(), {.region = options.region});  // refuses one that makes no sense
   if (options.second.empty() && hasAny(options.secondValues)) {
     throw InvalidArgument("margins, groups, categories or masks of a second set, and one set");

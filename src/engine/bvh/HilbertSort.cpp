@@ -7,6 +7,7 @@
 
 #include "bvh/CurveKey.h"
 #include "bvh/RadixSort.h"
+#include "input/Parts.h"
 
 namespace allpairs::engine {
 namespace {
@@ -103,15 +104,9 @@ std::size_t HilbertSort::readKeys(const BoxReader& reader, CurveKey* keyed, bool
     m_chunks[c] = {keyed + beginOf(c)};
     writeKeys(reader, grid, {nullptr, beginOf(c), beginOf(c + 1) - beginOf(c)}, emptyToo, m_chunks[c]);
   });
-  m_exact = true;
-  std::size_t used = 0;
-  for (std::size_t c = 0; c < chunks; ++c) {
-    m_exact &= m_chunks[c].exact;
-    const CurveKey* const begin = keyed + beginOf(c);
-    if (used != beginOf(c)) std::copy<const CurveKey*>(begin, m_chunks[c].end, keyed + used);
-    used += static_cast<std::size_t>(m_chunks[c].end - begin);
-  }
-  return used;
+  m_exact = std::all_of(m_chunks.begin(), m_chunks.end(), [](const KeyRun& chunk) { return chunk.exact; });
+  const auto endOf = [&](std::size_t c) { return static_cast<std::size_t>(m_chunks[c].end - keyed); };
+  return closeGaps(keyed, chunks, beginOf, endOf);
 }
 
 std::span<const CurveKey> HilbertSort::sort(const BoxReader& reader, std::span<CurveKey> spare, Executor& executor,

@@ -27,13 +27,12 @@ constexpr std::size_t kCellsPerBox = 1024;
 /// The bounds of all boxes that may overlap something.
 LaneBox boundsOf(const BoxReader& reader) {
   LaneBlock bounds;
-  for (std::size_t lane = 0; lane < kFanOut; ++lane) bounds.set(lane, kNeverLanes);
+  bounds.clear();
   LaneBlock block = bounds;
   const BoxList all{nullptr, 0, reader.size()};
   for (std::size_t begin = 0; begin < all.size; begin += kFanOut) {
     const BoxList boxes = all.part(begin, kFanOut);
-    std::uint32_t empty = reader.read(boxes, block).emptyLanes;
-    for (; empty != 0; empty &= empty - 1) block.set(static_cast<std::size_t>(std::countr_zero(empty)), kNeverLanes);
+    block.clear(reader.read(boxes, block).emptyLanes);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t lane = 0; lane < kFanOut; ++lane) {
         bounds.bound[axis][lane] = std::min(bounds.bound[axis][lane], block.bound[axis][lane]);
@@ -85,13 +84,12 @@ double usualLength(const Sample& sample) {
 template <class Near>
 std::uint32_t* chooseNear(const BoxReader& reader, const BoxList& boxes, const Near& near, std::uint32_t* ids) {
   LaneBlock block;
-  for (std::size_t lane = 0; lane < kFanOut; ++lane) block.set(lane, kNeverLanes);
+  block.clear();
   for (std::size_t i = 0; i < boxes.size; i += kFanOut) {
     const BoxList some = boxes.part(i, kFanOut);
     const std::uint32_t empty = reader.read(some, block).emptyLanes;
-    std::uint32_t lanes = near(block) & ~empty & ((1U << some.size) - 1U);
-    for (; lanes != 0; lanes &= lanes - 1)
-      *ids++ = reader.idOf(some[static_cast<std::size_t>(std::countr_zero(lanes))]);
+    const std::uint32_t lanes = near(block) & ~empty & ((1U << some.size) - 1U);
+    forEachBit(lanes, [&](std::size_t lane) { *ids++ = reader.idOf(some[lane]); });
   }
   return ids;
 }
@@ -184,15 +182,9 @@ void BoxCull::keep(BoxReader& reader, Ids& ids, Executor& executor, const Choose
   runInParts(reader.size(), kPartSize, executor, [&](std::size_t begin, std::size_t end) {
     m_ends[begin / kPartSize] = static_cast<std::size_t>(choose(begin, end, ids.data() + begin) - ids.data());
   });
-  std::size_t size = m_ends[0];
-  for (std::size_t part = 1; part < parts; ++part) {
-    const std::uint32_t* const begin = ids.data() + part * kPartSize;
-    if (begin != ids.data() + size) {
-      std::copy<const std::uint32_t*>(begin, ids.data() + m_ends[part], ids.data() + size);
-    }
-    size += m_ends[part] - part * kPartSize;
-  }
-  reader.restrictTo({ids.data(), size});
+  const auto beginOf = [](std::size_t part) { return part * kPartSize; };
+  reader.restrictTo(
+      {ids.data(), closeGaps(ids.data(), parts, beginOf, [this](std::size_t part) { return m_ends[part]; })});
 }
 
 template <class T>
@@ -238,11 +230,8 @@ bool BoxCull::mark(const BoxReader& reader, MarkedCells& cells) {
   for (std::size_t i = 0; i < reader.size(); i += kFanOut) {
     const std::size_t most = std::min(kCellsPerBox / 16 * (i + kFanOut), cells.size() / 2);
     const BoxList some = BoxList{nullptr, 0, reader.size()}.part(i, kFanOut);
-    std::uint32_t lanes = ~reader.read(some, block).emptyLanes & ((1U << some.size) - 1U);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const LaneBox box = block.get(static_cast<std::size_t>(std::countr_zero(lanes)));
-      marked += markBox(cells, box, most, m_marks.data());
-    }
+    const std::uint32_t lanes = ~reader.read(some, block).emptyLanes & ((1U << some.size) - 1U);
+    forEachBit(lanes, [&](std::size_t lane) { marked += markBox(cells, block.get(lane), most, m_marks.data()); });
     if (marked > most) return false;
   }
   return true;

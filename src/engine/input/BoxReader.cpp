@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <type_traits>
 
@@ -88,9 +87,7 @@ bool BoxReader::readAll(const LaneList& list) const {
     exact &= result.exact;
     LaneTile& tile = list.tileOf(begin);
     const std::size_t place = begin % LaneTile::kCapacity;
-    for (std::uint32_t empty = result.emptyLanes; empty != 0; empty &= empty - 1) {
-      block.set(static_cast<std::size_t>(std::countr_zero(empty)), kNeverLanes);
-    }
+    block.clear(result.emptyLanes);
     for (std::size_t row = 0; row < 6; ++row) std::copy_n(block.bound[row].data(), kFanOut, &tile.bound[row][place]);
     for (std::size_t lane = 0; lane < boxes.size; ++lane) tile.id[place + lane] = idOf(boxes[lane]);
   }

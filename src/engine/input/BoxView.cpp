@@ -115,8 +115,6 @@ void moveTo(BoxView::Corners<T>& corners, std::size_t begin) {
   corners.max.data += static_cast<std::ptrdiff_t>(begin) * corners.max.boxStride;
 }
 
-bool isMargin(double value) { return !std::isnan(value) && value != -std::numeric_limits<double>::infinity(); }
-
 }  // namespace
 
 /// Written value by value: reading structs of arguments back from the stack would wait for it, which takes longer than
@@ -187,7 +185,7 @@ BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerVie
 }
 
 void BoxView::setMargin(double margin) {
-  if (!isMargin(margin)) throw InvalidArgument("the margin of the set is NaN or -infinity");
+  if (!isDistance(margin)) throw InvalidArgument("the margin of the set is NaN or -infinity");
   m_margin = m_leastMargin = m_greatestMargin = margin;
   m_margins = {};
 }
@@ -199,9 +197,7 @@ void BoxView::setMargins(Span<const double> margins) {
   double least = margins.empty() ? m_margin : margins.front();
   double greatest = least;
   for (std::size_t i = 0; i < margins.size(); ++i) {
-    if (!isMargin(margins[i])) {
-      throw InvalidBox(i, "box " + std::to_string(i) + ": its margin is NaN or -infinity");
-    }
+    if (!isDistance(margins[i])) throw InvalidBox(i, "box " + std::to_string(i) + ": its margin is NaN or -infinity");
     least = std::min(least, margins[i]);
     greatest = std::max(greatest, margins[i]);
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "input/Options.h"
 
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "allpairs/Error.h"
@@ -30,9 +28,7 @@ void checkRegion(const Box& region) {
 }  // namespace
 
 void checkOptions(const Sets& sets, const OverlapOptions& options) {
-  if (std::isnan(options.distance) || options.distance == -std::numeric_limits<double>::infinity()) {
-    throw InvalidArgument("the distance is NaN or -infinity");
-  }
+  if (!isDistance(options.distance)) throw InvalidArgument("the distance is NaN or -infinity");
   if (options.region) checkRegion(*options.region);
   checkBits(options.filter.first, sets.first.size());
   if (!sets.one) {

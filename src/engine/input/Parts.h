@@ -22,4 +22,17 @@ void runInParts(std::size_t size, std::size_t partSize, Executor& executor, cons
                [&](std::size_t part) { use(part * partSize, std::min(size, (part + 1) * partSize)); });
 }
 
+/// Moves what parts have written, each from beginOf(part) to endOf(part), next to each other; returns how much that is.
+template <class T, class BeginOf, class EndOf>
+std::size_t closeGaps(T* values, std::size_t parts, const BeginOf& beginOf, const EndOf& endOf) {
+  std::size_t size = 0;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const T* const begin = values + beginOf(part);
+    const std::size_t length = endOf(part) - beginOf(part);
+    if (begin != values + size) std::copy_n(begin, length, values + size);
+    size += length;
+  }
+  return size;
+}
+
 }  // namespace allpairs::engine

@@ -39,9 +39,7 @@ namespace allpairs::engine {
     const double extent = bounds.max[axis] - bounds.min[axis];
     const double point = bounds.min[axis];
     if (extent > 0.0 && std::abs(point) > kFarAway * extent) origin[axis] = point;
-    const bool isFloat32 =
-        std::abs(point) <= static_cast<double>(kLaneMax) && static_cast<double>(static_cast<float>(point)) == point;
-    if (extent == 0.0 && !isFloat32) origin[axis] = point;
+    if (extent == 0.0 && !isFloat32(point)) origin[axis] = point;
   }
   return origin;
 }

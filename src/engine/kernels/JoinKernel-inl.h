@@ -108,43 +108,41 @@ HWY_INLINE void prefetchBlock(const LaneBlock& block) {
   for (const auto& row : block.bound) prefetchLine(row.data());
 }
 
-/// A tile that is being filled.
-struct TileFiller {
-  LaneTile& tile;
+/// Appends the members of block b of a level, in the vector at `lane`, that the mask selects to a tile of so many: as
+/// lanes and node numbers, in whole vectors. Returns how many there are now.
+HWY_INLINE std::size_t append(const Level& level, std::size_t b, std::size_t lane, FloatMask mask, LaneTile& tile,
+                              std::size_t size) {
+  const FloatTag d;
+  const IdTag di;
+  for (std::size_t row = 0; row < 6; ++row) {
+    const auto bounds = hn::Load(d, &level.blocks[b].bound[row][lane]);
+    hn::StoreU(selectedLanes(d, bounds, mask), d, &tile.bound[row][size]);
+  }
+  const auto nodes = numbersFrom(b * kFanOut + lane);
+  hn::StoreU(selectedLanes(di, nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
+  return size + hn::CountTrue(d, mask);
+}
+
+/// Appends the members of block b that overlap the query.
+HWY_INLINE std::size_t appendTouching(const Query& q, const Level& level, std::size_t b, LaneTile& tile,
+                                      std::size_t size) {
+  for (std::size_t lane = 0; lane < kFanOut; lane += hn::Lanes(FloatTag())) {
+    size = append(level, b, lane, overlapping(q, level.blocks[b].bound, lane), tile, size);
+  }
+  return size;
+}
+
+/// Appends all members of block b to an empty tile, so that in a self-join member i of a node is candidate i of its own
+/// list.
+HWY_INLINE std::size_t appendAll(const Level& level, std::size_t b, LaneTile& tile) {
+  const FloatTag d;
+  const std::size_t fill = level.fill(b);
   std::size_t size = 0;
-
-  /// Appends the members of a block that the mask selects, as lanes and node numbers; writes whole leaf.
-  HWY_INLINE void append(const LaneBlock& block, std::size_t lane, std::size_t firstNode, FloatMask mask) {
-    const FloatTag d;
-    const IdTag di;
-    for (std::size_t row = 0; row < 6; ++row) {
-      hn::StoreU(selectedLanes(d, hn::Load(d, &block.bound[row][lane]), mask), d, &tile.bound[row][size]);
-    }
-    const auto nodes = numbersFrom(firstNode + lane);
-    hn::StoreU(selectedLanes(di, nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
-    size += hn::CountTrue(d, mask);
+  for (std::size_t lane = 0; lane < fill; lane += hn::Lanes(d)) {
+    size = append(level, b, lane, hn::FirstN(d, std::min(fill - lane, hn::Lanes(d))), tile, size);
   }
-
-  /// Appends the members of block b of a level that overlap the query.
-  HWY_INLINE void appendTouching(const Query& q, const Level& level, std::size_t b) {
-    const std::size_t lanes = hn::Lanes(FloatTag());
-    const LaneBlock& block = level.blocks[b];
-    for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
-      append(block, lane, b * kFanOut, overlapping(q, block.bound, lane));
-    }
-  }
-
-  /// Appends all members of block b, so that in a self-join member i of a node is candidate i of its own list.
-  HWY_INLINE void appendAll(const Level& level, std::size_t b) {
-    const FloatTag d;
-    const std::size_t lanes = hn::Lanes(d);
-    const std::size_t fill = level.fill(b);
-    for (std::size_t lane = 0; lane < fill; lane += lanes) {
-      const FloatMask mask = hn::FirstN(d, std::min(fill - lane, lanes));
-      append(level.blocks[b], lane, b * kFanOut, mask);
-    }
-  }
-};
+  return size;
+}
 
 /// One run of a task: the state that its functions share.
 class JoinRun {
@@ -188,13 +186,13 @@ class JoinRun {
     const Query q = broadcast(bounds);
     scratch.tileCount = 0;
     for (std::size_t i = 0; i < count;) {
-      TileFiller filler{scratch.nextTile()};
-      if (m_task.withItself && i == 0) filler.appendAll(source, partners[i++]);
+      LaneTile& tile = scratch.nextTile();
+      std::size_t size = m_task.withItself && i == 0 ? appendAll(source, partners[i++], tile) : 0;
       // A tile is full when another block might not fit.
-      for (; i < count && filler.size + kFanOut <= LaneTile::kCapacity; ++i) {
-        filler.appendTouching(q, source, partners[i]);
+      for (; i < count && size + kFanOut <= LaneTile::kCapacity; ++i) {
+        size = appendTouching(q, source, partners[i], tile, size);
       }
-      scratch.sizes[scratch.tileCount - 1] = filler.size;
+      scratch.sizes[scratch.tileCount - 1] = size;
     }
     m_hits.groupTests += count * kFanOut;
   }
@@ -287,10 +285,10 @@ class JoinRun {
   /// Reads the boxes at some positions of the second hierarchy, in the order of their ids.
   void readInOrder(std::span<const std::uint32_t> places) {
     const BvhView& second = *m_task.second;
-    NeighborScratch& near = m_task.scratch->neighbors;
+    JoinScratch& near = *m_task.scratch;
     const std::size_t size = places.size();
     if (2 * size > near.keys.capacity()) near.keys.require(4 * size);
-    near.require(size);
+    near.requireNear(size);
     std::uint64_t* keys = near.keys.data();
     for (std::size_t i = 0; i < size; ++i) keys[i] = std::uint64_t{second.ids[places[i]]} << 32U | places[i];
     keys = m_task.lists->sort(keys, keys + size, size, 32, 32 + m_task.lists->idBits);
@@ -303,7 +301,7 @@ class JoinRun {
   }
 
   /// The boxes near the node that overlap the bounds of a leaf; returns their number.
-  static std::size_t listNear(const LaneBox& bounds, const NeighborScratch& near) {
+  static std::size_t listNear(const LaneBox& bounds, const JoinScratch& near) {
     const FloatTag d;
     const IdTag di;
     const std::size_t lanes = hn::Lanes(d);
@@ -334,7 +332,7 @@ class JoinRun {
   template <Columns kKept>
   HWY_INLINE std::size_t findHits(const Leaf& leaf, const LaneBox& bounds) {
     const IdTag d;
-    NeighborScratch& near = m_task.scratch->neighbors;
+    JoinScratch& near = *m_task.scratch;
     const std::size_t size = listNear(bounds, near);
     const std::uint32_t* const places = near.near.data();
     std::uint32_t* HWY_RESTRICT const hitBits = near.hitBits.data();
@@ -414,8 +412,8 @@ class JoinRun {
   void writeLists(const Leaf& leaf, std::size_t hits) {
     const IdTag d;
     NeighborLists& lists = *m_task.lists;
-    const std::uint32_t* const hitBits = m_task.scratch->neighbors.hitBits.data();
-    const std::uint32_t* const hitIds = m_task.scratch->neighbors.hitIds.data();
+    const std::uint32_t* const hitBits = m_task.scratch->hitBits.data();
+    const std::uint32_t* const hitIds = m_task.scratch->hitIds.data();
     for (std::size_t row = 0; row < leaf.fill; ++row) {
       const std::uint32_t id = leaf.ids[row];
       std::uint32_t* const to = lists.partners + lists.size;

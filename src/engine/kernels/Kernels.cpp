@@ -47,25 +47,6 @@ struct KernelList {
   }
 };
 
-/// The targets of Highway that run here. Highway would ask the processor again, which takes a virtual machine longer
-/// than most searches of few boxes.
-std::int64_t supportedTargets() {
-#if !ALLPAIRS_KNOWS_PROCESSOR
-  return hwy::SupportedTargets();
-#elif HWY_ARCH_X86
-  const ProcessorLevel level = processorLevel();
-  std::int64_t targets = 0;
-  if (level >= ProcessorLevel::Ssse3) targets |= HWY_SSSE3;
-  if (level >= ProcessorLevel::Sse4) targets |= HWY_SSE4;
-  if (level >= ProcessorLevel::Avx2) targets |= HWY_AVX2;
-  if (level >= ProcessorLevel::Avx3) targets |= HWY_AVX3;
-  if (level >= ProcessorLevel::Avx3Dl) targets |= HWY_AVX3_DL;
-  return targets;
-#else
-  return 0;  // besides those that the build requires of processors
-#endif
-}
-
 KernelList availableKernels() {
   KernelList result;
   const std::int64_t supported = supportedTargets();

@@ -55,47 +55,17 @@ struct alignas(32) NumberedBox {
   std::uint32_t id;
 };
 
-/// Working memory of a join that lists neighbors: the boxes near a node, one after the other, and in an array for each
-/// bound.
-class NeighborScratch {
- public:
-  explicit NeighborScratch(std::pmr::memory_resource* memory)
-      : keys(memory), boxes(memory), near(memory), hitBits(memory), hitIds(memory), m_bounds(memory) {}
-
-  /// Room for so many boxes and for whole vectors after them; the contents are lost.
-  void require(std::size_t count) {
-    if (count + kVectorSlack > m_stride) {
-      // Not a multiple of many boxes, which would bring the arrays to the same offset in their pages.
-      const std::size_t stride = 2 * count / kFanOut * kFanOut + kVectorSlack + 2 * kFanOut;
-      m_stride = 0;
-      m_bounds.require(6 * stride);
-      boxes.require(stride);
-      for (Buffer<std::uint32_t>* numbers : {&near, &hitBits, &hitIds}) numbers->require(stride);
-      m_stride = stride;
-    }
-    for (std::size_t row = 0; row < 6; ++row) bound[row] = m_bounds.data() + row * m_stride;
-    size = count;
-  }
-
-  Buffer<std::uint64_t> keys;  ///< An id above a position, twice.
-
-  Buffer<NumberedBox> boxes;
-  std::array<float*, 6> bound{};
-  std::size_t size = 0;
-
-  Buffer<std::uint32_t> near;     ///< The boxes that are near a leaf too.
-  Buffer<std::uint32_t> hitBits;  ///< By box with a hit: a bit for each box of the leaf that it overlaps.
-  Buffer<std::uint32_t> hitIds;
-
- private:
-  Buffer<float> m_bounds;
-  std::size_t m_stride = 0;
-};
-
-/// Working memory of a join, one per running task: at each level the candidates of the current node.
+/// Working memory of a join, one per running task: at each level the candidates of the current node. Where neighbors
+/// are listed, also the boxes near a node, one after the other, and in an array for each bound.
 struct JoinScratch {
   explicit JoinScratch(std::pmr::memory_resource* memory)
-      : level(makeArray<PerLevel, kMaxLevels>(memory)), neighbors(memory) {}
+      : level(makeArray<PerLevel, kMaxLevels>(memory)),
+        keys(memory),
+        boxes(memory),
+        bounds(memory),
+        near(memory),
+        hitBits(memory),
+        hitIds(memory) {}
 
   struct PerLevel {
     explicit PerLevel(std::pmr::memory_resource* memory) : tiles(memory), sizes(memory), partners(memory) {}
@@ -119,7 +89,31 @@ struct JoinScratch {
     }
   };
   std::array<PerLevel, kMaxLevels> level;
-  NeighborScratch neighbors;
+
+  /// Room for so many boxes near a node and for whole vectors after them; the contents are lost.
+  void requireNear(std::size_t count) {
+    if (count + kVectorSlack > stride) {
+      // Not a multiple of many boxes, which would bring the arrays to the same offset in their pages.
+      const std::size_t larger = 2 * count / kFanOut * kFanOut + kVectorSlack + 2 * kFanOut;
+      stride = 0;
+      bounds.require(6 * larger);
+      boxes.require(larger);
+      for (Buffer<std::uint32_t>* numbers : {&near, &hitBits, &hitIds}) numbers->require(larger);
+      stride = larger;
+    }
+    for (std::size_t row = 0; row < 6; ++row) bound[row] = bounds.data() + row * stride;
+    size = count;
+  }
+
+  Buffer<std::uint64_t> keys;  ///< An id above a position, twice.
+  Buffer<NumberedBox> boxes;   ///< Those near the node, `size` of them,
+  Buffer<float> bounds;        ///< and their bounds, in rows of `stride` that begin at `bound`.
+  std::array<float*, 6> bound{};
+  std::size_t size = 0;
+  std::size_t stride = 0;
+  Buffer<std::uint32_t> near;     ///< The boxes that are near a leaf too.
+  Buffer<std::uint32_t> hitBits;  ///< By box with a hit: a bit for each box of the leaf that it overlaps.
+  Buffer<std::uint32_t> hitIds;
 };
 
 /// The part of a join that starts from some leaf blocks of `first`.

@@ -17,14 +17,14 @@ namespace allpairs::engine {
 /// (docs/decisions/0003).
 inline constexpr std::size_t kFanOut = 16;
 
-/// Calls use(i) for each bit i that is set in some words.
+/// Calls use(i) for each bit i that is set in a word, or in some.
+template <class Use>
+void forEachBit(std::uint64_t bits, const Use& use) {
+  for (; bits != 0; bits &= bits - 1) use(static_cast<std::size_t>(std::countr_zero(bits)));
+}
 template <class Use>
 void forEachBit(std::span<const std::uint64_t> words, const Use& use) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    for (std::uint64_t bits = words[i]; bits != 0; bits &= bits - 1) {
-      use(64 * i + static_cast<std::size_t>(std::countr_zero(bits)));
-    }
-  }
+  for (std::size_t i = 0; i < words.size(); ++i) forEachBit(words[i], [&](std::size_t bit) { use(64 * i + bit); });
 }
 
 /// Kernels load and store whole vectors: so many values after the end of an array may be read, or written and ignored.
@@ -69,6 +69,12 @@ inline constexpr LaneBox kNeverLanes{{kNever, kNever, kNever, -kNever, -kNever, 
   return std::bit_cast<float>(bits + (step & isAbove));
 }
 
+/// Whether a number is a finite float32.
+[[nodiscard]] inline bool isFloat32(double value) noexcept {
+  const auto most = static_cast<double>(kLaneMax);
+  return -most <= value && value <= most && static_cast<double>(static_cast<float>(value)) == value;
+}
+
 /// The least float32 that is not below the value, kept within the finite ones; the greatest for a NaN.
 [[nodiscard]] inline float roundUp(double value) noexcept { return -roundDown(-value); }
 
@@ -95,6 +101,11 @@ struct alignas(64) LaneBlock {
 
   void set(std::size_t lane, const LaneBox& box) noexcept { setBoxAt(bound, lane, box); }
   [[nodiscard]] LaneBox get(std::size_t lane) const noexcept { return boxAt(bound, lane); }
+
+  /// Has some lanes, as bits, overlap nothing.
+  void clear(std::uint32_t lanes) noexcept {
+    forEachBit(lanes, [this](std::size_t lane) { set(lane, kNeverLanes); });
+  }
 
   /// Has all lanes overlap nothing.
   void clear() noexcept {

@@ -65,60 +65,51 @@ std::uint32_t markedLanes(const LaneBlock& block, const MarkedCells& cells) {
   });
 }
 
-/// The interval of times at which a query can be within boxes.
-struct SlabInterval {
-  FloatVector enter, leave;
-  FloatMask possible;
-
-  /// Clips it to the times of one axis, from how far the query is from where it meets boxes and leaves them, by the
-  /// inverse of its speed. Overflow and NaN are resolved conservatively, so that no hit is lost.
-  HWY_INLINE void clip(FloatVector near, FloatVector far, FloatVector inverse) {
-    const FloatTag d;
-    const auto most = hn::Set(d, kLaneMax);
-    const auto least = hn::Set(d, -kLaneMax);
-    const auto slack = hn::Set(d, kQuerySlack);
-    const auto tiny = hn::Set(d, kQueryTiny);
-    const auto in = hn::Min(hn::Mul(hn::Min(near, most), inverse), most);
-    const auto out = hn::Max(hn::Mul(hn::Max(far, least), inverse), least);
-    const auto from = hn::Sub(hn::Sub(in, hn::Mul(hn::Abs(in), slack)), tiny);
-    const auto to = hn::Add(hn::Add(out, hn::Mul(hn::Abs(out), slack)), tiny);
-    enter = hn::IfThenElse(hn::Gt(from, enter), from, enter);
-    leave = hn::IfThenElse(hn::Lt(to, leave), to, leave);
-  }
-};
-
-HWY_INLINE SlabInterval slabIntervalIn(const LaneBlock& block, const SweepLanes& sweep, float limit, std::size_t i) {
+/// Clips the times at which a query enters boxes and leaves them to those of one axis, from how far it is from where it
+/// meets and leaves them there, by the inverse of its speed. Overflow and NaN are resolved conservatively, so that no
+/// hit is lost.
+HWY_INLINE void clip(FloatVector near, FloatVector far, FloatVector inverse, FloatVector& enter, FloatVector& leave) {
   const FloatTag d;
-  // A lane that holds no box has a minimum of infinity, which no box has.
-  SlabInterval stay{hn::Zero(d), hn::Set(d, limit), hn::Lt(hn::Load(d, &block.bound[0][i]), hn::Set(d, kNever))};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (sweep.axis[axis] == SweepLanes::Axis::Unbounded) continue;
-    auto min = hn::Load(d, &block.bound[axis][i]);
-    auto max = hn::Load(d, &block.bound[axis + 3][i]);
-    // The largest float32 stands for infinity as well.
-    min = hn::IfThenElse(hn::Le(min, hn::Set(d, -kLaneMax)), hn::Set(d, -kNever), min);
-    max = hn::IfThenElse(hn::Ge(max, hn::Set(d, kLaneMax)), hn::Set(d, kNever), max);
-    const auto queryMin = hn::Set(d, sweep.min[axis]);
-    const auto queryMax = hn::Set(d, sweep.max[axis]);
-    if (sweep.axis[axis] == SweepLanes::Axis::Rests) {
-      stay.possible = hn::And(stay.possible, hn::And(hn::Le(min, queryMax), hn::Le(queryMin, max)));
-      continue;
-    }
-    const bool forward = sweep.axis[axis] == SweepLanes::Axis::Forward;
-    const auto near = forward ? hn::Sub(min, queryMax) : hn::Sub(queryMin, max);
-    const auto far = forward ? hn::Sub(max, queryMin) : hn::Sub(queryMax, min);
-    stay.clip(near, far, hn::Set(d, sweep.inverse[axis]));
-  }
-  return stay;
+  const auto most = hn::Set(d, kLaneMax);
+  const auto least = hn::Set(d, -kLaneMax);
+  const auto slack = hn::Set(d, kQuerySlack);
+  const auto tiny = hn::Set(d, kQueryTiny);
+  const auto in = hn::Min(hn::Mul(hn::Min(near, most), inverse), most);
+  const auto out = hn::Max(hn::Mul(hn::Max(far, least), inverse), least);
+  const auto from = hn::Sub(hn::Sub(in, hn::Mul(hn::Abs(in), slack)), tiny);
+  const auto to = hn::Add(hn::Add(out, hn::Mul(hn::Abs(out), slack)), tiny);
+  enter = hn::IfThenElse(hn::Gt(from, enter), from, enter);
+  leave = hn::IfThenElse(hn::Lt(to, leave), to, leave);
 }
 
 /// Which lanes a swept box may hit up to `limit`, and a lower bound of the time.
 std::uint32_t meetingLanes(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times) {
   return bitsOfBlock([&](std::size_t i) HWY_ATTR {
     const FloatTag d;
-    const SlabInterval stay = slabIntervalIn(block, sweep, limit, i);
-    hn::StoreU(stay.enter, d, times + i);
-    return hn::AndNot(hn::Gt(stay.enter, stay.leave), stay.possible);
+    auto enter = hn::Zero(d);
+    auto leave = hn::Set(d, limit);
+    // A lane that holds no box has a minimum of infinity, which no box has.
+    auto possible = hn::Lt(hn::Load(d, &block.bound[0][i]), hn::Set(d, kNever));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (sweep.axis[axis] == SweepLanes::Axis::Unbounded) continue;
+      auto min = hn::Load(d, &block.bound[axis][i]);
+      auto max = hn::Load(d, &block.bound[axis + 3][i]);
+      // The largest float32 stands for infinity as well.
+      min = hn::IfThenElse(hn::Le(min, hn::Set(d, -kLaneMax)), hn::Set(d, -kNever), min);
+      max = hn::IfThenElse(hn::Ge(max, hn::Set(d, kLaneMax)), hn::Set(d, kNever), max);
+      const auto queryMin = hn::Set(d, sweep.min[axis]);
+      const auto queryMax = hn::Set(d, sweep.max[axis]);
+      if (sweep.axis[axis] == SweepLanes::Axis::Rests) {
+        possible = hn::And(possible, hn::And(hn::Le(min, queryMax), hn::Le(queryMin, max)));
+        continue;
+      }
+      const bool forward = sweep.axis[axis] == SweepLanes::Axis::Forward;
+      const auto near = forward ? hn::Sub(min, queryMax) : hn::Sub(queryMin, max);
+      const auto far = forward ? hn::Sub(max, queryMin) : hn::Sub(queryMax, min);
+      clip(near, far, hn::Set(d, sweep.inverse[axis]), enter, leave);
+    }
+    hn::StoreU(enter, d, times + i);
+    return hn::AndNot(hn::Gt(enter, leave), possible);
   });
 }
 

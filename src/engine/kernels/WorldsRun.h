@@ -109,21 +109,24 @@ struct WideWorld {
   std::array<double, kMostInWorld> margins;                    ///< By place.
   std::array<std::uint64_t, kMostInWorld / kWordBoxes> alive;  ///< A bit for each place whose box can overlap others.
 
-  /// Empties it, for so many boxes of a set, whose margins it has.
-  void start(std::size_t size, const BoxView& set, double between) noexcept {
+  /// Reads so many boxes of a set: those of the indices indexOf(i). isIn(box, margin) says which can overlap others,
+  /// unless they are empty.
+  template <class IndexOf, class IsIn>
+  void read(std::size_t size, const BoxView& set, const IndexOf& indexOf, const IsIn& isIn) {
     boxes = size;
-    distance = between;
     hasMargins = set.hasMargins();
     alive.fill(0);
-  }
-
-  void set(std::size_t place, const Box& box, double margin, bool isAlive) noexcept {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      tile[axis][place] = box.min[axis];
-      tile[axis + 3][place] = box.max[axis];
+    std::size_t place = WorldPlaces::of(size).first;
+    for (std::size_t i = 0; i < size; ++i, ++place) {
+      const Box box = set[indexOf(i)];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        tile[axis][place] = box.min[axis];
+        tile[axis + 3][place] = box.max[axis];
+      }
+      margins[place] = set.margin(indexOf(i));
+      if (isEmpty(box) || !isIn(box, margins[place])) continue;
+      alive[place / kWordBoxes] |= std::uint64_t{1} << (place % kWordBoxes);
     }
-    margins[place] = margin;
-    if (isAlive && !isEmpty(box)) alive[place / kWordBoxes] |= std::uint64_t{1} << (place % kWordBoxes);
   }
 };
 

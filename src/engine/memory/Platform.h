@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #if !defined(__GNUC__) && !defined(__clang__)
 #include <atomic>
@@ -10,7 +11,8 @@
 #endif
 #endif
 
-// Whether processorLevel() knows what this processor supports: by glibc, or because every one of the kind has the same.
+// Whether supportedTargets() knows what this processor supports: by glibc, or because every one of the kind has the
+// same.
 #if defined(__aarch64__)
 #define ALLPAIRS_KNOWS_PROCESSOR 1
 #elif (defined(__x86_64__) || defined(__i386__)) && __has_include(<sys/platform/x86.h>)
@@ -28,14 +30,10 @@ namespace allpairs::engine {
 /// only first touches are slower. Aligning blocks to large pages costs more than it gains (docs/decisions/0015).
 void adviseLargePages(void* memory, std::size_t bytes) noexcept;
 
-/// Instruction sets that the processor and the system support, each with those before it.
-enum class ProcessorLevel { Baseline, Ssse3, Sse4, Avx2, Avx3, Avx3Dl };
-
-#if ALLPAIRS_KNOWS_PROCESSOR
-/// As the C library found it at the start of the process: the processor itself takes a virtual machine some 70
-/// microseconds to ask. Where every processor of the kind has the same, the baseline.
-[[nodiscard]] ProcessorLevel processorLevel() noexcept;
-#endif
+/// The targets of Highway that the processor and the system support, as bits; those that the build requires need not be
+/// among them. As the C library found it at the start of the process: the processor itself takes a virtual machine some
+/// 70 microseconds to ask, longer than most searches of few boxes.
+[[nodiscard]] std::int64_t supportedTargets() noexcept;
 
 /// Asks for a line of memory that is read soon, where the compiler has a word for that.
 inline void prefetchLine([[maybe_unused]] const void* address) noexcept {

@@ -24,23 +24,16 @@ struct Bucket {
   [[nodiscard]] std::uint32_t firstKey() const noexcept { return static_cast<std::uint32_t>(number << rule.keyBits); }
 };
 
-template <bool kBySecond>
-Pair unpacked(std::uint32_t number, std::uint32_t firstKey, unsigned otherBits) noexcept {
-  const std::uint32_t key = firstKey + (number >> otherBits);
-  const std::uint32_t other = number & ((std::uint32_t{1} << otherBits) - 1);
-  return kBySecond ? Pair{other, key} : Pair{key, other};
-}
-
 /// Writes numbers as pairs where they and others have been that were read before: from the end if they begin the place.
 template <bool kBySecond>
 void unpackAll(const std::uint32_t* numbers, std::uint32_t firstKey, unsigned otherBits,
                std::span<Pair> place) noexcept {
   if (static_cast<const void*>(numbers) == place.data()) {
     for (std::size_t i = place.size(); i > 0; --i) {
-      place[i - 1] = unpacked<kBySecond>(numbers[i - 1], firstKey, otherBits);
+      place[i - 1] = unpacked<kBySecond>(numbers[i - 1], otherBits, firstKey);
     }
   } else {
-    for (std::size_t i = 0; i < place.size(); ++i) place[i] = unpacked<kBySecond>(numbers[i], firstKey, otherBits);
+    for (std::size_t i = 0; i < place.size(); ++i) place[i] = unpacked<kBySecond>(numbers[i], otherBits, firstKey);
   }
 }
 
@@ -76,43 +69,28 @@ void putInRows(const Bucket& bucket, std::uint32_t* next, std::uint32_t* rows) n
   forEachNumber(bucket, [=](std::uint32_t number) { rows[next[number >> otherBits]++] = number; });
 }
 
-/// Scratch memory in which a bucket is counted: where the pairs of each key and of each other index begin, and the
-/// numbers.
-struct Counts {
-  std::uint32_t* beginOfKey;
-  std::uint32_t* beginOfOther;
-  std::uint32_t* numbers;
-
-  Counts(const Bucket& bucket, std::uint32_t* scratch) noexcept
-      : beginOfKey(scratch),
-        beginOfOther(scratch + bucket.keys()),
-        numbers(beginOfOther + (std::size_t{1} << bucket.rule.otherBits)) {}
-};
-
-/// Counts the pairs of each key and of each other index, and moves all pairs to where those of their other index begin.
-void countPairs(const Bucket& bucket, const Counts& counts) noexcept {
+/// Calls begin(rows) with where the row of each key begins, and then write(place, number) for each number. Counts the
+/// pairs of each key and of each other index, and moves all pairs to where those of their other index begin: the moves
+/// to their key's row keep that order.
+template <class Begin, class Write>
+void placeCounted(const Bucket& bucket, std::uint32_t* scratch, const Begin& begin, const Write& write) noexcept {
   const unsigned otherBits = bucket.rule.otherBits;
-  const std::uint32_t otherMask = (std::uint32_t{1} << otherBits) - 1;
-  std::fill(counts.beginOfKey, counts.numbers, 0U);
+  const std::size_t others = std::size_t{1} << otherBits;
+  const auto otherMask = static_cast<std::uint32_t>(others - 1);
+  std::uint32_t* const nextOfKey = scratch;
+  std::uint32_t* const nextOfOther = nextOfKey + bucket.keys();
+  std::uint32_t* const numbers = nextOfOther + others;
+  std::fill(nextOfKey, numbers, 0U);
   forEachNumber(bucket, [=](std::uint32_t number) {
-    ++counts.beginOfKey[number >> otherBits];
-    ++counts.beginOfOther[number & otherMask];
+    ++nextOfKey[number >> otherBits];
+    ++nextOfOther[number & otherMask];
   });
-  std::exclusive_scan(counts.beginOfKey, counts.beginOfOther, counts.beginOfKey, 0U);
-  std::exclusive_scan(counts.beginOfOther, counts.numbers, counts.beginOfOther, 0U);
-  forEachNumber(bucket,
-                [=](std::uint32_t number) { counts.numbers[counts.beginOfOther[number & otherMask]++] = number; });
-}
-
-/// Calls write(place, number) for each number: the moves to where its key's row begins keep the order of the other
-/// index.
-template <class Write>
-void placeByKey(const Bucket& bucket, const Counts& counts, const Write& write) noexcept {
+  std::exclusive_scan(nextOfKey, nextOfOther, nextOfKey, 0U);
+  std::exclusive_scan(nextOfOther, numbers, nextOfOther, 0U);
+  forEachNumber(bucket, [=](std::uint32_t number) { numbers[nextOfOther[number & otherMask]++] = number; });
+  begin(nextOfKey);
   const std::size_t size = bucket.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint32_t number = counts.numbers[i];
-    write(counts.beginOfKey[number >> bucket.rule.otherBits]++, number);
-  }
+  for (std::size_t i = 0; i < size; ++i) write(nextOfKey[numbers[i] >> otherBits]++, numbers[i]);
 }
 
 std::size_t scratchToCount(const Bucket& bucket) noexcept {
@@ -121,11 +99,10 @@ std::size_t scratchToCount(const Bucket& bucket) noexcept {
 
 template <bool kBySecond>
 void sortCounted(const Bucket& bucket, Pair* to, std::uint32_t* scratch) noexcept {
-  const Counts counts(bucket, scratch);
-  countPairs(bucket, counts);
   const unsigned otherBits = bucket.rule.otherBits;
-  placeByKey(bucket, counts,
-             [=](std::size_t place, std::uint32_t number) { to[place] = unpacked<kBySecond>(number, 0, otherBits); });
+  placeCounted(
+      bucket, scratch, [](const std::uint32_t*) {},
+      [=](std::size_t place, std::uint32_t number) { to[place] = unpacked<kBySecond>(number, otherBits); });
 }
 
 /// Sorts all numbers of a bucket, in two arrays for as many; returns which of them holds the result.
@@ -215,10 +192,12 @@ void BucketSort::list(std::size_t bucket, const NeighborsMemory& to, std::span<s
   std::uint32_t* const indices = to.indices.data() + before;
   const std::uint32_t otherMask = (std::uint32_t{1} << m_order.otherBits) - 1;
   if (m_order.isCounted && scratchToCount(pairs) <= scratch.size()) {
-    const Counts counts(pairs, scratch.data());
-    countPairs(pairs, counts);
-    for (std::size_t key = 0; key < keys; ++key) offsets[key] = before + counts.beginOfKey[key];
-    placeByKey(pairs, counts, [=](std::size_t place, std::uint32_t number) { indices[place] = number & otherMask; });
+    placeCounted(
+        pairs, scratch.data(),
+        [=](const std::uint32_t* rows) {
+          std::transform(rows, rows + keys, offsets, [=](auto at) { return before + at; });
+        },
+        [=](std::size_t place, std::uint32_t number) { indices[place] = number & otherMask; });
     return;
   }
   const NumberRows rows = emptyRows(pairs, scratch, size);

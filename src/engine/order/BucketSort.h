@@ -58,7 +58,7 @@ class BucketSort {
   void sort(std::size_t bucket, std::span<Pair> to, std::span<std::uint32_t> scratch) const noexcept;
   void list(std::size_t bucket, const NeighborsMemory& to, std::span<std::uint32_t> scratch) const noexcept;
 
-  PairOrder m_order{0, 0, Order::ByFirst};
+  PairOrder m_order;
   const Kernels* m_kernels = nullptr;
   std::pmr::vector<PairBuckets> m_ofWorkers;
   std::pmr::vector<std::size_t> m_places;  ///< By bucket: how many pairs precede it; one more at the end.

@@ -31,10 +31,7 @@ PairOrder::PairOrder(std::size_t firsts, std::size_t seconds, Order order, std::
 }
 
 void PairBuckets::start(const PairOrder& rule, std::size_t workers) {
-  m_keyBits = rule.keyBits;
-  m_otherBits = rule.otherBits;
-  m_bySecond = rule.bySecond;
-  m_isOne = rule.isCounted;
+  m_rule = rule;
   m_chunks = rule.buckets;
   m_next.require(rule.buckets);
   m_fullChunks.require(rule.buckets);
@@ -57,7 +54,7 @@ void PairBuckets::makeRoom(std::size_t chunks) {
   m_following.grow(chunks);
 }
 
-void PairBuckets::add(std::span<const Pair> pairs) { m_bySecond ? put<true>(pairs) : put<false>(pairs); }
+void PairBuckets::add(std::span<const Pair> pairs) { m_rule.bySecond ? put<true>(pairs) : put<false>(pairs); }
 
 void PairBuckets::addBothWays(std::span<const Pair> pairs) {
   put<false>(pairs);
@@ -66,13 +63,13 @@ void PairBuckets::addBothWays(std::span<const Pair> pairs) {
 
 template <bool kBySecond>
 void PairBuckets::put(std::span<const Pair> pairs) {
-  m_isOne ? append<kBySecond>(pairs) : distribute<kBySecond>(pairs);
+  m_rule.isCounted ? append<kBySecond>(pairs) : distribute<kBySecond>(pairs);
 }
 
 template <bool kBySecond>
 void PairBuckets::distribute(std::span<const Pair> pairs) {
-  const unsigned shift = m_keyBits;
-  const unsigned otherBits = m_otherBits;
+  const unsigned shift = m_rule.keyBits;
+  const unsigned otherBits = m_rule.otherBits;
   const std::uint32_t keyMask = (std::uint32_t{1} << shift) - 1;
   std::size_t* const next = m_next.data();
   std::uint32_t* to = m_numbers.data();
@@ -96,11 +93,8 @@ void PairBuckets::append(std::span<const Pair> pairs) {
   const std::size_t size = m_next[0] + pairs.size();
   if (size > m_numbers.capacity()) m_numbers.grow(size);
   std::uint32_t* const to = m_numbers.data() + m_next[0];
-  const unsigned otherBits = m_otherBits;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Pair pair = pairs[i];
-    to[i] = kBySecond ? pair.second << otherBits | pair.first : pair.first << otherBits | pair.second;
-  }
+  const unsigned otherBits = m_rule.otherBits;
+  for (std::size_t i = 0; i < pairs.size(); ++i) to[i] = packed<kBySecond, std::uint32_t>(pairs[i], otherBits);
   m_next[0] = size;
 }
 

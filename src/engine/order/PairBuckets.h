@@ -28,10 +28,25 @@ struct PairOrder {
 
   /// For sets of so many boxes, whose pairs go to buckets as so many threads find them.
   PairOrder(std::size_t firsts, std::size_t seconds, Order order, std::size_t threads = 0);
+  PairOrder() = default;
 
   /// Whether what the keys of a bucket differ in, above the other index, make a number of 31 bits.
   [[nodiscard]] bool packs() const noexcept { return otherBits < 31 && keyBits + otherBits <= 31; }
 };
+
+/// A pair as a number: the key above the other index.
+template <bool kBySecond, class Number>
+[[nodiscard]] Number packed(Pair pair, unsigned otherBits) noexcept {
+  return kBySecond ? Number{pair.second} << otherBits | pair.first : Number{pair.first} << otherBits | pair.second;
+}
+
+/// The pair of a number, whose key is this much less than the pair's.
+template <bool kBySecond, class Number>
+[[nodiscard]] Pair unpacked(Number number, unsigned otherBits, std::uint32_t firstKey = 0) noexcept {
+  const auto key = static_cast<std::uint32_t>(firstKey + (number >> otherBits));
+  const auto other = static_cast<std::uint32_t>(number & ((Number{1} << otherBits) - 1));
+  return kBySecond ? Pair{other, key} : Pair{key, other};
+}
 
 /// Pairs in buckets of neighbouring keys, in the order in which they come: the first pass of a sort, made while they
 /// are found, so that they need not be written and read once more. Within a bucket, 31 bits tell a pair.
@@ -52,7 +67,7 @@ class PairBuckets {
   void addBothWays(std::span<const Pair> pairs);
 
   [[nodiscard]] std::size_t size(std::size_t bucket) const noexcept {
-    return m_isOne ? m_next[0] : m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
+    return m_rule.isCounted ? m_next[0] : m_fullChunks[bucket] * kChunk + m_next[bucket] % kChunk;
   }
 
   /// Calls use(numbers) for each stretch of pairs of a bucket: what their keys differ in above the other index.
@@ -60,7 +75,7 @@ class PairBuckets {
   void forEachChunk(std::size_t bucket, const Use& use) const {
     std::size_t rest = size(bucket);
     for (std::size_t chunk = bucket; rest > 0; chunk = m_following[chunk]) {
-      const std::size_t length = m_isOne ? rest : std::min(rest, kChunk);
+      const std::size_t length = m_rule.isCounted ? rest : std::min(rest, kChunk);
       if (rest > length) {
         const std::uint32_t* const next = m_numbers.data() + m_following[chunk] * kChunk;
         for (std::size_t i = 0; i < kChunk; i += 16) prefetchLine(next + i);
@@ -84,10 +99,7 @@ class PairBuckets {
   void makeRoom(std::size_t chunks);
 
   std::pmr::memory_resource* m_memory;
-  unsigned m_keyBits = 0;
-  unsigned m_otherBits = 0;
-  bool m_bySecond = false;
-  bool m_isOne = false;      ///< There is one bucket, a list without chunks.
+  PairOrder m_rule;          ///< Where it counts, there is one bucket, a list without chunks.
   std::size_t m_chunks = 0;  ///< Those in use; the first one of each bucket has the bucket's number.
   Buffer<std::uint32_t> m_numbers;
   Buffer<std::uint32_t> m_following;   ///< By chunk: the next one of its bucket.

@@ -9,32 +9,19 @@
 namespace allpairs::engine {
 namespace {
 
-/// The index that orders first, above the other one.
-template <bool kBySecond>
-std::uint64_t numberOf(Pair pair, unsigned otherBits) {
-  if constexpr (kBySecond) return std::uint64_t{pair.second} << otherBits | pair.first;
-  return std::uint64_t{pair.first} << otherBits | pair.second;
-}
-
-template <bool kBySecond>
-Pair pairOf(std::uint64_t number, unsigned otherBits) {
-  const auto key = static_cast<std::uint32_t>(number >> otherBits);
-  const auto other = static_cast<std::uint32_t>(number & ((std::uint64_t{1} << otherBits) - 1));
-  return kBySecond ? Pair{other, key} : Pair{key, other};
-}
-
 template <bool kBySecond>
 void sortBy(std::span<Pair> pairs, Pair* spare, const PairOrder& order, RadixSort& radix, Executor& executor) {
   static_assert(sizeof(Pair) == sizeof(std::uint64_t));
   const unsigned otherBits = order.otherBits;
   runInParts(pairs.size(), kPartSize, executor, [=](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) spare[i] = std::bit_cast<Pair>(numberOf<kBySecond>(pairs[i], otherBits));
+    for (std::size_t i = begin; i < end; ++i)
+      spare[i] = std::bit_cast<Pair>(packed<kBySecond, std::uint64_t>(pairs[i], otherBits));
   });
   radix.sort(reinterpret_cast<std::uint64_t*>(spare), reinterpret_cast<std::uint64_t*>(pairs.data()), pairs.size(), 0,
              otherBits + order.allKeyBits, executor);
   runInParts(pairs.size(), kPartSize, executor, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      pairs[i] = pairOf<kBySecond>(std::bit_cast<std::uint64_t>(pairs[i]), otherBits);
+      pairs[i] = unpacked<kBySecond>(std::bit_cast<std::uint64_t>(pairs[i]), otherBits);
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,6 +13,12 @@
 #include "order/PairBuckets.h"
 
 namespace allpairs::engine {
+
+/// Compares pairs in an order.
+[[nodiscard]] inline std::uint64_t keyOf(Pair pair, Order order) noexcept {
+  const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
+  return order == Order::BySecond ? std::rotl(byFirst, 32) : byFirst;
+}
 
 /// Orders pairs by (first, second) or (second, first): as numbers of 64 bits, by a radix sort.
 ///

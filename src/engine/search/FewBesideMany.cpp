@@ -176,7 +176,7 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
       const std::size_t found = kernels.writeTouching(touched, fewSecond, pairs.data());
       if (found == 0) continue;
       statistics.pairs += found;
-      checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
+      checkLimit(options.maxPairs, statistics.pairs);
       take({pairs.data(), found});
     }
   }

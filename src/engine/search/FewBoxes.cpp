@@ -58,7 +58,7 @@ class Receiver {
     m_hits.size = 0;
     m_hits.doubts = 0;
     m_statistics.pairs += kept;
-    checkLimit({.maxPairs = m_options.maxPairs}, m_statistics.pairs);
+    checkLimit(m_options.maxPairs, m_statistics.pairs);
     m_take({m_pairs.data(), kept});
   }
 
@@ -139,7 +139,7 @@ OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Ord
     checkStop(options.stop);
     const std::size_t found = searchSome(search, kernels, pairs.data());
     statistics.pairs += found;
-    checkLimit({.maxPairs = options.maxPairs}, statistics.pairs);
+    checkLimit(options.maxPairs, statistics.pairs);
     if (found != 0) take({pairs.data(), found});
   }
   return statistics;

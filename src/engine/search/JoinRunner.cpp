@@ -65,8 +65,7 @@ void JoinRunner::run(const Job& job, Executor& executor) {
     m_workers.withOne([&](std::size_t index, Worker& worker) {
       const std::size_t begin = worker.sink.size();
       worker.lists = job.lists.empty() ? nullptr : &job.lists[index];
-      const auto part = m_stop == nullptr ? &JoinRunner::runPart : &JoinRunner::runInStretches;
-      (this->*part)(job, beginOf(task), beginOf(task + 1), worker);
+      runInStretches(job, beginOf(task), beginOf(task + 1), worker);
       worker.sink.finish();
       m_segments[task] = {index, begin, worker.sink.size()};
     });
@@ -75,8 +74,7 @@ void JoinRunner::run(const Job& job, Executor& executor) {
 
 std::uint64_t JoinRunner::runWhole(const Job& job, Worker& worker) const {
   const std::uint64_t before = worker.sink.hits().boxTests;
-  const auto part = m_stop == nullptr ? &JoinRunner::runPart : &JoinRunner::runInStretches;
-  (this->*part)(job, 0, job.units, worker);
+  runInStretches(job, 0, job.units, worker);
   return worker.sink.hits().boxTests - before;
 }
 
@@ -94,9 +92,10 @@ void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Wor
   }
 }
 
-/// Runs a part piece by piece, with a look at the flag before each. How many units make a piece depends on the tests
-/// that the last one took: a unit may have any number of partners.
+/// Runs a part; if there is a flag, piece by piece, with a look at it before each. How many units make a piece depends
+/// on the tests that the last one took: a unit may have any number of partners.
 void JoinRunner::runInStretches(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
+  if (m_stop == nullptr) return runPart(job, begin, end, worker);
   const Hits& hits = worker.sink.hits();
   std::size_t units = kRowsAtOnce;
   while (begin < end) {

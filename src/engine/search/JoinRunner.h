@@ -92,6 +92,7 @@ class JoinRunner {
     PairSink sink;
     JoinScratch scratch;
     NeighborLists* lists = nullptr;  ///< Those of the running job.
+    std::atomic_flag busy;
   };
 
   std::uint64_t runWhole(const Job& job, Worker& worker) const;

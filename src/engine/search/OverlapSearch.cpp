@@ -21,6 +21,13 @@ struct OverlapSearch::State {
   OverlapOptions options;
   engine::Search search;
   engine::InUse inUse;
+
+  /// Calls use(search, options), marked as running.
+  template <class Use>
+  auto run(const Use& use) {
+    const auto mark = inUse.mark();
+    return use(search, std::as_const(options));
+  }
 };
 
 OverlapSearch::OverlapSearch(OverlapOptions options) : m_state(engine::makeState<State>(std::move(options))) {}
@@ -49,76 +56,64 @@ void OverlapSearch::shrink() {
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& boxes) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.find({boxes, boxes, true}, state.options);
+  return state().run([&](auto& search, auto& options) { return search.find({boxes, boxes, true}, options); });
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.find({first, second, false}, state.options);
+  return state().run([&](auto& search, auto& options) { return search.find({first, second, false}, options); });
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& boxes, NeighborRows rows) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.findNeighbors({boxes, boxes, true}, state.options, rows);
+  return state().run([&](auto& search, auto& options) {
+    return search.findNeighbors({boxes, boxes, true}, options, rows);
+  });
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& second) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.findNeighbors({first, second, false}, state.options, NeighborRows::Half);
+  return state().run([&](auto& search, auto& options) {
+    return search.findNeighbors({first, second, false}, options, NeighborRows::Half);
+  });
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& boxes, Span<Pair> memory) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.findInto({boxes, boxes, true}, state.options, memory);
+  return state().run([&](auto& search, auto& options) {
+    return search.findInto({boxes, boxes, true}, options, memory);
+  });
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, Span<Pair> memory) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.findInto({first, second, false}, state.options, memory);
+  return state().run([&](auto& search, auto& options) {
+    return search.findInto({first, second, false}, options, memory);
+  });
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.findNeighborsInto({boxes, boxes, true}, state.options, rows, memory);
+  return state().run([&](auto& search, auto& options) {
+    return search.findNeighborsInto({boxes, boxes, true}, options, rows, memory);
+  });
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& first, const BoxView& second,
                                                const NeighborsMemory& memory) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.findNeighborsInto({first, second, false}, state.options, NeighborRows::Half, memory);
+  return state().run([&](auto& search, auto& options) {
+    return search.findNeighborsInto({first, second, false}, options, NeighborRows::Half, memory);
+  });
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.count({boxes, boxes, true}, state.options);
+  return state().run([&](auto& search, auto& options) { return search.count({boxes, boxes, true}, options); });
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& first, const BoxView& second) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  return state.search.count({first, second, false}, state.options);
+  return state().run([&](auto& search, auto& options) { return search.count({first, second, false}, options); });
 }
 
 void OverlapSearch::stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  state.search.stream({boxes, boxes, true}, state.options, {visitor, batchSize, state.options.maxPairs});
+  state().run([&](auto& search, auto& options) { search.stream({boxes, boxes, true}, options, visitor, batchSize); });
 }
 
 void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize) {
-  State& state = this->state();
-  const auto mark = state.inUse.mark();
-  state.search.stream({first, second, false}, state.options, {visitor, batchSize, state.options.maxPairs});
+  state().run([&](auto& search, auto& options) { search.stream({first, second, false}, options, visitor, batchSize); });
 }
 
 namespace {

@@ -44,7 +44,7 @@ void PairLists::start(std::size_t rows, std::size_t columns, std::size_t workers
 }
 
 void PairLists::select(Columns kept, PairSide side, const SinkOptions& options) {
-  const PairTest& test = *options.test;
+  const PairTest& test = options.test;
   m_options = &options;
   m_side = kept == Columns::Others ? PairSide::SmallerFirst : side;
   m_timesListed = kept == Columns::Others ? 2 : 1;
@@ -79,14 +79,14 @@ std::size_t PairLists::selectTouching(NeighborLists& lists, std::uint32_t row,
                                       std::span<std::uint32_t> partners) const {
   checkStop(m_options->stop);
   lists.exactTests += partners.size();
-  const auto isApart = [&](std::uint32_t partner) { return !m_options->test->touches(pairOf(row, partner)); };
+  const auto isApart = [&](std::uint32_t partner) { return !m_options->test.touches(pairOf(row, partner)); };
   const auto end = std::remove_if(partners.begin(), partners.end(), isApart);
   return static_cast<std::size_t>(end - partners.begin());
 }
 
 std::size_t PairLists::selectAllowed(std::uint32_t row, std::span<std::uint32_t> partners) const {
   checkStop(m_options->stop);
-  const auto isExcluded = [&](std::uint32_t partner) { return !m_options->test->allows(pairOf(row, partner)); };
+  const auto isExcluded = [&](std::uint32_t partner) { return !m_options->test.allows(pairOf(row, partner)); };
   const auto end = std::remove_if(partners.begin(), partners.end(), isExcluded);
   return static_cast<std::size_t>(end - partners.begin());
 }
@@ -95,7 +95,7 @@ std::size_t PairLists::findApart(NeighborLists& lists, std::span<const Pair> pai
   checkStop(m_options->stop);
   lists.exactTests += pairs.size();
   std::size_t size = 0;
-  m_options->test->forEachApart(
+  m_options->test.forEachApart(
       pairs.size(), [&](std::size_t i) { return pairOf(pairs[i].first, pairs[i].second); },
       [&](std::size_t i) { apart[size++] = static_cast<std::uint32_t>(i); });
   return size;

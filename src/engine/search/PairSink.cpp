@@ -22,23 +22,27 @@ static_assert(kHitStride >= kHitCapacity + kVectorSlack);
 
 }  // namespace
 
-void checkLimit(const SinkOptions& options, std::uint64_t count) {
-  if (count <= options.maxPairs) return;
-  if (!options.limitIsCallers) throw Overfull();
-  throw LimitExceeded(count, "more than " + std::to_string(options.maxPairs) + " pairs, the limit that was set; " +
+void checkLimit(std::uint64_t maxPairs, std::uint64_t count) {
+  if (count <= maxPairs) return;
+  throw LimitExceeded(count, "more than " + std::to_string(maxPairs) + " pairs, the limit that was set; " +
                                  std::to_string(count) + " had been found");
+}
+
+void checkLimit(const SinkOptions& options, std::uint64_t count) {
+  if (count > options.maxPairs && !options.limitIsCallers) throw Overfull();
+  checkLimit(options.maxPairs, count);
 }
 
 void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_options = &options;
   m_worker = worker;
-  const bool doubts = options.test != nullptr && options.test->leavesDoubts();
+  const bool doubts = options.test.leavesDoubts();
   m_memory.require(kHitOffset + (doubts ? 3 : 2) * kHitStride);
   m_hits = {};
   m_hits.row = m_memory.data() + kHitOffset;
   m_hits.partner = m_hits.row + kHitStride;
   if (doubts) m_hits.doubt = m_hits.partner + kHitStride;
-  if (doubts) m_hits.slack = options.test->slack();
+  if (doubts) m_hits.slack = options.test.slack();
   m_hits.capacity = kHitCapacity;
   m_hits.countOnly = options.countOnly && !isSelective();
   m_hits.receiver = this;
@@ -59,9 +63,7 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
 
 bool PairSink::isWhole() const noexcept { return m_options->firstRow == 0 && !m_options->ascendingOnly; }
 
-bool PairSink::isSelective() const noexcept {
-  return !isWhole() || (m_options->test != nullptr && m_options->test->needed());
-}
+bool PairSink::isSelective() const noexcept { return !isWhole() || m_options->test.needed(); }
 
 void PairSink::makeRoom(std::size_t size) {
   m_pairs.grow(std::max(m_options->likelyPairs, size), [this] { checkStop(m_options->stop); });
@@ -100,7 +102,7 @@ void PairSink::receive(Hits& hits) {
 }
 
 void PairSink::selectTested(std::size_t begin, const Hits& hits) {
-  const PairTest& test = *m_options->test;
+  const PairTest& test = m_options->test;
   const std::span<Pair> pairs(m_pairs.data() + begin, hits.size);
   m_exactTests += test.exactTestsOf(hits);
   if (isWhole()) {

@@ -37,8 +37,8 @@ inline void add(OverlapStatistics& sum, const OverlapStatistics& part) noexcept 
 
 /// How hits become pairs, the same for all workers of a search.
 struct SinkOptions {
+  PairTest test;
   const Kernels* kernels = nullptr;
-  const PairTest* test = nullptr;  ///< If null, all pairs are kept.
   PairSide side = PairSide::RowFirst;
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
@@ -63,7 +63,10 @@ struct SinkOptions {
   std::optional<FunctionRef<std::size_t(std::span<Pair> pairs, std::size_t worker)>> emit = std::nullopt;
 };
 
-/// Throws LimitExceeded or Overfull if there are more pairs than the options allow.
+/// Throws LimitExceeded if there are more pairs than the caller allows.
+void checkLimit(std::uint64_t maxPairs, std::uint64_t count);
+
+/// The same, or throws Overfull.
 void checkLimit(const SinkOptions& options, std::uint64_t count);
 
 /// Receives the hits of a worker, converts them to pairs, applies the exact test and the filters, and keeps, counts or

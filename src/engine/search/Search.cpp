@@ -153,9 +153,9 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_room = nullptr;
 }
 
-void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan) {
-  plan.sink.kernels = m_kernels;
-  plan.sink.test = &plan.test;
+Search::Plan Search::planOf(const Sets& sets, const OverlapOptions& options, Order order) {
+  begin(sets, options);
+  Plan plan{order, {PairTest::of(sets, options), m_kernels}};
   plan.sink.maxPairs = options.maxPairs;
   plan.sink.stop = options.stop;
   Readers readers = Readers::of(sets, options, *m_kernels);
@@ -164,6 +164,7 @@ void Search::makePlan(const Sets& sets, const OverlapOptions& options, Plan& pla
   const bool flat = choosesFlat(readers, options, likelyPairs);
   flat ? planFlat(readers, plan) : planJoin(readers, plan);
   plan.sink.likelyPairs = std::min(likelyPairs / m_executor->concurrency(), options.maxPairs);
+  return plan;
 }
 
 void Search::planFlat(const Readers& readers, Plan& plan) {
@@ -178,7 +179,7 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
   } else {
     exact &= readList(rowSet, m_rows, flat.rows);
   }
-  plan.test.requireExactTestInDoubt(!exact, readers.first.origin());
+  plan.sink.test.requireExactTestInDoubt(!exact, readers.first.origin());
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.job.isFlat = true;
   plan.job.units = rowSet.size();
@@ -187,14 +188,14 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
 void Search::planJoin(const Readers& readers, Plan& plan) {
   const std::size_t boxes = readers.first.size() + (readers.one ? 0 : readers.second.size());
   // A filter may take any time for a pair.
-  if (boxes <= kFewForThreads && !plan.test.isFiltered()) m_executor = &m_stoppable.over(nullptr, plan.sink.stop);
+  if (boxes <= kFewForThreads && !plan.sink.test.isFiltered()) m_executor = &m_stoppable.over(nullptr, plan.sink.stop);
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
   plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;
   joinBoth(readers.one, plan);
   BvhBuilder& second = readers.one ? m_first : m_second;
   const bool required = !m_first.exact() || !second.exact();
-  plan.test.requireExactTestInDoubt(
+  plan.sink.test.requireExactTestInDoubt(
       required, readers.first.origin(),
       required ? flatAxes(readers, m_first.levels().view(), second.levels().view()) : std::array<bool, 3>{});
 }
@@ -242,12 +243,10 @@ void Search::concatenate() {
   });
 }
 
-std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options, const PairRoom* room) {
+std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options) {
   if (areFew(sets, options)) return findAmongFew(sets, options, options.order);
-  begin(sets, options);
-  Plan plan{PairTest::of(sets, options), options.order};
-  makePlan(sets, options, plan);
-  return findPlanned(sets, plan, room);
+  Plan plan = planOf(sets, options, options.order);
+  return findPlanned(sets, plan, nullptr);
 }
 
 std::span<const Pair> Search::findPlanned(const Sets& sets, Plan& plan, const PairRoom* room) {
@@ -277,9 +276,7 @@ std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOption
 }
 
 std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) {
-  begin(sets, options);
-  Plan plan{PairTest::of(sets, options), options.order};
-  makePlan(sets, options, plan);
+  Plan plan = planOf(sets, options, options.order);
   std::vector<Pair> taken;
   if (comeInOrder(plan)) {
     expectPairs(sets, plan);
@@ -419,9 +416,7 @@ std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
     m_statistics = findFew(sets, options, options.order, ignore);
     return m_statistics.pairs;
   }
-  begin(sets, options);
-  Plan plan{PairTest::of(sets, options), options.order};
-  makePlan(sets, options, plan);
+  Plan plan = planOf(sets, options, options.order);
   plan.sink.countOnly = true;
   plan.sink.likelyPairs = 0;
   run(plan, *m_executor);

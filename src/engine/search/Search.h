@@ -23,26 +23,6 @@
 
 namespace allpairs::engine {
 
-/// Passes the pairs of a stream on in batches of at most `size`, and no more than the limit.
-class Batches {
- public:
-  Batches(PairVisitor visitor, std::size_t size, std::uint64_t limit)
-      : m_visitor(visitor), m_size(size), m_limit(limit) {}
-
-  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
-
-  void give(std::span<const Pair> pairs);
-
-  /// Whole batches only; returns how many pairs those were.
-  std::size_t giveFull(std::span<const Pair> pairs);
-
- private:
-  PairVisitor m_visitor;
-  std::size_t m_size;
-  std::uint64_t m_limit;
-  std::uint64_t m_given = 0;
-};
-
 /// Where a result is put, asked for once its size is known: a vector, or memory of the caller, which may be too small
 /// and throw.
 using PairRoom = FunctionRef<std::span<Pair>(std::uint64_t pairs)>;
@@ -66,8 +46,7 @@ class Search {
         m_places(memory),
         m_sort(memory) {}
 
-  /// With a room, pairs that have to be put together or in order are put there.
-  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options, const PairRoom* room = nullptr);
+  std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
 
   /// The pairs of find(), of more than a few boxes, as a vector, into which they are put at once: another copy of many
   /// pairs is memory that is touched for the first time.
@@ -84,7 +63,9 @@ class Search {
                                   const NeighborsMemory& memory);
 
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
-  void stream(const Sets& sets, const OverlapOptions& options, Batches to);
+
+  /// Passes the pairs on in batches of at most so many.
+  void stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor, std::size_t batchSize);
 
   /// Releases all memory except that of the last result.
   void shrink() noexcept;
@@ -94,19 +75,21 @@ class Search {
  private:
   /// One search over all rows, or part of them, ready to run.
   struct Plan {
-    PairTest test;
     Order order;
+    SinkOptions sink;
     JoinRunner::Job job = {};
-    SinkOptions sink = {};
   };
 
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
+  /// Checks the options, forgets the last result, and prepares a search.
+  Plan planOf(const Sets& sets, const OverlapOptions& options, Order order);
+
+  /// With a room, pairs that have to be put together or in order are put there.
   std::span<const Pair> findPlanned(const Sets& sets, Plan& plan, const PairRoom* room);
   std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options, Order order);
   void begin(const Sets& sets, const OverlapOptions& options);
-  void makePlan(const Sets& sets, const OverlapOptions& options, Plan& plan);
   void planFlat(const Readers& readers, Plan& plan);
   void planJoin(const Readers& readers, Plan& plan);
 
@@ -151,8 +134,8 @@ class Search {
   bool listRows(const Sets& sets, NeighborRows kind, Plan& plan);
   bool bucketRows(const Sets& sets, NeighborRows kind, Plan& plan);
 
-  void streamAll(Plan& plan, Batches& to);
-  void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers, Batches& to);
+  void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers,
+                      FunctionRef<void(std::span<const Pair>)> give);
   bool findRange(const Sets& sets, const OverlapOptions& options, const std::array<double, 3>& origin,
                  std::size_t begin, std::size_t end);
 

@@ -24,9 +24,7 @@ std::span<Pair> Search::findInto(const Sets& sets, const OverlapOptions& options
   if (areFew(sets, options)) {
     found = findAmongFew(sets, options, options.order);
   } else {
-    begin(sets, options);
-    Plan plan{PairTest::of(sets, options), options.order};
-    makePlan(sets, options, plan);
+    Plan plan = planOf(sets, options, options.order);
     if (comeInOrder(plan)) return copyInto(plan, memory);
     const auto checked = [&](std::uint64_t pairs) {
       checkRoom(pairs, memory.size(), "pairs");

@@ -49,9 +49,7 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
     writePairsAsRows(sets, kind);
     return {m_rowsFound.offsets, m_rowsFound.indices};
   }
-  begin(sets, options);
-  Plan plan{PairTest::of(sets, options), Order::ByFirst};
-  makePlan(sets, options, plan);
+  Plan plan = planOf(sets, options, Order::ByFirst);
   if (!listRows(sets, kind, plan) && (plan.job.isFlat || !bucketRows(sets, kind, plan))) {
     run(plan, *m_executor);
     concatenate();

@@ -15,48 +15,42 @@ constexpr std::size_t kLastRange = std::size_t{1} << 20;
 
 }  // namespace
 
-void Batches::give(std::span<const Pair> pairs) {
-  for (std::size_t begin = 0; begin < pairs.size(); begin += m_size) {
-    const std::span<const Pair> batch = pairs.subspan(begin, std::min(m_size, pairs.size() - begin));
-    m_given += batch.size();
-    checkLimit({.maxPairs = m_limit}, m_given);
-    m_visitor(batch);
-  }
-}
-
-std::size_t Batches::giveFull(std::span<const Pair> pairs) {
-  const std::size_t full = pairs.size() / m_size * m_size;
-  give(pairs.first(full));
-  return full;
-}
-
-void Search::stream(const Sets& sets, const OverlapOptions& options, Batches to) {
-  if (to.size() == 0) throw InvalidArgument("a batch size of 0 pairs");
+void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor, std::size_t batchSize) {
+  if (batchSize == 0) throw InvalidArgument("a batch size of 0 pairs");
   begin(sets, options);
+  std::uint64_t given = 0;
+  const auto give = [&](std::span<const Pair> pairs) {
+    for (std::size_t begin = 0; begin < pairs.size(); begin += batchSize) {
+      const std::span<const Pair> batch = pairs.subspan(begin, std::min(batchSize, pairs.size() - begin));
+      given += batch.size();
+      checkLimit(options.maxPairs, given);
+      visitor(batch);
+    }
+  };
   std::size_t likelyPairs = 0;
   const Readers readers = Readers::of(sets, options, *m_kernels);
   if (options.order != Order::Unordered && !choosesFlat(readers, options, likelyPairs)) {
-    streamInRanges(sets, options, readers, to);
+    streamInRanges(sets, options, readers, give);
     return;
   }
-  Plan plan{PairTest::of(sets, options), options.order};
-  makePlan(sets, options, plan);
-  plan.sink.likelyPairs = 0;                    // passed on before there are many
-  plan.sink.maxPairs = SinkOptions().maxPairs;  // the batches are counted
-  streamAll(plan, to);
-}
-
-/// Passes on full batches immediately; the rest waits for the next pairs.
-void Search::streamAll(Plan& plan, Batches& to) {
-  const auto fullBatches = [&](std::span<Pair> pairs, std::size_t) { return to.giveFull(pairs); };
-  plan.sink.emit.emplace(fullBatches);
+  // Full batches are passed on at once; the rest waits for the next pairs.
+  const auto giveFull = [&](std::span<Pair> pairs, std::size_t) {
+    const std::size_t full = pairs.size() / batchSize * batchSize;
+    give(pairs.first(full));
+    return full;
+  };
+  Plan plan = planOf(sets, options, options.order);
+  plan.sink.likelyPairs = 0;                       // passed on before there are many
+  plan.sink.maxPairs = OverlapOptions().maxPairs;  // the batches are counted
+  plan.sink.emit.emplace(giveFull);
   SerialExecutor serial;  // The visitor is called on the calling thread.
   run(plan, serial);
-  to.give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
+  give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 
 /// Searches the boxes that pairs are ordered by, range by range, each range against all boxes of the other side.
-void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers, Batches& to) {
+void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers,
+                            FunctionRef<void(std::span<const Pair>)> give) {
   const bool bySecond = options.order == Order::BySecond;
   const BoxView& rows = bySecond ? sets.second : sets.first;
   const BoxReader& columns = bySecond ? readers.first : readers.second;
@@ -69,7 +63,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
       length = (end - begin + 1) / 2;
       continue;
     }
-    to.give(m_pairs);
+    give(m_pairs);
     add(total, m_statistics);
     begin = end;
     length = std::min(2 * length, kLastRange);
@@ -84,13 +78,11 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const st
   BoxReader reader(range, options, *m_kernels);
   reader.setOrigin(origin);
   m_first.build(reader, *m_executor);
-  Plan plan{PairTest::of(sets, options), options.order};
+  Plan plan{options.order, {PairTest::of(sets, options), m_kernels}};
   joinBoth(false, plan);
-  plan.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), origin);
-  plan.sink.kernels = m_kernels;
-  plan.sink.test = &plan.test;
+  plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), origin);
   plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  plan.sink.maxPairs = end - begin == 1 ? SinkOptions().maxPairs : kLikelyPairs * kLastRange;
+  if (end - begin > 1) plan.sink.maxPairs = kLikelyPairs * kLastRange;
   plan.sink.limitIsCallers = false;
   plan.sink.firstRow = static_cast<std::uint32_t>(begin);
   plan.sink.ascendingOnly = sets.one;

@@ -10,20 +10,21 @@
 
 namespace allpairs::engine {
 
-/// What the tasks of an executor work with, as many as it has threads; kept from run to run.
+/// What the tasks of an executor work with, as many as it has threads; kept from run to run. A worker has a flag
+/// `busy`.
 template <class Worker>
 class Workers {
  public:
-  explicit Workers(std::pmr::memory_resource* memory) : m_slots(memory) {}
+  explicit Workers(std::pmr::memory_resource* memory) : m_workers(memory) {}
 
-  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_slots.get_allocator().resource(); }
-  [[nodiscard]] std::size_t size() const noexcept { return m_slots.size(); }
-  [[nodiscard]] Worker& operator[](std::size_t i) const noexcept { return m_slots[i]->worker; }
+  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.get_allocator().resource(); }
+  [[nodiscard]] std::size_t size() const noexcept { return m_workers.size(); }
+  [[nodiscard]] Worker& operator[](std::size_t i) const noexcept { return *m_workers[i]; }
 
   /// Makes sure that there are so many.
   void require(std::size_t count) {
-    const std::pmr::polymorphic_allocator<Slot> allocator(memory());
-    while (m_slots.size() < count) m_slots.push_back(std::allocate_shared<Slot>(allocator, memory()));
+    const std::pmr::polymorphic_allocator<Worker> allocator(memory());
+    while (m_workers.size() < count) m_workers.push_back(std::allocate_shared<Worker>(allocator, memory()));
   }
 
   /// Calls use(index, worker) with a worker that no other task has meanwhile.
@@ -31,28 +32,22 @@ class Workers {
   void withOne(const Use& use) {
     const std::size_t index = claim();
     const auto clear = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
-    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&m_slots[index]->busy, clear);
-    use(index, m_slots[index]->worker);
+    const std::unique_ptr<std::atomic_flag, decltype(clear)> release(&m_workers[index]->busy, clear);
+    use(index, *m_workers[index]);
   }
 
  private:
-  struct Slot {
-    explicit Slot(std::pmr::memory_resource* memory) : worker(memory) {}
-
-    Worker worker;
-    std::atomic_flag busy;
-  };
-
   std::size_t claim() {
     for (;;) {
-      for (std::size_t i = 0; i < m_slots.size(); ++i) {
-        if (!m_slots[i]->busy.test_and_set(std::memory_order_acquire)) return i;
+      for (std::size_t i = 0; i < m_workers.size(); ++i) {
+        if (!m_workers[i]->busy.test_and_set(std::memory_order_acquire)) return i;
       }
       std::this_thread::yield();
     }
   }
 
-  std::pmr::vector<std::shared_ptr<Slot>> m_slots;  ///< Shared with nobody: so they are in the memory of the resource.
+  /// Shared with nobody: so they are in the memory of the resource.
+  std::pmr::vector<std::shared_ptr<Worker>> m_workers;
 };
 
 }  // namespace allpairs::engine

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 
 #include "allpairs/Error.h"
@@ -29,9 +28,8 @@ void checkProperties(std::span<const BoxProperties> properties, std::size_t boxe
     checkLength(properties.size(), "properties", boxes);
   }
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (std::isnan(properties[i].margin) || properties[i].margin == -std::numeric_limits<double>::infinity()) {
-      throw InvalidBox(i, "box " + std::to_string(i) + " of the batch: its margin is NaN or -infinity");
-    }
+    if (isDistance(properties[i].margin)) continue;
+    throw InvalidBox(i, "box " + std::to_string(i) + " of the batch: its margin is NaN or -infinity");
   }
 }
 
@@ -40,14 +38,10 @@ BoxProperties at(std::span<const BoxProperties> properties, std::size_t i) {
   return properties.empty() ? BoxProperties() : properties[properties.size() == 1 ? 0 : i];
 }
 
-bool isFloat32(double value) {
-  if (std::abs(value) > static_cast<double>(kLaneMax)) return std::isinf(value);
-  return static_cast<double>(static_cast<float>(value)) == value;
-}
-
-bool isFloat32(const Box& box) {
+bool areFloat32(const Box& box) {
+  const auto is = [](double value) { return isFloat32(value) || std::isinf(value); };
   bool result = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) result = result && isFloat32(box.min[axis]) && isFloat32(box.max[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) result = result && is(box.min[axis]) && is(box.max[axis]);
   return result;
 }
 
@@ -169,7 +163,7 @@ void BoxStore::reserveResettled(std::size_t boxes, std::size_t bound) {
 bool BoxStore::needsFloat64(const BoxView& boxes) const {
   if (m_isFloat64 || !boxes.isFloat64()) return false;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (!isFloat32(boxes[i])) return true;
+    if (!areFloat32(boxes[i])) return true;
   }
   return false;
 }
@@ -224,7 +218,7 @@ void BoxStore::write(BoxId id, const Box& box) {
 void BoxStore::move(BoxId id, const Box& box) {
   if (!contains(id)) throwUnknown(0, id);
   if (hasNan(box)) throw InvalidBox(0, "the box with the id " + std::to_string(id) + " has a NaN");
-  if (!m_isFloat64 && !isFloat32(box)) prepare(idBound(), {.float64 = true});
+  if (!m_isFloat64 && !areFloat32(box)) prepare(idBound(), {.float64 = true});
   write(id, box);
 }
 
@@ -241,11 +235,12 @@ void BoxStore::move(std::span<const BoxId> ids, const BoxView& boxes) {
   }
 }
 
-/// Rows of six to rows of six, of the same kind. The lists' ends are kept in registers: flags are bytes, and a byte
-/// that is written may be of anything.
+/// Rows of six to rows of six, of the same kind. Where the lists are and end is kept in registers: flags are bytes, and
+/// a byte that is written may be of anything.
 template <class T>
 void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
-  ListEnds ends = listEnds();
+  BoxId* touched = touchedEnd();
+  BoxId* stale = staleEnd();
   std::uint8_t* const flags = m_flags.data();
   std::uint8_t* const marks = m_marks.data();
   for (const BoxId id : ids) {
@@ -254,9 +249,11 @@ void BoxStore::copyRows(std::span<const BoxId> ids, const T* from, T* to) {
     const bool changed = !std::equal(from, from + 6, row);
     std::memcpy(row, from, 6 * sizeof(T));  // std::copy_n is a call of memmove.
     from += 6;
-    if (changed) ends.note(id, flags[id], marks[id]);
+    if (!changed) continue;
+    touched = list(id, touched, flags[id], Touched);
+    stale = list(id, stale, marks[id], Stale);
   }
-  setListEnds(ends);
+  setListEnds(touched, stale);
 }
 
 void BoxStore::remove(std::span<const BoxId> ids) {

@@ -125,32 +125,21 @@ class BoxStore {
   void endStep() noexcept;
 
  private:
-  /// Where the next id goes in the lists of what changed, which are as long as there are ids.
-  struct ListEnds {
-    BoxId* touched;
-    BoxId* stale;
-
-    /// Lists the box as changed, once.
-    void note(BoxId id, std::uint8_t& flags, std::uint8_t& marks) noexcept {
-      *touched = id;
-      *stale = id;
-      touched += (flags & Touched) == 0 ? 1 : 0;
-      stale += (marks & Stale) == 0 ? 1 : 0;
-      flags = static_cast<std::uint8_t>(flags | Touched);
-      marks = static_cast<std::uint8_t>(marks | Stale);
-    }
-  };
-  [[nodiscard]] ListEnds listEnds() noexcept {
-    return {m_touched.data() + m_touchedCount, m_stale.data() + m_staleCount};
+  /// Lists a box as changed, once, at the end of a list that is as long as there are ids; returns the new end.
+  [[nodiscard]] static BoxId* list(BoxId id, BoxId* end, std::uint8_t& flags, Flag flag) noexcept {
+    *end = id;
+    end += (flags & flag) == 0 ? 1 : 0;
+    flags = static_cast<std::uint8_t>(flags | flag);
+    return end;
   }
-  void setListEnds(ListEnds ends) noexcept {
-    m_touchedCount = static_cast<std::size_t>(ends.touched - m_touched.data());
-    m_staleCount = static_cast<std::size_t>(ends.stale - m_stale.data());
+  [[nodiscard]] BoxId* touchedEnd() noexcept { return m_touched.data() + m_touchedCount; }
+  [[nodiscard]] BoxId* staleEnd() noexcept { return m_stale.data() + m_staleCount; }
+  void setListEnds(const BoxId* touched, const BoxId* stale) noexcept {
+    m_touchedCount = static_cast<std::size_t>(touched - m_touched.data());
+    m_staleCount = static_cast<std::size_t>(stale - m_stale.data());
   }
   void note(BoxId id) noexcept {
-    ListEnds ends = listEnds();
-    ends.note(id, m_flags[id], m_marks[id]);
-    setListEnds(ends);
+    setListEnds(list(id, touchedEnd(), m_flags[id], Touched), list(id, staleEnd(), m_marks[id], Stale));
   }
   void noteResettled(BoxId id);
   template <class T>

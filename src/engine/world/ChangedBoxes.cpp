@@ -2,7 +2,6 @@
 #include "world/ChangedBoxes.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace allpairs::engine {
@@ -37,9 +36,7 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, const WorldForest& for
   m_levels.resize(0);
   m_sourceBlock = static_cast<std::size_t>(-1);
   for (std::size_t word = 0; word < words; ++word) {
-    for (std::uint64_t bits = std::exchange(m_marked[word], 0); bits != 0; bits &= bits - 1) {
-      append(source, word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
-    }
+    forEachBit(std::exchange(m_marked[word], 0), [&](std::size_t bit) { append(source, word * 64 + bit); });
   }
   m_marking = false;
   m_levels.boundAll(*m_kernels, executor);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 
 #include "input/Parts.h"
 
@@ -24,16 +23,12 @@ constexpr double kMostSpread = 2.0;
 bool readLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t used, LaneBlock& lanes) {
   BlockRead read = reader.read({ids, 0, kFanOut}, lanes);
   const std::uint32_t unused = read.emptyLanes | (~used & 0xFFFFU);
-  for (std::uint32_t bits = unused; bits != 0; bits &= bits - 1) {
-    lanes.set(static_cast<std::size_t>(std::countr_zero(bits)), kNeverLanes);
-  }
+  lanes.clear(unused);
   // Empty boxes have infinite bounds, which no lane can represent; they must not make the whole block inexact.
   if (unused != 0 && !read.exact) {
     read.exact = true;
     LaneBlock one;
-    for (std::uint32_t bits = ~unused & 0xFFFFU; bits != 0; bits &= bits - 1) {
-      read.exact &= reader.read({ids + std::countr_zero(bits), 0, 1}, one).exact;
-    }
+    forEachBit(~unused & 0xFFFFU, [&](std::size_t i) { read.exact &= reader.read({ids + i, 0, 1}, one).exact; });
   }
   return read.exact;
 }
@@ -109,14 +104,11 @@ void DynamicBvh::placeFresh(std::span<BoxHome> homes, const BoxReader& reader, E
 /// Reads the blocks whose boxes have changed.
 void DynamicBvh::readDirty(const BoxReader& reader, Executor& executor) {
   m_blockList.clear();
-  for (std::size_t word = 0; word < m_dirty.size(); ++word) {
-    for (std::uint64_t bits = m_dirty[word]; bits != 0; bits &= bits - 1) {
-      const std::size_t block = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-      m_isExact = read(block, reader) && m_isExact;  // If a box was not exact, until all are read again.
-      m_blockList.push_back(static_cast<std::uint32_t>(block));
-    }
-    m_dirty[word] = 0;
-  }
+  forEachBit(m_dirty, [&](std::size_t block) {
+    m_isExact = read(block, reader) && m_isExact;  // If a box was not exact, until all are read again.
+    m_blockList.push_back(static_cast<std::uint32_t>(block));
+  });
+  std::fill(m_dirty.begin(), m_dirty.end(), std::uint64_t{0});
   m_dirtyBoxes = 0;
   m_levels.boundSome(m_blockList, reader.kernels(), executor);
 }

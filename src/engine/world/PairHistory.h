@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -141,10 +140,7 @@ class PairHistory {
   }
 
   /// Compares pairs in the order of the options.
-  [[nodiscard]] std::uint64_t keyOf(Pair pair) const noexcept {
-    const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
-    return std::rotl(byFirst, m_options->order == Order::ByFirst ? 0 : 32);
-  }
+  [[nodiscard]] std::uint64_t keyOf(Pair pair) const noexcept { return engine::keyOf(pair, m_options->order); }
 
   const WorldOptions* m_options;
   const Kernels* m_kernels;

@@ -143,11 +143,10 @@ std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) 
 std::uint64_t SmallWorlds::runWide(std::span<const BoxId> ids, Worker& worker) const {
   worker.wide.require(1);
   WideWorld& wide = worker.wide[0];
-  const WorldPlaces places = WorldPlaces::of(ids.size());
-  wide.start(ids.size(), *m_boxes, m_options.distance);
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    wide.set(places.first + i, (*m_boxes)[ids[i]], m_boxes->margin(ids[i]), true);
-  }
+  const auto isIn = [](const Box&, double) { return true; };
+  wide.read(
+      ids.size(), *m_boxes, [&](std::size_t i) { return ids[i]; }, isIn);
+  wide.distance = m_options.distance;
   WorldSink sink = sinkOf(worker);
   m_kernels.searchWideWorld(wide, sink);
   return sink.size;

@@ -82,6 +82,7 @@ class SmallWorlds {
     Buffer<Pair> pairs;
     Buffer<WideWorld> wide;
     std::uint64_t boxTests = 0;
+    std::atomic_flag busy;
   };
 
   std::size_t listRow(std::span<const std::uint32_t> worlds, Worker& worker) const;

@@ -89,20 +89,22 @@ struct World::State {
 
   /// Updates the hierarchies for queries, once after each change.
   void settle() {
-    if (isSettled.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(settling);
-    if (isSettled.load(std::memory_order_relaxed)) return;
-    search.update(store);
-    isSettled.store(true, std::memory_order_release);
+    doOnce(isSettled, [this] { search.update(store); });
   }
 
   /// Groups the lists of the last step by world, once after each step.
   void group() {
-    if (isGrouped.load(std::memory_order_acquire)) return;
+    doOnce(isGrouped, [this] { search.groupLists(); });
+  }
+
+  /// Does what is not done yet; concurrent const members wait for it.
+  template <class Work>
+  void doOnce(std::atomic<bool>& isDone, const Work& work) {
+    if (isDone.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(settling);
-    if (isGrouped.load(std::memory_order_relaxed)) return;
-    search.groupLists();
-    isGrouped.store(true, std::memory_order_release);
+    if (isDone.load(std::memory_order_relaxed)) return;
+    work();
+    isDone.store(true, std::memory_order_release);
   }
 
   static engine::WorldQueries queries(const World& world, const QueryFilter& filter) {
@@ -235,10 +237,8 @@ StepResult World::step() {
   State& state = this->state();
   const auto mark = state.inUse.mark();
   // `accept` may group the lists of the step before.
-  const struct Ungroup {
-    std::atomic<bool>& isGrouped;
-    ~Ungroup() { isGrouped.store(false, std::memory_order_relaxed); }
-  } ungroup{state.isGrouped};
+  const auto ungroup = [](std::atomic<bool>* isGrouped) { isGrouped->store(false, std::memory_order_relaxed); };
+  const std::unique_ptr<std::atomic<bool>, decltype(ungroup)> after(&state.isGrouped, ungroup);
   state.isGrouped.store(false, std::memory_order_relaxed);
   return state.search.step(state.store);
 }

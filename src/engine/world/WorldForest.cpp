@@ -37,9 +37,9 @@ std::uint64_t WorldForest::update(const BoxStore& store, const WorldMembers& mem
   } else {
     cutIntoRuns(
         m_dirty, [this](std::uint32_t tree) { return m_trees[tree].size(); }, m_runs);
-    executor.run(m_runs.size(), [&](std::size_t run) {
+    executor.run(m_runs.size() - 1, [&](std::size_t run) {
       SerialExecutor serial;
-      for (std::size_t i = run == 0 ? 0 : m_runs[run - 1]; i < m_runs[run]; ++i) refresh(m_dirty[i], serial);
+      for (std::size_t i = m_runs[run]; i < m_runs[run + 1]; ++i) refresh(m_dirty[i], serial);
     });
   }
   m_inexactTrees += countInexact();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bvh/RadixSort.h"
+#include "order/PairSort.h"
 
 namespace allpairs::engine {
 void WorldLists::prepareStep(const BoxStore& store) {
@@ -61,11 +62,7 @@ void WorldLists::moveChanged(const StepResult& result) {
   for (const Pair pair : result.persisted) {
     (numberOf(m_now, pair) == numberOf(m_before, pair) ? persisted : moved).push_back(pair);
   }
-  const auto keyOf = [this](Pair pair) {
-    const std::uint64_t byFirst = (std::uint64_t{pair.first} << 32U) | pair.second;
-    return std::rotl(byFirst, m_order == Order::ByFirst ? 0 : 32);
-  };
-  const auto isBefore = [&](Pair a, Pair b) { return keyOf(a) < keyOf(b); };
+  const auto isBefore = [this](Pair a, Pair b) { return keyOf(a, m_order) < keyOf(b, m_order); };
   const auto mergeInto = [&](std::pmr::vector<Pair>& list, std::span<const Pair> with) {
     list.resize(moved.size() + with.size());
     std::merge(moved.begin(), moved.end(), with.begin(), with.end(), list.begin(), isBefore);

@@ -97,10 +97,10 @@ class WorldMembers {
   std::uint64_t m_membership = 0;
 };
 
-/// Cuts a list of worlds into runs of some boxes each, a task's work; `ends` receives where each ends.
+/// Cuts a list of worlds into runs of some boxes each, a task's work: `ends` receives where each ends, and 0 first.
 template <class SizeOf>
 void cutIntoRuns(std::span<const std::uint32_t> worlds, const SizeOf& sizeOf, std::pmr::vector<std::size_t>& ends) {
-  ends.clear();
+  ends.assign(1, 0);
   std::size_t boxes = 0;
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     boxes += sizeOf(worlds[i]);

@@ -39,11 +39,10 @@ void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
   // As deep as there are levels, at most kMaxLevels.
   const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
     const LaneBlock& lanes = view.level[level].blocks[block];
-    for (std::uint32_t bits = lanesOf(lanes); bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    forEachBit(lanesOf(lanes), [&](std::size_t lane) {
       const std::size_t child = block * kFanOut + lane;
       level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
-    }
+    });
   };
   visit(visit, view.depth - 1, 0);
 }

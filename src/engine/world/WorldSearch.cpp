@@ -179,9 +179,8 @@ void WorldSearch::join(const BoxStore& store) {
   m_history.begin(store.idBound(), executor().concurrency(), m_statistics.joinedAll ? Joined::All : Joined::Changed);
   cutIntoRuns(
       m_chosen, [&](std::uint32_t world) { return m_members.size(world); }, m_runs);
-  executor().run(m_runs.size(), [&](std::size_t run) {
-    const std::size_t begin = run == 0 ? 0 : m_runs[run - 1];
-    m_small.search(std::span(m_chosen).subspan(begin, m_runs[run] - begin), takeSmall);
+  executor().run(m_runs.size() - 1, [&](std::size_t run) {
+    m_small.search(std::span(m_chosen).subspan(m_runs[run], m_runs[run + 1] - m_runs[run]), takeSmall);
   });
   if (!m_large.empty() || m_statistics.joinedAll) joinTrees(store);  // All pairs are ordered in its memory.
   if (m_partly.empty()) return;
@@ -196,7 +195,7 @@ void WorldSearch::joinTrees(const BoxStore& store) {
     m_history.take(pairs, worker);
     return pairs.size();
   };
-  SinkOptions sink{&m_kernels, &test, PairSide::SmallerFirst};
+  SinkOptions sink{test, &m_kernels, PairSide::SmallerFirst};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
   m_runner.start(sink, executor());
@@ -204,8 +203,8 @@ void WorldSearch::joinTrees(const BoxStore& store) {
   const auto sizeOf = [&](std::uint32_t world) { return m_members.size(world); };
   const auto isHuge = [&](std::uint32_t world) { return worlds.size() == 1 || sizeOf(world) > kPartSize; };
   cutIntoRuns(worlds, sizeOf, m_runs);
-  m_runner.runTasks(m_runs.size(), executor(), [&](std::size_t task, const auto& joinPart) {
-    for (std::size_t i = task == 0 ? 0 : m_runs[task - 1]; i < m_runs[task]; ++i) {
+  m_runner.runTasks(m_runs.size() - 1, executor(), [&](std::size_t task, const auto& joinPart) {
+    for (std::size_t i = m_runs[task]; i < m_runs[task + 1]; ++i) {
       if (!isHuge(worlds[i])) joinWorld(worlds[i], joinPart);
     }
   });
@@ -265,14 +264,13 @@ void WorldSearch::searchChanged(const BoxStore& store) {
 /// Joins the changed boxes of some worlds with all boxes there, one world after the other.
 void WorldSearch::joinPartly(const BoxStore& store) {
   const PairTest test = testOf(store, m_options.distance, m_forest.exact());
-  const PairTest bounds = test.boundsOfHits();
   const PairTest filter = test.withoutBounds();  // Asked once for each pair.
   const auto take = [&](std::span<Pair> pairs, std::size_t worker) {
     const std::span<Pair> once = pairs.first(dropDoubles(store, pairs));
     m_history.take(once.first(filter.select(once)), worker);
     return pairs.size();
   };
-  SinkOptions sink{&m_kernels, &bounds};
+  SinkOptions sink{test.boundsOfHits(), &m_kernels};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
   m_runner.start(sink, executor());
@@ -336,7 +334,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
     found.insert(found.end(), pairs.begin(), pairs.end());
     return pairs.size();
   };
-  SinkOptions sink{&m_kernels, &test};
+  SinkOptions sink{test, &m_kernels};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
   JoinRunner runner(defaultMemory());

@@ -22,8 +22,6 @@ std::span<const std::uint32_t> valuesOfAll(std::span<const std::uint32_t> values
   return all;
 }
 
-bool isLessBySecond(Pair a, Pair b) { return a.second != b.second ? a.second < b.second : a.first < b.first; }
-
 /// Before the first pair of those that takeByWorld() takes.
 void startByWorld(const Worlds& worlds, std::pmr::vector<std::uint64_t>& begin) {
   begin.reserve(worlds.size() + 2);
@@ -74,8 +72,9 @@ WorldPairsView SharedSearcher::find(const Worlds& worlds, const BoxView& shared,
   takeByWorld(found, worlds, m_begin, [&](Pair pair) { *to++ = pair; });
   m_begin.resize(worlds.size() + 1, m_begin.back());
   if (options.order == Order::BySecond) {
+    const auto isBefore = [](Pair a, Pair b) { return keyOf(a, Order::BySecond) < keyOf(b, Order::BySecond); };
     for (std::size_t world = 0; world < worlds.size(); ++world) {
-      std::sort(m_pairs.data() + m_begin[world], m_pairs.data() + m_begin[world + 1], isLessBySecond);
+      std::sort(m_pairs.data() + m_begin[world], m_pairs.data() + m_begin[world + 1], isBefore);
     }
   }
   return {{m_pairs.data(), found.size()}, m_begin};
@@ -85,7 +84,7 @@ std::span<const std::uint64_t> SharedSearcher::count(const Worlds& worlds, const
                                                      const OverlapOptions& options) {
   startByWorld(worlds, m_begin);
   const auto add = [&](std::span<const Pair> pairs) { takeByWorld(pairs, worlds, m_begin, [](Pair) {}); };
-  m_search.stream({worlds.boxes(), shared, false}, optionsForAll(worlds, options), {add, kBatchSize, options.maxPairs});
+  m_search.stream({worlds.boxes(), shared, false}, optionsForAll(worlds, options), add, kBatchSize);
   m_begin.resize(worlds.size() + 1, m_begin.back());
   return m_begin;
 }

@@ -130,7 +130,7 @@ void WorldsSearcher::placeParts() {
     part.place = place;
     place += part.pairs;
   }
-  checkPairs(place);
+  checkLimit(m_options->maxPairs, place);
   for (const Part& part : m_parts) {
     if (part.place == part.firstPair) continue;
     for (std::size_t world = part.begin; world < part.end; ++world) m_begin[world + 1] += part.place - part.firstPair;
@@ -174,14 +174,11 @@ std::span<const std::uint64_t> WorldsSearcher::list(const Worlds& worlds, const 
   return m_begin;
 }
 
-/// Throws if there are more than the options allow.
-void WorldsSearcher::checkPairs(std::uint64_t pairs) const { checkLimit({.maxPairs = m_options->maxPairs}, pairs); }
-
 void WorldsSearcher::searchPart(const Part& part, Worker& worker, WorldSink& sink) {
   for (std::size_t world = part.begin; world < part.end;) {
     if (m_isPlain && !m_filter.selects()) {
       const std::size_t next = runKernel(world, part.end, worker, sink);
-      checkPairs(sink.size);
+      checkLimit(m_options->maxPairs, sink.size);
       if (next == part.end) return;
       world = next;
       if (sizeOf(world) <= m_mostBoxes && hasRoom(sink, sizeOf(world))) continue;
@@ -191,7 +188,7 @@ void WorldsSearcher::searchPart(const Part& part, Worker& worker, WorldSink& sin
     } else {
       searchLarge(world, part.takesAllThreads, worker, sink);
     }
-    checkPairs(sink.size);
+    checkLimit(m_options->maxPairs, sink.size);
     m_begin[world + 1] = sink.size;
     ++world;
   }
@@ -241,17 +238,14 @@ void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, WorldSink& s
 void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldSink& sink) const {
   worker.wide.require(1);
   WideWorld& wide = worker.wide[0];
-  const BoxView& boxes = m_worlds->boxes();
   const std::size_t first = m_worlds->begin(world);
   const std::size_t size = sizeOf(world);
-  const WorldPlaces places = WorldPlaces::of(size);
-  wide.start(size, boxes, m_options->distance);
-  for (std::size_t i = 0; i < size; ++i) {
-    const Box box = boxes[first + i];
-    const double margin = boxes.margin(first + i);
-    const bool isIn = !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
-    wide.set(places.first + i, box, margin, isIn);
-  }
+  const auto isIn = [&](const Box& box, double margin) {
+    return !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
+  };
+  wide.read(
+      size, m_worlds->boxes(), [=](std::size_t i) { return first + i; }, isIn);
+  wide.distance = m_options->distance;
   m_kernels->searchWideWorld(wide, sink);
   worker.statistics.boxTests += WorldSink::pairsOf(size);
 }

@@ -44,6 +44,7 @@ class WorldsSearcher {
     Buffer<Pair> scratch;  ///< Of a world whose pairs cannot be written to their place at once.
     Buffer<WideWorld> wide;
     OverlapStatistics statistics;
+    std::atomic_flag busy;
   };
 
   /// Worlds that follow each other, searched by one thread, or one world searched by all.
@@ -63,7 +64,6 @@ class WorldsSearcher {
   void searchParts(const SinkOf& sinkOf);
   void placeParts();
 
-  void checkPairs(std::uint64_t pairs) const;
   void searchPart(const Part& part, Worker& worker, WorldSink& sink);
   std::size_t runKernel(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink);
   void searchSmall(std::size_t world, Worker& worker, WorldSink& sink);
