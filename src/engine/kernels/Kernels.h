@@ -76,8 +76,8 @@ struct JoinScratch {
     Buffer<std::uint32_t> partners;
 
     /// Memory for the partners of a node; over-allocates, so that moving scenes do not reallocate repeatedly.
-    std::uint32_t* roomFor(std::size_t size) {
-      if (size > partners.capacity()) partners.require(2 * size);
+    std::uint32_t* roomFor(std::size_t count) {
+      if (count > partners.capacity()) partners.require(2 * count);
       return partners.data();
     }
 
