@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <new>
 #include <optional>
 #include <string>
@@ -139,19 +140,54 @@ ExitStatus fail(ExitStatus status, const std::string& message) {
   return status;
 }
 
-void parse(CLI::App& program, int count, char** arguments) {
-  std::vector<std::string> given = allpairs::app::joinNumbers(count, arguments);
+void print(const std::string& text) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) fmt::print("{}", text);
+  if (std::fflush(stdout) != 0) throw allpairs::FileError("standard output", "cannot be written");
+}
+
+/// The arguments in one text, without how many threads a rank has, which need not be equal.
+std::string comparable(const std::vector<std::string>& arguments) {
+  const auto isNumber = [](const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const std::string threads = "--threads=";
+  std::string text;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i].starts_with(threads) && isNumber(arguments[i].substr(threads.size()))) continue;
+    if (i > 0 && arguments[i - 1] == "--threads" && isNumber(arguments[i])) continue;
+    text += arguments[i];
+    text += '\0';
+  }
+  return text;
+}
+
+/// Ranks that do different things would wait for each other, or count what is not there.
+void checkSame(const std::vector<std::string>& arguments) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const std::string own = comparable(arguments);
+  auto length = static_cast<unsigned long long>(own.size());
+  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+  std::string first = own;
+  first.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(first.data(), static_cast<int>(length), MPI_CHAR, 0, MPI_COMM_WORLD);
+  int differs = first == own ? std::numeric_limits<int>::max() : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &differs, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  if (differs != std::numeric_limits<int>::max()) {
+    throw UsageError("rank " + std::to_string(differs) + " has other arguments than rank 0");
+  }
+}
+
+void parse(CLI::App& program, const std::vector<std::string>& given) {
   try {
     program.parse(std::vector<std::string>(given.rbegin(), given.rend()));
   } catch (const CLI::CallForHelp&) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     const auto chosen = program.get_subcommands();
-    if (rank == 0) fmt::print("{}", chosen.empty() ? program.help() : chosen.front()->help());
+    print(chosen.empty() ? program.help() : chosen.front()->help());
   } catch (const CLI::CallForVersion& version) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank == 0) fmt::print("{}\n", version.what());
+    print(std::string(version.what()) + '\n');
   } catch (const CLI::ParseError& problem) {
     throw UsageError(problem.what());
   }
@@ -172,7 +208,9 @@ void run(int count, char** arguments) {
   allpairs::app::addBoxValues(*join, settings.sets);
   join->add_flag("--count", settings.count, "Only count the pairs");
   join->callback([&settings] { Join(settings).run(); });
-  parse(program, count, arguments);
+  const std::vector<std::string> given = allpairs::app::joinNumbers(count, arguments);
+  checkSame(given);
+  parse(program, given);
 }
 
 ExitStatus runWithStatus(int count, char** arguments) {

@@ -45,6 +45,9 @@
 namespace allpairs::app {
 namespace {
 
+/// A hundred light years, and no box of that many becomes infinite.
+constexpr double kMostMetres = 1e18;
+
 struct ReportSettings {
   InputSettings input;
   ViewArguments view;
@@ -231,7 +234,9 @@ std::optional<Earlier> readEarlier(const std::string& path) {
 
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
-  if (!(settings.metresPerUnit.value_or(1.0) > 0.0)) throw UsageError("--metres-per-unit must be above 0");
+  if (const double length = settings.metresPerUnit.value_or(1.0); !(length > 0.0) || length > kMostMetres) {
+    throw UsageError("--metres-per-unit must be above 0 and at most 1e18");
+  }
   checkReportFolder(settings.folder, settings.force);
   const std::optional<Earlier> earlier = readEarlier(settings.since);
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "report/ReportFolder.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -13,6 +16,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
+#include "cli/SignalCleanup.h"
 
 namespace allpairs::app {
 
@@ -58,9 +62,9 @@ void checkReportFolder(const fs::path& folder, bool force) {
 /// What the first constructor has made is destroyed where the second one throws.
 ReportFolder::ReportFolder(const fs::path& folder) : ReportFolder() {
   m_folder = folder;
+  m_stage = folder / (".report-" + std::to_string(::getpid()));
   m_hadReport = fs::exists(m_folder / "clashes.csv");
-  makeFolder(m_folder);
-  makeFolder(m_folder / "pictures");
+  makeFolder(m_stage / "pictures");
 }
 
 ReportFolder::~ReportFolder() {
@@ -74,9 +78,14 @@ void ReportFolder::makeFolder(const fs::path& folder) {
   if (fs::is_directory(folder, problem)) return;
   const fs::path above = folder.has_filename() ? folder.parent_path() : folder.parent_path().parent_path();
   if (!above.empty()) makeFolder(above);
-  m_new.push_back(folder);  // before it is there: there may be no memory then
+  noteNew(folder);  // before it is there: there may be no memory then
   if (!fs::create_directory(folder, problem)) m_new.pop_back();
   if (problem) throw FileError(folder, "cannot create this folder: " + problem.message());
+}
+
+void ReportFolder::noteNew(const fs::path& path) {
+  m_new.push_back(path);
+  removeOnSignal(path.string());
 }
 
 void ReportFolder::write(const fs::path& name, std::string_view bytes) {
@@ -84,21 +93,36 @@ void ReportFolder::write(const fs::path& name, std::string_view bytes) {
 }
 
 void ReportFolder::write(const fs::path& name, const std::function<void(scene::ByteSink)>& writer) {
-  const fs::path path = m_folder / name;
-  std::error_code ignored;
-  const bool isNew = !fs::exists(path, ignored);
-  Output output(path);
-  writer([&output](std::string_view bytes) { output.write(bytes); });
-  if (isNew) m_new.push_back(path);  // before it is there: there may be no memory then
-  output.commit();
+  try {
+    Output output(m_stage / name);
+    writer([&output](std::string_view bytes) { output.write(bytes); });
+    m_names.push_back(name);
+    noteNew(m_stage / name);
+    output.commit();
+  } catch (const FileError& problem) {
+    throw FileError(m_folder / name, problem.problem());
+  }
+}
+
+/// What could keep a file from its place, as far as that can be known before the first one is there.
+void ReportFolder::checkPlaces() const {
+  for (const fs::path& name : m_names) {
+    if (fs::is_directory(m_folder / name)) throw FileError(m_folder / name, "is a folder; a report has a file there");
+  }
 }
 
 void ReportFolder::commit(std::size_t pictures, bool hasPage) {
-  m_new.clear();
-  if (!m_hadReport) return;
-  std::error_code ignored;
-  if (!hasPage) fs::remove(m_folder / "view.html", ignored);
-  while (fs::remove(m_folder / view::pictureName(++pictures), ignored)) continue;
+  checkPlaces();
+  std::error_code problem;
+  fs::create_directory(m_folder / "pictures", problem);
+  for (const fs::path& name : m_names) {
+    fs::rename(m_stage / name, m_folder / name, problem);
+    if (problem) throw FileError(m_folder / name, "cannot be put in its place: " + problem.message());
+  }
+  if (m_hadReport) {
+    if (!hasPage) fs::remove(m_folder / "view.html", problem);
+    while (fs::remove(m_folder / view::pictureName(++pictures), problem)) continue;
+  }
 }
 
 }  // namespace allpairs::app

@@ -16,8 +16,8 @@ namespace allpairs::app {
 /// Bad input: throws FileError; a new folder that is called like a file of a report, UsageError.
 void checkReportFolder(const std::filesystem::path& folder, bool force);
 
-/// The files of a report. Each appears when it is complete; without commit(), those that were not there before are
-/// taken away again, and so are the folders that were made for them.
+/// The files of a report. They are written into a folder beside their places, and commit() puts all of them there; until
+/// then an earlier report is whole. Without it nothing is left behind, nor where a signal ends the program.
 ///
 /// Bad input: a folder or file that cannot be made throws FileError.
 class ReportFolder {
@@ -32,8 +32,8 @@ class ReportFolder {
   void write(const std::filesystem::path& name, std::string_view bytes);
   void write(const std::filesystem::path& name, const std::function<void(scene::ByteSink)>& writer);
 
-  /// All is written. Pictures that an earlier, longer report left there are taken away, and its page where there is
-  /// none now.
+  /// All is written: puts it in its place. Pictures that an earlier, longer report left there are taken away, and its
+  /// page where there is none now.
   void commit(std::size_t pictures, bool hasPage);
 
  private:
@@ -41,10 +41,14 @@ class ReportFolder {
   ReportFolder() = default;
 
   void makeFolder(const std::filesystem::path& folder);
+  void noteNew(const std::filesystem::path& path);
+  void checkPlaces() const;
 
   std::filesystem::path m_folder;
+  std::filesystem::path m_stage;
   bool m_hadReport = false;
-  std::vector<std::filesystem::path> m_new;  ///< In the order in which they were made.
+  std::vector<std::filesystem::path> m_names;  ///< Of the files that are written, within the folder.
+  std::vector<std::filesystem::path> m_new;    ///< What is there for the time being, in the order in which it was made.
 };
 
 }  // namespace allpairs::app

@@ -54,6 +54,14 @@ def _read(path: str) -> Array:
     return array
 
 
+def _read_planned(path: str, shape: tuple[int, ...]) -> Array:
+    """Boxes in a file that had that shape when the work was planned."""
+    array = _read(path)
+    if array.shape != shape:
+        raise InvalidArgument(f"{path} has shape {array.shape}; it had {shape} when the work was planned")
+    return array
+
+
 def _files_of(value: Any) -> Optional[list[str]]:
     """The paths that an argument names; None if it is something else."""
     if isinstance(value, (str, os.PathLike)):
@@ -88,7 +96,8 @@ def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int], list[str
     for name, shape in zip(names, shapes):
         if len(shape) != 2 or shape[1] != 6:
             raise InvalidArgument(f"{name} has shape {shape}; boxes are (n, 6)")
-    return [delayed(_read)(name) for name in names], [shape[0] for shape in shapes], names
+    read = delayed(_read_planned)
+    return [read(name, shape) for name, shape in zip(names, shapes)], [shape[0] for shape in shapes], names
 
 
 def _checked(name: str, values: Array, called: str, begin: int) -> Array:
@@ -112,7 +121,13 @@ def _joined(name: str, blocks: list[Array], called: str, begin: int) -> Array:
 
 def _read_range(name: str, pieces: list[tuple[str, int, int]]) -> Array:
     """What lies in parts of files, one after the other."""
-    return np.concatenate([_checked(name, _read(path)[begin:end], path, begin) for path, begin, end in pieces])
+    rows = []
+    for path, begin, end in pieces:
+        values = _read(path)[begin:end]
+        if len(values) != end - begin:
+            raise InvalidArgument(f"{path} has fewer than {end} numbers, which it had when the work was planned")
+        rows.append(_checked(name, values, path, begin))
+    return np.concatenate(rows)
 
 
 def _pieces(names: Sequence[str], sizes: Sequence[int], begin: int, end: int) -> list[tuple[str, int, int]]:

@@ -12,15 +12,25 @@ std::string validUtf8(std::string_view text) {
   return AnyJson::parse(AnyJson(text).dump(-1, ' ', false, AnyJson::error_handler_t::replace)).get<std::string>();
 }
 
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+
+/// U+FFFE and U+FFFF, which XML does not allow.
+bool isNonCharacter(std::string_view bytes) { return bytes == "\xEF\xBF\xBE" || bytes == "\xEF\xBF\xBF"; }
+
 }  // namespace
 
 std::string printable(std::string_view text) {
+  const std::string valid = validUtf8(text);
   std::string result;
-  for (const char c : validUtf8(text)) {
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    const char c = valid[i];
     if (c == '\t' || c == '\n') {
       result += ' ';
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      result += "\xEF\xBF\xBD";
+      result += kReplacement;
+    } else if (isNonCharacter(std::string_view(valid).substr(i, 3))) {
+      result += kReplacement;
+      i += 2;
     } else {
       result += c;
     }

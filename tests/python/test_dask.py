@@ -328,3 +328,17 @@ def test_a_folder_holds_the_parts_of_one_result(tmp_path):
     assert allpairs.dask.overlaps(fewer, folder) == first
     found = np.concatenate([np.load(path) for path in sorted(folder.iterdir())])
     assert found.tobytes() == allpairs.overlaps(boxes).tobytes()
+
+
+def test_files_that_change_before_the_work_are_noticed(tmp_path):
+    boxes, margins = tmp_path / "boxes.npy", tmp_path / "margins.npy"
+    np.save(boxes, np.tile(np.arange(6.0), (20, 1)))
+    np.save(margins, np.zeros(20))
+    waiting = allpairs.dask.overlaps(boxes, margin=margins)
+    np.save(margins, np.zeros(19))
+    with pytest.raises(allpairs.InvalidArgument, match=r"margins\.npy has fewer than 20 numbers, which it had"):
+        waiting.compute()
+    np.save(margins, np.zeros(20))
+    np.save(boxes, np.tile(np.arange(6.0), (30, 1)))
+    with pytest.raises(allpairs.InvalidArgument, match=r"boxes\.npy has shape \(30, 6\); it had \(20, 6\) when"):
+        waiting.compute()

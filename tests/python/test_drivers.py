@@ -317,6 +317,28 @@ def test_any_name_of_a_file_and_a_link(tmp_path):
 
 
 @needs_mpi
+def test_ranks_with_other_arguments_all_end(tmp_path):
+    np.save(tmp_path / "a.npy", boxes_of("uniform")[:500])
+    np.save(tmp_path / "b.npy", boxes_of("uniform")[:300])
+
+    def both(first, second, status):
+        calls = [[MPI_PROGRAM, "join", tmp_path / "a.npy", *each] for each in (first, second)]
+        return run(MPIRUN, "-n", 1, *calls[0], ":", "-n", 1, *calls[1], status=status)
+
+    for other in (["--count", "--distance", "1"], ["--count", "--nothing"], ["--help"], ["-o", tmp_path / "p.npy"]):
+        assert "allpairs-mpi: rank 1 has other arguments than rank 0" in both(["--count"], other, 2).stderr
+    one = mpirun(1, "join", tmp_path / "a.npy", "--count").stdout.split(" on ")[0]
+    assert both(["--count", "--threads", "1"], ["--count", "--threads=2"], 0).stdout.startswith(one)
+
+
+@needs_mpi
+def test_help_that_cannot_be_said_is_an_error():
+    for arguments in (["--help"], ["join", "--help"], ["--version"]):
+        with open("/dev/full", "w") as full:
+            assert subprocess.run([MPI_PROGRAM, *arguments], stdout=full, timeout=100).returncode == 3
+
+
+@needs_mpi
 def test_a_count_that_cannot_be_said_is_an_error(tmp_path):
     np.save(tmp_path / "boxes.npy", boxes_of("uniform")[:500])
     with open("/dev/full", "w") as full:

@@ -49,6 +49,7 @@ TEST(Csv, AHeaderMayNameTheColumnsInAnyOrder) {
 TEST(Csv, CommentsBlankLinesBlanksAndOtherLineEndsArePassedOver) {
   EXPECT_EQ(readText("\xEF\xBB\xBF# made by hand\r\n\r\n  0.5 , 1,\t2, +3, 4, 50 \r\n  \r\n# the end"),
             (std::vector<Named>{{"0", kBox}}));
+  EXPECT_EQ(readText("# made by hand\r0.5,1,2,3,4,50\r0.5,1,2,3,4,50"), (std::vector<Named>{{"0", kBox}, {"1", kBox}}));
 }
 
 TEST(Csv, QuotedNamesMayHoldCommasAndQuotes) {
@@ -83,6 +84,8 @@ TEST(Csv, ErrorsNameLineAndColumn) {
   expectCsvProblem("minx,miny,minz,maxx,maxy\n", "bad.csv:1: the header has no column 'maxz'");
   expectCsvProblem("minx,miny,minz,maxx,maxy,maxz,a,b\n", "bad.csv:1:33: column 'b' is not known");
   expectCsvProblem(std::string("1,2,3,4,5,6\n1\0,\0", 16), "bad.csv:2: is no text");
+  expectCsvProblem("# 8 boxes\n1,2,3,4,5,6,7\n",
+                   "bad.csv:2: has seven numbers, of which the first or the last is a name");
   expectCsvProblem("minx,minx,minz,maxx,maxy,maxz\n", "bad.csv:1:6: column 'minx' is there twice");
 }
 

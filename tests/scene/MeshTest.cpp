@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "Expect.h"
@@ -112,6 +113,17 @@ TEST(ObjMesh, ALineMayGoOnInTheNext) {
             "long.obj TTriangleModel 1\n");
 }
 
+TEST(ObjMesh, MayBeginWithAMarkAndHaveTheLinesOfOldMacs) {
+  const std::string text = "v 9 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::string mac = text;
+  std::replace(mac.begin(), mac.end(), '\n', '\r');
+  for (const std::string& bytes : {"\xEF\xBB\xBF" + text, mac, "\xEF\xBB\xBF" + mac}) {
+    const scene::Scene scene = read("a.obj", bytes);
+    EXPECT_EQ(namesOf(scene), "a.obj TTriangleModel 1\n");
+    EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {9, 1, 0}}));
+  }
+}
+
 TEST(ObjMesh, ErrorsNameTheLine) {
   expectProblem("a.obj", "v 0 0\n", "a.obj:1: a position has three coordinates");
   expectProblem("a.obj", "v 0 0 0\nv 0 nan 0\n", "a.obj:2: 'nan' is no finite number");
@@ -121,6 +133,8 @@ TEST(ObjMesh, ErrorsNameTheLine) {
   expectProblem("a.obj", "v 0 0 0\nf 1 1 x\n", "a.obj:2: 'x' is no index");
   expectProblem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "a.obj:2:");
   expectProblem("a.obj", "", "holds no triangles, lines or points");
+  expectProblem("a.obj", "v 0 0 0\nsurf 0 1 0 1 1\n", "a.obj:2: 'surf' is not read");
+  expectProblem("a.obj", "v 0 0 0\nfo 1 1 1\n", "a.obj:2: 'fo' is not read");
 }
 
 TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
@@ -132,6 +146,9 @@ TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
 TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {
   expectCutsAreHandled("cut.obj", kTwoParts);
   expectCutsAreHandled("cut.gltf", kGltf);
+  std::string odd = kGltf;
+  odd.replace(odd.find("\"count\": 3"), 10, "\"count\": 3, \"normalized\": 0");
+  expectProblem("odd.gltf", odd, "odd.gltf: accessor 0: 'normalized' is neither true nor false");
 }
 
 TEST(Mesh, ScenesThatAreProgramsAreRefusedWithWhatToDo) {

@@ -69,6 +69,7 @@ TEST(OffMesh, ErrorsNameTheLine) {
   expectOffProblem(square + "3 0 1 -1\n", "mesh.off:7: index -1 names no vertex");
   expectOffProblem(square + "3 0 1\n", "mesh.off:7: a face names 2 vertices instead of 3");
   expectOffProblem(square + "0\n", "mesh.off:7: a face has no vertices");
+  expectOffProblem(square + "3 0 1 2\n# a comment\n\n3 0 1 3\n", "mesh.off:10: has more than its header promises");
 }
 
 }  // namespace

@@ -98,6 +98,14 @@ TEST(PlyMesh, ErrorsNameTheLine) {
       "face 0 names vertex 4 of 4");
   expectFileError([] { (void)read(ascii(kVertices, "0 0 0\n1 nan 0\n0 1 0\n1 1 0\n")); },
                   "mesh.ply:10: vertex 1 has a coordinate that is missing or no finite number");
+  expectFileError([] { (void)read(ascii(kVertices, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n\n5 5 5\n")); },
+                  "mesh.ply:14: has more than its header promises");
+  expectFileError(
+      [] {
+        (void)read(ascii(std::string(kVertices) + "element face 1\nproperty list uchar int corners\n",
+                         "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n"));
+      },
+      "mesh.ply: its faces have no list 'vertex_indices'");
 }
 
 }  // namespace

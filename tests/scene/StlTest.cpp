@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "Expect.h"
@@ -55,6 +56,13 @@ TEST(StlMesh, WordsMayBeInCapitalsAndLinesEndAsElsewhere) {
   EXPECT_EQ(namesOf(readStl("SOLID a\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\n"
                             "VERTEX 0 1 0\r\nENDLOOP\r\nENDFACET\r\nENDSOLID\r\n")),
             "a TTriangleModel 1\n");
+  const std::string facet = "facet normal nan 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 2 9 endloop endfacet\n";
+  const scene::Scene scene = readStl("\xEF\xBB\xBF" + solid("vertex outer", facetText("0 1 0") + facet));
+  EXPECT_EQ(namesOf(scene), "vertex outer TTriangleModel 2\n");
+  EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 2, 9}})) << "a facet in one line";
+  std::string mac = solid("a", facetText("0 1 0"));
+  std::replace(mac.begin(), mac.end(), '\n', '\r');
+  EXPECT_EQ(namesOf(readStl(mac)), "a TTriangleModel 1\n");
 }
 
 TEST(StlMesh, BinaryFilesMayBeginWithSolid) {

@@ -156,13 +156,14 @@ TEST(Report, NamesAreTextInThePageAndInBcf) {
 
 TEST(Report, ControlCharactersInANameAreReplacedInBcf) {
   const TempFolder folder;
-  const std::string input = folder.write("names.csv", "a\x01\tb,0,0,0,2,2,2\nc\xff,1,1,1,3,3,3\n");
+  const std::string input =
+      folder.write("names.csv", "a\x01\tb,0,0,0,2,2,2\nc\xff\xEF\xBF\xBE\xEF\xBF\xBF,1,1,1,3,3,3\n");
   expectSuccess(runProgram({"report", input, "-o", folder.path() / "out"}));
   std::size_t topics = 0;
   for (const auto& [file, bytes] : filesOf(folder.path() / "out/clashes.bcf")) {
     if (!file.ends_with("markup.bcf")) continue;
     const std::string title = parse(bytes).child("Markup").child("Topic").child_value("Title");
-    EXPECT_EQ(title, "c\xEF\xBF\xBD and a\xEF\xBF\xBD b");
+    EXPECT_EQ(title, "c\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD and a\xEF\xBF\xBD b");
     ++topics;
   }
   EXPECT_EQ(topics, 1U);
@@ -324,6 +325,23 @@ TEST(Report, AShorterOneTakesThePicturesOfALongerOneAwayAndNothingElse) {
                                  "pictures/0001.png", "pictures/0009.png", "pictures/mine.png", "view.html"}));
 }
 
+TEST(Report, ThatCannotBeWrittenLeavesAnEarlierOneWhole) {
+  const TempFolder folder;
+  const fs::path out = folder.path() / "out";
+  expectSuccess(runProgram({"report", folder.write("a.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n"), "-o", out}));
+  fs::remove(out / "view.html");
+  fs::create_directories(out / "view.html");  // no file can be put there
+  const auto bytesIn = [](const fs::path& in) {
+    std::map<std::string, std::string> files;
+    for (const std::string& name : filesIn(in)) files[name] = fs::is_directory(in / name) ? "" : readBytes(in / name);
+    return files;
+  };
+  const auto before = bytesIn(out);
+  const std::string other = folder.write("b.csv", "0,0,0,9,9,9\n1,1,1,3,3,3\n4,4,4,5,5,5\n");
+  expectFailure(runProgram({"report", other, "-o", out}), 3, "view.html");
+  EXPECT_TRUE(bytesIn(out) == before);
+}
+
 TEST(Report, ThatCannotBeWrittenLeavesNothingBehind) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "out/index.html/x");  // no file can be put there
@@ -455,6 +473,8 @@ TEST(Report, SaysWhatIsWrong) {
   expectFailure(runProgram({"report", kDemo}), 2, "no -o DIR given");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
                 "must be above 0");
+  expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "inf"}), 2,
+                "must be above 0 and at most 1e18");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--boxes", "--exact"}), 2, "give one of them");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--boxes", "--clearance", "1"}), 2,
                 "--clearance is measured between shapes, which --boxes does not test");

@@ -17,7 +17,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kCoordinates = 6;
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
@@ -52,8 +51,13 @@ CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& pla
   CsvLayout layout{.columns = fields.size()};
   std::size_t first = 0;
   if (fields.size() == kCoordinates + 1) {
-    // A name may itself be a number; then the last column counts as the name only if it is text.
     const bool nameIsLast = !isCsvNumber(fields.back()) && isCsvNumber(fields.front());
+    if (isCsvNumber(fields.back()) && isCsvNumber(fields.front())) {
+      throw FileError(place.file,
+                      "has seven numbers, of which the first or the last is a name: begin the file with the line "
+                      "name,minx,miny,minz,maxx,maxy,maxz, or with the name last",
+                      place.line);
+    }
     layout.name = nameIsLast ? kCoordinates : 0;
     first = nameIsLast ? 0 : 1;
   }
@@ -140,14 +144,14 @@ class CsvReader {
 
 BoxArray readCsv(const Path& path, ReadScope& scope) {
   scope.admit(path);
-  const std::string text = readText(path, scope.stop());
+  std::string text = readText(path, scope.stop());
+  makeLines(text);
   std::string_view rest = text;
   if (const std::size_t zero = rest.find('\0'); zero != std::string_view::npos) {
     const auto line =
         static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n'));
     throw FileError(path, "is no text: it holds a byte of zero, as UTF-16 does; UTF-8 can be read", line + 1);
   }
-  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
   CsvReader reader(path, scope);
   while (!rest.empty()) {
     const std::size_t end = csvLineEnd(rest);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include "allpairs/StopFlag.h"
@@ -66,6 +67,16 @@ std::string readText(const std::filesystem::path& path, const StopFlag* stop) {
   std::string text(static_cast<std::size_t>(file.remaining()), '\0');
   file.read(text.data(), text.size());
   return text;
+}
+
+void removeByteOrderMark(std::string& text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+}
+
+void makeLines(std::string& text) {
+  removeByteOrderMark(text);
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
 }
 
 std::string lowerExtension(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }

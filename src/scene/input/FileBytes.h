@@ -47,6 +47,12 @@ void requireFile(const std::filesystem::path& path);
 /// The whole file as text.
 [[nodiscard]] std::string readText(const std::filesystem::path& path, const StopFlag* stop = nullptr);
 
+/// Takes off the mark with which some programs begin a text in UTF-8.
+void removeByteOrderMark(std::string& text);
+
+/// Likewise, and ends the lines of a text in \n where they end in \r alone.
+void makeLines(std::string& text);
+
 /// The extension in lower case, with its dot: ".npy".
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
 

@@ -24,6 +24,7 @@
 #include "mesh/Assemblies.h"
 #include "mesh/AssimpFrame.h"
 #include "mesh/ChildProcess.h"
+#include "mesh/Faces.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Transform.h"
 
@@ -171,28 +172,32 @@ class NodeReader {
     for (const aiVector3D& position : std::span(mesh.mVertices, mesh.mNumVertices)) {
       object.positions.push_back(placed(world, pointOf(position)));
     }
-    for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) addFace(object, face, base);
+    for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) addFaceOf(object, face, base);
     if (mesh.mNumFaces == 0) addAllPoints(object, base);
   }
 
-  /// A face of more than three corners becomes a fan. Assimp's own triangulation ends the program on bad faces.
-  void addFace(MeshObject& object, const aiFace& face, std::size_t base) {
+  /// Assimp's own triangulation ends the program on bad faces.
+  void addFaceOf(MeshObject& object, const aiFace& face, std::size_t base) {
     m_scope.takeElements(face.mNumIndices, sizeof(MeshObject::triangles[0]));
     if (face.mNumIndices == 0) fail(object, "has a face without vertices");
     const auto corner = [&](unsigned i) {
       if (face.mIndices[i] >= object.positions.size() - base) fail(object, "names a vertex that isn't there");
       return static_cast<std::uint32_t>(base + face.mIndices[i]);
     };
-    if (face.mNumIndices == 1) object.points.push_back(corner(0));
-    if (face.mNumIndices == 2) object.lines.push_back({corner(0), corner(1)});
-    for (unsigned i = 2; i < face.mNumIndices; ++i) object.triangles.push_back({corner(0), corner(i - 1), corner(i)});
+    m_corners.clear();
+    for (unsigned i = 0; i < face.mNumIndices; ++i) m_corners.push_back(corner(i));
+    addFace(object, m_corners);
+    if (m_corners.size() < 4) return;
+    if (!cutFan(object.positions, std::span(object.triangles).last(m_corners.size() - 2))) {
+      fail(object, "has " + tooManyCorners(m_corners.size()));
+    }
   }
 
   static void addAllPoints(MeshObject& object, std::size_t base) {
     for (std::size_t i = base; i < object.positions.size(); ++i) object.points.push_back(static_cast<std::uint32_t>(i));
   }
 
-  [[noreturn]] void fail(const MeshObject& object, const char* problem) const {
+  [[noreturn]] void fail(const MeshObject& object, const std::string& problem) const {
     throw FileError(m_path, (object.name.empty() ? "an object" : "object '" + object.name + '\'') + ' ' + problem);
   }
 
@@ -206,6 +211,7 @@ class NodeReader {
   std::map<std::string, std::size_t> m_partsOf;  ///< How many objects a body has.
   std::vector<bool> m_isPart;                    ///< Of each object of a product: whether it is not the product itself.
   std::vector<MeshObject> m_objects;
+  std::vector<std::uint32_t> m_corners;
 };
 
 /// Opens what Assimp asks for: the input, and what it may name.

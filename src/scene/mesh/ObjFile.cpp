@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <span>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "input/FileBytes.h"
+#include "mesh/Faces.h"
 #include "mesh/MeshObject.h"
 #include "mesh/ObjParser.h"
 #include "mesh/Position.h"
@@ -33,7 +35,7 @@ class ObjReader final : ObjParser {
   void addPosition(std::string_view coordinates) override {
     m_scope.takeElements(1, sizeof(Point));
     m_positions.push_back(
-        readPosition(coordinates, "a position", [this](const std::string& problem) { fail(problem); }));
+        takePosition(coordinates, "a position", [this](const std::string& problem) { fail(problem); }));
   }
 
   void addElement(char kind, std::span<const ObjCorner> corners) override {
@@ -49,8 +51,30 @@ class ObjReader final : ObjParser {
     } else if (kind == 'l' || corners.size() == 2) {
       for (std::size_t i = 1; i < corners.size(); ++i) object.lines.push_back({vertex(i - 1), vertex(i)});
     } else {
-      for (std::size_t i = 2; i < corners.size(); ++i)
-        object.triangles.push_back({vertex(0), vertex(i - 1), vertex(i)});
+      m_corners.clear();
+      for (std::size_t i = 0; i < corners.size(); ++i) m_corners.push_back(vertex(i));
+      addFace(object, m_corners);
+      const Fan fan{m_current, object.triangles.size() - (corners.size() - 2), corners.size() - 2, line()};
+      const bool hasPositions = *std::max_element(m_corners.begin(), m_corners.end()) < m_positions.size();
+      if (hasPositions) {
+        cut(fan);
+      } else if (fan.count > 1) {
+        m_fans.push_back(fan);
+      }
+    }
+  }
+
+  /// The triangles of a face.
+  struct Fan {
+    std::size_t object;
+    std::size_t first;
+    std::size_t count;
+    std::size_t line;
+  };
+
+  void cut(const Fan& fan) {
+    if (!cutFan(m_positions, std::span(m_objects[fan.object].triangles).subspan(fan.first, fan.count))) {
+      failAt(fan.line, tooManyCorners(fan.count + 2));
     }
   }
 
@@ -68,6 +92,13 @@ class ObjReader final : ObjParser {
     m_objects.emplace_back().name = std::move(name);
   }
 
+  /// Shapes that would be missing; what else there is tells of looks.
+  void passOver(std::string_view keyword) override {
+    constexpr std::array<std::string_view, 8> kShapes{"bsp", "bzp", "cdc", "cdp", "curv", "fo", "res", "surf"};
+    if (std::find(kShapes.begin(), kShapes.end(), keyword) == kShapes.end()) return;
+    fail("'" + std::string(keyword) + "' is not read: export the file with faces and lines alone");
+  }
+
   [[noreturn]] void refuse(ObjProblem problem, std::string_view index) const override {
     if (problem == ObjProblem::NoNumber || problem == ObjProblem::NoPosition) {
       fail("'" + std::string(index) + "' is no index");
@@ -80,6 +111,7 @@ class ObjReader final : ObjParser {
       failAt(m_highest.line, "index " + std::to_string(m_highest.index + 1) + " names no vertex: the file has " +
                                  std::to_string(m_positions.size()));
     }
+    std::for_each(m_fans.begin(), m_fans.end(), [this](const Fan& fan) { cut(fan); });
     std::erase_if(m_objects, [](const MeshObject& object) {
       return object.triangles.empty() && object.lines.empty() && object.points.empty();
     });
@@ -136,6 +168,8 @@ class ObjReader final : ObjParser {
   std::vector<MeshObject> m_objects;
   std::map<std::string, std::size_t> m_groups;
   std::size_t m_current = 0;
+  std::vector<std::uint32_t> m_corners;
+  std::vector<Fan> m_fans;  ///< Those whose positions were not known yet.
   std::vector<std::uint32_t> m_localIndex;
   Highest m_highest;
 };
@@ -143,7 +177,8 @@ class ObjReader final : ObjParser {
 }  // namespace
 
 std::vector<MeshObject> readObjObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path, scope.stop());
+  std::string text = readText(path, scope.stop());
+  makeLines(text);
   return ObjReader(path, scope).read(text);
 }
 

@@ -63,6 +63,8 @@ void ObjParser::parseStatement(std::string_view keyword, std::string_view rest) 
     beginObject(keyword, trimmed(rest));
   } else if (keyword.size() == 1 && m_syntax.elements.find(keyword.front()) != std::string_view::npos) {
     parseElement(keyword.front(), rest);
+  } else {
+    passOver(keyword);
   }
 }
 

@@ -59,6 +59,8 @@ class ObjParser {
   virtual void addElement(char kind, std::span<const ObjCorner> corners) = 0;
   /// At an "o" or a "g".
   virtual void beginObject(std::string_view keyword, std::string_view name) = 0;
+  /// At any other statement.
+  virtual void passOver(std::string_view /*keyword*/) {}
   /// Throws what fail throws.
   [[noreturn]] virtual void refuse(ObjProblem problem, std::string_view index) const = 0;
 

@@ -6,6 +6,7 @@
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/Words.h"
+#include "mesh/Faces.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Position.h"
 
@@ -22,21 +23,28 @@ class OffReader {
     readHeader();
     for (std::uint64_t i = 0; i < m_vertices; ++i) addPosition(nextLine());
     for (std::uint64_t i = 0; i < m_faces; ++i) readFace(nextLine());
+    if (!findLine().empty()) fail("has more than its header promises");
     const bool isCloud = m_object.triangles.empty() && m_object.lines.empty() && m_object.points.empty();
     for (std::uint32_t i = 0; isCloud && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
     return {std::move(m_object)};
   }
 
  private:
-  /// The next line that holds more than blanks and a comment.
-  std::string_view nextLine() {
+  /// The next line that holds more than blanks and a comment; empty where there is none.
+  std::string_view findLine() {
     while (!m_rest.empty()) {
       const std::string_view line = takeLine(m_rest);
       ++m_line;
       const std::string_view content = trimmed(line.substr(0, line.find('#')));
       if (!content.empty()) return content;
     }
-    fail("truncated: its header promises more than the file has");
+    return {};
+  }
+
+  std::string_view nextLine() {
+    const std::string_view line = findLine();
+    if (line.empty()) fail("truncated: its header promises more than the file has");
+    return line;
   }
 
   /// OFF, or with prefixes that say what stands behind each position: COFF, NOFF, STOFF. The counts may follow in the
@@ -65,7 +73,7 @@ class OffReader {
   void addPosition(std::string_view line) {
     m_scope.takeElements(1, sizeof(Point));
     m_object.positions.push_back(
-        readPosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
+        takePosition(line, "a position", [this](const std::string& problem) { fail(problem); }));
   }
 
   /// How many corners, their indices, and perhaps a colour.
@@ -81,11 +89,9 @@ class OffReader {
       m_scope.takeElements(1, sizeof(m_object.triangles[0]));
       m_corners.push_back(resolve(word));
     }
-    if (size == 1) m_object.points.push_back(m_corners[0]);
-    if (size == 2) m_object.lines.push_back({m_corners[0], m_corners[1]});
-    for (std::size_t i = 2; i < m_corners.size(); ++i) {
-      m_object.triangles.push_back({m_corners[0], m_corners[i - 1], m_corners[i]});
-    }
+    addFace(m_object, m_corners);
+    if (size < 4) return;
+    if (!cutFan(m_object.positions, std::span(m_object.triangles).last(size - 2))) fail(tooManyCorners(size));
   }
 
   std::uint32_t resolve(std::string_view word) const {
@@ -111,7 +117,8 @@ class OffReader {
 }  // namespace
 
 std::vector<MeshObject> readOffObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path, scope.stop());
+  std::string text = readText(path, scope.stop());
+  makeLines(text);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw FileError(path, "is empty");
   return OffReader(text, path, scope).read();
 }

@@ -6,10 +6,12 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/Words.h"
+#include "mesh/Faces.h"
 #include "mesh/MeshObject.h"
 #include "mesh/PlyHeader.h"
 
@@ -26,18 +28,29 @@ class PlyBody {
 
   double next(PlyType type) { return m_encoding == PlyEncoding::Ascii ? nextWord() : nextBinary(type); }
 
+  /// A text ends with its last number; behind the last byte of a binary file there may be anything.
+  void checkEnd() {
+    if (m_encoding != PlyEncoding::Ascii) return;
+    skipBlanks();
+    if (!m_text.empty()) fail("has more than its header promises");
+  }
+
   [[noreturn]] void fail(const std::string& problem) const {
     throw FileError(m_path, problem, m_encoding == PlyEncoding::Ascii ? m_line : 0);
   }
 
  private:
-  double nextWord() {
+  void skipBlanks() {
     std::size_t begin = 0;
     while (begin < m_text.size() && isBlankOrLineEnd(m_text[begin])) {
       if (m_text[begin] == '\n') ++m_line;
       ++begin;
     }
     m_text.remove_prefix(begin);
+  }
+
+  double nextWord() {
+    skipBlanks();
     if (m_text.empty()) fail("truncated: its header promises more than the file has");
     const std::string_view word = takeWord(m_text, isBlankOrLineEnd);
     const std::optional<double> value = parseNumber(word);
@@ -87,9 +100,10 @@ class PlyBody {
 class PlyReader {
  public:
   PlyReader(const std::string& text, const Path& path, ReadScope& scope)
-      : m_scope(scope), m_header(parsePlyHeader(text, path)), m_body(text, m_header, path) {}
+      : m_path(path), m_scope(scope), m_header(parsePlyHeader(text, path)), m_body(text, m_header, path) {}
 
   std::vector<MeshObject> read() {
+    checkFaces();
     for (const PlyElement& element : m_header.elements) {
       if (element.properties.empty()) continue;  // takes no room in the file, however many there are
       for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -97,10 +111,15 @@ class PlyReader {
         readRow(element);
       }
     }
+    m_body.checkEnd();
     const std::size_t vertices = m_object.positions.size();
     if (m_highest.index >= static_cast<double>(vertices)) {
       m_body.fail(m_highest.place.text() + " names vertex " +
                   std::to_string(static_cast<std::uint64_t>(m_highest.index)) + " of " + std::to_string(vertices));
+    }
+    for (const Fan& fan : m_fans) {
+      if (cutFan(m_object.positions, std::span(m_object.triangles).subspan(fan.first, fan.count))) continue;
+      m_body.fail(fan.place.text() + " is " + tooManyCorners(fan.count + 2));
     }
     const bool hasElements = !m_object.triangles.empty() || !m_object.lines.empty();
     for (std::uint32_t i = 0; !hasElements && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
@@ -108,6 +127,21 @@ class PlyReader {
   }
 
  private:
+  /// What tristrips have is a strip.
+  static bool isCorners(const PlyElement& element, const PlyProperty& property) {
+    const bool isNamed = property.name == "vertex_indices" || property.name == "vertex_index";
+    return isNamed && property.countType && element.name != "vertex";
+  }
+
+  void checkFaces() const {
+    for (const PlyElement& element : m_header.elements) {
+      const bool hasCorners = std::any_of(element.properties.begin(), element.properties.end(),
+                                          [&](const PlyProperty& property) { return isCorners(element, property); });
+      if (element.name != "face" || element.count == 0 || hasCorners) continue;
+      throw FileError(m_path, "its faces have no list 'vertex_indices'");
+    }
+  }
+
   void readRow(const PlyElement& element) {
     const bool isVertex = element.name == "vertex";
     const bool isEdge = element.name == "edge";
@@ -142,23 +176,20 @@ class PlyReader {
     const double count = m_body.next(*property.countType);
     if (!(count >= 0.0) || count != std::floor(count))
       m_body.fail(m_place.text() + " has a list without a proper length");
-    const bool isFace = property.name == "vertex_indices" || property.name == "vertex_index";
+    const bool hasCorners = isCorners(element, property);
+    const bool isStrip = element.name == "tristrips";
     m_corners.clear();
     for (double i = 0; i < count; ++i) {
       const double value = m_body.next(property.type);
       m_scope.takeElements(1, sizeof(m_object.triangles[0]));
-      if (isFace && element.name == "face") m_corners.push_back(index(value));
-      if (isFace && element.name == "tristrips") addToStrip(value);
+      if (hasCorners && isStrip) addToStrip(value);
+      if (hasCorners && !isStrip) m_corners.push_back(index(value));
     }
-    if (element.name == "face") addFan();
-  }
-
-  void addFan() {
-    if (m_corners.size() == 1) m_object.points.push_back(m_corners[0]);
-    if (m_corners.size() == 2) m_object.lines.push_back({m_corners[0], m_corners[1]});
-    for (std::size_t i = 2; i < m_corners.size(); ++i) {
-      m_object.triangles.push_back({m_corners[0], m_corners[i - 1], m_corners[i]});
-    }
+    if (isStrip) return;
+    addFace(m_object, m_corners);
+    if (m_corners.size() < 4) return;
+    const std::size_t triangles = m_corners.size() - 2;
+    m_fans.push_back({m_object.triangles.size() - triangles, triangles, m_place});
   }
 
   /// Each vertex of a strip makes a triangle with the two before it; -1 begins another strip.
@@ -198,13 +229,22 @@ class PlyReader {
     Place place;
   };
 
+  /// The triangles of a face, whose vertices may come later.
+  struct Fan {
+    std::size_t first;
+    std::size_t count;
+    Place place;
+  };
+
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
+  const Path& m_path;
   ReadScope& m_scope;
   PlyHeader m_header;
   PlyBody m_body;
   MeshObject m_object;
   std::vector<std::uint32_t> m_corners;
+  std::vector<Fan> m_fans;
   Place m_place;
   Highest m_highest;
 };
@@ -212,7 +252,8 @@ class PlyReader {
 }  // namespace
 
 std::vector<MeshObject> readPlyObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path, scope.stop());
+  std::string text = readText(path, scope.stop());
+  removeByteOrderMark(text);
   return PlyReader(text, path, scope).read();
 }
 

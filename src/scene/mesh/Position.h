@@ -11,10 +11,10 @@
 
 namespace allpairs::scene {
 
-/// The position that a line of a mesh begins with; what follows is left. fail(problem) must throw; `name` is what the
+/// Takes the position that a line of a mesh begins with off the line. fail(problem) must throw; `name` is what the
 /// format calls a position, with its article.
 template <class Fail>
-[[nodiscard]] Point readPosition(std::string_view line, const char* name, const Fail& fail) {
+[[nodiscard]] Point takePosition(std::string_view& line, const char* name, const Fail& fail) {
   Point position{};
   for (double& coordinate : position) {
     const std::string_view word = takeWord(line);

@@ -32,7 +32,7 @@ std::uint64_t binarySize(std::string_view text) {
 /// Binary files may begin with "solid" too; then their size gives them away.
 bool isBinary(std::string_view text) {
   if (text.size() >= kHeaderSize && text.size() == binarySize(text)) return true;
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");  // or the mark of a text in UTF-8
   return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
 }
 
@@ -78,25 +78,36 @@ class TextReader {
 
  private:
   void readLine(std::string_view line) {
-    const std::string word = lowerCase(takeWord(line));
-    if (word == "solid") {
+    const std::string_view word = takeWord(line);
+    const std::string keyword = lowerCase(word);
+    if (keyword == "solid") {
       if (m_isInSolid) fail("a solid begins within another");
       m_isInSolid = true;
       m_scope.takeElements(1, sizeof(MeshObject) + line.size());
       m_objects.emplace_back().name = std::string(trimmed(line));
-    } else if (word == "endsolid") {
+    } else if (keyword == "endsolid") {
       requireCorners(0);
       m_isInSolid = false;
-    } else if (word == "vertex") {
-      addPosition(line);
-    } else if (word == "facet") {
-      requireCorners(0);
-    } else if (word == "endfacet") {
-      requireCorners(3);
-      addTriangle(m_objects.back());
-      m_corners = 0;
-    } else if (!word.empty() && word != "outer" && word != "endloop" && word != "color") {
-      fail(quotedWord(word) + " is no word of STL");
+    } else if (keyword != "color") {
+      readPart(word, keyword, line);
+    }
+  }
+
+  /// Of a facet, which may stand in one line or in several.
+  void readPart(std::string_view word, std::string keyword, std::string_view line) {
+    for (; !word.empty(); word = takeWord(line), keyword = lowerCase(word)) {
+      if (keyword == "vertex") {
+        addPosition(line);
+      } else if (keyword == "facet") {
+        requireCorners(0);
+        line.remove_prefix(std::min(line.size(), lowerCase(line).find("outer")));  // the normal means nothing
+      } else if (keyword == "endfacet") {
+        requireCorners(3);
+        addTriangle(m_objects.back());
+        m_corners = 0;
+      } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop") {
+        fail(quotedWord(word) + " is no word of STL");
+      }
     }
   }
 
@@ -105,12 +116,12 @@ class TextReader {
     if (m_corners != count) fail("a facet has three vertices, not " + std::to_string(m_corners));
   }
 
-  void addPosition(std::string_view line) {
+  void addPosition(std::string_view& line) {
     if (!m_isInSolid) fail("a vertex stands outside of any solid");
     ++m_corners;
     m_scope.takeElements(1, sizeof(Point) + sizeof(MeshObject::triangles[0]));
     m_objects.back().positions.push_back(
-        readPosition(line, "a vertex", [this](const std::string& problem) { fail(problem); }));
+        takePosition(line, "a vertex", [this](const std::string& problem) { fail(problem); }));
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem, m_line); }
@@ -127,8 +138,10 @@ class TextReader {
 }  // namespace
 
 std::vector<MeshObject> readStlObjects(const Path& path, ReadScope& scope) {
-  const std::string text = readText(path, scope.stop());
-  return isBinary(text) ? readBinary(text, path, scope) : TextReader(text, path, scope).read();
+  std::string text = readText(path, scope.stop());
+  if (isBinary(text)) return readBinary(text, path, scope);
+  makeLines(text);
+  return TextReader(text, path, scope).read();
 }
 
 }  // namespace allpairs::scene

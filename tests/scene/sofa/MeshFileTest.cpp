@@ -161,6 +161,11 @@ TEST_F(SofaMeshFile, VtkMayBeBinary) {
                                    number(3) + number(0) + number(1) + number(2) + "\n");
   EXPECT_THAT(m.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}));
   EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}));
+  const std::string two("\x40\0\0\0\0\0\0\0", 8);
+  EXPECT_THAT(mesh("b.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nPOINTS 1 DOUBLE\n" + two + two +
+                                two + "\n")
+                  .positions,
+              ElementsAre(Vec3{2, 2, 2}));
 }
 
 TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
@@ -179,6 +184,10 @@ TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
   EXPECT_THAT(
       problem("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3000000000 float\n0 0 0\n"),
       HasSubstr("out of all reason"));
+  EXPECT_THAT(problem("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 int\n0 0 0\n"),
+              HasSubstr("float and double only"));
+  EXPECT_THAT(problem("a.vtu", std::string{kVtuHead} + "</Cells></Piece><Piece/></UnstructuredGrid></VTKFile>"),
+              HasSubstr("several pieces"));
 }
 
 TEST_F(SofaMeshFile, OffAndTrianAreRead) {

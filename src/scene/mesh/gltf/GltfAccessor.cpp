@@ -73,7 +73,7 @@ class AccessorReader {
   std::vector<double> read(std::size_t width) {
     const std::uint64_t count = m_document.needCount(m_accessor, "count");
     Layout layout{.componentType = m_document.needCount(m_accessor, "componentType"), .width = width};
-    layout.normalized = m_accessor.json->value("normalized", false);
+    layout.normalized = m_document.flag(m_accessor, "normalized");
     if (widthOf(m_document.text(m_accessor, "type")) != width) m_document.fail(m_accessor.name + " is of another type");
     std::vector<double> values;
     if (const auto view = m_document.count(m_accessor, "bufferView")) {

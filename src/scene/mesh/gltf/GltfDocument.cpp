@@ -168,6 +168,13 @@ std::uint64_t GltfDocument::needCount(const GltfItem& item, const char* key) con
   return *value;
 }
 
+bool GltfDocument::flag(const GltfItem& item, const char* key) const {
+  const auto found = item.json->find(key);
+  if (found == item.json->end()) return false;
+  if (!found->is_boolean()) fail(item.name + ": '" + key + "' is neither true nor false");
+  return found->get<bool>();
+}
+
 std::vector<std::uint64_t> GltfDocument::indices(const GltfItem& item, const char* key) const {
   std::vector<std::uint64_t> result;
   const auto found = item.json->find(key);

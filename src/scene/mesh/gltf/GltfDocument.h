@@ -41,6 +41,8 @@ class GltfDocument {
   /// A number that is a count, an offset or an index.
   [[nodiscard]] std::optional<std::uint64_t> count(const GltfItem& item, const char* key) const;
   [[nodiscard]] std::uint64_t needCount(const GltfItem& item, const char* key) const;
+  /// Whether it is true; false where it is not there.
+  [[nodiscard]] bool flag(const GltfItem& item, const char* key) const;
   /// A list of indices.
   [[nodiscard]] std::vector<std::uint64_t> indices(const GltfItem& item, const char* key) const;
   /// A list of exactly `size` numbers; empty if absent.

@@ -10,6 +10,7 @@
 #include "input/FileBytes.h"
 #include "input/LineIndex.h"
 #include "input/TextScanner.h"
+#include "input/Words.h"
 #include "sofa/graph/Values.h"
 #include "sofa/mesh/Mesh.h"
 #include "sofa/mesh/VtkCells.h"
@@ -87,7 +88,9 @@ class LegacyVtkReader {
 
   void readPoints() {
     const auto count = this->count();
-    const bool isDouble = m_text.word() == "double";
+    const std::string type = lowerCase(m_text.wordInLine());
+    const bool isDouble = type == "double" || type == "float64";
+    if (!isDouble && type != "float" && type != "float32") m_text.fail("SOFA takes points of float and double only");
     m_text.skipLine();
     for (std::size_t i = 0; i < count; ++i) {
       Vec3 point{};
@@ -135,6 +138,7 @@ class XmlVtkReader {
     const auto grid = file.child("UnstructuredGrid"), surface = file.child("PolyData");
     if (!grid && !surface) fail("only UnstructuredGrid and PolyData can be read");
     const auto piece = (grid ? grid : surface).child("Piece");
+    if (piece.next_sibling("Piece")) fail("has several pieces, of which SOFA keeps one only");
     const auto points = numbers(piece.child("Points").child("DataArray"));
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
       m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
