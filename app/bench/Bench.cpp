@@ -195,6 +195,15 @@ void addSearchOptions(CLI::App& command, BenchSettings& settings) {
   command.add_flag("--json", settings.json, "Print one JSON object instead of a table");
 }
 
+/// A file has the boxes that it has.
+void checkSceneOptions(const CLI::App& command, const BenchSettings& settings) {
+  if (isSceneName(settings.scene.scene)) return;
+  for (const char* const option : {"--boxes", "--seed", "--sorted"}) {
+    if (command.count(option) == 0) continue;
+    throw UsageError(std::string(option) + " is for a scene that is made up, not for '" + settings.scene.scene + "'");
+  }
+}
+
 }  // namespace
 
 void addBench(CLI::App& program) {
@@ -206,7 +215,10 @@ void addBench(CLI::App& program) {
       ->type_name("");
   addSceneOptions(*command, settings->scene);
   addSearchOptions(*command, *settings);
-  command->callback([settings] { runBench(*settings); });
+  command->callback([settings, command] {
+    checkSceneOptions(*command, *settings);
+    runBench(*settings);
+  });
 }
 
 }  // namespace allpairs::app

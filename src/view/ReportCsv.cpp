@@ -19,7 +19,10 @@ std::string quoted(const std::string& text) {
 }
 
 /// A name as a cell that no spreadsheet takes for a formula: an apostrophe before it says that it is text.
-std::string cellOf(const std::string& name) { return quoted(looksLikeFormula(name) ? "'" + name : name); }
+std::string cellOf(const std::string& name) {
+  const std::string text = validUtf8(name);
+  return quoted(looksLikeFormula(text) ? "'" + text : text);
+}
 
 std::string csvMeasuresOf(const Clash& clash) {
   if (clash.exact == nullptr)

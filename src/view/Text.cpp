@@ -6,18 +6,18 @@
 namespace allpairs::view {
 namespace {
 
-/// The text with what is not UTF-8 replaced. The writer of JSON does it, whose quoting is undone again.
-std::string validUtf8(std::string_view text) {
-  using AnyJson = nlohmann::json;
-  return AnyJson::parse(AnyJson(text).dump(-1, ' ', false, AnyJson::error_handler_t::replace)).get<std::string>();
-}
-
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
 /// U+FFFE and U+FFFF, which XML does not allow.
 bool isNonCharacter(std::string_view bytes) { return bytes == "\xEF\xBF\xBE" || bytes == "\xEF\xBF\xBF"; }
 
 }  // namespace
+
+// The writer of JSON replaces what is none, and its quoting is undone again.
+std::string validUtf8(std::string_view text) {
+  using AnyJson = nlohmann::json;
+  return AnyJson::parse(AnyJson(text).dump(-1, ' ', false, AnyJson::error_handler_t::replace)).get<std::string>();
+}
 
 std::string printable(std::string_view text) {
   const std::string valid = validUtf8(text);

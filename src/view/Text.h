@@ -6,6 +6,9 @@
 
 namespace allpairs::view {
 
+/// The text with U+FFFD in the place of bytes that are not UTF-8.
+[[nodiscard]] std::string validUtf8(std::string_view text);
+
 /// The text with only characters that XML and HTML have: tabs and line feeds become spaces; control characters and
 /// bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string printable(std::string_view text);

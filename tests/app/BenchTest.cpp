@@ -80,6 +80,15 @@ TEST(Bench, PrintsATableForPeople) {
 
 TEST(Bench, OfNoSuchFileOrSceneIsBadInput) { expectFailure(runProgram({"bench", "missing.npy"}), 3, "missing.npy"); }
 
+TEST(Bench, OfAFileTakesNoNumberOfBoxes) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"-n", "5"}, {"--boxes", "5"}, {"--seed", "2"}, {"--sorted"}}) {
+    std::vector<std::string> arguments{"bench", "boxes.npy"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expectFailure(runProgram(arguments), 2, "is for a scene that is made up, not for 'boxes.npy'");
+  }
+}
+
 TEST(Bench, OnNoThreadsIsWrongUsage) {
   expectFailure(runProgram({"bench", "uniform", "--threads", "0"}), 2, "--threads");
 }

@@ -146,6 +146,16 @@ TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
 TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {
   expectCutsAreHandled("cut.obj", kTwoParts);
   expectCutsAreHandled("cut.gltf", kGltf);
+  std::string skinned = kGltf;
+  skinned.replace(skinned.find("\"wheel\", \"mesh\""), 15, "\"wheel\", \"skin\": 0, \"mesh\"");
+  skinned.replace(skinned.find("\"name\": \"disc\""), 14, "\"weights\": [0, 0.5], \"name\": \"disc\"");
+  const scene::Scene remarked = read("car.gltf", skinned);
+  ASSERT_EQ(remarked.remarks.size(), 3U) << "each node that shows a mesh";
+  EXPECT_EQ(remarked.remarks[0].subject, "wheel");
+  EXPECT_EQ(remarked.remarks[0].reason, "its skin is passed over: the vertices are where they are without it");
+  EXPECT_EQ(remarked.remarks[1].reason,
+            "its morph targets are passed over: the vertices are where they are without them");
+  EXPECT_TRUE(read("car.gltf", kGltf).remarks.empty());
   std::string odd = kGltf;
   odd.replace(odd.find("\"count\": 3"), 10, "\"count\": 3, \"normalized\": 0");
   expectProblem("odd.gltf", odd, "odd.gltf: accessor 0: 'normalized' is neither true nor false");

@@ -110,6 +110,9 @@ TEST(Report, NamesAreNoFormulasInTheTableAndSaidToBeUtf8) {
   EXPECT_TRUE(readBytes(folder.path() / "out/clashes.csv")
                   .starts_with("\xEF\xBB\xBFnumber,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n"
                                "1,b,\xC3\xA4,1,1,1,1,"));
+  const std::string broken = folder.write("broken.csv", "a\xFF,0,0,0,2,2,2\nb,1,1,1,3,3,3\n");
+  expectSuccess(runProgram({"report", broken, "-o", folder.path() / "out", "--pictures", "0"}));
+  EXPECT_NE(readBytes(folder.path() / "out/clashes.csv").find("\n1,b,a\xEF\xBF\xBD,1,1,1,1,"), std::string::npos);
 }
 
 TEST(Report, TableHasEveryPairOfDetectOnce) {

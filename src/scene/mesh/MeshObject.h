@@ -21,6 +21,7 @@ struct MeshObject {
   std::string
       body{};  ///< What it is a part of: objects of the same, which has this name alone in the file, are one body.
   std::string assembly{};  ///< Likewise what it and other bodies are parts of.
+  std::string passedOver{};  ///< What of it is not read, as a remark says it; empty where all is.
   std::vector<Point> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> lines;
@@ -57,7 +58,7 @@ struct MeshFrame {
 [[nodiscard]] std::vector<MeshObject> readStlObjects(const std::filesystem::path& path, ReadScope& scope);
 
 /// Reads a glTF 2.0 file, as JSON or GLB: an object for each node of its scene that shows a mesh, with the node's
-/// transform applied in double. Skins, morph targets and animations are passed over.
+/// transform applied in double. Skins and morph targets are passed over, with a remark, and so are animations.
 ///
 /// Bad input: throws FileError; so do a node with two parents and a mesh that is compressed.
 [[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope);

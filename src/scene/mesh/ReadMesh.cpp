@@ -140,6 +140,9 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   try {
     for (MeshObject& object : readObjects(path, scope, frame)) {
       if (object.name.empty()) object.name = path.filename().string();
+      if (!object.passedOver.empty()) {
+        scene.remarks.push_back({.file = path, .subject = object.name, .reason = std::move(object.passedOver)});
+      }
       models.add(std::move(object));
     }
   } catch (const InvalidArgument& problem) {

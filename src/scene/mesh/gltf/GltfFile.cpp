@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "mesh/Assemblies.h"
@@ -166,7 +167,21 @@ class GltfNodeReader {
       if (!primitive.is_object()) m_document.fail(mesh.name + " has a primitive that is no object");
       addPrimitive(object, {&primitive, mesh.name}, world);
     }
+    object.passedOver = passedOver(node, mesh);
     m_objects.push_back(std::move(object));
+  }
+
+  /// What would move the vertices of a mesh.
+  std::string passedOver(const GltfItem& node, const GltfItem& mesh) const {
+    if (m_document.count(node, "skin")) return "its skin is passed over: the vertices are where they are without it";
+    const auto isMorphed = [](const GltfItem& item) {
+      const auto weights = item.json->find("weights");
+      return weights != item.json->end() && weights->is_array() &&
+             std::any_of(weights->begin(), weights->end(), [](const nlohmann::json& weight) { return weight != 0; });
+    };
+    const bool hasOwn = node.json->contains("weights");
+    if (!isMorphed(hasOwn ? node : mesh)) return {};
+    return "its morph targets are passed over: the vertices are where they are without them";
   }
 
   void addPrimitive(MeshObject& object, const GltfItem& primitive, const Transform& world) const {
