@@ -156,7 +156,10 @@ std::string comparable(const std::vector<std::string>& arguments) {
   std::string text;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (arguments[i].starts_with(threads) && isNumber(arguments[i].substr(threads.size()))) continue;
-    if (i > 0 && arguments[i - 1] == "--threads" && isNumber(arguments[i])) continue;
+    if (arguments[i] == "--threads" && i + 1 < arguments.size() && isNumber(arguments[i + 1])) {
+      ++i;
+      continue;
+    }
     text += arguments[i];
     text += '\0';
   }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "FclExamine.h"
 #include "Shapes.h"
@@ -161,6 +163,48 @@ TEST(FclNarrowPhase, CrossedBeamsAreAsDeepAsTheirFacesAreBelowEachOther) {
   EXPECT_EQ(pair.state, ExactState::Clash);
   EXPECT_THAT(pair.depth, depthOf(0.1));
   EXPECT_THAT(pair.normal, near(0.0, 0.0, -1.0));
+}
+
+/// A model turned about the z axis, then about the x axis, and `scale` times as large.
+std::unique_ptr<TriangleModel> turned(const TriangleModel& model, double angle, double scale = 1.0) {
+  std::vector<Vec3> points = model.positions();
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  for (Vec3& p : points) {
+    p = {c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
+    p = {scale * p[0], scale * (c * p[1] - s * p[2]), scale * (s * p[1] + c * p[2])};
+  }
+  return std::make_unique<TriangleModel>("turned", points, model.triangles());
+}
+
+TEST(FclNarrowPhase, ABarThroughAPlateClashesHoweverThinAndTurnedTheyAre) {
+  for (const double thickness : {0.1, 0.01, 1e-3, 1e-4}) {
+    for (const double width : {0.1, 0.01, 1e-3}) {
+      const auto plate = cuboid({-1, -1, 0}, {1, 1, thickness});
+      const auto bar = cuboid({0.31, 0.17, -1.1}, {0.31 + width, 0.17 + width, 0.9});
+      for (int i = 0; i < 24; ++i) {
+        const auto pair = examine(*turned(*plate, 0.13 * i), *turned(*bar, 0.13 * i));
+        EXPECT_EQ(pair.state, ExactState::Clash) << thickness << ' ' << width << ' ' << i;
+        const double most = std::max(thickness, width) / 2.0;  // in the middle of the plate, or of the bar
+        EXPECT_GT(pair.depth.value_or(0.0), 0.2 * most) << thickness << ' ' << width << ' ' << i;
+        EXPECT_LT(pair.depth.value_or(0.0), most * (1.0 + 1e-9) + kClose);
+      }
+    }
+  }
+}
+
+TEST(FclNarrowPhase, SmallAndLargePartsAreAsFarApartAndAsDeepInTheirUnit) {
+  const auto left = ball({0.0, 0.0, 0.0}, 1.0, 32);
+  for (const double place : {2.01, 1.9}) {
+    const auto right = ball({place, 0.1, 0.2}, 1.0, 32);
+    const auto plain = examine(*turned(*left, 0.5), *turned(*right, 0.5));
+    for (const double scale : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9}) {
+      const auto pair = examine(*turned(*left, 0.5, scale), *turned(*right, 0.5, scale));
+      EXPECT_EQ(pair.state, plain.state) << scale;
+      EXPECT_NEAR(pair.distance / scale, plain.distance, kClose) << scale;
+      EXPECT_NEAR(pair.depth.value_or(0.0) / scale, plain.depth.value_or(0.0), kClose) << scale;
+    }
+  }
 }
 
 TEST(FclNarrowPhase, BallsOfTrianglesAreNearlyAsDeepAndAsFarAsSpheres) {

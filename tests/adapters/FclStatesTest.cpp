@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "FclExamine.h"
@@ -66,6 +67,33 @@ TEST(FclStates, TheSameShapeInTheSamePlaceIsADuplicate) {
 TEST(FclStates, TwoShapesInOneBoxAreNoDuplicates) {
   const auto cube = cuboid({-1, -1, -1}, {1, 1, 1});
   EXPECT_EQ(examine(*cube, *ball({0, 0, 0}, 1.0)).state, ExactState::Contained);
+}
+
+TEST(FclStates, ASheetWithAHoleIsNoDuplicateOfOneWithout) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}};
+  TriangleModel whole("whole", corners, {}, {{0, 1, 2, 3}});
+  TriangleModel other("other", corners, {{1, 2, 3}, {1, 3, 0}});
+  std::vector<Vec3> around = corners;
+  for (const Vec3& corner : {Vec3{6, 1, 0}, {8, 1, 0}, {8, 2, 0}, {6, 2, 0}}) around.push_back(corner);
+  TriangleModel holed("holed", around, {}, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+  EXPECT_EQ(examine(whole, other).state, ExactState::Duplicate);
+  EXPECT_EQ(examine(whole, holed).state, ExactState::Touching);
+  EXPECT_EQ(examine(holed, whole).state, ExactState::Touching);
+}
+
+TEST(FclStates, WhatFillsTheHollowOfAnotherIsNotWithinIt) {
+  const auto block = cuboid({0, 0, 0}, {10, 10, 10});
+  const auto hollow = cuboid({4, 4, 4}, {6, 6, 6}, true);
+  const auto outer = together({block.get(), hollow.get()});
+  for (const auto& [reach, depth] : {std::pair(1.0, std::sqrt(3.0)), std::pair(2.0, 2.0)}) {
+    const auto inner = cuboid({4 - reach, 4 - reach, 4 - reach}, {6 + reach, 6 + reach, 6 + reach});
+    for (const auto& pair : {examine(*outer, *inner), examine(*inner, *outer)}) {
+      EXPECT_EQ(pair.state, ExactState::Clash);
+      EXPECT_THAT(pair.depth, ::testing::Optional(::testing::DoubleNear(depth, kClose)));
+    }
+  }
+  EXPECT_EQ(examine(*outer, *cuboid({4, 4, 4}, {6, 6, 6})).state, ExactState::Touching);
+  EXPECT_EQ(examine(*outer, *cuboid({1, 1, 1}, {3, 3, 3})).state, ExactState::Contained);
 }
 
 TEST(FclStates, WhatLiesWhollyInAnotherIsContainedEvenWhereSurfacesMeet) {

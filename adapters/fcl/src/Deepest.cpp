@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "Deepest.h"
 
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/distance.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include "Inside.h"
+#include "Nearest.h"
 #include "PointTriangle.h"
 #include "Polygon.h"
+#include "TriangleMeeting.h"
 
 namespace allpairs::exact {
 namespace {
@@ -57,6 +58,59 @@ void keepEachOnce(std::vector<Point>& points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
+/// Where the triangles of another part cross a triangle, which they cut into regions.
+using Cuts = std::vector<std::array<Point, 2>>;
+
+/// How far it is from a point along a direction, both in the plane of a triangle, to the next cut or side of it.
+double wayToNext(const Corners& corners, const Point& normal, const Cuts& cuts, const Point& point,
+                 const Point& direction) {
+  double way = std::numeric_limits<double>::infinity();
+  const Point across = normal.cross(direction);
+  const auto look = [&](const Point& from, const Point& to) {
+    const double before = across.dot(from - point);
+    const double after = across.dot(to - point);
+    if ((before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0) || before == after) return;
+    const Point passed = from + (before / (before - after)) * (to - from);
+    const double at = direction.dot(passed - point);
+    if (at > 0.0) way = std::min(way, at);
+  };
+  for (const auto& [from, to] : cuts) look(from, to);
+  for (std::size_t i = 0; i < 3; ++i) look(corners[i], corners[(i + 1) % 3]);
+  return way;
+}
+
+constexpr std::size_t kMostCuts = 256;  // of a triangle that are looked from; each looks at all
+
+/// A point on either side of each cut, halfway to the next one: in each region that a cut bounds.
+void addBeside(const Corners& corners, const Cuts& cuts, std::vector<Point>& points) {
+  const Point normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  const std::size_t stride = (cuts.size() + kMostCuts - 1) / kMostCuts;
+  for (std::size_t i = 0; i < cuts.size(); i += stride) {
+    const auto& [from, to] = cuts[i];
+    const Point middle = (from + to) / 2.0;
+    const Point direction = normal.cross(to - from).normalized();
+    for (const Point& side : {direction, Point(-direction)}) {
+      const double way = wayToNext(corners, normal, cuts, middle, side);
+      if (std::isfinite(way)) points.push_back(middle + (way / 2.0) * side);
+    }
+  }
+}
+
+/// Where surfaces cross, a part of each lies on either side, however thin: between all corners and middles, perhaps.
+void addBesideCrossings(const ExactPart& outer, const ExactPart& inner, std::vector<TrianglePair> pairs,
+                        std::vector<Point>& points) {
+  std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& a, const TrianglePair& b) { return a.first < b.first; });
+  Cuts cuts;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Corners& corners = inner.triangles()[pairs[i].first];
+    const auto meeting = meetingOf(corners, outer.triangles()[pairs[i].second]);
+    if (meeting && meeting->ends[0] != meeting->ends[1]) cuts.push_back(meeting->ends);
+    const bool isLast = i + 1 == pairs.size() || pairs[i + 1].first != pairs[i].first;
+    if (isLast && !cuts.empty()) addBeside(corners, cuts, points);
+    if (isLast) cuts.clear();
+  }
+}
+
 /// The points worth asking: those that are exact for flat faces and vertices, and others.
 struct Samples {
   std::vector<Point> plain;
@@ -86,6 +140,7 @@ Samples samples(const ExactPart& outer, const ExactPart& inner, const std::vecto
     polygon.cut(outer.triangleBoxes()[pair.second]);
     if (!polygon.empty()) points.plain.push_back(polygon.middle());
   }
+  addBesideCrossings(outer, inner, pairs, points.plain);
   keepEachOnce(points.plain);
   return points;
 }
@@ -130,27 +185,16 @@ class DeepestSearch {
  private:
   static constexpr std::size_t kFirstMeasured = 16;
 
-  /// How far the surface is from a candidate, and the number of its nearest triangle, below 0 where that is not told.
-  struct Surface {
-    double distance = 0.0;
-    std::ptrdiff_t triangle = -1;
-  };
-
-  Surface measure(const Candidate& candidate) {
-    const ::fcl::Sphered ball(0.0);
-    ::fcl::Transform3d pose = ::fcl::Transform3d::Identity();
-    pose.translation() = candidate.point;
-    const ::fcl::DistanceRequestd request(true);
-    ::fcl::DistanceResultd result;
-    const double distance = std::max(
-        0.0, ::fcl::distance(&m_outer.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result));
+  Nearest measure(const Candidate& candidate) {
+    Nearest surface = nearest(m_outer, candidate.point);
+    const double distance = surface.distance;
     if (!m_deepest.found || distance > m_deepest.depth * (1.0 + kRounding)) {
       m_deepest = {.found = true,
                    .depth = distance,
                    .point = candidate.point,
-                   .surface = distance > 0.0 ? Point(result.nearest_points[0]) : candidate.point};
+                   .surface = distance > 0.0 ? surface.onFirst : candidate.point};
     }
-    return {distance, std::ptrdiff_t{result.b1}};
+    return surface;
   }
 
   void search(std::span<Candidate> candidates) {
@@ -158,7 +202,7 @@ class DeepestSearch {
     if (candidates.empty()) return;
     const auto middle = halve(candidates);
     const Candidate measured = candidates[middle];
-    const Surface surface = measure(measured);
+    const Nearest surface = measure(measured);
     for (Candidate& candidate : candidates) {
       candidate.limit = std::min(candidate.limit, surface.distance + (candidate.point - measured.point).norm());
       if (surface.triangle < 0) continue;

@@ -22,7 +22,8 @@ struct TrianglePair {
 };
 
 /// Looks for the deepest point of `inner` within `outer`, among the corners and middles of the parts of inner's
-/// triangles that lie in outer's box, and in the boxes of the triangles of outer that they meet.
+/// triangles that lie in outer's box, and in the boxes of the triangles of outer that they meet, and halfway between
+/// those that cross one of them.
 [[nodiscard]] Deepest deepestWithin(const ExactPart& outer, const ExactPart& inner,
                                     const std::vector<TrianglePair>& innerAndOuter);
 

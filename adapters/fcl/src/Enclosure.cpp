@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "Enclosure.h"
 
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/distance.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "Inside.h"
+#include "Nearest.h"
 #include "PointTriangle.h"
 
 namespace allpairs::exact {
 namespace {
 
 /// From a point to the surface of a part that is not thick.
-double distanceTo(const ExactPart& part, const Point& point) {
-  const ::fcl::Sphered ball(0.0);
-  ::fcl::Transform3d pose = ::fcl::Transform3d::Identity();
-  pose.translation() = point;
-  const ::fcl::DistanceRequestd request(false);
-  ::fcl::DistanceResultd result;
-  return std::max(0.0,
-                  ::fcl::distance(&part.hierarchy(), ::fcl::Transform3d::Identity(), &ball, pose, request, result));
-}
+double distanceTo(const ExactPart& part, const Point& point) { return nearest(part, point).distance; }
 
 bool isBefore(const Point& a, const Point& b) { return toVec3(a) < toVec3(b); }
 
@@ -67,6 +57,28 @@ bool liesOn(const ExactPart& surface, const ExactPart& part, double tolerance) {
                      [&](const Point& point) { return distanceTo(surface, point) <= tolerance; });
 }
 
+/// The area of a surface, and how long all sides of its triangles are.
+struct Extent {
+  double area = 0.0;
+  double sides = 0.0;
+};
+
+Extent extentOf(const ExactPart& part) {
+  Extent extent;
+  for (const Corners& corners : part.triangles()) {
+    extent.area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2.0;
+    for (std::size_t i = 0; i < 3; ++i) extent.sides += (corners[(i + 1) % 3] - corners[i]).norm();
+  }
+  return extent;
+}
+
+/// A hole that no point asked lies in is missing from the area.
+bool haveSameArea(const ExactPart& first, const ExactPart& second, double tolerance) {
+  const Extent a = extentOf(first);
+  const Extent b = extentOf(second);
+  return std::abs(a.area - b.area) <= tolerance * (a.sides + b.sides);
+}
+
 }  // namespace
 
 bool holds(const Box& outer, const Box& inner, double slack) {
@@ -95,6 +107,7 @@ bool areSame(const ExactPart& first, const ExactPart& second, double tolerance) 
   if (std::abs(first.radius() - second.radius()) > tolerance) return false;
   if (!holds(first.box(), second.box(), tolerance) || !holds(second.box(), first.box(), tolerance)) return false;
   if (haveSameTriangles(first, second, tolerance)) return true;
+  if (first.isOpen() && !haveSameArea(first, second, tolerance)) return false;
   return first.radius() == 0.0 && liesOn(first, second, tolerance) && liesOn(second, first, tolerance);
 }
 

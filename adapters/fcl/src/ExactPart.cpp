@@ -64,7 +64,9 @@ void build(Hierarchy& hierarchy, const std::vector<Corners>& triangles) {
   const int count = static_cast<int>(triangles.size());
   int problem = hierarchy.beginModel(count, 3 * count);
   for (const Corners& corners : triangles) {
-    if (problem == ::fcl::BVH_OK) problem = hierarchy.addTriangle(corners[0], corners[1], corners[2]);
+    if (problem != ::fcl::BVH_OK) break;
+    problem =
+        hierarchy.addTriangle(corners[0] * kHierarchyScale, corners[1] * kHierarchyScale, corners[2] * kHierarchyScale);
   }
   if (problem == ::fcl::BVH_OK) problem = hierarchy.endModel();
   if (problem == ::fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();

@@ -17,6 +17,10 @@ using Point = ::fcl::Vector3d;
 using Corners = std::array<Point, 3>;
 using Hierarchy = ::fcl::BVHModel<::fcl::OBBRSSd>;
 
+/// By how much hierarchies are larger than parts. FCL takes triangles whose sides are below about 0.0002 for lines,
+/// whatever the unit is: here below 2e-13. A power of two, so that nothing is rounded.
+inline constexpr double kHierarchyScale = 0x1p30;
+
 [[nodiscard]] inline Point toPoint(const collision::Vec3& v) { return {v[0], v[1], v[2]}; }
 [[nodiscard]] inline collision::Vec3 toVec3(const Point& p) { return {p[0], p[1], p[2]}; }
 
@@ -39,6 +43,7 @@ class ExactPart {
 
   [[nodiscard]] const std::vector<Corners>& triangles() const { return m_triangles; }
   [[nodiscard]] const std::vector<Box>& triangleBoxes() const { return m_boxes; }
+  /// Of the triangles, kHierarchyScale times as large.
   [[nodiscard]] const Hierarchy& hierarchy() const { return m_hierarchy; }
   [[nodiscard]] double radius() const { return m_radius; }
   [[nodiscard]] Volume volume() const { return m_volume; }

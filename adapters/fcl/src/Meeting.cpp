@@ -2,7 +2,6 @@
 #include "Meeting.h"
 
 #include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "Deepest.h"
 #include "Enclosure.h"
+#include "Nearest.h"
 #include "TriangleMeeting.h"
 
 namespace allpairs::exact {
@@ -80,15 +80,11 @@ class Look {
  private:
   /// The distance of the two surfaces, and where they are nearest.
   void measure() {
-    const ::fcl::DistanceRequestd request(true);
-    ::fcl::DistanceResultd result;
-    m_coreDistance =
-        std::max(0.0, ::fcl::distance(&m_first.hierarchy(), kHere, &m_second.hierarchy(), kHere, request, result));
-    const Point& a = result.nearest_points[0];
-    const Point& b = result.nearest_points[1];
-    m_meeting.normal = directionOf(a - b);
-    m_meeting.onFirst = a - m_first.radius() * m_meeting.normal;
-    m_meeting.onSecond = b + m_second.radius() * m_meeting.normal;
+    const Nearest points = nearest(m_first, m_second);
+    m_coreDistance = points.distance;
+    m_meeting.normal = directionOf(points.onFirst - points.onSecond);
+    m_meeting.onFirst = points.onFirst - m_first.radius() * m_meeting.normal;
+    m_meeting.onSecond = points.onSecond + m_second.radius() * m_meeting.normal;
     m_meeting.distance = std::max(0.0, m_coreDistance - m_radius);
     m_meeting.surfacesMeet = m_coreDistance <= m_radius + m_tolerance;
     m_meeting.hasVolume = m_radius > 0.0 || m_first.volume() != Volume::None || m_second.volume() != Volume::None;
@@ -118,6 +114,9 @@ class Look {
     std::vector<TrianglePair> swapped;
     for (const TrianglePair& pair : m_pairs) swapped.push_back({pair.second, pair.first});
     const Deepest ofSecond = deepestWithin(m_first, m_second, swapped);
+    // The triangles of what is thick are its core.
+    m_reachesIntoFirst = m_second.radius() == 0.0 && ofSecond.found && ofSecond.depth > m_sameTolerance;
+    m_reachesIntoSecond = m_first.radius() == 0.0 && ofFirst.found && ofFirst.depth > m_sameTolerance;
     const bool isInside = ofFirst.found || ofSecond.found;
     if (isInside) takeDeeper(ofFirst, ofSecond);
     if (!isInside && m_meeting.surfacesMeet) m_meeting.depth = std::max(0.0, m_radius - m_coreDistance);
@@ -128,8 +127,10 @@ class Look {
 
   void findWithin() {
     if (!m_meeting.isDeep || m_crossing > m_sameTolerance) return;
-    m_meeting.isFirstWithin = isWithin(m_second, m_first, m_sameTolerance);
-    m_meeting.isSecondWithin = !m_meeting.isFirstWithin && isWithin(m_first, m_second, m_sameTolerance);
+    // Around a cavity of one that the other fills, all of the other's surface is within, and not all of its volume.
+    m_meeting.isFirstWithin = !m_reachesIntoFirst && isWithin(m_second, m_first, m_sameTolerance);
+    m_meeting.isSecondWithin =
+        !m_meeting.isFirstWithin && !m_reachesIntoSecond && isWithin(m_first, m_second, m_sameTolerance);
   }
 
   void takeDeeper(const Deepest& ofFirst, const Deepest& ofSecond) {
@@ -180,6 +181,8 @@ class Look {
   double m_radius;
   double m_crossing = 0.0;  ///< How far triangles of the two pass through each other.
   double m_coreDistance = 0.0;
+  bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
+  bool m_reachesIntoSecond = false;
   std::vector<TrianglePair> m_pairs;
   Meeting m_meeting;
 };
