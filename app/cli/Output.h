@@ -23,6 +23,8 @@ class Output {
   Output& operator=(const Output&) = delete;
 
   [[nodiscard]] bool isTerminal() const;
+  /// Whether it becomes a file, beside which others may lie: no pipe, no device, and no descriptor.
+  [[nodiscard]] bool isFile() const { return m_isNameless || !m_temporary.empty(); }
   void write(std::string_view bytes);
 
   /// The result is complete: puts the file in its place.

@@ -27,7 +27,7 @@ void addMesh(const ElementReport::Mesh& mesh, JsonText& json) {
 
 void addStatistics(const ElementReport& report, JsonText& json) {
   json.beginObject("statistics");
-  json.add("distance", report.distance);
+  json.addReal("distance", report.distance);
   json.add("between", report.betweenOnly);
   json.add("threads", report.threads);
   json.add("readSeconds", report.readSeconds);

@@ -81,13 +81,21 @@ std::string besideOutput(const std::string& output, std::string_view key) {
   return base + '.' + std::string(key) + ".npy";
 }
 
+/// Neither the report nor a list may take the place of an input.
+void checkOutputs(const std::string& output, const std::vector<std::string>& inputs) {
+  if (output.empty()) return;
+  const std::vector<std::filesystem::path> paths = pathsOf(inputs);
+  scene::checkIsNoInput(output, paths);
+  for (const auto& kind : kKindNames) scene::checkIsNoInput(besideOutput(output, kind.key), paths);
+  for (const char* const key : {"edges", "faces"}) scene::checkIsNoInput(besideOutput(output, key), paths);
+}
+
 /// Writes rows of numbers beside the output, and notes the file; complete when the report is.
 class ElementFiles {
  public:
   ElementFiles(std::string output, ElementReport& report) : m_output(std::move(output)), m_report(report) {}
 
   void write(std::string_view key, std::size_t columns, std::span<const std::uint32_t> numbers) {
-    if (m_output.empty()) return;
     const std::string path = besideOutput(m_output, key);
     m_files.push_back(std::make_unique<Output>(std::filesystem::path(path)));
     NpyOutput(*m_files.back(), "<u4", {numbers.size() / columns, columns}).add(numbers);
@@ -119,6 +127,7 @@ void findAll(elements::ElementCandidates& candidates, bool wantsLists, ElementFi
     report.candidates[i] = wantsLists ? found[i].size() : candidates.count(kKindNames[i].kind);
   }
   report.findSeconds = timer.seconds();
+  if (!wantsLists) return;
   for (std::size_t i = 0; i < kKindNames.size(); ++i) files.write(kKindNames[i].key, 2, numbersOf(found[i]));
   files.write("edges", 2, numbersOf(std::span(candidates.topology().edges())));
   files.write("faces", 3, numbersOf(std::span(candidates.topology().triangles())));
@@ -145,7 +154,7 @@ void checkElementsExtension(const std::string& path) {
 
 void runElements(const ElementSettings& settings) {
   checkElementsExtension(settings.output);
-  scene::checkIsNoInput(settings.output, pathsOf(settings.paths));
+  checkOutputs(settings.output, settings.paths);
   ElementReport report;
   report.distance = parseDistance(settings.distance);
   report.betweenOnly = settings.between;
@@ -158,7 +167,7 @@ void runElements(const ElementSettings& settings) {
   elements::MeshTopology topology = topologyOf(steps);
   describeMeshes(topology, steps, report);
   const std::unique_ptr<Executor> executor = makeExecutor(threads, topology.counts().edges);
-  const bool wantsLists = !settings.output.empty();
+  const bool wantsLists = output.isFile();
   if (executor && wantsLists) report.threads = executor->concurrency();  // counting runs on one
   elements::ElementCandidates candidates(
       std::move(topology),

@@ -70,7 +70,7 @@ void addStatistics(const TrackReport& report, JsonText& json) {
   const FrameTimes times = timesOf(report.frames);
   const Totals totals = totalsOf(report.frames);
   json.beginObject("statistics");
-  json.add("distance", report.distance);
+  json.addReal("distance", report.distance);
   json.add("began", totals.began);
   json.add("ended", totals.ended);
   json.add("medianMs", times.medianMs);

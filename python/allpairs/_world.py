@@ -119,13 +119,15 @@ class World:
         return _core.World(distance, _arguments.order_of(order), threads)
 
     def __getstate__(self) -> dict[str, Any]:
-        """The settings, and ids, bounds and properties of all boxes."""
+        """The settings, and ids, bounds and properties of all boxes; and the attributes that others have set."""
         ids, boxes, properties, margin = map(np.asarray, self._core.state())
         names = ("category", "mask", "group", "static", "world")
         columns = {name: properties[:, i].copy() for i, name in enumerate(names)}
-        return {"settings": self._settings, "ids": ids, "boxes": boxes, "margin": margin, **columns}
+        own = {name: value for name, value in vars(self).items() if name not in ("_settings", "_core")}
+        return {"settings": self._settings, "ids": ids, "boxes": boxes, "margin": margin, **columns, "attributes": own}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state.get("attributes", {}))
         self._settings = state["settings"]
         self._core = self._empty()
         ids = state["ids"]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -28,6 +29,12 @@ class JsonText {
     separate(key);
     m_text += textOf(value);
     m_isFirst = false;
+  }
+
+  /// A number; "inf" or "-inf", which JSON has no numbers for.
+  void addReal(std::string_view key, double value) {
+    if (std::isinf(value)) return add(key, value > 0.0 ? "inf" : "-inf");
+    add(key, value);
   }
 
   [[nodiscard]] const std::string& text() const { return m_text; }

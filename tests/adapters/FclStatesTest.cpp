@@ -15,11 +15,15 @@
 #include "FclExamine.h"
 #include "Shapes.h"
 #include "allpairs/Error.h"
+#include "allpairs/collision/LineModel.h"
+#include "allpairs/collision/PointModel.h"
 #include "allpairs/collision/SphereModel.h"
 
 namespace allpairs::test {
 namespace {
 
+using collision::LineModel;
+using collision::PointModel;
 using collision::SphereModel;
 
 /// A cuboid of which each side is turned into four triangles around its middle: another mesh of the same shape.
@@ -79,6 +83,61 @@ TEST(FclStates, ASheetWithAHoleIsNoDuplicateOfOneWithout) {
   EXPECT_EQ(examine(whole, other).state, ExactState::Duplicate);
   EXPECT_EQ(examine(whole, holed).state, ExactState::Touching);
   EXPECT_EQ(examine(holed, whole).state, ExactState::Touching);
+}
+
+/// A model with a corner in the middle of each side of its triangles, as polygons with such corners leave it: triangles
+/// whose three corners lie in a line, on either side of each other.
+std::unique_ptr<TriangleModel> withCornersInSides(const TriangleModel& model) {
+  std::vector<Vec3> points = model.positions();
+  std::vector<TriangleModel::Triangle> triangles = model.triangles();
+  for (const auto& corners : model.triangles()) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = corners[i];
+      const std::uint32_t to = corners[(i + 1) % 3];
+      const auto middle = static_cast<std::uint32_t>(points.size());
+      points.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        points.back()[axis] = points[from][axis] / 4.0 + 3.0 * points[to][axis] / 4.0;
+      }
+      triangles.push_back({from, middle, to});
+      triangles.push_back({to, middle, from});
+    }
+  }
+  return std::make_unique<TriangleModel>("with corners in sides", points, triangles);
+}
+
+TEST(FclStates, TrianglesWithoutAnAreaChangeNothing) {
+  const auto outer = cuboid({0, 0, 0}, {4, 4, 4});
+  const auto seamed = withCornersInSides(*outer);
+  for (const auto& inner : {cuboid({1, 1, 1}, {2, 3, 3}), cuboid({3, 1, 1}, {5, 2, 3}), cuboid({4, 1, 1}, {5, 2, 3}),
+                            cuboid({4.5, 1, 1}, {5, 2, 3}), cuboid({-1, -1, -1}, {5, 5, 5})}) {
+    const auto plain = examine(*outer, *inner);
+    const auto pair = examine(*seamed, *inner);
+    const auto both = examine(*seamed, *withCornersInSides(*inner));
+    for (const auto& other : {pair, both}) {
+      EXPECT_EQ(other.state, plain.state);
+      EXPECT_NEAR(other.distance, plain.distance, kClose);
+      EXPECT_NEAR(other.depth.value_or(-1.0), plain.depth.value_or(-1.0), kClose);
+    }
+  }
+  EXPECT_EQ(examine(*outer, *seamed).state, ExactState::Duplicate);
+}
+
+TEST(FclStates, LinesAndPointsAreDuplicatesOfTheSameAlone) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  LineModel rising("rising", corners, {{0, 2}});
+  LineModel cut("cut", {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}, {{2, 1}, {0, 1}});
+  LineModel falling("falling", corners, {{1, 3}});
+  EXPECT_EQ(examine(rising, cut).state, ExactState::Duplicate);
+  EXPECT_EQ(examine(rising, falling).state, ExactState::Touching);
+  LineModel outline("outline", corners, {{0, 1}, {1, 2}, {2, 3}, {3, 0}});
+  TriangleModel sheet("sheet", corners, {}, {{0, 1, 2, 3}});
+  EXPECT_EQ(examine(outline, sheet).state, ExactState::Touching);
+  PointModel points("points", {{0, 0, 0}, {1, 0, 0}, {2, 2, 2}});
+  PointModel others("others", {{0, 0, 0}, {1, 1, 0}, {2, 2, 2}});
+  PointModel turnedAround("turned around", {{2, 2, 2}, {1, 0, 0}, {0, 0, 0}});
+  EXPECT_EQ(examine(points, others).state, ExactState::Touching);
+  EXPECT_EQ(examine(points, turnedAround).state, ExactState::Duplicate);
 }
 
 TEST(FclStates, WhatFillsTheHollowOfAnotherIsNotWithinIt) {

@@ -57,6 +57,27 @@ TEST(Elements, WritesTheCandidatesBesideTheReport) {
   EXPECT_EQ(json["files"]["edge_edge"], (folder.path() / "step.edge_edge.npy").string());
 }
 
+TEST(Elements, ToAPipeOrADeviceWriteNoFilesBesideIt) {
+  const TempFolder folder;
+  const std::string mesh = folder.write("mesh.obj", kStart);
+  const ProgramRun run =
+      runProgram({"elements", mesh, mesh, "--distance", "inf", "--format", "json", "-o", "/dev/stdout"});
+  expectSuccess(run);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  EXPECT_EQ(json["statistics"]["distance"], "inf");
+  EXPECT_EQ(json["face_face"], 1);
+  EXPECT_TRUE(json["files"].empty()) << run.out;
+  EXPECT_FALSE(std::filesystem::exists("/dev/stdout.edges.npy"));
+}
+
+TEST(Elements, NoListTakesThePlaceOfAnInput) {
+  const TempFolder folder;
+  const std::string mesh = folder.write("mesh.obj", kStart);
+  std::filesystem::create_symlink("mesh.obj", folder.path() / "out.faces.npy");
+  expectFailure(runProgram({"elements", mesh, mesh, "-o", folder.path() / "out.json"}), 3, "is an input");
+  EXPECT_EQ(readBytes(mesh), kStart);
+}
+
 TEST(Elements, OfSeveralMeshesMayBeBetweenThemOnly) {
   const TempFolder folder;
   const std::string start = folder.write("start.obj", kStart);

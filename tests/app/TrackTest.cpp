@@ -83,6 +83,16 @@ TEST(Track, OfAGeneratedMotionAgreesWithTheDoubleLoop) {
   }
 }
 
+TEST(Track, AnInfiniteDistanceIsWrittenAsOne) {
+  const TempFolder folder;
+  const std::string file = folder.write("frames.npy", framesBytes(passing(), "<f4"));
+  const ProgramRun run = runProgram({"track", file, "--format", "json", "--distance", "inf"});
+  expectSuccess(run);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  EXPECT_EQ(json["statistics"]["distance"], "inf");
+  EXPECT_EQ(json["pairs"], (std::vector<int>{3, 3, 3, 3}));
+}
+
 TEST(Track, WritesTheCountsAsANumpyArray) {
   const TempFolder folder;
   const std::string file = folder.write("frames.npy", framesBytes(passing()));

@@ -255,6 +255,21 @@ def test_a_copy_of_a_world_without_boxes_is_one():
     assert twin.step().pairs.tolist() == [[0, 1]]
 
 
+class Named(allpairs.World):
+    def __init__(self, name):
+        super().__init__(distance=1)
+        self.name = name
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda world: pickle.loads(pickle.dumps(world))])
+def test_a_copy_keeps_what_others_have_added(copied):
+    world = Named(["mine"])
+    world.add([0, 0, 0, 1, 1, 1])
+    twin = copied(world)
+    assert type(twin) is Named and twin.name == ["mine"] and len(twin) == 1
+    assert (twin.name is world.name) == (copied is copy.copy)
+
+
 def test_a_copy_while_others_change_the_world_is_of_one_moment():
     world = allpairs.World()
     fixed = world.add(np.tile([0.0, 0, 0, 1, 1, 1], (50, 1)))

@@ -6,6 +6,8 @@
 namespace allpairs::exact {
 namespace {
 
+constexpr double kNarrowest = 1e-11;  // width by length
+
 Point nearestOnSegment(const Point& from, const Point& to, const Point& point) {
   const Point way = to - from;
   const double squared = way.squaredNorm();
@@ -22,7 +24,10 @@ Point nearestPoint(const Corners& corners, const Point& point) {
     return normal.dot((to - from).cross(point - from)) >= 0.0;
   };
   const double squared = normal.squaredNorm();
-  if (squared > 0.0 && isInside(a, b) && isInside(b, c) && isInside(c, a)) {
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  // Of a narrower one the normal is mostly rounding, and what is nearest lies on a side, as good as that.
+  const bool hasInside = squared > kNarrowest * kNarrowest * longest * longest;
+  if (hasInside && isInside(a, b) && isInside(b, c) && isInside(c, a)) {
     return point - normal * (normal.dot(point - a) / squared);
   }
   const std::array<Point, 3> candidates{nearestOnSegment(a, b, point), nearestOnSegment(b, c, point),
