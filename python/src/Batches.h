@@ -35,6 +35,7 @@ class Batches {
   std::shared_ptr<Boxes> m_second;
   std::shared_ptr<Options> m_options;
   std::unique_ptr<BatchStream> m_stream;
+  int m_process;  ///< Which has the thread that searches.
 };
 
 }  // namespace allpairs::python

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "Arguments.h"
+#include "Gil.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::python {
@@ -18,7 +19,7 @@ BoxView setOf(const py::buffer_info& lower, const py::buffer_info& upper) {
 /// Runs what may throw InvalidBox without the GIL, and says of which set the box is.
 template <class Work>
 void runLabelled(const std::string& label, const Work& work) {
-  const py::gil_scoped_release release;
+  const ReleasedGil released;
   try {
     work();
   } catch (const InvalidBox& error) {

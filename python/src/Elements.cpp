@@ -9,6 +9,7 @@
 
 #include "Arguments.h"
 #include "Bindings.h"
+#include "Gil.h"
 #include "Interrupts.h"
 #include "NumberArray.h"
 #include "PairArray.h"
@@ -60,7 +61,7 @@ class MeshCandidates {
     const bool single = isFloat32(start);
     const py::buffer_info from = requestBuffer(start, {single ? "f" : "d", 3});
     const py::buffer_info to = requestBuffer(end, {single ? "f" : "d", 3});
-    const py::gil_scoped_release release;
+    const ReleasedGil released;
     const std::lock_guard lock(m_mutex);
     if (single) {
       m_candidates.setPositions(mesh, valuesOf<float>(from), valuesOf<float>(to));
@@ -111,7 +112,7 @@ class MeshCandidates {
       held.push_back(requestBuffer(triangles[i], {"I", 3}));
       meshes.push_back({vertexCounts[i], valuesOf<std::uint32_t>(held.back())});
     }
-    const py::gil_scoped_release release;
+    const ReleasedGil released;
     return elements::MeshTopology(std::span<const elements::MeshView>(meshes));
   }
 

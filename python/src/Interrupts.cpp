@@ -8,6 +8,7 @@
 #include <system_error>
 #include <thread>
 
+#include "Gil.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::python {
@@ -61,7 +62,7 @@ class Running {
 /// Whether a signal handler raised an exception, which then is Python's current one, before the work was done.
 bool isInterrupted(Running& running) {
   while (!running.isSoonDone()) {
-    const py::gil_scoped_acquire acquire;
+    const HeldGil held;
     if (PyErr_CheckSignals() != 0) return true;
   }
   return false;
@@ -73,7 +74,7 @@ bool isInterruptedElsewhere(FunctionRef<void(Stopper&)> work) {
   Stopper stopper(Stopper::Asks::Nobody);
   std::exception_ptr error;
   {
-    const py::gil_scoped_release release;
+    const ReleasedGil released;
     std::optional<Running> running;
     try {
       running.emplace(stopper, work, error);
@@ -93,7 +94,7 @@ bool isInterruptedElsewhere(FunctionRef<void(Stopper&)> work) {
 /// Runs work in this thread; returns whether Ctrl-C stopped it, which Python then is about to handle.
 bool isInterruptedHere(FunctionRef<void(Stopper&)> work) {
   Stopper stopper(Stopper::Asks::Python);
-  const py::gil_scoped_release release;
+  const ReleasedGil released;
   try {
     work(stopper);
   } catch (const Stopped&) {
@@ -118,7 +119,7 @@ bool Stopper::ask() {
   const auto now = std::chrono::steady_clock::now();
   if (now - m_asked < kBetweenQuestions) return false;
   m_asked = now;
-  const py::gil_scoped_acquire acquire;
+  const HeldGil held;
   m_isInterrupted = PyOS_InterruptOccurred() != 0;
   if (m_isInterrupted) stop();  // for other threads
   return m_isInterrupted;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "Boxes.h"
+#include "Gil.h"
 #include "Interrupts.h"
 #include "NumberArray.h"
 #include "PairArray.h"
@@ -76,7 +77,7 @@ class MovingBoxes {
   /// Runs work on the world without the GIL, alone.
   template <class Work>
   decltype(auto) alone(const Work& work) {
-    const pybind11::gil_scoped_release release;
+    const ReleasedGil released;
     const std::lock_guard lock(m_mutex);
     return work(m_world);
   }

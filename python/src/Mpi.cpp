@@ -9,6 +9,7 @@
 
 #include "Bindings.h"
 #include "Boxes.h"
+#include "Gil.h"
 #include "IdPairArray.h"
 #include "Options.h"
 #include "allpairs/mpi/DistributedOverlaps.h"
@@ -34,12 +35,12 @@ class DistributedSearch {
   }
 
   [[nodiscard]] std::unique_ptr<OffsetArray> find(const Boxes& first, const Boxes* second) {
-    const py::gil_scoped_release release;
+    const ReleasedGil released;
     return arrayOf(second != nullptr ? m_search->find(first.set(), second->set()) : m_search->find(first.set()));
   }
 
   [[nodiscard]] std::uint64_t count(const Boxes& first, const Boxes* second) {
-    const py::gil_scoped_release release;
+    const ReleasedGil released;
     return second != nullptr ? m_search->count(first.set(), second->set()) : m_search->count(first.set());
   }
 

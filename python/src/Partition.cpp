@@ -16,6 +16,7 @@
 #include "Bindings.h"
 #include "Boxes.h"
 #include "BufferProtocol.h"
+#include "Gil.h"
 #include "IdPairArray.h"
 #include "NumberArray.h"
 #include "Options.h"
@@ -116,7 +117,7 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
                                           double maxMargin) {
   std::vector<std::uint64_t> rows;
   {
-    const py::gil_scoped_release release;
+    const ReleasedGil released;
     const BoxView& set = boxes.set();
     const double greatest = std::max(maxMargin, partition::greatestMargin(set));
     std::vector<std::uint32_t> cells;

@@ -2,7 +2,9 @@
 """Whatever takes long lets other Python threads run meanwhile."""
 
 import functools
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import threading
@@ -100,6 +102,46 @@ def lets_others_run(work):
     finally:
         sys.setswitchinterval(interval)
         other.join()
+
+
+AT_WORK = """
+import allpairs, numpy as np, sys, threading
+world = allpairs.World(threads=2)
+world.add(np.random.default_rng(1).random((2000, 6)).cumsum(1))
+boxes = np.random.default_rng(2).random((30000, 6)).cumsum(1)
+work = {"step": world.step, "query": lambda: world.overlapping(boxes[:100]), "count": lambda: allpairs.count(boxes)}[sys.argv[1]]
+begun = threading.Event()
+
+def for_ever():
+    while True:
+        work()
+        begun.set()
+
+threading.Thread(target=for_ever, daemon=True).start()
+begun.wait()
+"""
+
+
+@pytest.mark.parametrize("work", ["step", "query", "count"])
+def test_a_program_may_end_while_a_daemon_thread_is_at_work(work):
+    for _ in range(5):
+        done = subprocess.run([sys.executable, "-c", AT_WORK, work], capture_output=True, text=True, timeout=100)
+        assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+def test_batches_of_a_parent_are_refused():
+    batches = allpairs.batches(BOXES, batch_size=100)
+    next(batches)
+    child = os.fork()
+    if child == 0:
+        try:
+            next(batches)
+        except allpairs.InvalidArgument as problem:
+            os._exit(0 if "forked" in str(problem) else 1)
+        os._exit(2)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert len(next(batches)) == 100
 
 
 def test_the_oracle_sees_who_keeps_the_interpreter():
