@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "FclExamine.h"
@@ -190,6 +191,42 @@ TEST(FclNarrowPhase, ABarThroughAPlateClashesHoweverThinAndTurnedTheyAre) {
         EXPECT_LT(pair.depth.value_or(0.0), most * (1.0 + 1e-9) + kClose);
       }
     }
+  }
+}
+
+/// A slab from z = 0 to 0.25 with an opening from (1, 2) to (3, 4).
+std::unique_ptr<TriangleModel> frame() {
+  std::vector<Vec3> points;
+  for (const double z : {0.0, 0.25}) {
+    for (const auto& [x, y] : {std::pair(0, 0), {4, 0}, {4, 6}, {0, 6}, {1, 2}, {3, 2}, {3, 4}, {1, 4}}) {
+      points.push_back({double(x), double(y), z});
+    }
+  }
+  std::vector<TriangleModel::Quad> quads;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t next = (i + 1) % 4;
+    quads.push_back({i + 4, next + 4, next, i});            // below
+    quads.push_back({i + 8, next + 8, next + 12, i + 12});  // above
+    quads.push_back({i, next, next + 8, i + 8});            // around
+    quads.push_back({next + 4, i + 4, i + 12, next + 12});  // the opening
+  }
+  return std::make_unique<TriangleModel>("frame", points, std::vector<TriangleModel::Triangle>{}, quads);
+}
+
+TEST(FclNarrowPhase, WhatStandsInAnOpeningIsApartHoweverBothAreTurned) {
+  for (int i = 0; i < 60; ++i) {
+    const double gap = 0.125;
+    const auto window = cuboid({1.0 + gap, 2.0 + gap, 0}, {3.0 - gap, 4.0 - gap, 0.25});
+    const auto move = [i](const TriangleModel& model) {
+      std::vector<Vec3> points = model.positions();
+      const double c = std::cos(0.1 * i);
+      const double s = std::sin(0.1 * i);
+      for (Vec3& p : points) p = {p[0] + 10.3, c * p[1] - s * p[2] + 7.7, s * p[1] + c * p[2] + 2.6};  // about x
+      return std::make_unique<TriangleModel>("moved", points, model.triangles());
+    };
+    const auto pair = examine(*move(*frame()), *move(*window));
+    EXPECT_EQ(pair.state, ExactState::Apart) << i;
+    EXPECT_NEAR(pair.distance, gap, kClose) << i;
   }
 }
 

@@ -123,6 +123,38 @@ TEST(FclStates, TrianglesWithoutAnAreaChangeNothing) {
   EXPECT_EQ(examine(*outer, *seamed).state, ExactState::Duplicate);
 }
 
+/// A square around the origin in the plane of two axes, of as many strips along the first as there are bounds less one.
+TriangleModel sheet(std::size_t u, std::size_t v, const std::vector<double>& bounds) {
+  std::vector<Vec3> points;
+  for (const double bound : bounds) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3& point = points.emplace_back();
+      point[u] = bound;
+      point[v] = side;
+    }
+  }
+  std::vector<TriangleModel::Quad> quads;
+  for (std::uint32_t i = 0; i + 3 < points.size(); i += 2) quads.push_back({i, i + 1, i + 3, i + 2});
+  return TriangleModel("sheet", points, {}, quads);
+}
+
+TEST(FclStates, SheetsThatCrossClashAlsoAlongEdgesOfTheirTriangles) {
+  for (const std::vector<double>& first : {std::vector<double>{-1, 1}, {-1, 0, 1}}) {
+    for (const std::vector<double>& second : {std::vector<double>{-1, 1}, {-1, 0, 1}}) {
+      auto flat = sheet(0, 1, first);
+      auto upright = sheet(2, 1, second);
+      EXPECT_EQ(examine(flat, upright).state, ExactState::Clash);
+      EXPECT_EQ(examine(upright, flat).state, ExactState::Clash);
+    }
+  }
+  auto flat = sheet(0, 1, {-1, 0, 1});
+  auto standing = sheet(2, 1, {0, 1});
+  EXPECT_EQ(examine(flat, standing).state, ExactState::Touching) << "it ends there";
+  TriangleModel roof("roof", {{-1, -1, -1}, {-1, 1, -1}, {0, -1, 0}, {0, 1, 0}, {1, -1, -1}, {1, 1, -1}}, {},
+                     {{0, 1, 3, 2}, {2, 3, 5, 4}});
+  EXPECT_EQ(examine(flat, roof).state, ExactState::Touching) << "its ridge";
+}
+
 TEST(FclStates, LinesAndPointsAreDuplicatesOfTheSameAlone) {
   const std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
   LineModel rising("rising", corners, {{0, 2}});

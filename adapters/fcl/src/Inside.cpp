@@ -5,35 +5,26 @@
 #include <cstdlib>
 #include <limits>
 
+#include "Orientation.h"
 #include "allpairs/Overlaps.h"
 
 namespace allpairs::exact {
 namespace {
 
-/// On which side of the line through two points, seen along x, a third one lies. Never 0 unless the two coincide there,
-/// and of opposite signs for the two directions of an edge, rounding included.
-double side(const Point& from, const Point& to, const Point& point) {
-  const bool isTurned = to.y() < from.y() || (to.y() == from.y() && to.z() < from.z());
-  const Point& a = isTurned ? to : from;
-  const Point& b = isTurned ? from : to;
-  constexpr double kTrifle = std::numeric_limits<double>::denorm_min();
-  double value = (b.y() - a.y()) * (point.z() - a.z()) - (b.z() - a.z()) * (point.y() - a.y());
-  if (value == 0.0 && a.z() != b.z()) value = a.z() < b.z() ? -kTrifle : kTrifle;  // as y grows by a trifle
-  if (value == 0.0 && a.y() != b.y()) value = kTrifle;                             // as z grows by a smaller one
-  return isTurned ? -value : value;
+/// On which side of the line through two points, seen along x, a third one lies: 1 or -1, 0 only if the two coincide
+/// there. A point on the line counts as one that y, and then z, have moved by a trifle.
+int side(const Point& from, const Point& to, const Point& point) {
+  if (const int plain = sideOfLine(from, to, point); plain != 0) return plain;
+  if (from.z() != to.z()) return from.z() < to.z() ? -1 : 1;
+  if (from.y() != to.y()) return from.y() < to.y() ? 1 : -1;
+  return 0;
 }
 
-/// 1 or -1 if the ray from the point passes the triangle, by the side on which the triangle shows.
+/// 1 or -1 if the ray from the point along x passes the triangle, by the side on which the triangle shows.
 int crossing(const Corners& corners, const Point& point) {
-  const std::array<double, 3> sides{side(corners[1], corners[2], point), side(corners[2], corners[0], point),
-                                    side(corners[0], corners[1], point)};
-  const bool isLeft = sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0;
-  const bool isRight = sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0;
-  if (!isLeft && !isRight) return 0;
-  const double x = (sides[0] * corners[0].x() + sides[1] * corners[1].x() + sides[2] * corners[2].x()) /
-                   (sides[0] + sides[1] + sides[2]);
-  if (x <= point.x()) return 0;
-  return isLeft ? 1 : -1;
+  const int way = side(corners[1], corners[2], point);
+  if (way == 0 || side(corners[2], corners[0], point) != way || side(corners[0], corners[1], point) != way) return 0;
+  return sideOfPlane(corners, point) == -way ? way : 0;  // else the triangle lies behind the point, or holds it
 }
 
 Box rayFrom(const Point& point) {

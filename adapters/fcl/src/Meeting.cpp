@@ -11,6 +11,7 @@
 #include "Deepest.h"
 #include "Enclosure.h"
 #include "Nearest.h"
+#include "PointTriangle.h"
 #include "TriangleMeeting.h"
 
 namespace allpairs::exact {
@@ -100,13 +101,44 @@ class Look {
       m_meeting.contactPoints.push_back(meeting->middle);
       if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
       m_crossing = std::max(m_crossing, meeting->crossing);
+      if (meeting->ends[0] != meeting->ends[1]) m_lines.push_back({meeting->ends, pair});
     }
     const bool isAnyOpen = m_first.isOpen() || m_second.isOpen();
-    m_meeting.isCrossed = isAnyOpen && m_crossing > m_tolerance;
+    m_meeting.isCrossed = isAnyOpen && (m_crossing > m_tolerance || crossesAlongEdges());
     if (m_meeting.contactPoints.empty()) {
       m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
     }
     m_meeting.contactCount = std::max<std::size_t>(m_pairs.size(), 1);
+  }
+
+  /// Whether the surfaces pass through each other where edges of their triangles lie on the line: each triangle ends
+  /// there, and the surface goes on in the next one.
+  [[nodiscard]] bool crossesAlongEdges() const {
+    const std::size_t stride = m_lines.size() / kMostLines + 1;
+    for (std::size_t i = 0; i < m_lines.size(); i += stride) {
+      const auto& [ends, pair] = m_lines[i];
+      const Point middle = (ends[0] + ends[1]) / 2.0;
+      if ((ends[1] - ends[0]).norm() <= m_tolerance) continue;
+      Reach ofFirst;
+      Reach ofSecond;
+      for (const Line& line : m_lines) {
+        if (distanceTo(line.ends, middle) > m_tolerance) continue;
+        widen(ofFirst, reachOf(m_first.triangles()[line.pair.first], m_second.triangles()[pair.second]));
+        widen(ofSecond, reachOf(m_second.triangles()[line.pair.second], m_first.triangles()[pair.first]));
+      }
+      const double least = std::min({ofFirst.above, ofFirst.below, ofSecond.above, ofSecond.below});
+      if (least > m_tolerance) return true;
+    }
+    return false;
+  }
+
+  static void widen(Reach& reach, const Reach& other) {
+    reach.above = std::max(reach.above, other.above);
+    reach.below = std::max(reach.below, other.below);
+  }
+
+  static double distanceTo(const std::array<Point, 2>& ends, const Point& point) {
+    return (nearestPoint({ends[0], ends[1], ends[1]}, point) - point).norm();
   }
 
   void findDepth() {
@@ -174,6 +206,14 @@ class Look {
     return normals;
   }
 
+  /// The segment that two triangles share.
+  struct Line {
+    std::array<Point, 2> ends{};
+    TrianglePair pair;
+  };
+
+  static constexpr std::size_t kMostLines = 256;  // that are looked at; each with all others
+
   const ExactPart& m_first;
   const ExactPart& m_second;
   double m_tolerance;
@@ -184,6 +224,7 @@ class Look {
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
   bool m_reachesIntoSecond = false;
   std::vector<TrianglePair> m_pairs;
+  std::vector<Line> m_lines;
   Meeting m_meeting;
 };
 

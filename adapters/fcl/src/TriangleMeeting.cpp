@@ -36,23 +36,32 @@ bool contains(const Corners& corners, const Point& normal, const Point& point) {
   return true;
 }
 
-/// Adds the points where the edges of one triangle pass through the other.
+/// How far a height above the plane of a triangle, times the length of its normal, is as good as 0.
+double slackOf(const Point& normal) { return kSlack * normal.norm() * std::sqrt(normal.norm()); }
+
+/// Adds the points where the edges of one triangle pass through the other, or begin on it.
 void addCrossings(const Corners& edges, const Corners& through, Shared& shared) {
   const Point normal = normalOf(through);
+  const double slack = slackOf(normal);
+  std::array<double, 3> heights{};
+  for (std::size_t i = 0; i < 3; ++i) heights[i] = normal.dot(edges[i] - through[0]);
   for (std::size_t i = 0; i < 3; ++i) {
     const Point& from = edges[i];
     const Point& to = edges[(i + 1) % 3];
-    const double before = normal.dot(from - through[0]);
-    const double after = normal.dot(to - through[0]);
-    if (before == after || (before < 0.0) == (after < 0.0)) continue;
-    const Point point = from + (before / (before - after)) * (to - from);
-    if (contains(through, normal, point)) shared.add(point);
+    const double before = heights[i];
+    const double after = heights[(i + 1) % 3];
+    if (std::abs(before) <= slack) {
+      if (contains(through, normal, from)) shared.add(from);
+    } else if (std::abs(after) > slack && (before < 0.0) != (after < 0.0)) {
+      const Point point = from + (before / (before - after)) * (to - from);
+      if (contains(through, normal, point)) shared.add(point);
+    }
   }
 }
 
 bool areCoplanar(const Corners& a, const Corners& b) {
   const Point normal = normalOf(b);
-  const double slack = kSlack * normal.norm() * std::sqrt(normal.norm());
+  const double slack = slackOf(normal);
   return std::all_of(a.begin(), a.end(), [&](const Point& p) { return std::abs(normal.dot(p - b[0])) <= slack; });
 }
 
@@ -67,22 +76,26 @@ void addShared(const Corners& a, const Corners& b, Shared& shared) {
   if (!common.empty()) shared.add(common.middle());
 }
 
-/// How far a triangle reaches to that side of another's plane to which it reaches less.
+/// To that side of another's plane to which it reaches less.
 double reachThrough(const Corners& corners, const Corners& plane) {
-  const Point normal = normalOf(plane);
-  const double length = normal.norm();
-  if (length == 0.0) return 0.0;
-  double least = 0.0;
-  double most = 0.0;
-  for (const Point& corner : corners) {
-    const double height = normal.dot(corner - plane[0]) / length;
-    least = std::min(least, height);
-    most = std::max(most, height);
-  }
-  return std::min(most, -least);
+  const Reach reach = reachOf(corners, plane);
+  return std::min(reach.above, reach.below);
 }
 
 }  // namespace
+
+Reach reachOf(const Corners& corners, const Corners& plane) {
+  const Point normal = normalOf(plane);
+  const double length = normal.norm();
+  Reach reach;
+  if (length == 0.0) return reach;
+  for (const Point& corner : corners) {
+    const double height = normal.dot(corner - plane[0]) / length;
+    reach.above = std::max(reach.above, height);
+    reach.below = std::max(reach.below, -height);
+  }
+  return reach;
+}
 
 std::optional<TriangleMeeting> meetingOf(const Corners& a, const Corners& b) {
   Shared shared;
