@@ -155,6 +155,56 @@ TEST(FclStates, SheetsThatCrossClashAlsoAlongEdgesOfTheirTriangles) {
   EXPECT_EQ(examine(flat, roof).state, ExactState::Touching) << "its ridge";
 }
 
+/// A model of which each triangle is there twice, once each way.
+std::unique_ptr<TriangleModel> twoSided(const TriangleModel& model) {
+  std::vector<TriangleModel::Triangle> triangles = model.triangles();
+  for (const auto& [a, b, c] : model.triangles()) triangles.push_back({b, a, c});
+  return std::make_unique<TriangleModel>("two-sided", model.positions(), triangles);
+}
+
+TEST(FclStates, TrianglesForEitherSideAreASolidOrASurfaceAsOnesForOne) {
+  const auto outer = cuboid({0, 0, 0}, {4, 4, 4});
+  const auto open = openCube();
+  for (TriangleModel* model : {outer.get(), open.get()}) {
+    for (const auto& inner : {cuboid({1, 1, 1}, {2, 2, 2}), cuboid({3, 1, 1}, {5, 2, 3}), cuboid({4, 1, 1}, {5, 2, 3}),
+                              cuboid({7, 1, 1}, {8, 2, 3}), cuboid({-1, -1, -1}, {1.5, 1.5, 1.5})}) {
+      const auto plain = examine(*model, *inner);
+      const auto first = examine(*twoSided(*model), *inner);
+      const auto both = examine(*twoSided(*model), *twoSided(*inner));
+      for (const auto& pair : {first, both}) {
+        EXPECT_EQ(pair.state, plain.state);
+        EXPECT_EQ(pair.isFirstOpen, plain.isFirstOpen);
+        EXPECT_NEAR(pair.distance, plain.distance, kClose);
+        EXPECT_NEAR(pair.depth.value_or(-1.0), plain.depth.value_or(-1.0), kClose);
+      }
+    }
+  }
+}
+
+TEST(FclStates, OfWhatIsDrawnForEitherSideWithOtherTrianglesNobodyKnowsTheInside) {
+  const auto one = cuboid({0, 0, 0}, {4, 4, 4});
+  auto triangles = one->triangles();
+  for (std::size_t i = 0; i + 1 < one->triangles().size(); i += 2) {
+    const auto [a, b, c] = one->triangles()[i];  // a quadrilateral a b c d comes as a b c and a c d
+    const auto d = one->triangles()[i + 1][2];
+    triangles.push_back({d, c, b});
+    triangles.push_back({d, b, a});
+  }
+  TriangleModel drawn("drawn", one->positions(), triangles);
+  EXPECT_EQ(examine(drawn, *cuboid({1, 1, 1}, {2, 2, 2})).state, ExactState::Undecided);
+  EXPECT_EQ(examine(drawn, *cuboid({3, 1, 1}, {5, 2, 2})).state, ExactState::Clash);
+  EXPECT_EQ(examine(drawn, *cuboid({5, 1, 1}, {6, 2, 2})).state, ExactState::Apart);
+}
+
+TEST(FclStates, APartAndItsMirrorImageAreSolid) {
+  const auto left = cuboid({-5, 0, 0}, {-1, 4, 4});
+  const auto right = cuboid({1, 0, 0}, {5, 4, 4}, true);
+  const auto pair = together({left.get(), right.get()});
+  for (const double x : {-4.0, 2.0}) {
+    EXPECT_EQ(examine(*pair, *cuboid({x, 1, 1}, {x + 1, 2, 2})).state, ExactState::Contained) << x;
+  }
+}
+
 TEST(FclStates, LinesAndPointsAreDuplicatesOfTheSameAlone) {
   const std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
   LineModel rising("rising", corners, {{0, 2}});

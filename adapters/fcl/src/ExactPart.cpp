@@ -2,10 +2,12 @@
 #include "ExactPart.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <string>
 #include <utility>
 
+#include "Inside.h"
 #include "allpairs/Error.h"
 
 namespace allpairs::exact {
@@ -54,6 +56,94 @@ Volume volumeOf(const std::vector<Corners>& triangles) {
   return volumeOf(edges);
 }
 
+/// Which triangles a mesh encloses volume with, and how.
+struct Shell {
+  Volume volume = Volume::None;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// A triangle as the least of its corners and the two others in ascending order, and which way it faces.
+struct Facing {
+  std::array<collision::Vec3, 3> points{};
+  int way = 0;
+  std::uint32_t triangle = 0;
+};
+
+Facing facingOf(const Corners& corners, std::uint32_t triangle) {
+  std::array<collision::Vec3, 3> points{toVec3(corners[0]), toVec3(corners[1]), toVec3(corners[2])};
+  std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+  const bool isTurned = points[2] < points[1];
+  if (isTurned) std::swap(points[1], points[2]);
+  return {points, isTurned ? -1 : 1, triangle};
+}
+
+/// One of each two triangles that are the same but for the way they face; empty unless all are such.
+std::vector<std::uint32_t> oneOfEachTwo(const std::vector<Corners>& triangles, const Shell& shell) {
+  std::vector<Facing> facings;
+  for (const std::uint32_t triangle : shell.triangles) facings.push_back(facingOf(triangles[triangle], triangle));
+  std::sort(facings.begin(), facings.end(), [](const Facing& a, const Facing& b) { return a.points < b.points; });
+  std::vector<std::uint32_t> kept;
+  for (std::size_t begin = 0, end = 0; begin < facings.size(); begin = end) {
+    int balance = 0;
+    for (; end < facings.size() && facings[end].points == facings[begin].points; ++end) balance += facings[end].way;
+    if (balance != 0) return {};
+    for (std::size_t i = begin; i < begin + (end - begin) / 2; ++i) kept.push_back(facings[i].triangle);
+  }
+  return kept;
+}
+
+/// Whether what faces one way takes away what faces the other, as where each triangle is there twice.
+bool isWithoutVolume(const std::vector<Corners>& triangles) {
+  double sum = 0.0;
+  double size = 0.0;
+  for (const Corners& corners : triangles) {
+    const double volume =
+        (corners[1] - triangles[0][0]).cross(corners[2] - triangles[0][0]).dot(corners[0] - triangles[0][0]);
+    sum += volume;
+    size += std::abs(volume);
+  }
+  return std::abs(sum) <= 1e-9 * size;
+}
+
+std::vector<Corners> chosen(const std::vector<Corners>& triangles, const std::vector<std::uint32_t>& numbers) {
+  std::vector<Corners> result;
+  for (const std::uint32_t number : numbers) result.push_back(triangles[number]);
+  return result;
+}
+
+Shell shellOf(const std::vector<Corners>& triangles) {
+  Shell shell{.volume = volumeOf(triangles), .triangles = {}};
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (isTriangle(triangles[i])) shell.triangles.push_back(i);
+  }
+  return shell;
+}
+
+/// The same where nothing lies inside: one of each two triangles, and the way it faces means nothing. What is drawn
+/// for either side with other triangles is a surface of which nobody can tell the inside.
+Shell oneSided(const std::vector<Corners>& triangles, Shell shell) {
+  std::vector<std::uint32_t> kept = oneOfEachTwo(triangles, shell);
+  shell.volume = volumeOf(chosen(triangles, kept)) == Volume::None ? Volume::None : Volume::Parity;
+  if (!kept.empty()) shell.triangles = std::move(kept);
+  return shell;
+}
+
+/// Points close to triangles, on either side.
+std::vector<Point> besideTriangles(const std::vector<Corners>& triangles) {
+  constexpr std::size_t kMost = 16;
+  constexpr double kOff = 1e-3;  // of the size of a triangle
+  std::vector<Point> points;
+  const std::size_t stride = triangles.size() / kMost + 1;
+  for (std::size_t i = 0; i < triangles.size(); i += stride) {
+    const auto& [a, b, c] = triangles[i];
+    const Point normal = (b - a).cross(c - a);
+    const double length = normal.norm();
+    if (length == 0.0) continue;
+    for (const double side : {-kOff, kOff}) points.push_back((a + b + c) / 3.0 + side / std::sqrt(length) * normal);
+  }
+  return points;
+}
+
 Box boxOf(const Corners& corners) {
   Box box = kEmptyBox;
   for (const Point& corner : corners) include(box, corner);
@@ -86,14 +176,27 @@ void include(Box& box, const Point& point) {
 ExactPart::ExactPart(std::vector<Corners> triangles, double radius)
     : m_triangles(std::move(triangles)),
       m_radius(radius),
-      m_volume(volumeOf(m_triangles)),
       m_hasArea(std::any_of(m_triangles.begin(), m_triangles.end(), isTriangle)) {
+  Shell shell = shellOf(m_triangles);
+  m_volume = shell.volume;
+  m_shell = std::move(shell.triangles);
   build(m_hierarchy, m_triangles);
   m_boxes.reserve(m_triangles.size());
   for (const Corners& corners : m_triangles) {
     m_boxes.push_back(boxOf(corners));
     m_box = merge(m_box, m_boxes.back());
   }
+  if (m_volume == Volume::Winding && isWithoutVolume(m_triangles)) lookAtBothSides();
+}
+
+/// Some programs write each triangle for either side, so that there is no inside; mirrored parts have one, and no
+/// volume in sum either.
+void ExactPart::lookAtBothSides() {
+  const std::vector<Point> points = besideTriangles(m_triangles);
+  if (4 * pointsInside(*this, points).size() > points.size()) return;
+  Shell shell = oneSided(m_triangles, {.volume = m_volume, .triangles = std::move(m_shell)});
+  m_volume = shell.volume;
+  m_shell = std::move(shell.triangles);
 }
 
 }  // namespace allpairs::exact

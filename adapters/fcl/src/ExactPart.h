@@ -47,6 +47,8 @@ class ExactPart {
   [[nodiscard]] const Hierarchy& hierarchy() const { return m_hierarchy; }
   [[nodiscard]] double radius() const { return m_radius; }
   [[nodiscard]] Volume volume() const { return m_volume; }
+  /// The numbers of the triangles that a ray from inside leaves through.
+  [[nodiscard]] const std::vector<std::uint32_t>& shell() const { return m_shell; }
 
   /// Whether it is a surface that may look closed and is not: nobody can tell what lies in it.
   [[nodiscard]] bool isOpen() const { return m_hasArea && m_radius == 0.0 && m_volume == Volume::None; }
@@ -55,11 +57,14 @@ class ExactPart {
   [[nodiscard]] const Box& box() const { return m_box; }
 
  private:
+  void lookAtBothSides();
+
   std::vector<Corners> m_triangles;
   std::vector<Box> m_boxes;
   Hierarchy m_hierarchy;
   double m_radius;
-  Volume m_volume;
+  Volume m_volume = Volume::None;
+  std::vector<std::uint32_t> m_shell;
   bool m_hasArea;  ///< Not only points and segments.
   Box m_box = kEmptyBox;
 };

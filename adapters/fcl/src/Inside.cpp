@@ -42,7 +42,7 @@ Targets targetsOf(const ExactPart& part, const std::vector<Box>& rays) {
   Box all = kEmptyBox;
   for (const Box& ray : rays) all = merge(all, ray);
   Targets targets;
-  for (std::uint32_t i = 0; i < part.triangleBoxes().size(); ++i) {
+  for (const std::uint32_t i : part.shell()) {
     if (!overlap(all, part.triangleBoxes()[i])) continue;
     targets.boxes.push_back(part.triangleBoxes()[i]);
     targets.triangles.push_back(i);

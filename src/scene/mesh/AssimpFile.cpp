@@ -189,7 +189,7 @@ class NodeReader {
     addFace(object, m_corners);
     if (m_corners.size() < 4) return;
     if (!cutFan(object.positions, std::span(object.triangles).last(m_corners.size() - 2))) {
-      fail(object, "has " + tooManyCorners(m_corners.size()));
+      fail(object, "has " + tooIntricate(m_corners.size()));
     }
   }
 

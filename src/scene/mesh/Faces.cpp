@@ -92,12 +92,13 @@ class EarCutter {
     }
   }
 
-  /// Calls visit(a, b, c) for each triangle.
+  /// Calls visit(a, b, c) for each triangle, or returns false when it has taken too long.
   template <class Visit>
-  void cut(const Visit& visit) {
+  [[nodiscard]] bool cut(const Visit& visit) {
     std::size_t corner = 0;
     std::size_t since = 0;  // the last ear
     for (std::size_t left = m_points.size(); left > 3;) {
+      if (m_tests > kMostTests) return false;
       const bool isStuck = since > left;  // by rounding, or as the face crosses itself
       if (isStuck) corner = flattest(corner, left);
       if (isStuck || isEar(corner)) {
@@ -111,23 +112,29 @@ class EarCutter {
       }
     }
     visit(m_previous[corner], corner, m_next[corner]);
+    return true;
   }
 
  private:
+  static constexpr std::uint64_t kMostTests = std::uint64_t{1} << 27;  // of a point and a triangle, half a second
+
   [[nodiscard]] double turnAt(std::size_t i) const {
     return turn(m_points[m_previous[i]], m_points[i], m_points[m_next[i]]);
   }
 
-  [[nodiscard]] bool isEar(std::size_t i) const {
+  [[nodiscard]] bool isEar(std::size_t i) {
+    ++m_tests;
     if (turnAt(i) <= 0.0) return false;
     const Point2& a = m_points[m_previous[i]];
     const Point2& b = m_points[i];
     const Point2& c = m_points[m_next[i]];
-    return std::none_of(m_reflex.begin(), m_reflex.end(), [&](std::size_t other) {
+    const auto blocking = std::find_if(m_reflex.begin(), m_reflex.end(), [&](std::size_t other) {
       const Point2& p = m_points[other];
       if (p == a || p == b || p == c) return false;  // where an outline touches itself, as around a hole
       return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
     });
+    m_tests += static_cast<std::uint64_t>(blocking - m_reflex.begin());
+    return blocking == m_reflex.end();
   }
 
   /// Of the `count` corners that are left.
@@ -154,6 +161,7 @@ class EarCutter {
   std::vector<Point2> m_points;
   std::vector<std::size_t> m_next;
   std::vector<std::size_t> m_previous;
+  std::uint64_t m_tests = 0;
   std::vector<std::size_t> m_reflex;  ///< The corners that may lie in another's triangle: those that don't turn left.
 };
 
@@ -172,17 +180,14 @@ bool cutFan(std::span<const Point> positions, std::span<Triangle> fan) {
   const Sight sight = sightOf(positions, fan);
   if (isWithinFace(positions, fan, sight)) return true;
   const std::vector<std::uint32_t> corners = cornersOf(fan);
-  if (corners.size() > kMostCorners) return false;
   auto target = fan.begin();
-  EarCutter(flattened(positions, corners, sight)).cut([&](std::size_t a, std::size_t b, std::size_t c) {
+  return EarCutter(flattened(positions, corners, sight)).cut([&](std::size_t a, std::size_t b, std::size_t c) {
     *target++ = {corners[a], corners[b], corners[c]};
   });
-  return true;
 }
 
-std::string tooManyCorners(std::size_t corners) {
-  return "a face of " + std::to_string(corners) + " corners that is not convex; the most are " +
-         std::to_string(kMostCorners);
+std::string tooIntricate(std::size_t corners) {
+  return "a face of " + std::to_string(corners) + " corners that is too intricate to be cut into triangles";
 }
 
 }  // namespace allpairs::scene

@@ -11,9 +11,6 @@
 
 namespace allpairs::scene {
 
-/// The most corners of a face that is not convex: cutting one takes the square of them, here a tenth of a second.
-inline constexpr std::size_t kMostCorners = std::size_t{1} << 14;
-
 /// Adds a point, a line, or the triangles of a fan around the first corner. Of a face that isn't convex a fan may
 /// reach beyond it: cutFan() cuts it anew.
 void addFace(MeshObject& object, std::span<const std::uint32_t> corners);
@@ -21,11 +18,11 @@ void addFace(MeshObject& object, std::span<const std::uint32_t> corners);
 /// Exchanges the triangles of a fan by others, as many with the same corners, that lie within the face where the fan
 /// does not. A face that is not flat is seen along its normal; of one that crosses itself any triangles are as good.
 ///
-/// Returns false, and changes nothing, where the face would have to be cut and has more than kMostCorners.
+/// Returns false where that would take more than a second: it takes the square of the corners, of few shapes the cube.
 /// Source: G. H. Meisters, "Polygons have ears", The American Mathematical Monthly 82 (1975), 648-651.
 [[nodiscard]] bool cutFan(std::span<const Point> positions, std::span<std::array<std::uint32_t, 3>> fan);
 
 /// What is wrong with a face for which cutFan() returned false.
-[[nodiscard]] std::string tooManyCorners(std::size_t corners);
+[[nodiscard]] std::string tooIntricate(std::size_t corners);
 
 }  // namespace allpairs::scene

@@ -20,7 +20,7 @@ struct MeshObject {
   std::string id{};    ///< What identifies it for good, where the format has such: an IFC's GlobalId.
   std::string
       body{};  ///< What it is a part of: objects of the same, which has this name alone in the file, are one body.
-  std::string assembly{};  ///< Likewise what it and other bodies are parts of.
+  std::string assembly{};    ///< Likewise what it and other bodies are parts of.
   std::string passedOver{};  ///< What of it is not read, as a remark says it; empty where all is.
   std::vector<Point> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -74,7 +74,7 @@ class ObjReader final : ObjParser {
 
   void cut(const Fan& fan) {
     if (!cutFan(m_positions, std::span(m_objects[fan.object].triangles).subspan(fan.first, fan.count))) {
-      failAt(fan.line, tooManyCorners(fan.count + 2));
+      failAt(fan.line, tooIntricate(fan.count + 2));
     }
   }
 

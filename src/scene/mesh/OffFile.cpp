@@ -91,7 +91,7 @@ class OffReader {
     }
     addFace(m_object, m_corners);
     if (size < 4) return;
-    if (!cutFan(m_object.positions, std::span(m_object.triangles).last(size - 2))) fail(tooManyCorners(size));
+    if (!cutFan(m_object.positions, std::span(m_object.triangles).last(size - 2))) fail(tooIntricate(size));
   }
 
   std::uint32_t resolve(std::string_view word) const {
