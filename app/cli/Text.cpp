@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "allpairs/Error.h"
+
 namespace allpairs::app {
 
 std::string grouped(std::uint64_t number) {
@@ -25,9 +27,11 @@ std::string countedBoxes(std::uint64_t first, std::uint64_t second) {
 
 std::string printable(const std::string& text) {
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t control = controlSize(text, i);
+    if (control == 0) result += text[i];
+    for (std::size_t left = control; left > 0; --left) result += escapedByte(text[i + control - left]);
+    if (control > 1) i += control - 1;
   }
   return result;
 }

@@ -53,9 +53,13 @@ void checkSameMesh(const TriangleMesh& earlier, const std::string& earlierName, 
 std::vector<TriangleMesh> readTriangleMeshes(const std::filesystem::path& path, const scene::ReadOptions& options) {
   const scene::Scene scene = scene::readInput(path, options);
   std::vector<TriangleMesh> meshes;
-  for (const auto& model : scene.models) {
-    const auto* triangles = dynamic_cast<const collision::TriangleModel*>(model.get());
-    if (triangles != nullptr) meshes.push_back(toMesh(*triangles));
+  for (std::size_t i = 0; i < scene.models.size(); ++i) {
+    const auto* triangles = dynamic_cast<const collision::TriangleModel*>(scene.models[i].get());
+    if (triangles == nullptr) continue;
+    TriangleMesh& mesh = meshes.emplace_back(toMesh(*triangles));
+    if (i >= scene.sources.size()) continue;
+    const std::string file = scene.files[scene.sources[i].file].filename().string();
+    mesh.isNamed = mesh.name.find(file) == std::string::npos;
   }
   if (meshes.empty()) throw FileError(path, "holds no triangles");
   return meshes;
@@ -68,7 +72,14 @@ void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesy
     throw FileError(laterPath, fmt::format("holds {} where {} holds {}", counted(later.size(), "mesh", "meshes"),
                                            earlierName, grouped(earlier.size())));
   }
-  for (std::size_t i = 0; i < later.size(); ++i) checkSameMesh(earlier[i], earlierName, later[i], laterPath);
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    const bool areNamed = later.size() > 1 && earlier[i].isNamed && later[i].isNamed;
+    if (areNamed && earlier[i].name != later[i].name) {
+      throw FileError(laterPath, fmt::format("mesh {} is '{}' where in {} it is '{}'", i, printable(later[i].name),
+                                             earlierName, printable(earlier[i].name)));
+    }
+    checkSameMesh(earlier[i], earlierName, later[i], laterPath);
+  }
 }
 
 std::vector<MeshStep> readMeshSteps(const std::filesystem::path& start, const std::filesystem::path& end,

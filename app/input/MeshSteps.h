@@ -13,6 +13,7 @@ namespace allpairs::app {
 /// The triangles of one mesh of a file.
 struct TriangleMesh {
   std::string name;
+  bool isNamed = false;                  ///< By its file, not after it.
   std::vector<double> positions;         ///< Rows of 3.
   std::vector<std::uint32_t> triangles;  ///< Rows of 3.
 };

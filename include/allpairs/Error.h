@@ -11,19 +11,36 @@
 
 namespace allpairs {
 
+/// How many bytes a control character has that begins at a place of a text, in ASCII or as UTF-8 has those of C1,
+/// which terminals obey too; 0 for any other character.
+[[nodiscard]] constexpr std::size_t controlSize(std::string_view text, std::size_t at) noexcept {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  if (byte < 0x20 || byte == 0x7f) return 1;
+  if (byte != 0xc2 || at + 1 == text.size()) return 0;
+  const auto next = static_cast<unsigned char>(text[at + 1]);
+  return next >= 0x80 && next < 0xa0 ? 2 : 0;
+}
+
+/// A byte as \xNN.
+[[nodiscard]] inline std::string escapedByte(char c) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  return std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+}
+
 /// A text as messages show it: one line of at most 500 bytes, control characters escaped as \xNN, a longer text
 /// shortened in the middle. It may contain names and text from untrusted files.
 [[nodiscard]] inline std::string oneLine(std::string_view text) {
   constexpr std::size_t kMost = 500;
   constexpr std::size_t kHalf = kMost / 2 - 2;  // beside the three dots
-  constexpr std::string_view kDigits = "0123456789abcdef";
   constexpr std::size_t kRelevant = 4 * kMost;  // text further inside is cut anyway
   std::string line;
+  std::size_t control = 0;  // how many bytes of one are to come
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text.size() > 2 * kRelevant && i == kRelevant) i = text.size() - kRelevant;
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const bool isControl = byte < 0x20 || byte == 0x7f;
-    line += isControl ? std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15] : std::string(1, text[i]);
+    if (control == 0) control = controlSize(text, i);
+    line += control > 0 ? escapedByte(text[i]) : std::string(1, text[i]);
+    if (control > 0) --control;
   }
   if (line.size() <= kMost) return line;
   const auto isInside = [&line](std::size_t at) { return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80; };

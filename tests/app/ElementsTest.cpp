@@ -70,6 +70,17 @@ TEST(Elements, ToAPipeOrADeviceWriteNoFilesBesideIt) {
   EXPECT_FALSE(std::filesystem::exists("/dev/stdout.edges.npy"));
 }
 
+TEST(Elements, MeshesInAnotherOrderAreNotTheSame) {
+  const TempFolder folder;
+  const std::string points = "v 0 0 0\nv 4 0 0\nv 0 4 0\n";
+  const std::string one = folder.write("one.obj", points + "o left\nf 1 2 3\no right\nf 1 2 3\n");
+  const std::string other = folder.write("other.obj", points + "o right\nf 1 2 3\no left\nf 1 2 3\n");
+  expectFailure(runProgram({"elements", one, other}), 3,
+                "other.obj: mesh 0 is 'right' where in '" + one + "' it is 'left'");
+  const std::string single = folder.write("single.obj", points + "o now\nf 1 2 3\n");
+  expectSuccess(runProgram({"elements", single, folder.write("then.obj", points + "o then\nf 1 2 3\n")}));
+}
+
 TEST(Elements, NoListTakesThePlaceOfAnInput) {
   const TempFolder folder;
   const std::string mesh = folder.write("mesh.obj", kStart);

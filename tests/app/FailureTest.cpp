@@ -81,6 +81,14 @@ TEST(BadInput, NamesOfFilesCannotSendCommandsToTheTerminal) {
   const ProgramRun run = runProgram({"detect", "no\nwhere\x1b[2J.npy"});
   expectFailure(run, kBadInput, "no\\x0awhere\\x1b[2J.npy: no such file");
   EXPECT_EQ(run.err.find('\x1b'), std::string::npos);
+  const std::string c1 =
+      "a\xC2\x9B"
+      "31m\xC2\xA0\xC3\x9B";  // CSI as one character, and two letters
+  expectFailure(runProgram({"detect", c1 + ".npy"}), kBadInput, "a\\xc2\\x9b31m\xC2\xA0\xC3\x9B.npy: no such file");
+  const TempFolder folder;
+  const ProgramRun table = runProgram({"info", folder.write("c1.csv", c1 + ",0,0,0,1,1,1\n")});
+  EXPECT_EQ(table.out.find("\xC2\x9B"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("a\\xc2\\x9b31m\xC2\xA0\xC3\x9B"), std::string::npos) << table.out;
 }
 
 TEST(BadInput, APipeInAFolderIsLeftOutAndNotWaitedFor) {
