@@ -11,6 +11,7 @@
 #include "PageSize.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/scene/BoxFrames.h"
+#include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
 #include "cli/Progress.h"
 #include "cli/Text.h"
@@ -99,6 +100,7 @@ view::ViewScene emptyScene(const InputSettings& input, const DetectionOptions& o
 view::ViewScene makeBoxFrames(const InputSettings& input, const DetectionOptions& options) {
   const Timer timer;
   scene::BoxFrames frames(input.paths.front());
+  if (frames.frameCount() == 0) throw FileError(input.paths.front(), "holds no frames: there is nothing to show");
   view::ViewScene scene = emptyScene(input, options, frames.frameCount());
   addBoxColumns(frames.boxCount(), scene);
   FrameSearch search(scene, options, frames.frameCount());

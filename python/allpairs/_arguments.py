@@ -125,6 +125,14 @@ def paths_of(name: str, value: Any) -> list[str]:
     return [path_of(name, path) for path in each]
 
 
+def flag(name: str, value: object) -> bool:
+    """Whether a value is true, as Python has it; an array of several has no truth."""
+    try:
+        return bool(value)
+    except ValueError:
+        raise InvalidArgument(f"{name} is {_shown(value)}; it takes True or False") from None
+
+
 def is_one(value: object) -> bool:
     """Whether it is a single value, and no array."""
     return bool(np.isscalar(value)) or (isinstance(value, np.ndarray) and value.ndim == 0)

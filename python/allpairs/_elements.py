@@ -78,7 +78,8 @@ class MeshCandidates:
     ) -> None:
         settings = _core.CandidateSettings()
         settings.distance = _arguments.number("distance", distance)
-        settings.within, settings.between = bool(within), bool(between)
+        settings.within = _arguments.flag("within", within)
+        settings.between = _arguments.flag("between", between)
         settings.order = _arguments.order_of(order)
         settings.threads = _arguments.threads_of(threads)
         single = isinstance(vertex_count, (int, np.integer))

@@ -142,7 +142,7 @@ def join(
     options = _reading.JoinOptions()
     options.distance = _arguments.number("distance", distance)
     options.memory = _arguments.whole("memory", memory)
-    options.resume = bool(resume)
+    options.resume = _arguments.flag("resume", resume)
     options.second = [] if second is None else _names_of("second", second)
     options.values, *others = _value_files(values, 1 if second is None else 2)
     if others:

@@ -129,7 +129,7 @@ class Scene:
         options.distance = None if distance is None else _arguments.number("distance", distance)
         options.strategy = _arguments.strategy_of(strategy)
         options.threads = _arguments.threads_of(threads)
-        options.verify = bool(verify)
+        options.verify = _arguments.flag("verify", verify)
         if region is not None:
             options.set_region(_arguments.region_of(region))
         return np.asarray(self._core.detect(options))
@@ -186,7 +186,8 @@ def load(
     roots = _arguments.paths_of("search_roots", search_roots)
     version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
     memory = _arguments.whole("max_memory", max_memory)
-    return Scene(_reading.load(_arguments.path_of("path", path), roots, bool(partial), version, bool(allow_outside), memory))
+    flags = _arguments.flag("partial", partial), version, _arguments.flag("allow_outside", allow_outside)
+    return Scene(_reading.load(_arguments.path_of("path", path), roots, *flags, memory))
 
 
 def detect(

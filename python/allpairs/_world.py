@@ -62,7 +62,7 @@ def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
     query = _core.QueryFilter()
     query.category = _arguments.bits("category", values["category"])
     query.mask = _arguments.bits("mask", values["mask"])
-    query.static, query.moving = bool(values["static"]), bool(values["moving"])
+    query.static, query.moving = (_arguments.flag(name, values[name]) for name in ("static", "moving"))
     if values["world"] is not None:
         query.world = _arguments.whole("world", values["world"], most=_core.EVERY_WORLD - 1)
     return query

@@ -201,3 +201,19 @@ def test_errors_are_value_errors_and_those_of_files_os_errors():
     for kind in (allpairs.InvalidArgument, allpairs.InvalidBox, allpairs.LimitExceeded, allpairs.FileError):
         assert issubclass(kind, allpairs.Error)
     assert issubclass(allpairs.FileError, OSError)
+
+
+@pytest.mark.parametrize(
+    "name, call",
+    [
+        ("static", lambda flags: allpairs.World().overlapping([[0, 0, 0, 1, 1, 1]], static=flags)),
+        ("moving", lambda flags: allpairs.World().overlapping([[0, 0, 0, 1, 1, 1]], moving=flags)),
+        ("partial", lambda flags: allpairs.load("missing.obj", partial=flags)),
+        ("allow_outside", lambda flags: allpairs.load("missing.obj", allow_outside=flags)),
+        ("within", lambda flags: allpairs.MeshCandidates([[0, 1, 2]], 3, within=flags)),
+        ("between", lambda flags: allpairs.MeshCandidates([[0, 1, 2]], 3, between=flags)),
+    ],
+)
+def test_an_array_is_neither_true_nor_false(name, call):
+    with pytest.raises(allpairs.InvalidArgument, match=rf"^{name} is .*; it takes True or False$"):
+        call(np.array([True, False]))

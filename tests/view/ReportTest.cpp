@@ -19,6 +19,7 @@
 #include "ReportFiles.h"
 #include "app/Expect.h"
 #include "support/IfcText.h"
+#include "support/Npy.h"
 #include "support/Numbers.h"
 #include "support/TempFolder.h"
 
@@ -355,6 +356,16 @@ TEST(Report, ThatCannotBeWrittenLeavesNothingBehind) {
   EXPECT_FALSE(fs::exists(folder.path() / "a"));
   expectSuccess(runProgram({"report", kDemo, "-o", folder.path() / "a/b/", "--pictures", "1"}));
   EXPECT_TRUE(fs::exists(folder.path() / "a/b/pictures/0001.png"));
+}
+
+TEST(Report, OfNoFramesIsRefusedAndSoIsAView) {
+  const TempFolder folder;
+  for (const char* shape : {"(0, 3, 6)", "(0, 0, 6)"}) {
+    const std::string frames = folder.write("frames.npy", npyBytes({}, {.shape = shape}));
+    expectFailure(runProgram({"report", frames, "-o", folder.path() / "out"}), 3, "frames.npy: holds no frames");
+    expectFailure(runProgram({"view", frames, "-o", folder.path() / "a.html"}), 3, "frames.npy: holds no frames");
+  }
+  EXPECT_EQ(filesIn(folder.path()), Names{"frames.npy"});
 }
 
 TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {

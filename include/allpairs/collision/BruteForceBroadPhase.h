@@ -50,7 +50,8 @@ class VerificationError : public Error {
 /// Threads:   one step at a time per object; the search runs on the executor, rules and intersectors are called from
 ///            the calling thread.
 /// Memory:    after a call that threw, whether std::bad_alloc or an exception of a model or method, the list of pairs
-///            is unchanged, reading it tries again, and the next step behaves like that of a new object.
+///            is unchanged, reading it tries again, and the next step behaves like that of a new object. With
+///            Strategy::Exhaustive a model whose addition threw for one of its pairs has been added.
 /// Callbacks: models and methods may use other objects; they must not call the broad phase that calls them.
 class BruteForceBroadPhase : public BroadPhaseDetection {
  public:
