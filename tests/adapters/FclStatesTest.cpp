@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -153,6 +154,39 @@ TEST(FclStates, SheetsThatCrossClashAlsoAlongEdgesOfTheirTriangles) {
   TriangleModel roof("roof", {{-1, -1, -1}, {-1, 1, -1}, {0, -1, 0}, {0, 1, 0}, {1, -1, -1}, {1, 1, -1}}, {},
                      {{0, 1, 3, 2}, {2, 3, 5, 4}});
   EXPECT_EQ(examine(flat, roof).state, ExactState::Touching) << "its ridge";
+}
+
+/// Two strips that go out from the y axis at these angles, in degrees.
+TriangleModel folded(double first, double second) {
+  std::vector<Vec3> points;
+  const auto add = [&points](double x, double z) {
+    for (const double y : {-1.0, 1.0}) points.push_back({x, y, z});
+  };
+  const double degree = std::numbers::pi / 180.0;
+  add(std::cos(first * degree), std::sin(first * degree));
+  add(0.0, 0.0);
+  add(std::cos(second * degree), std::sin(second * degree));
+  return TriangleModel("folded", points, {}, {{0, 1, 3, 2}, {2, 3, 5, 4}});
+}
+
+TEST(FclStates, FoldedSheetsThatMeetAtTheirFoldsClashWhereTheyTakeTurnsAroundIt) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> angle(0.0, 360.0);
+  for (int i = 0; i < 200; ++i) {
+    const double a = angle(random);
+    const double b = angle(random);
+    const double c = angle(random);
+    const double d = angle(random);
+    const auto isBetween = [&](double x) { return (x - a) * (x - b) < 0.0; };
+    auto first = folded(a, b);
+    auto second = folded(c, d);
+    const ExactState expected = isBetween(c) != isBetween(d) ? ExactState::Clash : ExactState::Touching;
+    EXPECT_EQ(examine(first, second).state, expected) << a << ' ' << b << ' ' << c << ' ' << d;
+    EXPECT_EQ(examine(second, first).state, expected) << a << ' ' << b << ' ' << c << ' ' << d;
+  }
+  auto sheet = folded(0, 180);
+  auto bracket = folded(0, 90);
+  EXPECT_EQ(examine(sheet, bracket).state, ExactState::Touching) << "one side lies on the other";
 }
 
 /// A model of which each triangle is there twice, once each way.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "Around.h"
 #include "Deepest.h"
 #include "Enclosure.h"
 #include "Nearest.h"
@@ -112,29 +113,23 @@ class Look {
   }
 
   /// Whether the surfaces pass through each other where edges of their triangles lie on the line: each triangle ends
-  /// there, and the surface goes on in the next one.
+  /// there, and the surface goes on in the next one. Around the line they take turns then.
   [[nodiscard]] bool crossesAlongEdges() const {
     const std::size_t stride = m_lines.size() / kMostLines + 1;
     for (std::size_t i = 0; i < m_lines.size(); i += stride) {
-      const auto& [ends, pair] = m_lines[i];
+      const auto& ends = m_lines[i].ends;
       const Point middle = (ends[0] + ends[1]) / 2.0;
       if ((ends[1] - ends[0]).norm() <= m_tolerance) continue;
-      Reach ofFirst;
-      Reach ofSecond;
+      Around around(middle, directionOf(ends[1] - ends[0]), m_tolerance);
       for (const Line& line : m_lines) {
         if (distanceTo(line.ends, middle) > m_tolerance) continue;
-        widen(ofFirst, reachOf(m_first.triangles()[line.pair.first], m_second.triangles()[pair.second]));
-        widen(ofSecond, reachOf(m_second.triangles()[line.pair.second], m_first.triangles()[pair.first]));
+        if (!around.isAlong(directionOf(line.ends[1] - line.ends[0]))) continue;
+        around.add(m_first.triangles()[line.pair.first], Around::Surface::First);
+        around.add(m_second.triangles()[line.pair.second], Around::Surface::Second);
       }
-      const double least = std::min({ofFirst.above, ofFirst.below, ofSecond.above, ofSecond.below});
-      if (least > m_tolerance) return true;
+      if (around.takeTurns()) return true;
     }
     return false;
-  }
-
-  static void widen(Reach& reach, const Reach& other) {
-    reach.above = std::max(reach.above, other.above);
-    reach.below = std::max(reach.below, other.below);
   }
 
   static double distanceTo(const std::array<Point, 2>& ends, const Point& point) {

@@ -76,26 +76,22 @@ void addShared(const Corners& a, const Corners& b, Shared& shared) {
   if (!common.empty()) shared.add(common.middle());
 }
 
-/// To that side of another's plane to which it reaches less.
+/// How far a triangle reaches to that side of another's plane to which it reaches less.
 double reachThrough(const Corners& corners, const Corners& plane) {
-  const Reach reach = reachOf(corners, plane);
-  return std::min(reach.above, reach.below);
+  const Point normal = normalOf(plane);
+  const double length = normal.norm();
+  if (length == 0.0) return 0.0;
+  double least = 0.0;
+  double most = 0.0;
+  for (const Point& corner : corners) {
+    const double height = normal.dot(corner - plane[0]) / length;
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return std::min(most, -least);
 }
 
 }  // namespace
-
-Reach reachOf(const Corners& corners, const Corners& plane) {
-  const Point normal = normalOf(plane);
-  const double length = normal.norm();
-  Reach reach;
-  if (length == 0.0) return reach;
-  for (const Point& corner : corners) {
-    const double height = normal.dot(corner - plane[0]) / length;
-    reach.above = std::max(reach.above, height);
-    reach.below = std::max(reach.below, -height);
-  }
-  return reach;
-}
 
 std::optional<TriangleMeeting> meetingOf(const Corners& a, const Corners& b) {
   Shared shared;

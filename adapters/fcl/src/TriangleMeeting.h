@@ -15,14 +15,6 @@ struct TriangleMeeting {
       0.0;  ///< How far each of them, on either side of the other's plane, reaches at least; 0 if one ends there.
 };
 
-/// How far a triangle reaches to either side of another's plane.
-struct Reach {
-  double above = 0.0;
-  double below = 0.0;
-};
-
-[[nodiscard]] Reach reachOf(const Corners& corners, const Corners& plane);
-
 /// Where two triangles meet, or nothing where rounding leaves no point that both have.
 [[nodiscard]] std::optional<TriangleMeeting> meetingOf(const Corners& a, const Corners& b);
 
