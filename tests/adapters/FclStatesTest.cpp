@@ -16,6 +16,7 @@
 #include "FclExamine.h"
 #include "Shapes.h"
 #include "allpairs/Error.h"
+#include "allpairs/collision/CapsuleModel.h"
 #include "allpairs/collision/LineModel.h"
 #include "allpairs/collision/PointModel.h"
 #include "allpairs/collision/SphereModel.h"
@@ -23,6 +24,7 @@
 namespace allpairs::test {
 namespace {
 
+using collision::CapsuleModel;
 using collision::LineModel;
 using collision::PointModel;
 using collision::SphereModel;
@@ -156,6 +158,13 @@ TEST(FclStates, SheetsThatCrossClashAlsoAlongEdgesOfTheirTriangles) {
   EXPECT_EQ(examine(flat, roof).state, ExactState::Touching) << "its ridge";
 }
 
+/// A model of which each triangle is there twice, once each way.
+std::unique_ptr<TriangleModel> twoSided(const TriangleModel& model) {
+  std::vector<TriangleModel::Triangle> triangles = model.triangles();
+  for (const auto& [a, b, c] : model.triangles()) triangles.push_back({b, a, c});
+  return std::make_unique<TriangleModel>("two-sided", model.positions(), triangles);
+}
+
 /// Two strips that go out from the y axis at these angles, in degrees.
 TriangleModel folded(double first, double second) {
   std::vector<Vec3> points;
@@ -185,15 +194,10 @@ TEST(FclStates, FoldedSheetsThatMeetAtTheirFoldsClashWhereTheyTakeTurnsAroundIt)
     EXPECT_EQ(examine(second, first).state, expected) << a << ' ' << b << ' ' << c << ' ' << d;
   }
   auto sheet = folded(0, 180);
+  EXPECT_EQ(examine(sheet, *twoSided(sheet)).state, ExactState::Duplicate);
+  EXPECT_EQ(examine(*twoSided(folded(20, 200)), *twoSided(folded(70, 250))).state, ExactState::Clash);
   auto bracket = folded(0, 90);
   EXPECT_EQ(examine(sheet, bracket).state, ExactState::Touching) << "one side lies on the other";
-}
-
-/// A model of which each triangle is there twice, once each way.
-std::unique_ptr<TriangleModel> twoSided(const TriangleModel& model) {
-  std::vector<TriangleModel::Triangle> triangles = model.triangles();
-  for (const auto& [a, b, c] : model.triangles()) triangles.push_back({b, a, c});
-  return std::make_unique<TriangleModel>("two-sided", model.positions(), triangles);
 }
 
 TEST(FclStates, TrianglesForEitherSideAreASolidOrASurfaceAsOnesForOne) {
@@ -237,6 +241,47 @@ TEST(FclStates, APartAndItsMirrorImageAreSolid) {
   for (const double x : {-4.0, 2.0}) {
     EXPECT_EQ(examine(*pair, *cuboid({x, 1, 1}, {x + 1, 2, 2})).state, ExactState::Contained) << x;
   }
+}
+
+/// A comb along x: teeth of 2 and gaps of 1, on a back below y = 1.
+std::unique_ptr<TriangleModel> comb() {
+  const std::vector<std::array<double, 2>> outline{{0, 0}, {8, 0}, {8, 4}, {6, 4}, {6, 1}, {5, 1},
+                                                   {5, 4}, {3, 4}, {3, 1}, {2, 1}, {2, 4}, {0, 4}};
+  // The outline's corners from left to right: a cap is its three teeth and its back.
+  const std::vector<TriangleModel::Quad> cap{{0, 9, 10, 11}, {8, 5, 6, 7}, {4, 1, 2, 3}};
+  const std::vector<TriangleModel::Triangle> back{{0, 8, 9}, {0, 5, 8}, {0, 4, 5}, {0, 1, 4}};
+  std::vector<Vec3> points;
+  for (const double z : {0.0, 4.0}) {
+    for (const auto& [x, y] : outline) points.push_back({x, y, z});
+  }
+  std::vector<TriangleModel::Quad> quads;
+  std::vector<TriangleModel::Triangle> triangles;
+  for (const auto& [a, b, c, d] : cap) {
+    quads.push_back({d, c, b, a});
+    quads.push_back({a + 12, b + 12, c + 12, d + 12});
+  }
+  for (const auto& [a, b, c] : back) {
+    triangles.push_back({c, b, a});
+    triangles.push_back({a + 12, b + 12, c + 12});
+  }
+  for (std::uint32_t i = 0; i < 12; ++i) quads.push_back({i, (i + 1) % 12, (i + 1) % 12 + 12, i + 12});
+  return std::make_unique<TriangleModel>("comb", points, triangles, quads);
+}
+
+TEST(FclStates, WhatBridgesTheGapsOfASolidIsNotWithinIt) {
+  const auto solid = comb();
+  ASSERT_FALSE(examine(*solid, *unitCube({3.5, 2, 1})).isFirstOpen);
+  for (const double radius : {0.01, 0.5}) {
+    CapsuleModel bridge("bridge", {{{1, 2.5, 2}, {7, 2.5, 2}, radius}});
+    EXPECT_EQ(examine(*solid, bridge).state, ExactState::Clash) << radius;
+    CapsuleModel below("below", {{{1, 0.5, 2}, {7, 0.5, 2}, radius * 0.9}});
+    EXPECT_EQ(examine(*solid, below).state, ExactState::Contained) << radius;
+  }
+  LineModel bridge("bridge", {{1, 2.5, 2}, {7, 2.5, 2}}, {{0, 1}});
+  LineModel below("below", {{1, 0.5, 2}, {7, 0.5, 2}}, {{0, 1}});
+  EXPECT_EQ(examine(*solid, bridge).state, ExactState::Clash);
+  EXPECT_EQ(examine(*solid, below).state, ExactState::Contained);
+  EXPECT_EQ(examine(*solid, *cuboid({1, 2, 1}, {7, 3, 2})).state, ExactState::Clash);
 }
 
 TEST(FclStates, LinesAndPointsAreDuplicatesOfTheSameAlone) {

@@ -114,6 +114,7 @@ void addBesideCrossings(const ExactPart& outer, const ExactPart& inner, std::vec
 /// The points worth asking: those that are exact for flat faces and vertices, and others.
 struct Samples {
   std::vector<Point> plain;
+  std::vector<Point> beside;  ///< Of lines in which the surfaces cross.
   std::vector<Point> grid;
 };
 
@@ -140,7 +141,7 @@ Samples samples(const ExactPart& outer, const ExactPart& inner, const std::vecto
     polygon.cut(outer.triangleBoxes()[pair.second]);
     if (!polygon.empty()) points.plain.push_back(polygon.middle());
   }
-  addBesideCrossings(outer, inner, pairs, points.plain);
+  addBesideCrossings(outer, inner, pairs, points.beside);
   keepEachOnce(points.plain);
   return points;
 }
@@ -258,6 +259,7 @@ Deepest deepestWithin(const ExactPart& outer, const ExactPart& inner, const std:
   const Samples points = samples(outer, inner, innerAndOuter);
   DeepestSearch search(outer);
   search.among(pointsInside(outer, points.plain));
+  search.among(pointsInside(outer, points.beside));
   return search.among(pointsInside(outer, points.grid));  // only where one of them is deeper
 }
 

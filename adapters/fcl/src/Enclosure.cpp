@@ -65,7 +65,8 @@ struct Extent {
 
 Extent extentOf(const ExactPart& part) {
   Extent extent;
-  for (const Corners& corners : part.triangles()) {
+  for (const std::uint32_t number : part.shell().triangles) {  // of what is there for either side, one
+    const Corners& corners = part.triangles()[number];
     extent.area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2.0;
     for (std::size_t i = 0; i < 3; ++i) extent.sides += (corners[(i + 1) % 3] - corners[i]).norm();
   }
@@ -107,7 +108,7 @@ bool areSame(const ExactPart& first, const ExactPart& second, double tolerance) 
   if (std::abs(first.radius() - second.radius()) > tolerance) return false;
   if (!holds(first.box(), second.box(), tolerance) || !holds(second.box(), first.box(), tolerance)) return false;
   if (haveSameTriangles(first, second, tolerance)) return true;
-  if (first.isOpen() && !haveSameArea(first, second, tolerance)) return false;
+  if ((first.isOpen() || second.isOpen()) && !haveSameArea(first, second, tolerance)) return false;
   return first.radius() == 0.0 && liesOn(first, second, tolerance) && liesOn(second, first, tolerance);
 }
 

@@ -56,12 +56,6 @@ Volume volumeOf(const std::vector<Corners>& triangles) {
   return volumeOf(edges);
 }
 
-/// Which triangles a mesh encloses volume with, and how.
-struct Shell {
-  Volume volume = Volume::None;
-  std::vector<std::uint32_t> triangles;
-};
-
 /// A triangle as the least of its corners and the two others in ascending order, and which way it faces.
 struct Facing {
   std::array<collision::Vec3, 3> points{};
@@ -77,61 +71,69 @@ Facing facingOf(const Corners& corners, std::uint32_t triangle) {
   return {points, isTurned ? -1 : 1, triangle};
 }
 
-/// One of each two triangles that are the same but for the way they face; empty unless all are such.
-std::vector<std::uint32_t> oneOfEachTwo(const std::vector<Corners>& triangles, const Shell& shell) {
-  std::vector<Facing> facings;
-  for (const std::uint32_t triangle : shell.triangles) facings.push_back(facingOf(triangles[triangle], triangle));
-  std::sort(facings.begin(), facings.end(), [](const Facing& a, const Facing& b) { return a.points < b.points; });
-  std::vector<std::uint32_t> kept;
-  for (std::size_t begin = 0, end = 0; begin < facings.size(); begin = end) {
-    int balance = 0;
-    for (; end < facings.size() && facings[end].points == facings[begin].points; ++end) balance += facings[end].way;
-    if (balance != 0) return {};
-    for (std::size_t i = begin; i < begin + (end - begin) / 2; ++i) kept.push_back(facings[i].triangle);
-  }
-  return kept;
-}
-
-/// Whether what faces one way takes away what faces the other, as where each triangle is there twice.
-bool isWithoutVolume(const std::vector<Corners>& triangles) {
-  double sum = 0.0;
-  double size = 0.0;
-  for (const Corners& corners : triangles) {
-    const double volume =
-        (corners[1] - triangles[0][0]).cross(corners[2] - triangles[0][0]).dot(corners[0] - triangles[0][0]);
-    sum += volume;
-    size += std::abs(volume);
-  }
-  return std::abs(sum) <= 1e-9 * size;
-}
-
 std::vector<Corners> chosen(const std::vector<Corners>& triangles, const std::vector<std::uint32_t>& numbers) {
   std::vector<Corners> result;
   for (const std::uint32_t number : numbers) result.push_back(triangles[number]);
   return result;
 }
 
-Shell shellOf(const std::vector<Corners>& triangles) {
-  Shell shell{.volume = volumeOf(triangles), .triangles = {}};
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (isTriangle(triangles[i])) shell.triangles.push_back(i);
+/// Puts one of each two triangles that are the same but for the way they face apart.
+Shell split(const std::vector<Corners>& triangles, const std::vector<std::uint32_t>& numbers) {
+  std::vector<Facing> facings;
+  for (const std::uint32_t number : numbers) facings.push_back(facingOf(triangles[number], number));
+  std::sort(facings.begin(), facings.end(), [](const Facing& a, const Facing& b) { return a.points < b.points; });
+  Shell shell;
+  std::vector<std::uint32_t> ways[2];
+  for (std::size_t begin = 0, end = 0; begin < facings.size(); begin = end) {
+    for (std::vector<std::uint32_t>& way : ways) way.clear();
+    for (; end < facings.size() && facings[end].points == facings[begin].points; ++end) {
+      ways[facings[end].way > 0 ? 1 : 0].push_back(facings[end].triangle);
+    }
+    const std::size_t both = std::min(ways[0].size(), ways[1].size());
+    shell.twoSided.insert(shell.twoSided.end(), ways[0].begin(), ways[0].begin() + static_cast<std::ptrdiff_t>(both));
+    for (const std::vector<std::uint32_t>& way : ways) {
+      shell.triangles.insert(shell.triangles.end(), way.begin() + static_cast<std::ptrdiff_t>(both), way.end());
+    }
   }
   return shell;
 }
 
-/// The same where nothing lies inside: one of each two triangles, and the way it faces means nothing. What is drawn
-/// for either side with other triangles is a surface of which nobody can tell the inside.
-Shell oneSided(const std::vector<Corners>& triangles, Shell shell) {
-  std::vector<std::uint32_t> kept = oneOfEachTwo(triangles, shell);
-  shell.volume = volumeOf(chosen(triangles, kept)) == Volume::None ? Volume::None : Volume::Parity;
-  if (!kept.empty()) shell.triangles = std::move(kept);
+/// Some programs write each triangle for either side: then one of the two is the mesh, and the way it faces means
+/// nothing.
+Shell shellOf(const std::vector<Corners>& triangles) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (isTriangle(triangles[i])) all.push_back(i);
+  }
+  const Volume volume = volumeOf(triangles);
+  if (volume != Volume::Winding) return {.volume = volume, .triangles = std::move(all), .twoSided = {}};
+  Shell shell = split(triangles, all);
+  shell.volume = Volume::Winding;
+  const bool isClosed = volumeOf(chosen(triangles, shell.twoSided)) != Volume::None;
+  if (shell.triangles.empty()) {
+    return {.volume = isClosed ? Volume::Parity : Volume::None, .triangles = std::move(shell.twoSided), .twoSided = {}};
+  }
+  if (!isClosed) shell.twoSided.clear();  // fins, and walls between solids of one part
   return shell;
+}
+
+/// Whether what faces one way takes away what faces the other.
+bool isWithoutVolume(const std::vector<Corners>& triangles, const Box& box) {
+  const Point origin = toPoint(box.min);
+  double sum = 0.0;
+  double area = 0.0;
+  for (const auto& [a, b, c] : triangles) {
+    const Point normal = (b - a).cross(c - a);
+    sum += normal.dot(a - origin);
+    area += normal.norm();
+  }
+  return std::abs(sum) <= 1e-9 * area * (toPoint(box.max) - origin).norm();
 }
 
 /// Points close to triangles, on either side.
 std::vector<Point> besideTriangles(const std::vector<Corners>& triangles) {
   constexpr std::size_t kMost = 16;
-  constexpr double kOff = 1e-3;  // of the size of a triangle
+  constexpr double kOff = 1e-6;  // of the size of a triangle: within a thin plate too
   std::vector<Point> points;
   const std::size_t stride = triangles.size() / kMost + 1;
   for (std::size_t i = 0; i < triangles.size(); i += stride) {
@@ -176,27 +178,22 @@ void include(Box& box, const Point& point) {
 ExactPart::ExactPart(std::vector<Corners> triangles, double radius)
     : m_triangles(std::move(triangles)),
       m_radius(radius),
+      m_shell(shellOf(m_triangles)),
       m_hasArea(std::any_of(m_triangles.begin(), m_triangles.end(), isTriangle)) {
-  Shell shell = shellOf(m_triangles);
-  m_volume = shell.volume;
-  m_shell = std::move(shell.triangles);
   build(m_hierarchy, m_triangles);
   m_boxes.reserve(m_triangles.size());
   for (const Corners& corners : m_triangles) {
     m_boxes.push_back(boxOf(corners));
     m_box = merge(m_box, m_boxes.back());
   }
-  if (m_volume == Volume::Winding && isWithoutVolume(m_triangles)) lookAtBothSides();
+  if (m_shell.volume == Volume::Winding && isWithoutVolume(m_triangles, m_box)) lookAtBothSides();
 }
 
-/// Some programs write each triangle for either side, so that there is no inside; mirrored parts have one, and no
-/// volume in sum either.
+/// What is drawn for either side with other triangles is a surface, of which nobody can tell the inside; a part and its
+/// mirror image have an inside, and no volume in sum either.
 void ExactPart::lookAtBothSides() {
   const std::vector<Point> points = besideTriangles(m_triangles);
-  if (4 * pointsInside(*this, points).size() > points.size()) return;
-  Shell shell = oneSided(m_triangles, {.volume = m_volume, .triangles = std::move(m_shell)});
-  m_volume = shell.volume;
-  m_shell = std::move(shell.triangles);
+  if (4 * pointsInside(*this, points).size() <= points.size()) m_shell.volume = Volume::None;
 }
 
 }  // namespace allpairs::exact

@@ -34,6 +34,13 @@ enum class Volume : std::uint8_t {
   Parity,   ///< Each edge is shared by an even number: a ray from inside leaves through an odd number of triangles.
 };
 
+/// The triangles, by their numbers, that a ray from inside leaves through.
+struct Shell {
+  Volume volume = Volume::None;
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> twoSided;  ///< Besides those of a winding: a surface that closes, whichever way it faces.
+};
+
 /// Triangles, segments (two corners the same) or points (all three) thickened by a radius, ready for FCL.
 ///
 /// A ball is a thick point and a capsule a thick segment, so that one kind of query serves all shapes.
@@ -46,12 +53,11 @@ class ExactPart {
   /// Of the triangles, kHierarchyScale times as large.
   [[nodiscard]] const Hierarchy& hierarchy() const { return m_hierarchy; }
   [[nodiscard]] double radius() const { return m_radius; }
-  [[nodiscard]] Volume volume() const { return m_volume; }
-  /// The numbers of the triangles that a ray from inside leaves through.
-  [[nodiscard]] const std::vector<std::uint32_t>& shell() const { return m_shell; }
+  [[nodiscard]] Volume volume() const { return m_shell.volume; }
+  [[nodiscard]] const Shell& shell() const { return m_shell; }
 
   /// Whether it is a surface that may look closed and is not: nobody can tell what lies in it.
-  [[nodiscard]] bool isOpen() const { return m_hasArea && m_radius == 0.0 && m_volume == Volume::None; }
+  [[nodiscard]] bool isOpen() const { return m_hasArea && m_radius == 0.0 && volume() == Volume::None; }
 
   /// Holds the triangles, radius not included.
   [[nodiscard]] const Box& box() const { return m_box; }
@@ -63,8 +69,7 @@ class ExactPart {
   std::vector<Box> m_boxes;
   Hierarchy m_hierarchy;
   double m_radius;
-  Volume m_volume = Volume::None;
-  std::vector<std::uint32_t> m_shell;
+  Shell m_shell;
   bool m_hasArea;  ///< Not only points and segments.
   Box m_box = kEmptyBox;
 };

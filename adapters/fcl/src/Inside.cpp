@@ -32,43 +32,41 @@ Box rayFrom(const Point& point) {
   return {origin, {std::numeric_limits<double>::infinity(), origin[1], origin[2]}};
 }
 
-/// The boxes of triangles that some ray may pass, and which triangles they are.
-struct Targets {
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> triangles;
-};
-
-Targets targetsOf(const ExactPart& part, const std::vector<Box>& rays) {
+/// Adds, for each point, how often the ray from it passes some triangles of a part: by the way they face, or not.
+void countCrossings(const ExactPart& part, const std::vector<std::uint32_t>& triangles, std::span<const Point> points,
+                    bool byWay, std::vector<int>& counts) {
+  std::vector<Box> rays;
+  rays.reserve(points.size());
   Box all = kEmptyBox;
-  for (const Box& ray : rays) all = merge(all, ray);
-  Targets targets;
-  for (const std::uint32_t i : part.shell()) {
-    if (!overlap(all, part.triangleBoxes()[i])) continue;
-    targets.boxes.push_back(part.triangleBoxes()[i]);
-    targets.triangles.push_back(i);
+  for (const Point& point : points) all = merge(all, rays.emplace_back(rayFrom(point)));
+  std::vector<Box> boxes;  // of those that some ray may pass
+  std::vector<std::uint32_t> numbers;
+  for (const std::uint32_t number : triangles) {
+    if (!overlap(all, part.triangleBoxes()[number])) continue;
+    boxes.push_back(part.triangleBoxes()[number]);
+    numbers.push_back(number);
   }
-  return targets;
+  OverlapSearch search;
+  for (const Pair& pair : search.find(std::span<const Box>(rays), std::span<const Box>(boxes))) {
+    const int found = crossing(part.triangles()[numbers[pair.second]], points[pair.first]);
+    counts[pair.first] += byWay ? found : std::abs(found);
+  }
 }
 
 }  // namespace
 
 std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> points) {
   if (part.volume() == Volume::None || points.empty()) return {};
-  std::vector<Box> rays;
-  rays.reserve(points.size());
-  for (const Point& point : points) rays.push_back(rayFrom(point));
-  const Targets targets = targetsOf(part, rays);
-
-  std::vector<int> crossings(points.size(), 0);
-  OverlapSearch search;
-  for (const Pair& pair : search.find(std::span<const Box>(rays), std::span<const Box>(targets.boxes))) {
-    const int found = crossing(part.triangles()[targets.triangles[pair.second]], points[pair.first]);
-    crossings[pair.first] += part.volume() == Volume::Parity ? std::abs(found) : found;
-  }
+  const Shell& shell = part.shell();
+  const bool isWinding = shell.volume == Volume::Winding;
+  std::vector<int> counts(points.size(), 0);
+  std::vector<int> twoSided(points.size(), 0);
+  countCrossings(part, shell.triangles, points, isWinding, counts);
+  if (!shell.twoSided.empty()) countCrossings(part, shell.twoSided, points, false, twoSided);
   std::vector<Point> inside;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool isIn = part.volume() == Volume::Parity ? crossings[i] % 2 != 0 : crossings[i] != 0;
-    if (isIn) inside.push_back(points[i]);
+    const bool isIn = isWinding ? counts[i] != 0 : counts[i] % 2 != 0;
+    if (isIn || twoSided[i] % 2 != 0) inside.push_back(points[i]);
   }
   return inside;
 }

@@ -102,10 +102,10 @@ class Look {
       m_meeting.contactPoints.push_back(meeting->middle);
       if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
       m_crossing = std::max(m_crossing, meeting->crossing);
+      m_passing = std::max(m_passing, meeting->passing);
       if (meeting->ends[0] != meeting->ends[1]) m_lines.push_back({meeting->ends, pair});
     }
-    const bool isAnyOpen = m_first.isOpen() || m_second.isOpen();
-    m_meeting.isCrossed = isAnyOpen && (m_crossing > m_tolerance || crossesAlongEdges());
+    m_meeting.isCrossed = m_crossing > m_tolerance || crossesAlongEdges();
     if (m_meeting.contactPoints.empty()) {
       m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
     }
@@ -153,11 +153,17 @@ class Look {
   }
 
   void findWithin() {
-    if (!m_meeting.isDeep || m_crossing > m_sameTolerance) return;
+    if (!m_meeting.isDeep || m_crossing > m_sameTolerance || m_passing > m_sameTolerance) return;
     // Around a cavity of one that the other fills, all of the other's surface is within, and not all of its volume.
-    m_meeting.isFirstWithin = !m_reachesIntoFirst && isWithin(m_second, m_first, m_sameTolerance);
-    m_meeting.isSecondWithin =
-        !m_meeting.isFirstWithin && !m_reachesIntoSecond && isWithin(m_first, m_second, m_sameTolerance);
+    m_meeting.isFirstWithin =
+        !m_reachesIntoFirst && hasRoom(m_first, m_second) && isWithin(m_second, m_first, m_sameTolerance);
+    m_meeting.isSecondWithin = !m_meeting.isFirstWithin && !m_reachesIntoSecond && hasRoom(m_second, m_first) &&
+                               isWithin(m_first, m_second, m_sameTolerance);
+  }
+
+  /// Whether the core of what is thick comes nowhere so near to a surface around it that it sticks out.
+  [[nodiscard]] bool hasRoom(const ExactPart& inner, const ExactPart& outer) const {
+    return inner.radius() == 0.0 || outer.radius() > 0.0 || m_coreDistance >= inner.radius() - m_sameTolerance;
   }
 
   void takeDeeper(const Deepest& ofFirst, const Deepest& ofSecond) {
@@ -214,6 +220,7 @@ class Look {
   double m_tolerance;
   double m_sameTolerance;
   double m_radius;
+  double m_passing = 0.0;   ///< How far segments of one pass through triangles of the other.
   double m_crossing = 0.0;  ///< How far triangles of the two pass through each other.
   double m_coreDistance = 0.0;
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.

@@ -13,7 +13,7 @@ namespace allpairs::exact {
 struct Meeting {
   bool surfacesMeet = false;    ///< They are no further apart than the tolerance.
   bool isDeep = false;          ///< One reaches into the other by more than the tolerance.
-  bool isCrossed = false;       ///< A surface that is not closed passes through the other, or the other through it.
+  bool isCrossed = false;       ///< The surfaces pass through each other, whether they are closed or not.
   bool isFirstWithin = false;   ///< It reaches into the second, and no part of it out of the second.
   bool isSecondWithin = false;  ///< The same of the second.
   bool hasVolume = false;       ///< One of them is thick or encloses a volume, so that depth is defined.

@@ -17,18 +17,20 @@ Point nearestOnSegment(const Point& from, const Point& to, const Point& point) {
 
 }  // namespace
 
+bool hasArea(const Corners& corners) {
+  const auto& [a, b, c] = corners;
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return (b - a).cross(c - a).norm() > kNarrowest * longest;
+}
+
 Point nearestPoint(const Corners& corners, const Point& point) {
   const auto& [a, b, c] = corners;
   const Point normal = (b - a).cross(c - a);
   const auto isInside = [&](const Point& from, const Point& to) {
     return normal.dot((to - from).cross(point - from)) >= 0.0;
   };
-  const double squared = normal.squaredNorm();
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  // Of a narrower one the normal is mostly rounding, and what is nearest lies on a side, as good as that.
-  const bool hasInside = squared > kNarrowest * kNarrowest * longest * longest;
-  if (hasInside && isInside(a, b) && isInside(b, c) && isInside(c, a)) {
-    return point - normal * (normal.dot(point - a) / squared);
+  if (hasArea(corners) && isInside(a, b) && isInside(b, c) && isInside(c, a)) {
+    return point - normal * (normal.dot(point - a) / normal.squaredNorm());
   }
   const std::array<Point, 3> candidates{nearestOnSegment(a, b, point), nearestOnSegment(b, c, point),
                                         nearestOnSegment(c, a, point)};

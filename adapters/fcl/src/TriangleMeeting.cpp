@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "PointTriangle.h"
 #include "Polygon.h"
 
 namespace allpairs::exact {
@@ -95,18 +96,22 @@ double reachThrough(const Corners& corners, const Corners& plane) {
 
 std::optional<TriangleMeeting> meetingOf(const Corners& a, const Corners& b) {
   Shared shared;
-  const bool isFlat = areCoplanar(a, b);
+  const bool hasPlane = hasArea(a);
+  const bool hasOther = hasArea(b);
+  const bool isFlat = hasPlane && hasOther && areCoplanar(a, b);
   if (isFlat) {
     addShared(a, b, shared);
   } else {
-    addCrossings(a, b, shared);
-    addCrossings(b, a, shared);
+    if (hasOther) addCrossings(a, b, shared);
+    if (hasPlane) addCrossings(b, a, shared);
   }
   if (shared.count == 0) return std::nullopt;
   const double crossing = isFlat ? 0.0 : std::min(reachThrough(a, b), reachThrough(b, a));
+  const double passing = hasPlane == hasOther ? 0.0 : (hasPlane ? reachThrough(b, a) : reachThrough(a, b));
   return TriangleMeeting{.middle = shared.sum / shared.count,
                          .ends = shared.ends,
-                         .crossing = std::min(crossing, (shared.ends[1] - shared.ends[0]).norm())};
+                         .crossing = std::min(crossing, (shared.ends[1] - shared.ends[0]).norm()),
+                         .passing = passing};
 }
 
 }  // namespace allpairs::exact
