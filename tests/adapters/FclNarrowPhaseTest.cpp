@@ -166,18 +166,6 @@ TEST(FclNarrowPhase, CrossedBeamsAreAsDeepAsTheirFacesAreBelowEachOther) {
   EXPECT_THAT(pair.normal, near(0.0, 0.0, -1.0));
 }
 
-/// A model turned about the z axis, then about the x axis, and `scale` times as large.
-std::unique_ptr<TriangleModel> turned(const TriangleModel& model, double angle, double scale = 1.0) {
-  std::vector<Vec3> points = model.positions();
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  for (Vec3& p : points) {
-    p = {c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
-    p = {scale * p[0], scale * (c * p[1] - s * p[2]), scale * (s * p[1] + c * p[2])};
-  }
-  return std::make_unique<TriangleModel>("turned", points, model.triangles());
-}
-
 TEST(FclNarrowPhase, ABarThroughAPlateClashesHoweverThinAndTurnedTheyAre) {
   for (const double thickness : {0.1, 0.01, 1e-3, 1e-4}) {
     for (const double width : {0.1, 0.01, 1e-3}) {

@@ -59,6 +59,14 @@ inline std::unique_ptr<TriangleModel> fineCube(const Vec3& at, std::uint32_t n) 
   return std::make_unique<TriangleModel>("fine cube", points, std::vector<TriangleModel::Triangle>{}, quads);
 }
 
+/// A cube of side 4 around the origin without its last triangle.
+inline std::unique_ptr<TriangleModel> openCube() {
+  const auto whole = cuboid({-2, -2, -2}, {2, 2, 2});
+  auto triangles = whole->triangles();
+  triangles.pop_back();
+  return std::make_unique<TriangleModel>("open", whole->positions(), triangles);
+}
+
 /// The triangles of several models as one model.
 inline std::unique_ptr<TriangleModel> together(const std::vector<const TriangleModel*>& models) {
   std::vector<Vec3> points;
@@ -94,6 +102,18 @@ inline std::unique_ptr<TriangleModel> ball(const Vec3& centre, double radius, st
     }
   }
   return std::make_unique<TriangleModel>("ball", points, std::vector<TriangleModel::Triangle>{}, quads);
+}
+
+/// A model turned about the z axis, then about the x axis, and `scale` times as large.
+inline std::unique_ptr<TriangleModel> turned(const TriangleModel& model, double angle, double scale = 1.0) {
+  std::vector<Vec3> points = model.positions();
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  for (Vec3& p : points) {
+    p = {c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
+    p = {scale * p[0], scale * (c * p[1] - s * p[2]), scale * (s * p[1] + c * p[2])};
+  }
+  return std::make_unique<TriangleModel>("turned", points, model.triangles());
 }
 
 }  // namespace allpairs::test

@@ -8,15 +8,12 @@
 namespace allpairs::exact {
 namespace {
 
-constexpr double kParallel = 1e-9;
 constexpr double kSameAngle = 1e-6;  // faces that are flat in float32 are as flat as that
 
 }  // namespace
 
 Around::Around(const Point& middle, const Point& along, double tolerance)
     : m_middle(middle), m_along(along), m_u(along.unitOrthogonal()), m_v(along.cross(m_u)), m_tolerance(tolerance) {}
-
-bool Around::isAlong(const Point& direction) const { return std::abs(direction.dot(m_along)) > 1.0 - kParallel; }
 
 void Around::add(const Corners& corners, Surface surface) {
   Point farthest = Point::Zero();

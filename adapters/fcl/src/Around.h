@@ -15,9 +15,6 @@ class Around {
   /// `along` has length 1; triangles that reach no further from the line than the tolerance do not go on.
   Around(const Point& middle, const Point& along, double tolerance);
 
-  /// Whether another line has the same direction, or the opposite one.
-  [[nodiscard]] bool isAlong(const Point& direction) const;
-
   /// Adds a triangle that holds the line, on either side of which it may lie.
   void add(const Corners& corners, Surface surface);
 

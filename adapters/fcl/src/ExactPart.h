@@ -56,6 +56,9 @@ class ExactPart {
   [[nodiscard]] Volume volume() const { return m_shell.volume; }
   [[nodiscard]] const Shell& shell() const { return m_shell; }
 
+  /// Whether it has triangles, and not only segments and points.
+  [[nodiscard]] bool hasArea() const { return m_hasArea; }
+
   /// Whether it is a surface that may look closed and is not: nobody can tell what lies in it.
   [[nodiscard]] bool isOpen() const { return m_hasArea && m_radius == 0.0 && volume() == Volume::None; }
 
@@ -70,7 +73,7 @@ class ExactPart {
   Hierarchy m_hierarchy;
   double m_radius;
   Shell m_shell;
-  bool m_hasArea;  ///< Not only points and segments.
+  bool m_hasArea;
   Box m_box = kEmptyBox;
 };
 

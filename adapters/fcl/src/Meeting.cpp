@@ -102,8 +102,8 @@ class Look {
       m_meeting.contactPoints.push_back(meeting->middle);
       if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
       m_crossing = std::max(m_crossing, meeting->crossing);
-      m_passing = std::max(m_passing, meeting->passing);
-      if (meeting->ends[0] != meeting->ends[1]) m_lines.push_back({meeting->ends, pair});
+      if (!m_first.hasArea() || !m_second.hasArea()) m_passing = std::max(m_passing, meeting->passing);
+      if (meeting->ends[0] != meeting->ends[1]) m_lines.push_back(meeting->ends);
     }
     m_meeting.isCrossed = m_crossing > m_tolerance || crossesAlongEdges();
     if (m_meeting.contactPoints.empty()) {
@@ -117,23 +117,31 @@ class Look {
   [[nodiscard]] bool crossesAlongEdges() const {
     const std::size_t stride = m_lines.size() / kMostLines + 1;
     for (std::size_t i = 0; i < m_lines.size(); i += stride) {
-      const auto& ends = m_lines[i].ends;
-      const Point middle = (ends[0] + ends[1]) / 2.0;
-      if ((ends[1] - ends[0]).norm() <= m_tolerance) continue;
-      Around around(middle, directionOf(ends[1] - ends[0]), m_tolerance);
-      for (const Line& line : m_lines) {
-        if (distanceTo(line.ends, middle) > m_tolerance) continue;
-        if (!around.isAlong(directionOf(line.ends[1] - line.ends[0]))) continue;
-        around.add(m_first.triangles()[line.pair.first], Around::Surface::First);
-        around.add(m_second.triangles()[line.pair.second], Around::Surface::Second);
+      const auto& [from, to] = m_lines[i];
+      if ((to - from).norm() <= m_tolerance) continue;
+      for (const double at : {0.25, 0.5, 0.75}) {
+        if (takeTurnsAt(from + at * (to - from), (to - from) / 64.0)) return true;
       }
-      if (around.takeTurns()) return true;
     }
     return false;
   }
 
-  static double distanceTo(const std::array<Point, 2>& ends, const Point& point) {
-    return (nearestPoint({ends[0], ends[1], ends[1]}, point) - point).norm();
+  /// FCL leaves out triangles that meet others but for rounding: all that hold this piece of the line are asked.
+  [[nodiscard]] bool takeTurnsAt(const Point& point, const Point& step) const {
+    Around around(point, directionOf(step), m_tolerance);
+    const auto addOf = [&](const ExactPart& part, Around::Surface surface) {
+      const auto isNear = [&](const Corners& corners, const Point& p) {
+        return (nearestPoint(corners, p) - p).norm() <= m_tolerance;
+      };
+      for (std::size_t i = 0; i < part.triangles().size(); ++i) {
+        if (!overlap(part.triangleBoxes()[i], {toVec3(point), toVec3(point)}, m_tolerance)) continue;
+        const Corners& corners = part.triangles()[i];
+        if (isNear(corners, point - step) && isNear(corners, point + step)) around.add(corners, surface);
+      }
+    };
+    addOf(m_first, Around::Surface::First);
+    addOf(m_second, Around::Surface::Second);
+    return around.takeTurns();
   }
 
   void findDepth() {
@@ -207,13 +215,7 @@ class Look {
     return normals;
   }
 
-  /// The segment that two triangles share.
-  struct Line {
-    std::array<Point, 2> ends{};
-    TrianglePair pair;
-  };
-
-  static constexpr std::size_t kMostLines = 256;  // that are looked at; each with all others
+  static constexpr std::size_t kMostLines = 128;  // that are looked at, with all triangles
 
   const ExactPart& m_first;
   const ExactPart& m_second;
@@ -226,7 +228,7 @@ class Look {
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
   bool m_reachesIntoSecond = false;
   std::vector<TrianglePair> m_pairs;
-  std::vector<Line> m_lines;
+  std::vector<std::array<Point, 2>> m_lines;  ///< The segments that two triangles share.
   Meeting m_meeting;
 };
 
