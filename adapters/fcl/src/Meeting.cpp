@@ -103,13 +103,27 @@ class Look {
       if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
       m_crossing = std::max(m_crossing, meeting->crossing);
       if (!m_first.hasArea() || !m_second.hasArea()) m_passing = std::max(m_passing, meeting->passing);
-      if (meeting->ends[0] != meeting->ends[1]) m_lines.push_back(meeting->ends);
+      addLine(meeting->ends);
     }
+    keepEachLineOnce();
     m_meeting.isCrossed = m_crossing > m_tolerance || crossesAlongEdges();
     if (m_meeting.contactPoints.empty()) {
       m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
     }
     m_meeting.contactCount = std::max<std::size_t>(m_pairs.size(), 1);
+  }
+
+  /// The lesser end first, so that the same lines are equal.
+  void addLine(const std::array<Point, 2>& ends) {
+    if (ends[0] == ends[1]) return;
+    const bool isTurned = toVec3(ends[1]) < toVec3(ends[0]);
+    m_lines.push_back(isTurned ? std::array{ends[1], ends[0]} : ends);
+  }
+
+  void keepEachLineOnce() {
+    const auto keyOf = [](const std::array<Point, 2>& ends) { return std::pair(toVec3(ends[0]), toVec3(ends[1])); };
+    std::sort(m_lines.begin(), m_lines.end(), [&](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); });
+    m_lines.erase(std::unique(m_lines.begin(), m_lines.end()), m_lines.end());
   }
 
   /// Whether the surfaces pass through each other where edges of their triangles lie on the line: each triangle ends

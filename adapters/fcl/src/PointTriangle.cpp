@@ -6,7 +6,8 @@
 namespace allpairs::exact {
 namespace {
 
-constexpr double kNarrowest = 1e-11;  // width by length
+constexpr double kNarrowest = 1e-11;  // of a narrower one the normal is rounding
+constexpr double kNarrow = 1e-5;      // and of one like this the point below another is off by some of its width
 
 Point nearestOnSegment(const Point& from, const Point& to, const Point& point) {
   const Point way = to - from;
@@ -15,13 +16,16 @@ Point nearestOnSegment(const Point& from, const Point& to, const Point& point) {
   return from + t * way;
 }
 
-}  // namespace
-
-bool hasArea(const Corners& corners) {
+/// Twice the area by the square of the longest side: about width by length.
+double widthOf(const Corners& corners) {
   const auto& [a, b, c] = corners;
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return (b - a).cross(c - a).norm() > kNarrowest * longest;
+  return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
+
+}  // namespace
+
+bool hasArea(const Corners& corners) { return widthOf(corners) > kNarrowest; }
 
 Point nearestPoint(const Corners& corners, const Point& point) {
   const auto& [a, b, c] = corners;
@@ -29,11 +33,12 @@ Point nearestPoint(const Corners& corners, const Point& point) {
   const auto isInside = [&](const Point& from, const Point& to) {
     return normal.dot((to - from).cross(point - from)) >= 0.0;
   };
-  if (hasArea(corners) && isInside(a, b) && isInside(b, c) && isInside(c, a)) {
-    return point - normal * (normal.dot(point - a) / normal.squaredNorm());
-  }
-  const std::array<Point, 3> candidates{nearestOnSegment(a, b, point), nearestOnSegment(b, c, point),
-                                        nearestOnSegment(c, a, point)};
+  const double width = widthOf(corners);
+  const bool isOver = width > kNarrowest && isInside(a, b) && isInside(b, c) && isInside(c, a);
+  const Point below = isOver ? Point(point - normal * (normal.dot(point - a) / normal.squaredNorm())) : a;
+  if (isOver && width > kNarrow) return below;
+  const std::array<Point, 4> candidates{nearestOnSegment(a, b, point), nearestOnSegment(b, c, point),
+                                        nearestOnSegment(c, a, point), below};
   return *std::min_element(candidates.begin(), candidates.end(), [&](const Point& p, const Point& q) {
     return (p - point).squaredNorm() < (q - point).squaredNorm();
   });
