@@ -79,6 +79,23 @@ TEST(FclSurfaces, CrossWhereOneHangsAndTheOtherStandsOnAPartOfTheirLine) {
   EXPECT_EQ(examine(divided, apart).state, ExactState::Touching);
 }
 
+TEST(FclSurfaces, SingleTrianglesMeetWhicheverComesFirst) {
+  TriangleModel upright(
+      "upright",
+      {{12.0, 0.0, 0.0}, {12.0, 1.6831921772672276, 11.187799787911224}, {12.0, 6.4354959825892255, 4.752303805321998}},
+      {{0, 1, 2}});
+  TriangleModel through(
+      "through",
+      {{8.0, 9.65324397388384, 7.128455707982997}, {8.0, 0.0, 0.0}, {16.0, 7.277092071222841, 10.34620369927761}},
+      {{0, 1, 2}});
+  EXPECT_EQ(examine(upright, through).state, ExactState::Clash);
+  EXPECT_EQ(examine(through, upright).state, ExactState::Clash);
+  TriangleModel corner("corner", {{5, 7, 11}, {8, 0, 12}, {8, 12, 16}}, {{0, 1, 2}});  // 5 7 11 lies in the other
+  TriangleModel plane("plane", {{0, 16, 4}, {8, 4, 16}, {4, 4, 8}}, {{0, 1, 2}});
+  EXPECT_EQ(examine(corner, plane).state, ExactState::Touching);
+  EXPECT_EQ(examine(plane, corner).state, ExactState::Touching);
+}
+
 TEST(FclSurfaces, FoldedSheetsThatMeetAtTheirFoldsClashWhereTheyTakeTurnsAroundIt) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> angle(0.0, 360.0);

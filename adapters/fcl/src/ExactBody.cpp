@@ -154,6 +154,17 @@ bool addAnyOf(ExactBody& body, const CollisionModel& model) {
   return (addIf<Models>(body, model) || ...);
 }
 
+/// From the origin to the farthest coordinate.
+double reachOf(const ExactBody& body) {
+  double reach = 0.0;
+  for (const auto& part : body.parts) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      reach = std::max({reach, std::abs(part->box().min[axis]), std::abs(part->box().max[axis])});
+    }
+  }
+  return reach;
+}
+
 double extentOf(const ExactBody& body) {
   Box box = kEmptyBox;
   double radius = 0.0;
@@ -175,6 +186,7 @@ ExactBody makeBody(const CollisionModel& model) {
                                 SphereModel, CapsuleModel>(body, *model.getLast());
   body.isKnown = body.isKnown && isKnown;
   body.extent = extentOf(body);
+  body.reach = reachOf(body);
   return body;
 }
 

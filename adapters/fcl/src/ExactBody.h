@@ -14,6 +14,7 @@ struct ExactBody {
   std::vector<std::unique_ptr<ExactPart>> parts;
   bool isKnown = true;  ///< Whether the type of the model is one whose shape is known.
   double extent = 0.0;  ///< The greatest, of the box around all parts.
+  double reach = 0.0;   ///< The greatest coordinate, whatever its sign.
 };
 
 /// Makes the shape of a model, as it stands now.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -170,6 +171,9 @@ bool isAnyOpen(const ExactBody& body) {
   return std::any_of(body.parts.begin(), body.parts.end(), [](const auto& part) { return part->isOpen(); });
 }
 
+/// Far from the origin no place is known better, in steps from one number to the next.
+constexpr double kRoundings = 4.0;
+
 void checkOptions(const ExactOptions& options) {
   if (!(options.tolerance >= 0.0)) throw InvalidArgument("the tolerance of an exact test is negative or NaN");
   if (!(options.duplicateTolerance >= 0.0)) throw InvalidArgument("the tolerance of duplicates is negative or NaN");
@@ -196,7 +200,9 @@ struct FclNarrowPhase::State {
     pair.isFirstOpen = isAnyOpen(first);
     pair.isSecondOpen = isAnyOpen(second);
     const double extent = std::max(first.extent, second.extent);
-    const exact::Tolerances tolerances{options.tolerance * extent, options.duplicateTolerance * extent};
+    const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * std::max(first.reach, second.reach);
+    const exact::Tolerances tolerances{std::max(options.tolerance * extent, rounding),
+                                       std::max(options.duplicateTolerance * extent, rounding)};
     if (areSame(first, second, tolerances.same)) return reportSame(first, pair);
     PairReport report(pair, options);
     for (const PartPair& parts : partPairs(first, second)) {

@@ -42,9 +42,9 @@ std::pair<double, double> span(const ExactPart& part, const Point& direction) {
   return {min, max};
 }
 
-/// The triangles of the two parts that FCL finds to meet, in the order of their numbers.
-std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPart& second) {
-  const ::fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
+/// The triangles of the two parts that FCL finds to meet, at most so many, in the order of their numbers.
+std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPart& second, std::size_t most) {
+  const ::fcl::CollisionRequestd request(most, false);
   ::fcl::CollisionResultd result;
   ::fcl::collide(&first.hierarchy(), kHere, &second.hierarchy(), kHere, request, result);
   std::vector<TrianglePair> pairs;
@@ -82,7 +82,8 @@ class Look {
  private:
   /// The distance of the two surfaces, and where they are nearest.
   void measure() {
-    const Nearest points = nearest(m_first, m_second);
+    Nearest points = nearest(m_first, m_second);
+    if (m_radius == 0.0 && points.distance > m_tolerance) takeMeeting(points);
     m_coreDistance = points.distance;
     m_meeting.normal = directionOf(points.onFirst - points.onSecond);
     m_meeting.onFirst = points.onFirst - m_first.radius() * m_meeting.normal;
@@ -92,10 +93,18 @@ class Look {
     m_meeting.hasVolume = m_radius > 0.0 || m_first.volume() != Volume::None || m_second.volume() != Volume::None;
   }
 
+  /// FCL measures some triangles apart that pass through each other, or of which a corner lies in the other.
+  void takeMeeting(Nearest& points) const {
+    for (const TrianglePair& pair : meetingTriangles(m_first, m_second, 1)) {
+      const auto meeting = meetingOf(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
+      if (meeting) points = {.distance = 0.0, .onFirst = meeting->middle, .onSecond = meeting->middle, .triangle = -1};
+    }
+  }
+
   /// The triangles that meet, and a point of each pair of them; of thick parts the one where they are nearest.
   void findTriangles() {
     if (!m_meeting.surfacesMeet) return;
-    if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second);
+    if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second, std::numeric_limits<std::size_t>::max());
     for (const TrianglePair& pair : m_pairs) {
       const auto meeting = meetingOf(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
       if (!meeting) continue;
