@@ -61,40 +61,52 @@ void keepEachOnce(std::vector<Point>& points) {
 /// Where the triangles of another part cross a triangle, which they cut into regions.
 using Cuts = std::vector<std::array<Point, 2>>;
 
-/// How far it is from a point along a direction, both in the plane of a triangle, to the next cut or side of it.
-double wayToNext(const Corners& corners, const Point& normal, const Cuts& cuts, const Point& point,
-                 const Point& direction) {
-  double way = std::numeric_limits<double>::infinity();
-  const Point across = normal.cross(direction);
-  const auto look = [&](const Point& from, const Point& to) {
-    const double before = across.dot(from - point);
-    const double after = across.dot(to - point);
-    if ((before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0) || before == after) return;
-    const Point passed = from + (before / (before - after)) * (to - from);
-    const double at = direction.dot(passed - point);
-    if (at > 0.0) way = std::min(way, at);
-  };
-  for (const auto& [from, to] : cuts) look(from, to);
-  for (std::size_t i = 0; i < 3; ++i) look(corners[i], corners[(i + 1) % 3]);
-  return way;
-}
+/// A triangle in such regions.
+class CutTriangle {
+ public:
+  CutTriangle(const Corners& corners, const Cuts& cuts)
+      : m_corners(corners),
+        m_cuts(cuts),
+        m_normal((corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized()) {}
 
-constexpr std::size_t kMostCuts = 256;  // of a triangle that are looked from; each looks at all
-
-/// A point on either side of each cut, halfway to the next one: in each region that a cut bounds.
-void addBeside(const Corners& corners, const Cuts& cuts, std::vector<Point>& points) {
-  const Point normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-  const std::size_t stride = (cuts.size() + kMostCuts - 1) / kMostCuts;
-  for (std::size_t i = 0; i < cuts.size(); i += stride) {
-    const auto& [from, to] = cuts[i];
-    const Point middle = (from + to) / 2.0;
-    const Point direction = normal.cross(to - from).normalized();
-    for (const Point& side : {direction, Point(-direction)}) {
-      const double way = wayToNext(corners, normal, cuts, middle, side);
-      if (std::isfinite(way)) points.push_back(middle + (way / 2.0) * side);
+  /// Adds a point on either side of each cut, halfway to the next one: in each region that a cut bounds.
+  void addBeside(std::vector<Point>& points) const {
+    const std::size_t stride = (m_cuts.size() + kMostCuts - 1) / kMostCuts;
+    for (std::size_t i = 0; i < m_cuts.size(); i += stride) {
+      const auto& [from, to] = m_cuts[i];
+      const Point middle = (from + to) / 2.0;
+      const Point direction = m_normal.cross(to - from).normalized();
+      for (const Point& side : {direction, Point(-direction)}) {
+        const double way = wayToNext(middle, side);
+        if (std::isfinite(way)) points.push_back(middle + (way / 2.0) * side);
+      }
     }
   }
-}
+
+ private:
+  static constexpr std::size_t kMostCuts = 256;  // that are looked from; each looks at all
+
+  /// How far it is from a point along a direction, both in the plane of the triangle, to the next cut or side of it.
+  [[nodiscard]] double wayToNext(const Point& point, const Point& direction) const {
+    double way = std::numeric_limits<double>::infinity();
+    const Point across = m_normal.cross(direction);
+    const auto look = [&](const Point& from, const Point& to) {
+      const double before = across.dot(from - point);
+      const double after = across.dot(to - point);
+      if ((before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0) || before == after) return;
+      const Point passed = from + (before / (before - after)) * (to - from);
+      const double at = direction.dot(passed - point);
+      if (at > 0.0) way = std::min(way, at);
+    };
+    for (const auto& [from, to] : m_cuts) look(from, to);
+    for (std::size_t i = 0; i < 3; ++i) look(m_corners[i], m_corners[(i + 1) % 3]);
+    return way;
+  }
+
+  const Corners& m_corners;
+  const Cuts& m_cuts;
+  Point m_normal;
+};
 
 /// Where surfaces cross, a part of each lies on either side, however thin: between all corners and middles, perhaps.
 void addBesideCrossings(const ExactPart& outer, const ExactPart& inner, std::vector<TrianglePair> pairs,
@@ -106,7 +118,7 @@ void addBesideCrossings(const ExactPart& outer, const ExactPart& inner, std::vec
     const auto meeting = meetingOf(corners, outer.triangles()[pairs[i].second]);
     if (meeting && meeting->ends[0] != meeting->ends[1]) cuts.push_back(meeting->ends);
     const bool isLast = i + 1 == pairs.size() || pairs[i + 1].first != pairs[i].first;
-    if (isLast && !cuts.empty()) addBeside(corners, cuts, points);
+    if (isLast && !cuts.empty()) CutTriangle(corners, cuts).addBeside(points);
     if (isLast) cuts.clear();
   }
 }

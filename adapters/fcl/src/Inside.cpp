@@ -32,9 +32,10 @@ Box rayFrom(const Point& point) {
   return {origin, {std::numeric_limits<double>::infinity(), origin[1], origin[2]}};
 }
 
-/// Adds, for each point, how often the ray from it passes some triangles of a part: by the way they face, or not.
-void countCrossings(const ExactPart& part, const std::vector<std::uint32_t>& triangles, std::span<const Point> points,
-                    bool byWay, std::vector<int>& counts) {
+/// How often the ray from each point passes some triangles of a part: by the way they face, or not.
+std::vector<int> crossingsOf(const ExactPart& part, const std::vector<std::uint32_t>& triangles,
+                             std::span<const Point> points, bool byWay) {
+  std::vector<int> counts(points.size(), 0);
   std::vector<Box> rays;
   rays.reserve(points.size());
   Box all = kEmptyBox;
@@ -51,6 +52,7 @@ void countCrossings(const ExactPart& part, const std::vector<std::uint32_t>& tri
     const int found = crossing(part.triangles()[numbers[pair.second]], points[pair.first]);
     counts[pair.first] += byWay ? found : std::abs(found);
   }
+  return counts;
 }
 
 }  // namespace
@@ -59,10 +61,9 @@ std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> po
   if (part.volume() == Volume::None || points.empty()) return {};
   const Shell& shell = part.shell();
   const bool isWinding = shell.volume == Volume::Winding;
-  std::vector<int> counts(points.size(), 0);
+  const std::vector<int> counts = crossingsOf(part, shell.triangles, points, isWinding);
   std::vector<int> twoSided(points.size(), 0);
-  countCrossings(part, shell.triangles, points, isWinding, counts);
-  if (!shell.twoSided.empty()) countCrossings(part, shell.twoSided, points, false, twoSided);
+  if (!shell.twoSided.empty()) twoSided = crossingsOf(part, shell.twoSided, points, false);
   std::vector<Point> inside;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool isIn = isWinding ? counts[i] != 0 : counts[i] % 2 != 0;

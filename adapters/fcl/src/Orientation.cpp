@@ -66,7 +66,8 @@ int exactSideOfLine(const Point& a, const Point& b, const Point& p) {
 }
 
 /// Adds the determinant of three rows, times `sign`.
-void addDeterminant(ExactSum& sum, const Point& a, const Point& b, const Point& c, double sign) {
+void addDeterminant(ExactSum& sum, const Corners& rows, double sign) {
+  const auto& [a, b, c] = rows;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
@@ -79,10 +80,10 @@ void addDeterminant(ExactSum& sum, const Point& a, const Point& b, const Point& 
 int exactSideOfPlane(const Corners& corners, const Point& p) {
   const auto& [a, b, c] = corners;
   ExactSum sum;
-  addDeterminant(sum, b, c, p, 1.0);
-  addDeterminant(sum, a, c, p, -1.0);
-  addDeterminant(sum, a, b, p, 1.0);
-  addDeterminant(sum, a, b, c, -1.0);
+  addDeterminant(sum, {b, c, p}, 1.0);
+  addDeterminant(sum, {a, c, p}, -1.0);
+  addDeterminant(sum, {a, b, p}, 1.0);
+  addDeterminant(sum, {a, b, c}, -1.0);
   return sum.sign();
 }
 

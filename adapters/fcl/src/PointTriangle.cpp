@@ -35,7 +35,7 @@ Point nearestPoint(const Corners& corners, const Point& point) {
   };
   const double width = widthOf(corners);
   const bool isOver = width > kNarrowest && isInside(a, b) && isInside(b, c) && isInside(c, a);
-  const Point below = isOver ? Point(point - normal * (normal.dot(point - a) / normal.squaredNorm())) : a;
+  Point below = isOver ? Point(point - normal * (normal.dot(point - a) / normal.squaredNorm())) : a;
   if (isOver && width > kNarrow) return below;
   const std::array<Point, 4> candidates{nearestOnSegment(a, b, point), nearestOnSegment(b, c, point),
                                         nearestOnSegment(c, a, point), below};
