@@ -118,6 +118,26 @@ TEST(FclStates, TrianglesWithoutAnAreaChangeNothing) {
   EXPECT_EQ(examine(*outer, *seamed).state, ExactState::Duplicate);
 }
 
+TEST(FclStates, TrianglesWithoutAnAreaChangeNothingWhereRoundingGivesThemOne) {
+  for (int i = 0; i < 40; ++i) {
+    const auto placed = [i](const TriangleModel& model) {
+      auto result = turned(model, 0.1 * i + 0.05, 3.7);
+      std::vector<Vec3> points = result->positions();
+      for (Vec3& p : points) p = {p[0] + 18432.0, p[1] + 2048.0, p[2]};
+      return std::make_unique<TriangleModel>("placed", points, result->triangles());
+    };
+    const auto outer = placed(*withCornersInSides(*cuboid({0, 0, 0}, {4, 4, 4})));
+    const auto beside = examine(*outer, *placed(*withCornersInSides(*cuboid({4.5, 1, 1}, {5, 2, 3}))));
+    EXPECT_EQ(beside.state, ExactState::Apart) << i;
+    EXPECT_NEAR(beside.distance, 0.5 * 3.7, 1e-9) << i;
+    EXPECT_EQ(examine(*outer, *placed(*withCornersInSides(*cuboid({1, 1, 1}, {2, 3, 3})))).state,
+              ExactState::Contained);
+    const auto into = examine(*outer, *placed(*withCornersInSides(*cuboid({3, 1, 1}, {5, 2, 3}))));
+    EXPECT_EQ(into.state, ExactState::Clash) << i;
+    EXPECT_NEAR(into.depth.value_or(0.0), 3.7, 1e-9) << i;
+  }
+}
+
 /// A comb along x: teeth of 2 and gaps of 1, on a back below y = 1.
 std::unique_ptr<TriangleModel> comb() {
   const std::vector<std::array<double, 2>> outline{{0, 0}, {8, 0}, {8, 4}, {6, 4}, {6, 1}, {5, 1},

@@ -156,9 +156,7 @@ void build(Hierarchy& hierarchy, const std::vector<Corners>& triangles) {
   const int count = static_cast<int>(triangles.size());
   int problem = hierarchy.beginModel(count, 3 * count);
   for (const Corners& corners : triangles) {
-    if (problem != ::fcl::BVH_OK) break;
-    problem =
-        hierarchy.addTriangle(corners[0] * kHierarchyScale, corners[1] * kHierarchyScale, corners[2] * kHierarchyScale);
+    if (problem == ::fcl::BVH_OK) problem = hierarchy.addTriangle(corners[0], corners[1], corners[2]);
   }
   if (problem == ::fcl::BVH_OK) problem = hierarchy.endModel();
   if (problem == ::fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -186,7 +184,19 @@ ExactPart::ExactPart(std::vector<Corners> triangles, double radius)
     m_boxes.push_back(boxOf(corners));
     m_box = merge(m_box, m_boxes.back());
   }
+  findNodeBoxes();
   if (m_shell.volume == Volume::Winding && isWithoutVolume(m_triangles, m_box)) lookAtBothSides();
+}
+
+/// The children of a node have greater numbers.
+void ExactPart::findNodeBoxes() {
+  m_nodeBoxes.assign(static_cast<std::size_t>(m_hierarchy.getNumBVs()), kEmptyBox);
+  for (int i = m_hierarchy.getNumBVs(); i-- > 0;) {
+    const auto& node = m_hierarchy.getBV(i);
+    m_nodeBoxes[static_cast<std::size_t>(i)] = node.isLeaf()
+                                                   ? m_boxes[static_cast<std::size_t>(node.primitiveId())]
+                                                   : merge(nodeBox(node.leftChild()), nodeBox(node.rightChild()));
+  }
 }
 
 /// What is drawn for either side with other triangles is a surface, of which nobody can tell the inside; a part and its

@@ -17,10 +17,6 @@ using Point = ::fcl::Vector3d;
 using Corners = std::array<Point, 3>;
 using Hierarchy = ::fcl::BVHModel<::fcl::OBBRSSd>;
 
-/// By how much hierarchies are larger than parts. FCL takes triangles whose sides are below about 0.0002 for lines,
-/// whatever the unit is: here below 2e-13. A power of two, so that nothing is rounded.
-inline constexpr double kHierarchyScale = 0x1p30;
-
 [[nodiscard]] inline Point toPoint(const collision::Vec3& v) { return {v[0], v[1], v[2]}; }
 [[nodiscard]] inline collision::Vec3 toVec3(const Point& p) { return {p[0], p[1], p[2]}; }
 
@@ -50,8 +46,9 @@ class ExactPart {
 
   [[nodiscard]] const std::vector<Corners>& triangles() const { return m_triangles; }
   [[nodiscard]] const std::vector<Box>& triangleBoxes() const { return m_boxes; }
-  /// Of the triangles, kHierarchyScale times as large.
   [[nodiscard]] const Hierarchy& hierarchy() const { return m_hierarchy; }
+  /// Around the triangles of a node of the hierarchy.
+  [[nodiscard]] const Box& nodeBox(int node) const { return m_nodeBoxes[static_cast<std::size_t>(node)]; }
   [[nodiscard]] double radius() const { return m_radius; }
   [[nodiscard]] Volume volume() const { return m_shell.volume; }
   [[nodiscard]] const Shell& shell() const { return m_shell; }
@@ -66,11 +63,13 @@ class ExactPart {
   [[nodiscard]] const Box& box() const { return m_box; }
 
  private:
+  void findNodeBoxes();
   void lookAtBothSides();
 
   std::vector<Corners> m_triangles;
   std::vector<Box> m_boxes;
   Hierarchy m_hierarchy;
+  std::vector<Box> m_nodeBoxes;
   double m_radius;
   Shell m_shell;
   bool m_hasArea;

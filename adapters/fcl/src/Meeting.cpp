@@ -42,9 +42,9 @@ std::pair<double, double> span(const ExactPart& part, const Point& direction) {
   return {min, max};
 }
 
-/// The triangles of the two parts that FCL finds to meet, at most so many, in the order of their numbers.
-std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPart& second, std::size_t most) {
-  const ::fcl::CollisionRequestd request(most, false);
+/// The triangles of the two parts that FCL finds to meet, in the order of their numbers.
+std::vector<TrianglePair> meetingTriangles(const ExactPart& first, const ExactPart& second) {
+  const ::fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
   ::fcl::CollisionResultd result;
   ::fcl::collide(&first.hierarchy(), kHere, &second.hierarchy(), kHere, request, result);
   std::vector<TrianglePair> pairs;
@@ -82,8 +82,7 @@ class Look {
  private:
   /// The distance of the two surfaces, and where they are nearest.
   void measure() {
-    Nearest points = nearest(m_first, m_second);
-    if (m_radius == 0.0 && points.distance > m_tolerance) takeMeeting(points);
+    const Nearest points = nearest(m_first, m_second);
     m_coreDistance = points.distance;
     m_meeting.normal = directionOf(points.onFirst - points.onSecond);
     m_meeting.onFirst = points.onFirst - m_first.radius() * m_meeting.normal;
@@ -93,18 +92,10 @@ class Look {
     m_meeting.hasVolume = m_radius > 0.0 || m_first.volume() != Volume::None || m_second.volume() != Volume::None;
   }
 
-  /// FCL measures some triangles apart that pass through each other, or of which a corner lies in the other.
-  void takeMeeting(Nearest& points) const {
-    for (const TrianglePair& pair : meetingTriangles(m_first, m_second, 1)) {
-      const auto meeting = meetingOf(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
-      if (meeting) points = {.distance = 0.0, .onFirst = meeting->middle, .onSecond = meeting->middle, .triangle = -1};
-    }
-  }
-
   /// The triangles that meet, and a point of each pair of them; of thick parts the one where they are nearest.
   void findTriangles() {
     if (!m_meeting.surfacesMeet) return;
-    if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second, std::numeric_limits<std::size_t>::max());
+    if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second);
     for (const TrianglePair& pair : m_pairs) {
       const auto meeting = meetingOf(m_first.triangles()[pair.first], m_second.triangles()[pair.second]);
       if (!meeting) continue;
@@ -262,13 +253,7 @@ Meeting meet(const ExactPart& first, const ExactPart& second, const Tolerances& 
 }
 
 double boxDistance(const ExactPart& first, const ExactPart& second) {
-  double squared = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gap =
-        std::max({0.0, first.box().min[axis] - second.box().max[axis], second.box().min[axis] - first.box().max[axis]});
-    squared += gap * gap;
-  }
-  return std::max(0.0, std::sqrt(squared) - first.radius() - second.radius());
+  return std::max(0.0, boxGap(first.box(), second.box()) - first.radius() - second.radius());
 }
 
 }  // namespace allpairs::exact

@@ -16,9 +16,9 @@ struct Nearest {
 };
 
 [[nodiscard]] Nearest nearest(const ExactPart& first, const ExactPart& second);
-
-/// The same of a point. FCL's own measure of a point and a triangle is 0, or anything, where the three corners lie in a
-/// line, as they do beside a corner in the middle of a side.
 [[nodiscard]] Nearest nearest(const ExactPart& part, const Point& point);
+
+/// How far two boxes are apart.
+[[nodiscard]] double boxGap(const Box& first, const Box& second);
 
 }  // namespace allpairs::exact
