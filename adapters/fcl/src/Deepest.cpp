@@ -65,9 +65,7 @@ using Cuts = std::vector<std::array<Point, 2>>;
 class CutTriangle {
  public:
   CutTriangle(const Corners& corners, const Cuts& cuts)
-      : m_corners(corners),
-        m_cuts(cuts),
-        m_normal((corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized()) {}
+      : m_corners(corners), m_cuts(cuts), m_normal(normalOf(corners).normalized()) {}
 
   /// Adds a point on either side of each cut, halfway to the next one: in each region that a cut bounds.
   void addBeside(std::vector<Point>& points) const {

@@ -67,7 +67,7 @@ Extent extentOf(const ExactPart& part) {
   Extent extent;
   for (const std::uint32_t number : part.shell().triangles) {  // of what is there for either side, one
     const Corners& corners = part.triangles()[number];
-    extent.area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2.0;
+    extent.area += normalOf(corners).norm() / 2.0;
     for (std::size_t i = 0; i < 3; ++i) extent.sides += (corners[(i + 1) % 3] - corners[i]).norm();
   }
   return extent;

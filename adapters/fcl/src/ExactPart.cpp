@@ -122,9 +122,9 @@ bool isWithoutVolume(const std::vector<Corners>& triangles, const Box& box) {
   const Point origin = toPoint(box.min);
   double sum = 0.0;
   double area = 0.0;
-  for (const auto& [a, b, c] : triangles) {
-    const Point normal = (b - a).cross(c - a);
-    sum += normal.dot(a - origin);
+  for (const Corners& corners : triangles) {
+    const Point normal = normalOf(corners);
+    sum += normal.dot(corners[0] - origin);
     area += normal.norm();
   }
   return std::abs(sum) <= 1e-9 * area * (toPoint(box.max) - origin).norm();
@@ -138,7 +138,7 @@ std::vector<Point> besideTriangles(const std::vector<Corners>& triangles) {
   const std::size_t stride = triangles.size() / kMost + 1;
   for (std::size_t i = 0; i < triangles.size(); i += stride) {
     const auto& [a, b, c] = triangles[i];
-    const Point normal = (b - a).cross(c - a);
+    const Point normal = normalOf(triangles[i]);
     const double length = normal.norm();
     if (length == 0.0) continue;
     for (const double side : {-kOff, kOff}) points.push_back((a + b + c) / 3.0 + side / std::sqrt(length) * normal);

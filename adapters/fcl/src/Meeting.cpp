@@ -103,9 +103,7 @@ class Look {
       if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
       m_crossing = std::max(m_crossing, meeting->crossing);
       if (!m_first.hasArea() || !m_second.hasArea()) m_passing = std::max(m_passing, meeting->passing);
-      addLine(meeting->ends);
     }
-    keepEachLineOnce();
     m_meeting.isCrossed = m_crossing > m_tolerance || crossesAlongEdges();
     if (m_meeting.contactPoints.empty()) {
       m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
@@ -113,25 +111,25 @@ class Look {
     m_meeting.contactCount = std::max<std::size_t>(m_pairs.size(), 1);
   }
 
-  /// The lesser end first, so that the same lines are equal.
-  void addLine(const std::array<Point, 2>& ends) {
-    if (ends[0] == ends[1]) return;
-    const bool isTurned = toVec3(ends[1]) < toVec3(ends[0]);
-    m_lines.push_back(isTurned ? std::array{ends[1], ends[0]} : ends);
-  }
-
-  void keepEachLineOnce() {
+  /// The lines in which triangles cross, each once.
+  [[nodiscard]] std::vector<std::array<Point, 2>> distinctLines() const {
+    std::vector<std::array<Point, 2>> lines = m_meeting.contactLines;
+    for (auto& [from, to] : lines) {
+      if (toVec3(to) < toVec3(from)) std::swap(from, to);
+    }
     const auto keyOf = [](const std::array<Point, 2>& ends) { return std::pair(toVec3(ends[0]), toVec3(ends[1])); };
-    std::sort(m_lines.begin(), m_lines.end(), [&](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); });
-    m_lines.erase(std::unique(m_lines.begin(), m_lines.end()), m_lines.end());
+    std::sort(lines.begin(), lines.end(), [&](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); });
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    return lines;
   }
 
   /// Whether the surfaces pass through each other where edges of their triangles lie on the line: each triangle ends
   /// there, and the surface goes on in the next one. Around the line they take turns then.
   [[nodiscard]] bool crossesAlongEdges() const {
-    const std::size_t stride = m_lines.size() / kMostLines + 1;
-    for (std::size_t i = 0; i < m_lines.size(); i += stride) {
-      const auto& [from, to] = m_lines[i];
+    const std::vector<std::array<Point, 2>> lines = distinctLines();
+    const std::size_t stride = lines.size() / kMostLines + 1;
+    for (std::size_t i = 0; i < lines.size(); i += stride) {
+      const auto& [from, to] = lines[i];
       if ((to - from).norm() <= m_tolerance) continue;
       for (const double at : {0.25, 0.5, 0.75}) {
         if (takeTurnsAt(from + at * (to - from), (to - from) / 64.0)) return true;
@@ -216,7 +214,7 @@ class Look {
   [[nodiscard]] std::vector<Point> normalsOfMeeting() const {
     std::vector<Point> normals;
     const auto add = [&normals](const Corners& corners) {
-      const Point normal = directionOf((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+      const Point normal = directionOf(normalOf(corners));
       if (!normal.isZero() && std::find(normals.begin(), normals.end(), normal) == normals.end()) {
         normals.push_back(normal);
       }
@@ -242,7 +240,6 @@ class Look {
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
   bool m_reachesIntoSecond = false;
   std::vector<TrianglePair> m_pairs;
-  std::vector<std::array<Point, 2>> m_lines;  ///< The segments that two triangles share.
   Meeting m_meeting;
 };
 

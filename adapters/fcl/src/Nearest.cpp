@@ -45,7 +45,7 @@ void takeSides(const std::array<Point, 2>& first, const std::array<Point, 2>& se
 /// No less than this lies between two triangles: how far they are apart along the normal of the first, whichever way
 /// rounding has it point.
 double gapAlongNormal(const Corners& first, const Corners& second) {
-  const Point normal = (first[1] - first[0]).cross(first[2] - first[0]);
+  const Point normal = normalOf(first);
   const double length = normal.norm();
   if (length == 0.0) return 0.0;
   const auto span = [&](const Corners& corners) {

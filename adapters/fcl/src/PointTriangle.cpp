@@ -20,7 +20,7 @@ Point nearestOnSegment(const Point& from, const Point& to, const Point& point) {
 double widthOf(const Corners& corners) {
   const auto& [a, b, c] = corners;
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
+  return longest > 0.0 ? normalOf(corners).norm() / longest : 0.0;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ bool hasArea(const Corners& corners) { return widthOf(corners) > kNarrowest; }
 
 Point nearestPoint(const Corners& corners, const Point& point) {
   const auto& [a, b, c] = corners;
-  const Point normal = (b - a).cross(c - a);
+  const Point normal = normalOf(corners);
   const auto isInside = [&](const Point& from, const Point& to) {
     return normal.dot((to - from).cross(point - from)) >= 0.0;
   };

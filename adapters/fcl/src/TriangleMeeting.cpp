@@ -25,8 +25,6 @@ struct Shared {
   }
 };
 
-Point normalOf(const Corners& corners) { return (corners[1] - corners[0]).cross(corners[2] - corners[0]); }
-
 /// Whether a point in the plane of a triangle lies in it.
 bool contains(const Corners& corners, const Point& normal, const Point& point) {
   const double slack = kSlack * normal.squaredNorm();

@@ -186,11 +186,7 @@ class NodeReader {
     };
     m_corners.clear();
     for (unsigned i = 0; i < face.mNumIndices; ++i) m_corners.push_back(corner(i));
-    addFace(object, m_corners);
-    if (m_corners.size() < 4) return;
-    if (!cutFan(object.positions, std::span(object.triangles).last(m_corners.size() - 2))) {
-      fail(object, "has " + tooIntricate(m_corners.size()));
-    }
+    if (!addCutFace(object, m_corners)) fail(object, "has " + tooIntricate(m_corners.size()));
   }
 
   static void addAllPoints(MeshObject& object, std::size_t base) {

@@ -186,6 +186,12 @@ bool cutFan(std::span<const Point> positions, std::span<Triangle> fan) {
   });
 }
 
+bool addCutFace(MeshObject& object, std::span<const std::uint32_t> corners) {
+  addFace(object, corners);
+  if (corners.size() < 3) return true;
+  return cutFan(object.positions, std::span(object.triangles).last(corners.size() - 2));
+}
+
 std::string tooIntricate(std::size_t corners) {
   return "a face of " + std::to_string(corners) + " corners that is too intricate to be cut into triangles";
 }

@@ -11,8 +11,8 @@
 
 namespace allpairs::scene {
 
-/// Adds a point, a line, or the triangles of a fan around the first corner. Of a face that isn't convex a fan may
-/// reach beyond it: cutFan() cuts it anew.
+/// Adds a point, a line, or the triangles of a fan around the first corner. Where a face is not convex, some of them may
+/// lie outside of it until cutFan() has exchanged them.
 void addFace(MeshObject& object, std::span<const std::uint32_t> corners);
 
 /// Exchanges the triangles of a fan by others, as many with the same corners, that lie within the face where the fan
@@ -21,6 +21,9 @@ void addFace(MeshObject& object, std::span<const std::uint32_t> corners);
 /// Returns false where that would take more than a second: it takes the square of the corners, of few shapes the cube.
 /// Source: G. H. Meisters, "Polygons have ears", The American Mathematical Monthly 82 (1975), 648-651.
 [[nodiscard]] bool cutFan(std::span<const Point> positions, std::span<std::array<std::uint32_t, 3>> fan);
+
+/// Adds a face whose positions the object has, and cuts it. Returns what cutFan() does.
+[[nodiscard]] bool addCutFace(MeshObject& object, std::span<const std::uint32_t> corners);
 
 /// What is wrong with a face for which cutFan() returned false.
 [[nodiscard]] std::string tooIntricate(std::size_t corners);

@@ -89,9 +89,7 @@ class OffReader {
       m_scope.takeElements(1, sizeof(m_object.triangles[0]));
       m_corners.push_back(resolve(word));
     }
-    addFace(m_object, m_corners);
-    if (size < 4) return;
-    if (!cutFan(m_object.positions, std::span(m_object.triangles).last(size - 2))) fail(tooIntricate(size));
+    if (!addCutFace(m_object, m_corners)) fail(tooIntricate(size));
   }
 
   std::uint32_t resolve(std::string_view word) const {
