@@ -25,16 +25,7 @@ std::string countedBoxes(std::uint64_t first, std::uint64_t second) {
   return fmt::format("{} and {}", grouped(first), counted(second, "box", "boxes"));
 }
 
-std::string printable(const std::string& text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::size_t control = controlSize(text, i);
-    if (control == 0) result += text[i];
-    for (std::size_t left = control; left > 0; --left) result += escapedByte(text[i + control - left]);
-    if (control > 1) i += control - 1;
-  }
-  return result;
-}
+std::string printable(const std::string& text) { return escapedControls(text); }
 
 std::string boxText(const Box& box) {
   if (isEmpty(box)) return "empty";

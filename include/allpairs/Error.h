@@ -11,21 +11,22 @@
 
 namespace allpairs {
 
-/// How many bytes a control character has that begins at a place of a text, in ASCII or as UTF-8 has those of C1,
-/// which terminals obey too; 0 for any other character.
-[[nodiscard]] constexpr std::size_t controlSize(std::string_view text, std::size_t at) noexcept {
-  const auto byte = static_cast<unsigned char>(text[at]);
-  if (byte < 0x20 || byte == 0x7f) return 1;
-  if (byte != 0xc2 || at + 1 == text.size()) return 0;
-  const auto next = static_cast<unsigned char>(text[at + 1]);
-  return next >= 0x80 && next < 0xa0 ? 2 : 0;
-}
-
-/// A byte as \xNN.
-[[nodiscard]] inline std::string escapedByte(char c) {
+/// A text with control characters as \xNN, byte by byte: those of ASCII, and those of C1 in UTF-8, which terminals obey
+/// too.
+[[nodiscard]] inline std::string escapedControls(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  const auto byte = static_cast<unsigned char>(c);
-  return std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+  const auto isC1 = [text](std::size_t at) {
+    if (at + 1 >= text.size() || text[at] != '\xc2') return false;
+    const auto next = static_cast<unsigned char>(text[at + 1]);
+    return next >= 0x80 && next < 0xa0;
+  };
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool isControl = byte < 0x20 || byte == 0x7f || isC1(i) || (i > 0 && isC1(i - 1));
+    result += isControl ? std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15] : std::string(1, text[i]);
+  }
+  return result;
 }
 
 /// A text as messages show it: one line of at most 500 bytes, control characters escaped as \xNN, a longer text
@@ -34,14 +35,9 @@ namespace allpairs {
   constexpr std::size_t kMost = 500;
   constexpr std::size_t kHalf = kMost / 2 - 2;  // beside the three dots
   constexpr std::size_t kRelevant = 4 * kMost;  // text further inside is cut anyway
-  std::string line;
-  std::size_t control = 0;  // how many bytes of one are to come
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text.size() > 2 * kRelevant && i == kRelevant) i = text.size() - kRelevant;
-    if (control == 0) control = controlSize(text, i);
-    line += control > 0 ? escapedByte(text[i]) : std::string(1, text[i]);
-    if (control > 0) --control;
-  }
+  const bool isLong = text.size() > 2 * kRelevant;
+  std::string line = escapedControls(isLong ? text.substr(0, kRelevant) : text) +
+                     (isLong ? escapedControls(text.substr(text.size() - kRelevant)) : std::string());
   if (line.size() <= kMost) return line;
   const auto isInside = [&line](std::size_t at) { return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80; };
   std::size_t left = kHalf;
