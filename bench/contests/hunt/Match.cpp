@@ -2,6 +2,7 @@
 #include "Match.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -20,6 +21,10 @@ namespace {
 
 /// A contender that takes longer than this many times our time is not measured.
 constexpr double kHopeless = 8.0;
+
+/// Where all are asked for, one is measured however long it takes, but no longer for a scene than this part of the time
+/// that there is.
+constexpr double kLongestShare = 30.0;
 
 /// Where we lead by less than this, the match is held again with more care: of many scenes, those at the bottom of the
 /// list are there by chance too.
@@ -81,16 +86,11 @@ class SceneGroups {
   std::vector<Scene<T>> m_scenes;
 };
 
-/// Small scenes of the same family: they choose the setting of a peer, and tell whether it is worth measuring.
+/// Smaller scenes of the same family: they choose the setting of a peer, and tell whether it is worth measuring.
 template <class T>
 class Trial {
  public:
-  explicit Trial(const SceneFamily& family) : m_family(family) {
-    constexpr std::size_t kBoxes = 2000;
-    constexpr std::size_t kFewBoxes = 500;
-    m_scenes = scenesOf(shrunk(family, kBoxes));
-    if (family.boxes() > kBoxes) m_smaller = scenesOf(shrunk(family, kFewBoxes));
-  }
+  explicit Trial(const SceneFamily& family) : m_family(family) {}
 
   struct Choice {
     std::string setting;
@@ -98,46 +98,52 @@ class Trial {
     double ns = 0.0;  ///< For a scene of the whole size, an estimate.
   };
 
-  [[nodiscard]] Choice choose(const SetPeer<T>& peer) const {
+  /// The best setting. Its time is estimated from larger and larger scenes, until it is known to be more than this: few
+  /// boxes tell little of many.
+  [[nodiscard]] Choice choose(const SetPeer<T>& peer, double mostNs) {
     constexpr double kSlower = 1.5;  // A setting this much slower at its first try is not tried again.
     Choice choice;
     for (const SetSetting<T>& setting : peer.settings) {
       auto search = setting.make();
-      double ns = Turn<T>(*search, m_scenes).ns;
-      if (choice.search == nullptr || ns < kSlower * choice.ns) ns = std::min(ns, Turn<T>(*search, m_scenes).ns);
+      double ns = timeOf(*search, kOfSettings);
+      if (choice.search == nullptr || ns < kSlower * choice.ns) ns = std::min(ns, timeOf(*search, kOfSettings));
       if (choice.search == nullptr || ns < choice.ns) choice = {setting.name, std::move(search), ns};
     }
-    choice.ns = extrapolated(choice);
-    return choice;
+    if (m_family.boxes() <= kSizes[kOfSettings]) return choice;
+    double before = std::min(timeOf(*choice.search, 0), timeOf(*choice.search, 0));
+    double ns = choice.ns;
+    for (std::size_t size = kOfSettings;; before = ns) {
+      choice.ns = extrapolated(before, ns, size);
+      if (choice.ns > mostNs || ++size == kSizes.size() || kSizes[size] >= m_family.boxes()) return choice;
+      ns = timeOf(*choice.search, size);
+    }
   }
 
  private:
-  static std::vector<Scene<T>> scenesOf(const SceneFamily& family) {
-    constexpr std::size_t kBoxesTogether = 2000;
-    const SceneMaker maker(family);
-    std::vector<Scene<T>> scenes;
-    for (std::size_t i = 0; i < std::clamp<std::size_t>(kBoxesTogether / family.boxes(), 1, 200); ++i) {
-      scenes.push_back(maker.make<T>(kFirstNumber + i));
-    }
-    return scenes;
-  }
-
-  /// By the power of the number of boxes with which its time grows from the smaller scenes to the others.
-  double extrapolated(const Choice& choice) const {
-    if (m_smaller.empty()) return choice.ns;
-    const double smaller = std::min(Turn<T>(*choice.search, m_smaller).ns, Turn<T>(*choice.search, m_smaller).ns);
-    const auto boxesOf = [](const std::vector<Scene<T>>& scenes) {
-      return static_cast<double>(scenes.front().sets().boxes());
-    };
-    const double power = std::log(choice.ns / smaller) / std::log(boxesOf(m_scenes) / boxesOf(m_smaller));
-    return choice.ns * std::pow(static_cast<double>(m_family.boxes()) / boxesOf(m_scenes), std::clamp(power, 1.0, 2.0));
-  }
-
+  static constexpr std::array<std::size_t, 4> kSizes{500, 2000, 16000, 128000};
+  static constexpr std::size_t kOfSettings = 1;
   static constexpr std::uint64_t kFirstNumber = 1U << 20U;  // Not among those that are measured.
 
+  [[nodiscard]] double timeOf(SetSearch<T>& search, std::size_t size) {
+    constexpr std::size_t kBoxesTogether = 2000;
+    std::vector<Scene<T>>& scenes = m_scenes[size];
+    if (scenes.empty()) {
+      const SceneMaker maker(shrunk(m_family, kSizes[size]));
+      const std::size_t count = std::clamp<std::size_t>(kBoxesTogether / maker.family().boxes(), 1, 200);
+      for (std::size_t i = 0; i < count; ++i) scenes.push_back(maker.make<T>(kFirstNumber + i));
+    }
+    return Turn<T>(search, scenes).ns;
+  }
+
+  /// By the power of the number of boxes with which the time grows from the scenes of the size before this one.
+  [[nodiscard]] double extrapolated(double before, double ns, std::size_t size) const {
+    const auto boxesOf = [this](std::size_t i) { return static_cast<double>(m_scenes[i].front().sets().boxes()); };
+    const double power = std::log(ns / before) / std::log(boxesOf(size) / boxesOf(size - 1));
+    return ns * std::pow(static_cast<double>(m_family.boxes()) / boxesOf(size), std::clamp(power, 1.0, 2.0));
+  }
+
   SceneFamily m_family;
-  std::vector<Scene<T>> m_scenes;
-  std::vector<Scene<T>> m_smaller;
+  std::array<std::vector<Scene<T>>, kSizes.size()> m_scenes;  ///< Made when they are asked for.
 };
 
 template <class T>
@@ -183,12 +189,13 @@ class Match {
   void admitPeers() {
     Turn<T>(*m_contenders[1].search, m_scenes->group(0));
     const double ours = Turn<T>(*m_contenders[1].search, m_scenes->group(1)).ns;
-    const Trial<T> trial(m_maker.family());
+    Trial<T> trial(m_maker.family());
+    const double most = std::max(kHopeless * ours, m_options.all ? 1e9 * m_options.seconds / kLongestShare : 0.0);
     for (const SetPeer<T>& peer : setPeers<T>(m_maker.family().areTwo())) {
       if (!isWanted(peer.name)) continue;
-      auto choice = trial.choose(peer);
+      auto choice = trial.choose(peer, most);
       Contender<T> contender{{.name = peer.name, .setting = choice.setting, .ns = choice.ns}, std::move(choice.search)};
-      contender.entry.leftOut = !m_options.all && choice.ns > kHopeless * ours;
+      contender.entry.leftOut = choice.ns > most;
       (contender.entry.leftOut ? m_leftOut : m_contenders).push_back(std::move(contender));
     }
   }

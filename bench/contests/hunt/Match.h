@@ -16,7 +16,7 @@ struct Entry {
   std::string name;
   std::string setting;
   double ns = 0.0;           ///< The median; of one that was left out, the estimate that it was left out for.
-  bool leftOut = false;      ///< A few boxes told that it would take far longer than we do.
+  bool leftOut = false;      ///< Fewer boxes told that it would take far longer than we do.
   std::string mistake = {};  ///< Empty if its pairs are ours.
 };
 
@@ -42,7 +42,7 @@ struct MatchOptions {
   std::vector<std::string> peers;  ///< Only these besides us; all if empty.
   double seconds = 0.1;            ///< For the timed turns.
   double carefulSeconds = 0.6;     ///< For a second match, on other boxes, where we seem to lead by little.
-  bool all = false;                ///< Measures those too that would be left out.
+  bool all = false;                ///< Measures those too that take far longer, as far as the time allows.
 };
 
 /// Measures all contenders on scenes of the family, no two the same, in turns, and compares their pairs.

@@ -126,7 +126,7 @@ void printSummary(const std::vector<MatchResult>& results) {
     for (std::size_t i = 2; i < result.entries.size(); ++i) ++(result.entries[i].leftOut ? leftOut : measured);
   }
   std::printf(
-      "\n%zu scenes; contenders were measured %zu times, and left out %zu times, since few boxes told that they "
+      "\n%zu scenes; contenders were measured %zu times, and left out %zu times, since fewer boxes told that they "
       "would take eight times as long as find() or longer.\n\n",
       results.size(), measured, leftOut);
   std::printf("%-34s %7s %11s %11s %9s %9s\n", "best contender's time by that of", "scenes", "below 1", "above 3",

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "Random.h"
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 
 namespace allpairs::bench {
@@ -13,7 +14,7 @@ namespace allpairs::bench {
 namespace {
 
 /// Of a scene, ten times what the family asks for: the lists of all contenders are kept at the same time.
-constexpr double kMostPairsKept = 1e8;
+constexpr std::uint64_t kMostPairsKept = 100000000;
 constexpr std::size_t kFewBoxes = 10000;  ///< Have no more, whatever they are.
 
 using generate::Random;
@@ -129,6 +130,17 @@ Point onto(Support support, const Point& point, std::size_t axis) {
   return result;
 }
 
+template <class T>
+bool hasTooMany(const Scene<T>& scene) {
+  OverlapSearch search({.maxPairs = kMostPairsKept});
+  const BoxView first = BoxView::fromRows(scene.first);
+  try {
+    return (scene.areTwo ? search.count(first, BoxView::fromRows(scene.second)) : search.count(first)) > kMostPairsKept;
+  } catch (const LimitExceeded&) {
+    return true;
+  }
+}
+
 }  // namespace
 
 SceneMaker::SceneMaker(const SceneFamily& family) : m_family(family) {
@@ -140,7 +152,7 @@ SceneMaker::SceneMaker(const SceneFamily& family) : m_family(family) {
   const std::size_t dimension = dimensionOf(family.support);
   m_sides = {latticeSide(family.first, dimension), latticeSide(family.second, dimension)};
   m_scale = family.spacing == Spacing::Lattice ? latticeScale() : scaleForPairs();
-  while (m_family.boxes() > kFewBoxes && pairsOfAScene() > kMostPairsKept) m_scale *= 0.75;
+  while (m_family.boxes() > kFewBoxes && hasTooManyPairs()) m_scale *= 0.75;
 }
 
 SceneMaker::Placed SceneMaker::place(const Draw& draw) const {
@@ -223,12 +235,10 @@ double SceneMaker::scaleForPairs() const {
   return std::exp2(0.5 * (low + high));
 }
 
-/// As many as a whole scene has: a sample may tell far fewer.
-double SceneMaker::pairsOfAScene() const {
-  const Scene<float> scene = make<float>(0);
-  OverlapSearch search;
-  const BoxView first = BoxView::fromRows(scene.first);
-  return static_cast<double>(scene.areTwo ? search.count(first, BoxView::fromRows(scene.second)) : search.count(first));
+/// Whether a whole scene does: a sample may tell far fewer pairs. Those of the precision that the scene will have: what
+/// is apart in float64 may be one point in float32.
+bool SceneMaker::hasTooManyPairs() const {
+  return m_family.isFloat64 ? hasTooMany(make<double>(0)) : hasTooMany(make<float>(0));
 }
 
 SceneMaker::Sample SceneMaker::drawSample() const {

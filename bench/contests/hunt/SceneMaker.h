@@ -57,7 +57,7 @@ class SceneMaker {
   [[nodiscard]] std::vector<Placed> placeSet(std::uint64_t number, bool isSecond, std::size_t count) const;
   [[nodiscard]] double latticeScale() const;
   [[nodiscard]] double scaleForPairs() const;
-  [[nodiscard]] double pairsOfAScene() const;
+  [[nodiscard]] bool hasTooManyPairs() const;
   [[nodiscard]] Sample drawSample() const;
   template <class T>
   [[nodiscard]] std::vector<T> rowsOf(const std::vector<Placed>& boxes, double scale, double offset) const;
