@@ -137,6 +137,36 @@ TYPED_TEST(FclQueries, AnInfiniteBoxMeetsAllBoxesAndNoEmptyOne) {
   }
 }
 
+TYPED_TEST(FclQueries, ABoxAtExactlyTheDistanceFromAnEndlessGroundIsGivenByEachQuery) {
+  using S = TypeParam;
+  for (const S floor : {S(-100), -std::numeric_limits<S>::infinity()}) {
+    for (const int count : {3, 100}) {
+      FclBroadPhaseManager<S> manager;
+      std::vector<std::unique_ptr<BoxedObject<S>>> objects;
+      const auto add = [&](S left, S right, S bottom, S top) {
+        objects.push_back(std::make_unique<BoxedObject<S>>(left, right));
+        objects.back()->set(1, bottom, top);
+        manager.registerObject(objects.back().get());
+        return objects.back().get();
+      };
+      auto* const ground = add(S(-1000), S(1000), floor, S(-0.1));  // Rounded, as the distance to the box is.
+      auto* const box = add(S(0), S(1), S(4), S(9));
+      add(S(500), S(501), S(-1), S(0));  // Asked about first: it lies in the ground.
+      for (int i = 3; i < count; ++i) add(S(3 * i), S(3 * i + 1), S(50), S(51));
+      for (int query = 0; query < 40; ++query) {
+        Threshold<S> found{ground->getAABB().distance(box->getAABB()), {}};
+        if (query % 4 == 0)
+          manager.distance(&found, Threshold<S>::call);
+        else
+          manager.distance(ground, &found, Threshold<S>::call);
+        const std::pair<::fcl::CollisionObject<S>*, ::fcl::CollisionObject<S>*> pair =
+            std::minmax<::fcl::CollisionObject<S>*>(ground, box);
+        ASSERT_THAT(found.within(), ::testing::Contains(pair)) << "query " << query << ", ground from " << floor;
+      }
+    }
+  }
+}
+
 TYPED_TEST(FclQueries, RefusesAQueryWithANan) {
   using S = TypeParam;
   BoxedObject<S> bad(std::numeric_limits<S>::quiet_NaN(), S(1));

@@ -130,6 +130,10 @@ class BoxedObject : public ::fcl::CollisionObject<S> {
     this->aabb.min_.setConstant(min);
     this->aabb.max_.setConstant(max);
   }
+  void set(int axis, S min, S max) {
+    this->aabb.min_[axis] = min;
+    this->aabb.max_[axis] = max;
+  }
 };
 
 }  // namespace allpairs::test

@@ -159,6 +159,14 @@ TEST(FailedWorldAllocation, OfAddingOneBoxByOneAddsTheOnesBefore) {
   });
 }
 
+/// It promises not to throw, and there is nothing to release.
+TEST(FailedWorldAllocation, AWorldWithoutBoxesAllocatesNothingToShrink) {
+  test::Fault fault(1, test::Failing::Onwards);
+  World world;
+  EXPECT_TRUE(fault.during([&] { world.shrink(); }));
+  EXPECT_FALSE(fault.happened());
+}
+
 /// Margins that have moved to other memory before the allocation that fails are read there.
 TEST(FailedWorldAllocation, OfAddingBoxesWithMarginsLeavesTheMarginsOfOthers) {
   const std::vector<Box> boxes = someBoxes(60, 67);

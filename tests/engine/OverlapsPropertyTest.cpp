@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "allpairs/Overlaps.h"
@@ -22,6 +23,7 @@ namespace {
 
 using test::anyBox;
 using test::distance;
+using test::extremeBox;
 using test::scene;
 
 OverlapOptions optionsWith(Strategy strategy, double d) {
@@ -51,6 +53,33 @@ RC_GTEST_PROP(OverlapsProperty, AnyFloat32BoxesGiveTheOraclesPairs, ()) {
   const double d = *distance();
   const std::vector<Pair> expected = test::oracle(test::toDouble(boxes), d);
   for (const Strategy strategy : kStrategies) RC_ASSERT(overlaps(boxes, optionsWith(strategy, d)) == expected);
+}
+
+template <class Boxes>
+void testExtremes(const Boxes& boxes, const Boxes& others) {
+  const double d = *distance();
+  const auto exact = [](const Boxes& of) {
+    if constexpr (std::is_same_v<Boxes, std::vector<Box>>)
+      return of;
+    else
+      return test::toDouble(of);
+  };
+  const std::vector<Pair> expected = test::oracle(exact(boxes), d);
+  const std::vector<Pair> between = test::oracleBetween(exact(boxes), exact(others), d);
+  for (const Strategy strategy : kStrategies) {
+    RC_ASSERT(overlaps(boxes, optionsWith(strategy, d)) == expected);
+    RC_ASSERT(overlaps(boxes, others, optionsWith(strategy, d)) == between);
+    RC_ASSERT(countOverlaps(boxes, optionsWith(strategy, d)) == expected.size());
+  }
+}
+
+/// A box from infinity to the largest number is empty, though it is a point in float32.
+RC_GTEST_PROP(OverlapsProperty, BoxesAtTheEndOfTheNumbersGiveTheOraclesPairs, ()) {
+  const auto most = *rc::gen::element<std::size_t>(4, 40, 400);
+  const auto boxes = *rc::gen::container<std::vector<Box>>(*rc::gen::inRange<std::size_t>(0, most), extremeBox());
+  const auto others = *rc::gen::container<std::vector<Box>>(*rc::gen::inRange<std::size_t>(0, most), extremeBox());
+  testExtremes(boxes, others);
+  testExtremes(test::toFloat32(boxes), test::toFloat32(others));
 }
 
 RC_GTEST_PROP(OverlapsProperty, BoxesFarFromTheOriginGiveTheOraclesPairs, ()) {

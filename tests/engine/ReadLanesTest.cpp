@@ -125,12 +125,15 @@ std::vector<double> exactNumbers() {
   return {0.0, 1.0, -1.0, 0.5, -0.5, 3.25, -7.75, 1e6, -1e6, 0x1p-149, -0x1p-149, 0x1p127, -0x1p127};
 }
 
-/// The exact numbers, both infinities, which become the largest finite float32, and that one.
+/// The exact numbers, both infinities, which become the largest finite float32, and that one: often, so that they meet.
 std::vector<double> numbersOfFloats() {
   std::vector<double> numbers = exactNumbers();
-  numbers.push_back(std::numeric_limits<double>::infinity());
-  numbers.push_back(-std::numeric_limits<double>::infinity());
-  numbers.push_back(static_cast<double>(kMost));
+  for (int times = 0; times < 3; ++times) {
+    for (const double sign : {1.0, -1.0}) {
+      numbers.push_back(sign * std::numeric_limits<double>::infinity());
+      numbers.push_back(sign * static_cast<double>(kMost));
+    }
+  }
   return numbers;
 }
 
@@ -155,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(EachInstructionSet, ReadLanes,
 TEST_P(ReadLanes, OfFloat32AreThoseWhereverTheyLie) {
   for (const bool areLanes : {true, false}) {
     AnyBoxes any(areLanes ? exactNumbers() : numbersOfFloats());
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < 60; ++round) {
       const SixteenBoxes boxes = any.next();
       for (const Arrangement& arrangement : kArrangements) {
         const Arranged<float> arranged(boxes, arrangement);

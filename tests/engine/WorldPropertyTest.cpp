@@ -4,6 +4,8 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -28,6 +30,7 @@ struct Life {
   bool margins = false;
   bool filters = false;
   bool jumps = false;
+  bool extremes = false;   ///< Whether some boxes end where the numbers do.
   std::size_t worlds = 0;  ///< World numbers; 0 if boxes are given none.
   double sharedShare = 0.0;
   bool resets = false;  ///< Whether only boxes of one world move in a step.
@@ -38,9 +41,9 @@ struct Life {
 std::ostream& operator<<(std::ostream& out, const Life& life) {
   return out << life.boxes << " boxes, " << life.steps << " steps, moved " << life.movedShare << ", static "
              << life.staticShare << (life.float32 ? ", float32" : ", float64") << (life.margins ? ", margins" : "")
-             << (life.filters ? ", filters" : "") << (life.jumps ? ", jumps" : "") << ", " << life.worlds
-             << " worlds, shared " << life.sharedShare << (life.resets ? ", resets" : "") << ", distance "
-             << life.distance << ", seed " << life.seed;
+             << (life.filters ? ", filters" : "") << (life.jumps ? ", jumps" : "")
+             << (life.extremes ? ", extremes" : "") << ", " << life.worlds << " worlds, shared " << life.sharedShare
+             << (life.resets ? ", resets" : "") << ", distance " << life.distance << ", seed " << life.seed;
 }
 
 /// Leads the life with a world and the oracle side by side.
@@ -87,8 +90,20 @@ class Lives {
       box.max[axis] = round(high);
     }
     if (chance(0.01)) std::swap(box.min[0], box.max[0]);
-    if (chance(0.005)) box.max[below(3)] = std::numeric_limits<double>::infinity();
+    if (chance(0.005)) box.max[below(3)] = test::kInfinity;
+    if (m_life.extremes && chance(0.3)) stretch(box);
     return box;
+  }
+
+  /// To where float32 ends or float64 does, or beyond; now and then it becomes empty.
+  void stretch(Box& box) {
+    constexpr double kMostOfFloat = std::numeric_limits<float>::max();
+    constexpr std::array<double, 3> kMost{kMostOfFloat, test::kInfinity, std::numeric_limits<double>::max()};
+    for (const std::size_t axis : {below(3), below(3)}) {
+      for (double* const bound : {&box.min[axis], &box.max[axis]}) {
+        if (chance(0.5)) *bound = (chance(0.5) ? 1.0 : -1.0) * kMost[below(m_life.float32 ? 2 : 3)];
+      }
+    }
   }
 
   /// Not one after the other, and some as large as can be.
@@ -316,6 +331,7 @@ Life anyLife() {
   life.margins = *rc::gen::arbitrary<bool>();
   life.filters = *rc::gen::arbitrary<bool>();
   life.jumps = *rc::gen::arbitrary<bool>();
+  life.extremes = *rc::gen::element(false, false, true);
   life.worlds = *rc::gen::element<std::size_t>(0, 0, 1, 2, 5, 40);
   life.sharedShare = *rc::gen::element(0.0, 0.02, 0.2);
   life.resets = life.worlds > 1 && *rc::gen::arbitrary<bool>();

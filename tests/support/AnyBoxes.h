@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,16 @@ inline rc::Gen<Box> maybeInverted() {
       std::swap(drawn.first.min[axis], drawn.first.max[axis]);
     }
     return drawn.first;
+  });
+}
+
+/// Boxes at the end of the numbers: where float32 ends and where float64 does, and beyond, often turned over.
+inline rc::Gen<Box> extremeBox() {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  constexpr double kMostOfFloat = std::numeric_limits<float>::max();
+  const auto bound = rc::gen::element(-kInfinity, -kMost, -kMostOfFloat, 0.0, kMostOfFloat, kMost, kInfinity);
+  return rc::gen::map(rc::gen::container<std::array<double, 6>>(bound), [](const std::array<double, 6>& c) {
+    return Box{{c[0], c[1], std::min(c[2], c[5])}, {c[3], c[4], std::max(c[2], c[5])}};
   });
 }
 

@@ -35,48 +35,40 @@ HWY_INLINE FloatVector finite(FloatVector value, bool& same) {
   return inside;
 }
 
-/// Which of sixteen boxes are empty, as bits.
-HWY_INLINE std::uint32_t emptyLanes(const LaneBlock& block) {
+/// Keeps the bounds of boxes within the finite ones. Which boxes are empty is told before that: a bound at infinity may
+/// be inverted with the largest finite number, which is then its own.
+HWY_INLINE void storeFinite(const FloatVector (&bound)[6], LaneBlock& block, std::size_t at, BlockRead& result) {
   const FloatTag d;
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const auto inverted = [&](std::size_t axis) HWY_ATTR {
-      return hn::Gt(hn::Load(d, &block.bound[axis][i]), hn::Load(d, &block.bound[axis + 3][i]));
-    };
-    bits |= bitsOf(d, hn::Or(hn::Or(inverted(0), inverted(1)), inverted(2))) << i;
-  }
-  return bits;
+  const auto inverted = [&](std::size_t axis) HWY_ATTR { return hn::Gt(bound[axis], bound[axis + 3]); };
+  result.emptyLanes |= bitsOf(d, hn::Or(hn::Or(inverted(0), inverted(1)), inverted(2))) << at;
+  for (std::size_t k = 0; k < 6; ++k) hn::StoreU(finite(bound[k], result.exact), d, &block.bound[k][at]);
 }
 
 #if HWY_TARGET == HWY_SCALAR
 
 /// One box from its row of six.
-HWY_INLINE bool readRows(const float* rows, LaneBlock& block, std::size_t at) {
-  const FloatTag d;
-  bool same = true;
-  for (std::size_t row = 0; row < 6; ++row)
-    hn::StoreU(finite(hn::LoadU(d, rows + row), same), d, &block.bound[row][at]);
-  return same;
+HWY_INLINE void readRows(const float* rows, LaneBlock& block, std::size_t at, BlockRead& result) {
+  FloatVector bound[6];
+  for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::LoadU(FloatTag(), rows + k);
+  storeFinite(bound, block, at, result);
 }
 
 #else
 
-/// As many boxes as a vector has lanes, from rows of six that follow each other; returns whether they are finite.
-HWY_INLINE bool readRows(const float* rows, LaneBlock& block, std::size_t at) {
+/// As many boxes as a vector has lanes, from rows of six that follow each other.
+HWY_INLINE void readRows(const float* rows, LaneBlock& block, std::size_t at, BlockRead& result) {
   const FloatTag d;
   // Three values make a corner; corners alternate between minimum and maximum.
   FloatVector corners[2][3];
   for (std::size_t half = 0; half < 2; ++half) {
     hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d) * half, corners[half][0], corners[half][1], corners[half][2]);
   }
-  bool same = true;
+  FloatVector bound[6];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto min = hn::ConcatEven(d, corners[1][axis], corners[0][axis]);
-    const auto max = hn::ConcatOdd(d, corners[1][axis], corners[0][axis]);
-    hn::Store(finite(min, same), d, &block.bound[axis][at]);
-    hn::Store(finite(max, same), d, &block.bound[axis + 3][at]);
+    bound[axis] = hn::ConcatEven(d, corners[1][axis], corners[0][axis]);
+    bound[axis + 3] = hn::ConcatOdd(d, corners[1][axis], corners[0][axis]);
   }
-  return same;
+  storeFinite(bound, block, at, result);
 }
 
 #endif
@@ -84,8 +76,7 @@ HWY_INLINE bool readRows(const float* rows, LaneBlock& block, std::size_t at) {
 /// Sixteen boxes from rows that follow each other.
 BlockRead readRun32(const float* rows, LaneBlock& block) {
   BlockRead result;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) result.exact &= readRows(rows + 6 * i, block, i);
-  result.emptyLanes = emptyLanes(block);
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) readRows(rows + 6 * i, block, i, result);
   return result;
 }
 
@@ -134,14 +125,12 @@ HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
 }
 
 BlockRead readFloat32(const BoxPlaces<float>& places, LaneBlock& block) {
-  const FloatTag d;
   BlockRead result;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) {
     FloatVector bound[6];
     loadBoxes(places, i, bound);
-    for (std::size_t k = 0; k < 6; ++k) hn::Store(finite(bound[k], result.exact), d, &block.bound[k][i]);
+    storeFinite(bound, block, i, result);
   }
-  result.emptyLanes = emptyLanes(block);
   return result;
 }
 

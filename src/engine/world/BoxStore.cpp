@@ -146,8 +146,9 @@ void BoxStore::shrink() noexcept {
   m_filters.resize(bound);
   m_flags.resize(bound);
   m_marks.resize(bound);
-  m_touched.resize(bound + 1);
-  m_stale.resize(bound + 1);
+  // Before a box was added they are empty, and this must not allocate.
+  m_touched.resize(std::min(m_touched.size(), bound + 1));
+  m_stale.resize(std::min(m_stale.size(), bound + 1));
   const auto trim = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
   trim(m_rows32, m_rows64, m_margins, m_worlds, m_filters, m_flags, m_marks, m_touched, m_stale, m_resettled);
   if (m_removed.empty()) trim(m_free, m_removed);  // Else there is room for them among the free ones, for endStep().

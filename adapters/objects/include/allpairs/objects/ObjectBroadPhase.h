@@ -373,14 +373,15 @@ class ObjectBroadPhase {
     return found.empty() ? kNoBox : found.front().id;
   }
 
-  /// Holds all boxes that the host finds within a distance, however it rounds.
+  /// Holds all boxes that the host finds within a distance, however it rounds: by the finite bounds, which it takes gaps
+  /// from.
   [[nodiscard]] static Box widened(const Bounds& bounds, S distance) {
     Box box = toBox(bounds);
     const auto by = static_cast<double>(distance);
+    const auto magnitude = [](double bound) { return std::isfinite(bound) ? std::abs(bound) : 0.0; };
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double most = std::max({std::abs(box.min[axis]), std::abs(box.max[axis]), by});
-      const double slack =
-          std::isfinite(most) ? 8.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most : 0;
+      const double most = std::max({magnitude(box.min[axis]), magnitude(box.max[axis]), magnitude(by)});
+      const double slack = 8.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;
       box.min[axis] -= by + slack;
       box.max[axis] += by + slack;
     }
