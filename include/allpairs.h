@@ -428,7 +428,7 @@ typedef struct allpairs_query_filter {
 } allpairs_query_filter;
 
 /// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. Null filter: all
-/// boxes.
+/// categories and masks. No query finds a box of category 0 or mask 0.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
                                                                const allpairs_query_filter* filter, allpairs_ids* ids);
 

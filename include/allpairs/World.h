@@ -26,8 +26,8 @@ namespace allpairs {
 /// of kEveryWorld, such as the ground, are in each. Without numbers all boxes are of world 0.
 ///
 /// Geometry:  as in OverlapSearch: boxes are closed; empty boxes overlap nothing; infinite bounds are allowed. Bounds
-///            given in float64 are exact. A margin is part of a pair's distance, and in queries enlarges the box
-///            itself.
+///            given in float64 are exact. A margin is part of a pair's distance, and in rays, sweeps and
+///            findNearest() enlarges the box itself.
 /// Ids:       ids of removed boxes are reused, but only after the step that reports that their pairs have ended, so
 ///            that within the lists of a step an id means one box. Ids of boxes added to a new world are consecutive.
 /// Bad input: a box with a NaN, or an id that is not in the world, throws InvalidBox, whose index() is the position in
@@ -147,8 +147,11 @@ class World {
   /// Filters apply as within a world, except that two static boxes are tested too; `accept` of this world is called.
   [[nodiscard]] std::vector<Pair> findBetween(const World& other) const;
 
-  /// The boxes that, enlarged by their own margins, overlap a box: by ascending id.
+  /// The boxes that would be a pair with a box, with their margins as its distance: by ascending id.
   ///
+  /// Geometry: the margin is added to a maximum, the box's or the other's, in double, as in a pair. Rays, sweeps and
+  ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a negative
+  ///           margin turns over is hit by none of them, and overlaps what holds all between its bounds.
   /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds
   ///       are searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;

@@ -169,7 +169,7 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)
     if array.dtype.kind not in "iub":
-        raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes float32 or float64")
+        raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes numbers that float32 or float64 holds")
     if array.dtype.itemsize == 8 and (array > _EXACT_INTEGERS).any() | (array < -_EXACT_INTEGERS).any():
         raise InvalidArgument(f"{name} has integers beyond 2**53, which float64 does not hold")
     return array.astype(np.float64)

@@ -34,6 +34,8 @@ def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
     array = _array("offsets", value)
     if array.ndim != 1:
         raise InvalidArgument(f"offsets has shape {array.shape}; it takes (worlds + 1,)")
+    if array.size == 0:
+        array = array.astype(np.uint64)
     if array.dtype.kind not in "iu":
         raise InvalidArgument(f"offsets has dtype {array.dtype}; it takes integers")
     if array.dtype.kind == "i" and (array < 0).any():

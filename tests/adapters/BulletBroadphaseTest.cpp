@@ -248,6 +248,20 @@ TEST(BulletBroadphase, RaysMeetBoxesFromNearToFarAndAtOnceAfterTheyMoved) {
   for (auto* proxy : {far, near, aside}) broadphase.destroyProxy(proxy, nullptr);
 }
 
+TEST(BulletBroadphase, ARayThatEndsInABoxMeetsItThoughItsLengthIsRounded) {
+  BulletBroadphase broadphase;
+  auto* const box = broadphase.createProxy({btScalar(0.5), -1, -1}, {btScalar(0.9), 1, 1}, 0, nullptr, 1, -1, nullptr);
+  const auto hits = [&](const btVector3& from, const btVector3& to, btScalar reach) {
+    Collector collector;
+    broadphase.rayTest(from, to, collector, {-reach, 0, 0}, {reach, 0, 0});
+    return collector.found;
+  };
+  EXPECT_THAT(hits({-16777216, 0, 0}, {1, 0, 0}, 0), ElementsAre(box));  // float32 has no 16777217
+  EXPECT_THAT(hits({-16777216, 0, 0}, {btScalar(0.4), 0, 0}, btScalar(0.25)), ElementsAre(box));
+  EXPECT_THAT(hits({-16777216, 0, 0}, {btScalar(0.4), 0, 0}, 0), IsEmpty());
+  broadphase.destroyProxy(box, nullptr);
+}
+
 TEST(BulletBroadphase, ABoxMeetsTheProxiesThatItTouches) {
   Crowd crowd;
   for (int i = 0; i < 200; ++i) crowd.add();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -162,6 +163,23 @@ TEST(World, AcceptIsAskedAgainAboutTouchedBoxes) {
   EXPECT_THAT(world.step().ended, ElementsAre(Pair{a, b}));
 }
 
+TEST(World, AStepThatThrewLeavesThePairsOfTheLastWithoutChanges) {
+  bool fails = false;
+  WorldOptions options;
+  options.accept = [&](BoxId, BoxId) { return fails ? throw std::runtime_error("refused") : true; };
+  World world(options);
+  const BoxId a = world.add(cube(0, 0, 0));
+  const BoxId b = world.add(cube(0, 0, 0));
+  EXPECT_THAT(world.step().began, ElementsAre(Pair{a, b}));
+  fails = true;
+  world.move(b, cube(0.5, 0, 0));
+  EXPECT_THROW(static_cast<void>(world.step()), std::runtime_error);
+  EXPECT_THAT(world.result().pairs, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(world.result().began, IsEmpty());
+  EXPECT_THAT(world.result().persisted, ElementsAre(Pair{a, b}));
+  EXPECT_THAT(world.result().ended, IsEmpty());
+}
+
 TEST(World, UnknownIdsAndNansAreNamedAndNothingIsDone) {
   World world;
   const BoxId a = world.add(cube(0, 0, 0));
@@ -171,7 +189,7 @@ TEST(World, UnknownIdsAndNansAreNamedAndNothingIsDone) {
   const std::vector<Box> boxes(3, cube(1, 1, 1));
   EXPECT_EQ(invalidBox([&] { world.move(unknown, boxes); }, "17"), 2U);
   EXPECT_EQ(invalidBox([&] { world.remove(unknown); }, "17"), 2U);
-  EXPECT_EQ(invalidBox([&] { world.remove(twice); }, "id 1"), 2U);
+  EXPECT_EQ(invalidBox([&] { world.remove(twice); }, "id 1, entry 2 of the ids, was named before"), 2U);
   EXPECT_EQ(invalidBox([&] { world.invalidate(unknown); }, "17"), 2U);
   EXPECT_EQ(invalidBox([&] { world.setProperties(17, {}); }, "17"), 0U);
   EXPECT_EQ(invalidBox([&] { static_cast<void>(world.box(17)); }, "17"), 0U);

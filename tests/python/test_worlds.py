@@ -131,9 +131,8 @@ def test_arrays_of_others_are_taken():
     ],
 )
 def test_wrong_offsets_are_named(offsets, message):
-    values = np.array(offsets, dtype=np.int64) if offsets == [] else offsets
     with pytest.raises(allpairs.InvalidArgument, match=message):
-        allpairs.overlaps_in_worlds(np.zeros((10, 6)), offsets=values)
+        allpairs.overlaps_in_worlds(np.zeros((10, 6)), offsets=offsets)
 
 
 def test_wrong_shapes_are_named():

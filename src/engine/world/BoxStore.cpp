@@ -13,14 +13,19 @@
 namespace allpairs::engine {
 namespace {
 
+std::string entryOfIds(std::size_t index) { return ", entry " + std::to_string(index) + " of the ids"; }
+
 [[noreturn]] void throwUnknown(std::size_t index, BoxId id) {
-  throw InvalidBox(
-      index, "there is no box with the id " + std::to_string(id) + ", entry " + std::to_string(index) + " of the ids");
+  throw InvalidBox(index, "there is no box with the id " + std::to_string(id) + entryOfIds(index));
 }
 
-void checkLength(std::size_t values, const char* what, std::size_t boxes) {
-  if (values == boxes) return;
-  throw InvalidArgument(std::to_string(values) + ' ' + what + " for " + std::to_string(boxes) + " boxes");
+[[noreturn]] void throwRepeated(std::size_t index, BoxId id) {
+  throw InvalidBox(index, "the box with the id " + std::to_string(id) + entryOfIds(index) + ", was named before");
+}
+
+void checkLength(std::size_t values, const char* what, std::size_t others, const char* whatOthers = "boxes") {
+  if (values == others) return;
+  throw InvalidArgument(std::to_string(values) + ' ' + what + " for " + std::to_string(others) + ' ' + whatOthers);
 }
 
 void checkProperties(std::span<const BoxProperties> properties, std::size_t boxes, bool mayBeNone) {
@@ -224,7 +229,7 @@ void BoxStore::move(BoxId id, const Box& box) {
 }
 
 void BoxStore::move(std::span<const BoxId> ids, const BoxView& boxes) {
-  checkLength(boxes.size(), "boxes", ids.size());
+  checkLength(boxes.size(), "boxes", ids.size(), "ids");
   check(ids);
   if (needsFloat64(boxes)) prepare(idBound(), {.float64 = true});
   if (!m_isFloat64 && !boxes.isFloat64() && boxes.float32().isPacked()) {
@@ -263,8 +268,7 @@ void BoxStore::remove(std::span<const BoxId> ids) {
     m_flags[ids[known++]] |= Leaving;
   }
   for (std::size_t i = 0; i < known; ++i) m_flags[ids[i]] &= static_cast<std::uint8_t>(~Leaving);
-  // Unknown, or repeated.
-  if (known < ids.size()) throwUnknown(known, ids[known]);
+  if (known < ids.size()) contains(ids[known]) ? throwRepeated(known, ids[known]) : throwUnknown(known, ids[known]);
   prepareRemoval(ids.size());
   for (const BoxId id : ids) removeOne(id);
 }

@@ -40,8 +40,8 @@ class PairHistory {
         m_buckets(memory),
         m_sort(memory) {}
 
-  /// Leaves of the result the pairs only, until a step completes.
-  void dropChanges() noexcept { m_result = {m_result.pairs, {}, {}, {}}; }
+  /// Leaves of the result the pairs without changes, until a step completes.
+  void dropChanges() noexcept { m_result = {m_result.pairs, {}, m_result.pairs, {}}; }
 
   /// Starts a step, without pairs. All ids are below the bound. `workers` is the number of concurrent workers.
   void begin(std::size_t idBound, std::size_t workers, Joined looksFor);

@@ -122,7 +122,14 @@ class BulletBroadphase : public btBroadphaseInterface {
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
-    const BoxSweep sweep{toBox(rayFrom + aabbMin, rayFrom + aabbMax), toArray(rayTo - rayFrom)};
+    BoxSweep sweep;
+    for (int axis = 0; axis < 3; ++axis) {  // Bullet's own sums are of its precision, and may miss a face.
+      const auto from = static_cast<double>(rayFrom[axis]);
+      const auto k = static_cast<std::size_t>(axis);
+      sweep.box.min[k] = from + static_cast<double>(aabbMin[axis]);
+      sweep.box.max[k] = from + static_cast<double>(aabbMax[axis]);
+      sweep.motion[k] = static_cast<double>(rayTo[axis]) - from;
+    }
     for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
   }
 
