@@ -231,6 +231,48 @@ TEST(FclStates, ABodyOfWhichOnlyAPartLiesInAnotherIsNotContained) {
   EXPECT_EQ(examine(*outer, balls).state, ExactState::Clash);
 }
 
+/// All faces of what the two share are faces of both: no point of one surface lies in the other.
+TEST(FclStates, ASolidThatAnotherHasBesidesMoreIsContained) {
+  const auto cube = cuboid({0, 0, 0}, {1, 1, 1});
+  const auto beside = cuboid({4, 0, 0}, {5, 1, 1});
+  const auto atAnEdge = cuboid({1, 1, 0}, {2, 2, 1});
+  const auto above = cuboid({0, 0, 7}, {1, 1, 8});
+  for (const double angle : {0.0, 0.3}) {
+    const auto one = turned(*cube, angle);
+    const auto two = turned(*together({cube.get(), beside.get()}), angle);
+    const auto joined = turned(*together({cube.get(), atAnEdge.get()}), angle);
+    const auto other = turned(*together({above.get(), cube.get()}), angle);
+    for (const auto& [first, second] : {std::pair(&one, &two), {&two, &one}, {&one, &joined}, {&joined, &one}}) {
+      const auto pair = examine(**first, **second);
+      EXPECT_EQ(pair.state, ExactState::Contained);
+      EXPECT_THAT(pair.depth, ::testing::Optional(::testing::DoubleNear(0.5, 1e-12)));
+    }
+    EXPECT_EQ(examine(*two, *other).state, ExactState::Clash) << "each has more";
+    const auto faces = cuboid({1, 0, 0}, {4, 1, 1});
+    EXPECT_EQ(examine(*two, *turned(*faces, angle)).state, ExactState::Touching) << "between them";
+  }
+}
+
+TEST(FclStates, APlugThatReachesIntoTheSolidAroundItElsewhereIsNotContained) {
+  const auto block = cuboid({0, 0, 0}, {10, 10, 10});
+  const auto hollow = cuboid({4, 4, 4}, {6, 6, 6}, true);
+  const auto outer = together({block.get(), hollow.get()});
+  const auto plug = cuboid({4, 4, 4}, {6, 6, 6});
+  const auto within = cuboid({1, 1, 1}, {2, 2, 2});
+  const auto both = together({plug.get(), within.get()});
+  EXPECT_EQ(examine(*both, *outer).state, ExactState::Clash);
+  EXPECT_EQ(examine(*outer, *both).state, ExactState::Clash);
+}
+
+TEST(FclStates, EachOfTwoPartsInOnePlaceIsWithinTheOther) {
+  SphereModel one("one", {{0, 0, 0}}, {}, 1.0);
+  SphereModel two("two", {{0, 0, 0}, {10, 0, 0}}, {}, 1.0);
+  SphereModel other("other", {{-10, 0, 0}, {0, 0, 0}}, {}, 1.0);
+  EXPECT_EQ(examine(one, two).state, ExactState::Contained);
+  EXPECT_EQ(examine(two, one).state, ExactState::Contained);
+  EXPECT_EQ(examine(two, other).state, ExactState::Clash);
+}
+
 TEST(FclStates, ABallHoldsWhatNoPointOfReachesOutOfIt) {
   SphereModel round("round", {{0, 0, 0}}, {2.0});
   EXPECT_EQ(examine(round, *cuboid({-1, -1, -1}, {1, 1, 1})).state, ExactState::Contained);

@@ -6,12 +6,6 @@
 #include <numbers>
 
 namespace allpairs::exact {
-namespace {
-
-constexpr double kSameAngle = 1e-6;  // faces that are flat in float32 are as flat as that
-
-}  // namespace
-
 Around::Around(const Point& middle, const Point& along, double tolerance)
     : m_middle(middle), m_along(along), m_u(along.unitOrthogonal()), m_v(along.cross(m_u)), m_tolerance(tolerance) {}
 

@@ -7,6 +7,9 @@
 
 namespace allpairs::exact {
 
+/// Faces that are flat in float32 are as flat as that.
+inline constexpr double kSameAngle = 1e-6;
+
 /// The directions in which two surfaces go on from a line that both have.
 class Around {
  public:

@@ -11,6 +11,7 @@
 #include "Around.h"
 #include "Deepest.h"
 #include "Enclosure.h"
+#include "Flush.h"
 #include "Nearest.h"
 #include "PointTriangle.h"
 #include "TriangleMeeting.h"
@@ -72,6 +73,7 @@ class Look {
     measure();
     findTriangles();
     findDepth();
+    lookBesideFlushPlaces();
     findWithin();
     if (!m_meeting.surfacesMeet && !m_meeting.isDeep) return std::move(m_meeting);
     m_meeting.distance = 0.0;
@@ -101,6 +103,7 @@ class Look {
       if (!meeting) continue;
       m_meeting.contactPoints.push_back(meeting->middle);
       if (meeting->ends[0] != meeting->ends[1]) m_meeting.contactLines.push_back(meeting->ends);
+      noteIfFlush(pair, *meeting);
       m_crossing = std::max(m_crossing, meeting->crossing);
       if (!m_first.hasArea() || !m_second.hasArea()) m_passing = std::max(m_passing, meeting->passing);
     }
@@ -109,6 +112,13 @@ class Look {
       m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
     }
     m_meeting.contactCount = std::max<std::size_t>(m_pairs.size(), 1);
+  }
+
+  void noteIfFlush(const TrianglePair& pair, const TriangleMeeting& meeting) {
+    const Point normal = directionOf(normalOf(m_first.triangles()[pair.first]));
+    const Point other = directionOf(normalOf(m_second.triangles()[pair.second]));
+    if (normal.isZero() || other.isZero() || normal.cross(other).norm() > kSameAngle) return;
+    m_flush.push_back({meeting.middle, normal});
   }
 
   /// The lines in which triangles cross, each once.
@@ -172,12 +182,21 @@ class Look {
     if (isInside && m_coreDistance > m_radius + m_tolerance) m_meeting.surfacesMeet = false;
   }
 
+  /// Where all surfaces that bound what the two share lie on each other, no point of one lies in the other.
+  void lookBesideFlushPlaces() {
+    if (m_flush.empty() || m_first.volume() == Volume::None || m_second.volume() == Volume::None) return;
+    m_sides = lookBesideFlush(m_first, m_second, m_flush, m_sameTolerance);
+    if (m_meeting.isDeep || m_sides.common.depth <= m_sameTolerance) return;
+    m_meeting.isDeep = true;
+    takeDeeper(m_sides.isOfSecond ? m_sides.common : Deepest(), m_sides.isOfSecond ? Deepest() : m_sides.common);
+  }
+
   void findWithin() {
     if (!m_meeting.isDeep || m_crossing > m_sameTolerance || m_passing > m_sameTolerance) return;
     // Around a cavity of one that the other fills, all of the other's surface is within, and not all of its volume.
-    m_meeting.isFirstWithin =
-        !m_reachesIntoFirst && hasRoom(m_first, m_second) && isWithin(m_second, m_first, m_sameTolerance);
-    m_meeting.isSecondWithin = !m_meeting.isFirstWithin && !m_reachesIntoSecond && hasRoom(m_second, m_first) &&
+    m_meeting.isFirstWithin = !m_reachesIntoFirst && !m_sides.isFirstOut && hasRoom(m_first, m_second) &&
+                              isWithin(m_second, m_first, m_sameTolerance);
+    m_meeting.isSecondWithin = !m_reachesIntoSecond && !m_sides.isSecondOut && hasRoom(m_second, m_first) &&
                                isWithin(m_first, m_second, m_sameTolerance);
   }
 
@@ -240,6 +259,8 @@ class Look {
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
   bool m_reachesIntoSecond = false;
   std::vector<TrianglePair> m_pairs;
+  std::vector<FlushPlace> m_flush;
+  FlushSides m_sides;
   Meeting m_meeting;
 };
 

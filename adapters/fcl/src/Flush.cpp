@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "Flush.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "Inside.h"
+#include "Nearest.h"
+
+namespace allpairs::exact {
+namespace {
+
+constexpr std::size_t kMostPlaces = 64;
+constexpr std::size_t kMostTests = std::size_t{1} << 21;  // each is a triangle that a ray is tested against
+
+/// How far along a ray a triangle is, infinite if the ray passes it by.
+double wayTo(const Corners& corners, const Point& from, const Point& direction) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const Point u = corners[1] - corners[0];
+  const Point v = corners[2] - corners[0];
+  const Point across = direction.cross(v);
+  const double volume = u.dot(across);
+  if (volume == 0.0) return kNever;
+  const Point off = from - corners[0];
+  const double a = off.dot(across) / volume;
+  const Point other = off.cross(u);
+  const double b = direction.dot(other) / volume;
+  return a < 0.0 || b < 0.0 || a + b > 1.0 ? kNever : v.dot(other) / volume;
+}
+
+/// From a place to the next triangle of a part that is not there already.
+double wayToNext(const ExactPart& part, const Point& from, const Point& direction, double tolerance) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Corners& corners : part.triangles()) {
+    const double way = wayTo(corners, from, direction);
+    if (way > tolerance) least = std::min(least, way);
+  }
+  return least;
+}
+
+bool isAmong(const std::vector<Point>& sorted, const Point& point) {
+  return std::binary_search(sorted.begin(), sorted.end(), point,
+                            [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); });
+}
+
+}  // namespace
+
+FlushSides lookBesideFlush(const ExactPart& first, const ExactPart& second, const std::vector<FlushPlace>& places,
+                           double tolerance) {
+  const std::size_t triangles = first.triangles().size() + second.triangles().size();
+  const std::size_t most = std::clamp<std::size_t>(kMostTests / (2 * triangles), 4, kMostPlaces);
+  const std::size_t stride = (places.size() + most - 1) / most;
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < places.size(); i += stride) {
+    for (const Point& direction : {places[i].normal, Point(-places[i].normal)}) {
+      const double way = std::min(wayToNext(first, places[i].point, direction, tolerance),
+                                  wayToNext(second, places[i].point, direction, tolerance));
+      if (std::isfinite(way)) points.push_back(places[i].point + (way / 2.0) * direction);
+    }
+  }
+  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); });
+  const std::vector<Point> inFirst = pointsInside(first, points);
+  const std::vector<Point> inSecond = pointsInside(second, points);
+  FlushSides sides;
+  for (const Point& point : points) {
+    const bool isInFirst = isAmong(inFirst, point);
+    const bool isInSecond = isAmong(inSecond, point);
+    if (!isInFirst && !isInSecond) continue;
+    const Nearest ofFirst = nearest(first, point);
+    const Nearest ofSecond = nearest(second, point);
+    if (!isInSecond) {
+      sides.isFirstOut = sides.isFirstOut || ofSecond.distance > tolerance;
+    } else if (!isInFirst) {
+      sides.isSecondOut = sides.isSecondOut || ofFirst.distance > tolerance;
+    } else if (const double depth = std::min(ofFirst.distance, ofSecond.distance); depth > sides.common.depth) {
+      sides.isOfSecond = ofSecond.distance <= ofFirst.distance;
+      const Nearest& nearer = sides.isOfSecond ? ofSecond : ofFirst;
+      sides.common = {.found = true, .depth = depth, .point = point, .surface = nearer.onFirst};
+    }
+  }
+  return sides;
+}
+
+}  // namespace allpairs::exact
