@@ -213,6 +213,23 @@ TEST(GltfMesh, SparseAndQuantizedAccessorsStripsFansAndMatricesAreRead) {
   EXPECT_EQ(boxOf(*scene.models[2]), (Box{{5, 6, 7}, {7, 8, 7}}));
 }
 
+TEST(GltfMesh, OfStripsAndFansNothingIsThereThatOnlyLeadsToTheNextPiece) {
+  const TempFolder folder;
+  folder.write("a.bin", std::string("\0\0\0\0\x7f\0\0\0\0\x7f\0\0\x7f\x7f\0\0\0\1\2\2\3\3\1\0\0\1\1\2\3\0\0\0", 32));
+  const std::string text = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 5},
+{"attributes": {"POSITION": 0}, "indices": 2, "mode": 6}]}],
+"accessors": [{"bufferView": 0, "componentType": 5120, "count": 4, "type": "VEC3"},
+{"bufferView": 1, "componentType": 5121, "count": 7, "type": "SCALAR"},
+{"bufferView": 1, "byteOffset": 8, "componentType": 5121, "count": 5, "type": "SCALAR"}],
+"bufferViews": [{"buffer": 0, "byteLength": 16, "byteStride": 4}, {"buffer": 0, "byteOffset": 16, "byteLength": 16}],
+"buffers": [{"byteLength": 32, "uri": "a.bin"}]})";
+  const auto scene = scene::readInput(folder.write("a.gltf", text));
+  const auto& model = dynamic_cast<const collision::TriangleModel&>(*scene.models[0]);
+  using Triangles = std::vector<collision::TriangleModel::Triangle>;
+  EXPECT_EQ(model.triangles(), (Triangles{{0, 1, 2}, {4, 5, 6}, {4, 6, 7}}));
+}
+
 TEST(GltfMesh, ExtensionsThatAreNotReadAreNamed) {
   const TempFolder folder;
   folder.write("a.bin", std::string(36, '\0'));

@@ -60,6 +60,17 @@ TEST(PlyMesh, EdgesAreLinesStripsAreTrianglesAndVerticesAlonePoints) {
   EXPECT_EQ(namesOf(read(ascii(kVertices, body))), "mesh.ply TPointModel 4\n");
 }
 
+TEST(PlyMesh, OfStripsNothingIsThereThatOnlyLeadsToTheNextPiece) {
+  const std::string body = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 0 0\n8 0 0\n9 1 0\n";
+  const auto scene =
+      read(ascii("element vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element tristrips 1\nproperty list int int vertex_indices\n",
+                 body + "9 0 1 2 3 3 4 4 5 6\n"));
+  const auto& model = dynamic_cast<const collision::TriangleModel&>(*scene.models[0]);
+  using Triangles = std::vector<collision::TriangleModel::Triangle>;
+  EXPECT_EQ(model.triangles(), (Triangles{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}})) << "and all face one way";
+}
+
 TEST(PlyMesh, FilesCutAnywhereAreRefused) {
   const TempFolder folder;
   for (const std::string& bytes : {quad(), binary(false)}) {

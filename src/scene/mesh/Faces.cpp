@@ -167,6 +167,11 @@ class EarCutter {
 
 }  // namespace
 
+void addDrawn(MeshObject& object, const std::array<std::uint32_t, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  if (a != b && b != c && c != a) object.triangles.push_back(triangle);
+}
+
 void addFace(MeshObject& object, std::span<const std::uint32_t> corners) {
   if (corners.size() == 1) object.points.push_back(corners[0]);
   if (corners.size() == 2) object.lines.push_back({corners[0], corners[1]});

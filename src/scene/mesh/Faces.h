@@ -11,6 +11,10 @@
 
 namespace allpairs::scene {
 
+/// Adds a triangle of a strip or a fan, unless two of its corners are one: such ones lead from piece to piece, and
+/// nothing is drawn of them.
+void addDrawn(MeshObject& object, const std::array<std::uint32_t, 3>& triangle);
+
 /// Adds a point, a line, or the triangles of a fan around the first corner. Where a face is not convex, some of them may
 /// lie outside of it until cutFan() has exchanged them.
 void addFace(MeshObject& object, std::span<const std::uint32_t> corners);

@@ -192,7 +192,8 @@ class PlyReader {
     m_fans.push_back({m_object.triangles.size() - triangles, triangles, m_place});
   }
 
-  /// Each vertex of a strip makes a triangle with the two before it; -1 begins another strip.
+  /// Each vertex of a strip makes a triangle with the two before it, which turn the other way in every second one; -1
+  /// begins another strip.
   void addToStrip(double value) {
     if (value == -1.0) {
       m_corners.clear();
@@ -200,7 +201,9 @@ class PlyReader {
     }
     m_corners.push_back(index(value));
     const std::size_t count = m_corners.size();
-    if (count >= 3) m_object.triangles.push_back({m_corners[count - 3], m_corners[count - 2], m_corners[count - 1]});
+    if (count < 3) return;
+    const std::size_t turn = count % 2 == 0 ? 1 : 0;
+    addDrawn(m_object, {m_corners[count - 3 + turn], m_corners[count - 2 - turn], m_corners[count - 1]});
   }
 
   /// The vertices may come after the faces; whether there are as many as named is asked at the end.

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "mesh/Assemblies.h"
+#include "mesh/Faces.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Transform.h"
 #include "mesh/gltf/GltfDocument.h"
@@ -37,10 +38,13 @@ class ElementBuilder {
     if (mode == Mode::Lines) forEach(count / 2, [this](std::size_t i) { line(2 * i, 2 * i + 1); });
     if (mode == Mode::LineStrip || mode == Mode::LineLoop) forEach(less(1), [this](std::size_t i) { line(i, i + 1); });
     if (mode == Mode::LineLoop && count > 1) line(count - 1, 0);
-    if (mode == Mode::Triangles) forEach(count / 3, [this](std::size_t i) { triangle(3 * i, 3 * i + 1, 3 * i + 2); });
+    if (mode == Mode::Triangles)
+      forEach(count / 3,
+              [this](std::size_t i) { m_object.triangles.push_back(triangle(3 * i, 3 * i + 1, 3 * i + 2)); });
     if (mode == Mode::TriangleStrip)
-      forEach(less(2), [this](std::size_t i) { triangle(i + i % 2, i + 1 - i % 2, i + 2); });
-    if (mode == Mode::TriangleFan) forEach(less(2), [this](std::size_t i) { triangle(0, i + 1, i + 2); });
+      forEach(less(2), [this](std::size_t i) { addDrawn(m_object, triangle(i + i % 2, i + 1 - i % 2, i + 2)); });
+    if (mode == Mode::TriangleFan)
+      forEach(less(2), [this](std::size_t i) { addDrawn(m_object, triangle(0, i + 1, i + 2)); });
   }
 
  private:
@@ -52,8 +56,8 @@ class ElementBuilder {
   }
 
   void line(std::size_t a, std::size_t b) { m_object.lines.push_back({m_corners[a], m_corners[b]}); }
-  void triangle(std::size_t a, std::size_t b, std::size_t c) {
-    m_object.triangles.push_back({m_corners[a], m_corners[b], m_corners[c]});
+  [[nodiscard]] std::array<std::uint32_t, 3> triangle(std::size_t a, std::size_t b, std::size_t c) const {
+    return {m_corners[a], m_corners[b], m_corners[c]};
   }
 
   MeshObject& m_object;
