@@ -8,6 +8,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/collision/DiscreteIntersection.h"
 #include "input/ModelNames.h"
+#include "input/SceneFrame.h"
 
 namespace allpairs::scene {
 namespace {
@@ -62,13 +63,13 @@ void requireOneSearch(const Scene& scene) {
 
 /// Leaves the models' names as they are.
 void moveAll(Scene& scene, Scene& more) {
+  const std::filesystem::path firstFile = more.files.empty() ? std::filesystem::path() : more.files.front();
   moveSources(scene, more);
   moveBehind(scene.remarks, more.remarks);
   moveBehind(scene.warnings, more.warnings);
   chooseMethod(scene, more);
   chooseRegion(scene, more);
-  if (scene.up == 0) scene.up = more.up;
-  if (!scene.metresPerUnit) scene.metresPerUnit = more.metresPerUnit;
+  noteFrame(scene, firstFile, more.up, more.metresPerUnit);
   moveBehind(scene.models, more.models);
   moveBehind(scene.owners, more.owners);
 }

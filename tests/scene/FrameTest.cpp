@@ -96,5 +96,23 @@ TEST(Frame, TheFirstInputThatSaysWhatIsUpSaysItForAll) {
   EXPECT_EQ(scene.metresPerUnit, 0.001);
 }
 
+TEST(Frame, FilesThatSayOtherwiseThanThoseBeforeThemAreNamedOnce) {
+  const TempFolder folder;
+  folder.write("1.ifc", kIfc);
+  folder.write("2.gltf", kTriangleInGltf);
+  folder.write("3.dae", collada("<up_axis>X_UP</up_axis>"));
+  folder.write("4.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const scene::Scene scene = scene::readInput(folder.path());
+  ASSERT_EQ(scene.warnings.size(), 2U);
+  EXPECT_EQ(scene.warnings[0].file.filename(), "2.gltf");
+  EXPECT_EQ(scene.warnings[0].subject, "axes");
+  EXPECT_EQ(scene.warnings[0].reason,
+            "y points up in this file, z in a file before it; coordinates are compared as they are");
+  EXPECT_EQ(scene.warnings[1].subject, "unit");
+  EXPECT_EQ(scene.warnings[1].reason,
+            "1 metres in this file, 0.001 metres in a file before it; coordinates are compared as they are");
+  EXPECT_TRUE(readFrame("two.ifc", kIfc).warnings.empty());
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -95,7 +95,7 @@ struct SceneSearch {
 /// file, by the file alone: "left.obj". Models of the same name that this does not tell apart get a number: "wheel#2".
 /// Names that setName() has given since stay. The first method and the
 /// first region that a file names apply to all; others give a remark. The first input that says which axis is up, and
-/// how long a unit is, says it for all.
+/// how long a unit is, says it for all: coordinates are not converted, and others give a warning.
 ///
 /// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method,
 ///            and nothing says which of them would take the others.

@@ -15,6 +15,7 @@
 #include "allpairs/scene/ReadInput.h"
 #include "input/FileBytes.h"
 #include "input/ModelNames.h"
+#include "input/SceneFrame.h"
 #include "input/UniqueNames.h"
 #include "mesh/MeshObject.h"
 
@@ -148,8 +149,7 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   } catch (const InvalidArgument& problem) {
     throw FileError(path, problem.what());
   }
-  if (scene.up == 0) scene.up = frame.up;
-  if (!scene.metresPerUnit && frame.metresPerUnit > 0.0) scene.metresPerUnit = frame.metresPerUnit;
+  noteFrame(scene, path, frame.up, frame.metresPerUnit > 0.0 ? std::optional(frame.metresPerUnit) : std::nullopt);
   if (scene.models.size() == before) throw FileError(path, "holds no triangles, lines or points");
 }
 
