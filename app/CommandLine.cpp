@@ -114,7 +114,18 @@ std::string describeExtra(const CLI::App& program) {
     for (const std::string& text : known->get_lnames()) names.push_back("--" + text);
     if (names.back() == "--distance") names.emplace_back("--margin");  // its name of before is taken too
   }
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    return "the option '" + name + "' comes behind '" + command.get_name() + "'";
   return "unknown option '" + name + "'" + allpairs::app::suggestionFor(name, names);
+}
+
+/// CLI11 says "Could not convert: --name = text". All that it converts are numbers.
+std::string numberProblem(const CLI::ConversionError& problem) {
+  const std::string text = problem.what();
+  const std::size_t name = text.find("--");
+  const std::size_t value = text.find(" = ", name);
+  if (name == std::string::npos || value == std::string::npos) return text;
+  return text.substr(name, value - name) + ": '" + text.substr(value + 3) + "' is not a number";
 }
 
 [[noreturn]] void failForCommand(const CLI::App& program, const std::string& word) {
@@ -162,6 +173,8 @@ void parse(CLI::App& program, const std::vector<std::string>& given) {
     throw allpairs::app::UsageError(describeExtra(program));
   } catch (const CLI::ArgumentMismatch& problem) {
     throw allpairs::app::UsageError(countProblem(problem));
+  } catch (const CLI::ConversionError& problem) {
+    throw allpairs::app::UsageError(numberProblem(problem));
   } catch (const CLI::ParseError& problem) {
     throw allpairs::app::UsageError(problem.what());
   }

@@ -183,10 +183,11 @@ void runBench(const BenchSettings& settings) {
 }
 
 void addSearchOptions(CLI::App& command, BenchSettings& settings) {
-  command.add_option("--threads", settings.threads, "Number of threads")->type_name("N")->capture_default_str();
-  command.add_option("--repetitions", settings.repetitions, "Number of repetitions; 0: for about a second")
-      ->type_name("R")
-      ->capture_default_str();
+  takeCount(
+      *command.add_option("--threads", settings.threads, "Number of threads")->type_name("N")->capture_default_str());
+  takeCount(*command.add_option("--repetitions", settings.repetitions, "Number of repetitions; 0: for about a second")
+                 ->type_name("R")
+                 ->capture_default_str());
   CLI::Option* unordered = command.add_flag("--unordered", settings.unordered, "Pairs in the order of discovery");
   command.add_flag("--count", settings.countOnly, "Count the pairs only")->excludes(unordered);
   addStrategy(command, settings.strategy);

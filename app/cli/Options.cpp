@@ -64,15 +64,17 @@ void addThreads(CLI::App& command, std::string& threads) {
 }
 
 void takeCount(CLI::Option& option) {
-  option.transform([](const std::string& text) {
-    constexpr double kMost = 1e15;  // float64 holds every whole number up to it
-    double value = 0.0;
+  option.transform([&option](const std::string& text) {
     const char* const last = text.data() + text.size();
+    std::uint64_t plain = 0;
+    if (const auto [end, problem] = std::from_chars(text.data(), last, plain); problem == std::errc() && end == last)
+      return text;
+    constexpr double kMost = 1e15;  // float64 holds every whole number up to it
+    double value = -1.0;
     const auto [end, problem] = std::from_chars(text.data(), last, value);
-    const bool isWhole =
-        problem == std::errc() && end == last && value >= 0.0 && value <= kMost && std::floor(value) == value;
-    const bool isPlain = text.find_first_of("eE.") == std::string::npos;  // for the option itself to judge
-    return isWhole && !isPlain ? fmt::format("{:.0f}", value) : text;
+    if (problem != std::errc() || end != last || !(value >= 0.0 && value <= kMost) || std::floor(value) != value)
+      throw UsageError(option.get_name() + ": '" + text + "' is not a whole number from 0 on");
+    return fmt::format("{:.0f}", value);
   });
 }
 

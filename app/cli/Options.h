@@ -46,7 +46,7 @@ CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::st
 /// Declares --threads N, whose value parseThreads() takes.
 void addThreads(CLI::App& command, std::string& threads);
 
-/// Lets an option that counts something take numbers like 1e6 too.
+/// Lets an option that counts something take whole numbers only, those like 1e6 too.
 void takeCount(CLI::Option& option);
 
 /// Declares --strategy WORD, whose value strategyOf() takes.

@@ -119,6 +119,7 @@ void addGenerate(CLI::App& program) {
   CLI::Option* frames = command->add_option("--frames", settings->frames, "Number of frames of a motion")
                             ->type_name("T")
                             ->capture_default_str();
+  takeCount(*frames);
   addOutput(*command, settings->output);
   command->callback([settings, frames] {
     settings->hasFrames = frames->count() != 0;

@@ -16,7 +16,9 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   takeCount(*command.add_option("-n,--boxes", arguments.count, "Number of boxes, also as 1e6")
                  ->type_name("N")
                  ->capture_default_str());
-  command.add_option("--seed", arguments.seed, "Seed of the random numbers")->type_name("S")->capture_default_str();
+  takeCount(*command.add_option("--seed", arguments.seed, "Seed of the random numbers")
+                 ->type_name("S")
+                 ->capture_default_str());
   command.add_flag("--sorted", arguments.sorted, "Sort the boxes in Morton order");
 }
 

@@ -266,9 +266,10 @@ void addReport(CLI::App& program) {
           "Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved")
       ->type_name("DIR");
   command->add_flag("--open", settings->open, "Open the report in the browser");
-  command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
-      ->type_name("N")
-      ->capture_default_str();
+  takeCount(
+      *command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")
+           ->type_name("N")
+           ->capture_default_str());
   command
       ->add_option("--metres-per-unit", settings->metresPerUnit,
                    "Length of a unit of the input, for BCF's cameras; by default as the format says, else 1")

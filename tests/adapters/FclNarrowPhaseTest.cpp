@@ -232,6 +232,21 @@ TEST(FclNarrowPhase, SmallAndLargePartsAreAsFarApartAndAsDeepInTheirUnit) {
   }
 }
 
+TEST(FclNarrowPhase, SizesOfWhichProductsHaveNoRoomAmongTheNumbersAreNotExamined) {
+  for (const double size : {1e-320, 1e-150, 1e-80, 1e71, 1e150, 4e307}) {
+    const auto cube = cuboid({0, 0, 0}, {2 * size, 2 * size, 2 * size});
+    const auto other = cuboid({size, size, size}, {3 * size, 3 * size, 3 * size});
+    EXPECT_EQ(examine(*cube, *other).state, ExactState::NotExamined) << size;
+  }
+  for (const double size : {1e-60, 1e69}) {
+    const auto cube = cuboid({0, 0, 0}, {2 * size, 2 * size, 2 * size});
+    const auto other = cuboid({size, size, size}, {3 * size, 3 * size, 3 * size});
+    const auto pair = examine(*cube, *other);
+    EXPECT_EQ(pair.state, ExactState::Clash) << size;
+    EXPECT_THAT(pair.depth, ::testing::Optional(::testing::DoubleNear(size, 1e-9 * size)));
+  }
+}
+
 TEST(FclNarrowPhase, BallsOfTrianglesAreNearlyAsDeepAndAsFarAsSpheres) {
   const auto deep = examine(*ball({0.0, 0.0, 0.0}, 1.0), *ball({0.0, 0.0, 1.9}, 1.0));
   EXPECT_EQ(deep.state, ExactState::Clash);

@@ -89,6 +89,14 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
   expectUsage({"detect", "a.npy", "--picture"}, "unknown option '--picture' (see");
   expectUsage({"detect", "a.npy", "-x"}, "unknown option '-x' (see");
   expectUsage({"detect", "a.npy", "--" + std::string(5000, 'x')}, "unknown option '--xxx");
+  expectUsage({"--verify", "detect", "a.npy"}, "the option '--verify' comes behind 'detect' (see");
+  for (const std::string value : {"-1", "1.5", "99999999999999999999", "many"}) {
+    expectUsage({"report", "a.obj", "-o", "b", "--pictures", value},
+                "--pictures: '" + value + "' is not a whole number from 0 on (see");
+    expectUsage({"bench", "uniform", "--repetitions", value},
+                "--repetitions: '" + value + "' is not a whole number from 0 on (see");
+  }
+  expectUsage({"report", "a.obj", "-o", "b", "--metres-per-unit", "foot"}, "--metres-per-unit: 'foot' is not a number");
   expectUsage({"detct", "a.npy"}, "unknown command 'detct' - did you mean detect? (see");
   expectUsage({"find"}, "unknown command 'find' (see");
   expectUsage({"--distance", "1"}, "a command comes first, not '--distance=1' (see");

@@ -20,8 +20,17 @@ namespace {
 
 using collision::CollisionModel;
 
+/// Products of four lengths, and their quotients, stay within the numbers.
+constexpr double kLargest = 1e70;
+constexpr double kSmallest = 1e-60;
+
 void addPart(ExactBody& body, std::vector<Corners> triangles, double radius = 0.0) {
-  if (!triangles.empty()) body.parts.push_back(std::make_unique<ExactPart>(std::move(triangles), radius));
+  for (const Corners& corners : triangles) {
+    for (const Point& corner : corners) body.isKnown = body.isKnown && corner.cwiseAbs().maxCoeff() <= kLargest;
+  }
+  body.isKnown = body.isKnown && radius <= kLargest;
+  if (body.isKnown && !triangles.empty())
+    body.parts.push_back(std::make_unique<ExactPart>(std::move(triangles), radius));
 }
 
 Point pointOf(const collision::MeshModel& mesh, std::uint32_t vertex) { return toPoint(mesh.positions()[vertex]); }
@@ -184,8 +193,8 @@ ExactBody makeBody(const CollisionModel& model) {
   ExactBody body;
   const bool isKnown = addAnyOf<TriangleModel, LineModel, PointModel, TetrahedronModel, BoxModel, OrientedBoxModel,
                                 SphereModel, CapsuleModel>(body, *model.getLast());
-  body.isKnown = body.isKnown && isKnown;
   body.extent = extentOf(body);
+  body.isKnown = body.isKnown && isKnown && (body.extent == 0.0 || body.extent >= kSmallest);
   body.reach = reachOf(body);
   return body;
 }
