@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -121,6 +122,17 @@ class RequestStream final : public httplib::Stream {
 
   ssize_t write(const char* bytes, std::size_t size) override { return ::send(m_socket, bytes, size, MSG_NOSIGNAL); }
 
+  /// Ends the answer, and waits until the client has it: to close a socket with bytes that nobody has read, as behind
+  /// the request, takes back what the client has not.
+  void awaitEnd() {
+    ::shutdown(m_socket, SHUT_WR);
+    m_bytesLeft = kMaxRequestBytes;
+    m_end = Clock::now() + kMaxRequestTime;
+    std::array<char, 1024> bytes{};
+    while (read(bytes.data(), bytes.size()) > 0) {
+    }
+  }
+
   void get_remote_ip_and_port(std::string& address, int& port) const override { get_local_ip_and_port(address, port); }
 
   void get_local_ip_and_port(std::string& address, int& port) const override {
@@ -185,6 +197,7 @@ class PageServer final : public httplib::Server {
     // The library would put an answer to many ranges together in memory.
     const bool isAnswered =
         process_request(stream, true, isClosed, [](httplib::Request& request) { request.ranges.clear(); });
+    stream.awaitEnd();
     m_connections.close(socket);
     return isAnswered;
   }
