@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
@@ -25,6 +26,7 @@
 #include "mesh/AssimpFrame.h"
 #include "mesh/ChildProcess.h"
 #include "mesh/Faces.h"
+#include "mesh/IfcNames.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Transform.h"
 
@@ -85,7 +87,9 @@ bool isSpatial(std::string_view kind) {
 class NodeReader {
  public:
   NodeReader(const aiScene& scene, const Path& path, ReadScope& scope)
-      : m_scene(scene), m_path(path), m_scope(scope), m_isIfc(lowerExtension(path).starts_with(".ifc")) {}
+      : m_scene(scene), m_path(path), m_scope(scope), m_isIfc(lowerExtension(path).starts_with(".ifc")) {
+    if (m_isIfc) m_ifcNames = ifcNames(readText(path));
+  }
 
   std::vector<MeshObject> read(MeshFrame& frame) {
     addNode(*m_scene.mRootNode, rootOfFile(m_scene, lowerExtension(m_path), frame), {}, 0);
@@ -118,6 +122,8 @@ class NodeReader {
   bool enterProduct(const aiNode& node, Place& place) {
     std::optional<IfcProduct> product = ifcProductOf(node.mName.C_Str());
     if (!product) return false;
+    const auto exact = m_ifcNames.find(product->id);
+    if (exact != m_ifcNames.end() && !exact->second.empty()) product->name = exact->second;
     place.body = m_bodyNames.unique(product->name);
     if (place.assembly.empty() && !isSpatial(product->kind)) place.assembly = place.body;
     place.product = std::move(product);
@@ -201,6 +207,7 @@ class NodeReader {
   const Path& m_path;
   ReadScope& m_scope;
   bool m_isIfc;
+  std::unordered_map<std::string, std::string> m_ifcNames;  ///< By GlobalId.
   std::vector<NestedNode> m_nodes;
   std::vector<std::size_t> m_places;  ///< Of each object its node's in that list.
   UniqueNames m_bodyNames;

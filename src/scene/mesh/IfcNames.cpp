@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/IfcNames.h"
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "input/Words.h"
+
+namespace allpairs::scene {
+namespace {
+
+constexpr std::size_t kIdLength = 22;
+
+bool isOfWord(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; }
+
+void appendUtf8(std::string& to, std::uint32_t code) {
+  const auto tail = [&](unsigned shift) { to.push_back(static_cast<char>(0x80U | ((code >> shift) & 0x3FU))); };
+  if (code < 0x80) {
+    to.push_back(static_cast<char>(code));
+  } else if (code < 0x800) {
+    to.push_back(static_cast<char>(0xC0U | (code >> 6U)));
+    tail(0);
+  } else if (code < 0x10000) {
+    to.push_back(static_cast<char>(0xE0U | (code >> 12U)));
+    tail(6);
+    tail(0);
+  } else {
+    to.push_back(static_cast<char>(0xF0U | (code >> 18U)));
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
+/// Takes a string of a STEP file apart.
+class StepDecoder {
+ public:
+  explicit StepDecoder(std::string_view text) : m_text(text) {}
+
+  std::string decode() {
+    while (!m_text.empty()) {
+      if (m_text.starts_with("''") || m_text.starts_with("\\\\")) {
+        m_result.push_back(m_text.front());
+        m_text.remove_prefix(2);
+      } else if (m_text.front() != '\\' || !takeDirective()) {
+        m_result.push_back(m_text.front());
+        m_text.remove_prefix(1);
+      }
+    }
+    return std::move(m_result);
+  }
+
+ private:
+  /// Returns false, and takes nothing, where it is none.
+  bool takeDirective() {
+    if (m_text.starts_with("\\X2\\")) return takeCodes(4);
+    if (m_text.starts_with("\\X4\\")) return takeCodes(8);
+    if (m_text.starts_with("\\X\\")) {
+      const std::optional<std::uint32_t> code = hexAt(3, 2);
+      if (code) take(*code, 5);
+      return code.has_value();
+    }
+    if (!m_text.starts_with("\\S\\") || m_text.size() < 4) return false;
+    const auto low = static_cast<unsigned char>(m_text[3]);  // of the second half of ISO 8859-1
+    if (low < 0x80) take(low + 0x80U, 4);
+    return low < 0x80;
+  }
+
+  void take(std::uint32_t code, std::size_t length) {
+    appendUtf8(m_result, code);
+    m_text.remove_prefix(length);
+  }
+
+  /// Codes of so many digits until \X0\.
+  bool takeCodes(std::size_t digits) {
+    const std::size_t end = m_text.find("\\X0\\");
+    if (end == std::string_view::npos || (end - 4) % digits != 0) return false;
+    std::string decoded;
+    std::uint32_t high = 0;  // of two that are one character
+    for (std::size_t at = 4; at < end; at += digits) {
+      const std::optional<std::uint32_t> code = hexAt(at, digits);
+      if (!code || *code > 0x10FFFF) return false;
+      const bool isHigh = *code >= 0xD800 && *code < 0xDC00;
+      const bool isLow = *code >= 0xDC00 && *code < 0xE000;
+      if (isLow != (high != 0)) return false;
+      if (isLow) appendUtf8(decoded, 0x10000 + ((high - 0xD800) << 10U) + (*code - 0xDC00));
+      if (!isLow && !isHigh) appendUtf8(decoded, *code);
+      high = isHigh ? *code : 0;
+    }
+    if (high != 0) return false;
+    m_result += decoded;
+    m_text.remove_prefix(end + 4);
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> hexAt(std::size_t at, std::size_t digits) const {
+    if (m_text.size() < at + digits) return std::nullopt;
+    std::uint32_t code = 0;
+    const char* const first = m_text.data() + at;
+    const auto [end, problem] = std::from_chars(first, first + digits, code, 16);
+    return problem == std::errc() && end == first + digits ? std::optional(code) : std::nullopt;
+  }
+
+  std::string_view m_text;
+  std::string m_result;
+};
+
+/// Goes through the statements of a STEP file.
+class StepScanner {
+ public:
+  explicit StepScanner(std::string_view text) : m_text(text) {}
+
+  [[nodiscard]] bool isAtEnd() const { return m_at >= m_text.size(); }
+
+  /// Behind the next ';' that is in no string.
+  void skipStatement() {
+    while (!isAtEnd()) {
+      const char c = m_text[m_at];
+      if (c == '\'') {
+        static_cast<void>(string());
+        continue;
+      }
+      if (c == '/' && skipComment()) continue;
+      ++m_at;
+      if (c == ';') return;
+    }
+  }
+
+  /// Takes a character, and what is blank before it.
+  bool take(char wanted) {
+    skipBlanks();
+    const bool isThere = !isAtEnd() && m_text[m_at] == wanted;
+    m_at += isThere ? 1 : 0;
+    return isThere;
+  }
+
+  std::string_view word() {
+    skipBlanks();
+    const std::size_t begin = m_at;
+    while (!isAtEnd() && isOfWord(m_text[m_at])) ++m_at;
+    return m_text.substr(begin, m_at - begin);
+  }
+
+  /// What is between quotes; nothing where no quote stands.
+  std::optional<std::string_view> string() {
+    if (!take('\'')) return std::nullopt;
+    const std::size_t begin = m_at;
+    for (;;) {
+      const std::size_t quote = m_text.find('\'', m_at);
+      if (quote == std::string_view::npos) break;
+      m_at = quote + 1;
+      if (isAtEnd() || m_text[m_at] != '\'') return m_text.substr(begin, quote - begin);
+      ++m_at;  // two of them are one in the string
+    }
+    m_at = m_text.size();
+    return std::nullopt;
+  }
+
+ private:
+  void skipBlanks() {
+    while (!isAtEnd() && (isBlankOrLineEnd(m_text[m_at]) || (m_text[m_at] == '/' && skipComment()))) {
+      if (!isAtEnd() && isBlankOrLineEnd(m_text[m_at])) ++m_at;
+    }
+  }
+
+  bool skipComment() {
+    if (m_text.substr(m_at, 2) != "/*") return false;
+    const std::size_t end = m_text.find("*/", m_at + 2);
+    m_at = end == std::string_view::npos ? m_text.size() : end + 2;
+    return true;
+  }
+
+  std::string_view m_text;
+  std::size_t m_at = 0;
+};
+
+/// What the rest of a statement says that begins like #7=IFCWALL('1AvctVUKr0kugbFTf53O9L',#5,'name'.
+void readName(StepScanner& step, std::unordered_map<std::string, std::string>& names) {
+  if (!step.take('#') || step.word().empty() || !step.take('=') || !step.word().starts_with("IFC")) return;
+  if (!step.take('(')) return;
+  const std::optional<std::string_view> id = step.string();
+  if (!id || id->size() != kIdLength || !step.take(',')) return;
+  if (!step.take('$') && (!step.take('#') || step.word().empty())) return;  // the history of its owners
+  if (!step.take(',')) return;
+  const std::optional<std::string_view> name = step.string();
+  if (name) names.try_emplace(std::string(*id), decodedStep(*name));
+}
+
+}  // namespace
+
+std::string decodedStep(std::string_view text) { return StepDecoder(text).decode(); }
+
+std::unordered_map<std::string, std::string> ifcNames(std::string_view text) {
+  std::unordered_map<std::string, std::string> names;
+  if (!text.starts_with("ISO-10303-21")) return names;
+  StepScanner step(text);
+  while (!step.isAtEnd()) {
+    readName(step, names);
+    step.skipStatement();
+  }
+  return names;
+}
+
+}  // namespace allpairs::scene

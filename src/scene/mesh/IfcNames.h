@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace allpairs::scene {
+
+/// The names of an IFC's products by their GlobalIds. Assimp leaves out blanks, and decodes nothing.
+///
+/// Cost: linear in the text. What is no STEP file has no names.
+[[nodiscard]] std::unordered_map<std::string, std::string> ifcNames(std::string_view text);
+
+/// A string of a STEP file, without its quotes, in UTF-8; what is not encoded stays as it is.
+///
+/// Reference: ISO 10303-21, clause 6.4.3.
+[[nodiscard]] std::string decodedStep(std::string_view text);
+
+}  // namespace allpairs::scene
