@@ -189,6 +189,19 @@ TEST(HostileGltf, CountsBeyondTheBytesAreRefusedBeforeAnythingIsAllocated) {
                       "\"componentType\": 5126, \"count\": 70000000"),
               "takes more than");
   expectHolds(changed("\"count\": 3", "\"count\": -3"), "'count' is no count");
+  expectHolds(changed("\"count\": 3", "\"count\": 2"), "mesh 0 has 2 corners, no whole number of triangles");
+  expectHolds(changed(R"("POSITION": 0}})", R"("POSITION": 0}, "mode": 1})"),
+              "has 3 corners, no whole number of lines");
+  const auto placed = [&](const std::string& transform) {
+    return changed(R"({"mesh": 0})", R"({"mesh": 0, )" + transform + '}');
+  };
+  EXPECT_EQ(placed(R"("rotation": [0, 0.70710678, 0, 0.7071])"), "");
+  expectHolds(placed(R"("rotation": [0, 0, 0, 2])"), "node 0 has a rotation that is no quaternion of length 1");
+  expectHolds(placed(R"("rotation": [0, 0, 0, 0])"), "node 0 has a rotation that is no quaternion of length 1");
+  EXPECT_EQ(placed(R"("matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 4,5,6,1])"), "");
+  for (const std::string matrix : {"1,0,0,0.1, 0,1,0,0, 0,0,1,0, 4,5,6,1", "1,0,0,0, 0,1,0,0, 0,0,1,0, 4,5,6,2"}) {
+    expectHolds(placed(R"("matrix": [)" + matrix + ']'), "node 0 has a matrix whose last row is not 0 0 0 1");
+  }
 }
 
 TEST(GltfMesh, SparseAndQuantizedAccessorsStripsFansAndMatricesAreRead) {

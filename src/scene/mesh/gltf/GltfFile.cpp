@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -146,10 +148,18 @@ class GltfNodeReader {
 
   Transform transformOf(const GltfItem& node) const {
     if (const std::vector<double> m = m_document.numbers(node, "matrix", 16); !m.empty()) {  // column by column
+      if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
+        m_document.fail(node.name + " has a matrix whose last row is not 0 0 0 1");
       return {{{m[0], m[4], m[8], m[12]}, {m[1], m[5], m[9], m[13]}, {m[2], m[6], m[10], m[14]}}};
     }
     Transform result = kIdentity;
-    if (const auto q = m_document.numbers(node, "rotation", 4); !q.empty()) result = rotation(q);
+    if (const auto q = m_document.numbers(node, "rotation", 4); !q.empty()) {
+      constexpr double kRounding = 1e-3;  // of quaternions in 16 bits, and more
+      const double square = std::inner_product(q.begin(), q.end(), q.begin(), 0.0);
+      if (!(std::abs(square - 1.0) <= 2.0 * kRounding))
+        m_document.fail(node.name + " has a rotation that is no quaternion of length 1");
+      result = rotation(q);
+    }
     if (const auto scale = m_document.numbers(node, "scale", 3); !scale.empty()) {
       for (auto& row : result)
         std::transform(scale.begin(), scale.end(), row.begin(), row.begin(), std::multiplies<>());
@@ -200,6 +210,10 @@ class GltfNodeReader {
     addPositions(object, primitive, *position, world);
     const std::vector<std::uint32_t> corners = cornersOf(object, primitive, base);
     m_document.scope().takeElements(corners.size(), sizeof(object.triangles[0]));
+    if (static_cast<Mode>(mode) == Mode::Triangles && corners.size() % 3 != 0)
+      m_document.fail(fmt::format("{} has {} corners, no whole number of triangles", primitive.name, corners.size()));
+    if (static_cast<Mode>(mode) == Mode::Lines && corners.size() % 2 != 0)
+      m_document.fail(fmt::format("{} has {} corners, no whole number of lines", primitive.name, corners.size()));
     ElementBuilder(object, corners).add(static_cast<Mode>(mode));
   }
 
