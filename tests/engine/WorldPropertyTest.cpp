@@ -97,11 +97,10 @@ class Lives {
 
   /// To where float32 ends or float64 does, or beyond; now and then it becomes empty.
   void stretch(Box& box) {
-    constexpr double kMostOfFloat = std::numeric_limits<float>::max();
-    constexpr std::array<double, 3> kMost{kMostOfFloat, test::kInfinity, std::numeric_limits<double>::max()};
+    constexpr std::array<double, 3> kEnds{test::kMostOfFloat, test::kInfinity, test::kMost};
     for (const std::size_t axis : {below(3), below(3)}) {
       for (double* const bound : {&box.min[axis], &box.max[axis]}) {
-        if (chance(0.5)) *bound = (chance(0.5) ? 1.0 : -1.0) * kMost[below(m_life.float32 ? 2 : 3)];
+        if (chance(0.5)) *bound = (chance(0.5) ? 1.0 : -1.0) * kEnds[below(m_life.float32 ? 2 : 3)];
       }
     }
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -49,8 +48,6 @@ inline rc::Gen<Box> maybeInverted() {
 
 /// Boxes at the end of the numbers: where float32 ends and where float64 does, and beyond, often turned over.
 inline rc::Gen<Box> extremeBox() {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  constexpr double kMostOfFloat = std::numeric_limits<float>::max();
   const auto bound = rc::gen::element(-kInfinity, -kMost, -kMostOfFloat, 0.0, kMostOfFloat, kMost, kInfinity);
   return rc::gen::map(rc::gen::container<std::array<double, 6>>(bound), [](const std::array<double, 6>& c) {
     return Box{{c[0], c[1], std::min(c[2], c[5])}, {c[3], c[4], std::max(c[2], c[5])}};

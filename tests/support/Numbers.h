@@ -6,6 +6,8 @@
 namespace allpairs::test {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kMost = std::numeric_limits<double>::max();
+inline constexpr double kMostOfFloat = static_cast<double>(std::numeric_limits<float>::max());
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// The nearest number that float32 has. It is stored, since GCC 12 leaves out the conversion of neighbouring numbers to

@@ -226,6 +226,18 @@ TEST_F(SofaGraph, AnAttributeThatIsGivenTwiceIsAnErrorAsInSofa) {
   EXPECT_THAT(complaint("<Node name='a' name='b'/>"), HasSubstr("scene.scn:1: not well-formed XML"));
 }
 
+TEST_F(SofaGraph, MoreAttributesThanAnyComponentHasAreAnErrorAndNoLongWait) {
+  std::string attributes;
+  std::string elements;
+  for (int i = 0; i < 300'000; ++i) {
+    attributes += " a" + std::to_string(i) + "='1'";
+    elements += "<Attribute type='a" + std::to_string(i) + "' value='1'/>";
+  }
+  for (const std::string& text : {"<PointModel" + attributes + "/>", "<PointModel>" + elements + "</PointModel>"})
+    EXPECT_THAT(complaint("<Node>\n" + text + "</Node>"),
+                HasSubstr("scene.scn:2: an element has more than 1000 attributes"));
+}
+
 TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewerSofa) {
   const std::string models = "<MechanicalObject/><MeshTopology/><Triangle/><TriangleOctreeModel/><Triangle/>";
   const auto text = "<Node name='A'>" + models + "</Node><Node name='B'>" + models + "</Node>";

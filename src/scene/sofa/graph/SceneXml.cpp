@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sofa/graph/SceneXml.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <new>
 #include <pugixml.hpp>
@@ -15,10 +18,11 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-constexpr std::size_t kMaxDepth = 200;          // No scene nests deeper than a dozen; the stack must not overflow.
-constexpr std::size_t kMaxIncludeDepth = 32;    // Includes of includes of includes: scenes use three.
-constexpr std::size_t kBytesPerElement = 1000;  // In memory, besides its attributes.
-constexpr std::size_t kBytesPerValue = 100;     // Of an attribute, besides its text.
+constexpr std::size_t kMaxDepth = 200;            // No scene nests deeper than a dozen; the stack must not overflow.
+constexpr std::ptrdiff_t kMostAttributes = 1000;  // SOFA's components take some dozens; each is compared with all.
+constexpr std::size_t kMaxIncludeDepth = 32;      // Includes of includes of includes: scenes use three.
+constexpr std::size_t kBytesPerElement = 1000;    // In memory, besides its attributes.
+constexpr std::size_t kBytesPerValue = 100;       // Of an attribute, besides its text.
 
 /// An element of a scene file on its way to a node or a component.
 struct Element {
@@ -166,6 +170,11 @@ class ElementReader {
  private:
   /// SOFA's parser refuses an attribute that is given twice; ours would take the last.
   static void checkAttributes(const SourceFile& file, const pugi::xml_node& xml) {
+    const auto attributes = xml.attributes();
+    const auto others = xml.children("Attribute");
+    if (std::max(std::distance(attributes.begin(), attributes.end()), std::distance(others.begin(), others.end())) >
+        kMostAttributes)
+      throw Unplaceable(file.placeOf(xml), fmt::format("an element has more than {} attributes", kMostAttributes));
     for (const auto& attribute : xml.attributes())
       if (xml.attribute(attribute.name()) != attribute)
         throw Unplaceable(file.placeOf(xml), "not well-formed XML: two attributes of an element have the same name");
