@@ -122,13 +122,12 @@ class BulletBroadphase : public btBroadphaseInterface {
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
-    BoxSweep sweep;
-    for (int axis = 0; axis < 3; ++axis) {  // Bullet's own sums are of its precision, and may miss a face.
-      const auto from = static_cast<double>(rayFrom[axis]);
-      const auto k = static_cast<std::size_t>(axis);
-      sweep.box.min[k] = from + static_cast<double>(aabbMin[axis]);
-      sweep.box.max[k] = from + static_cast<double>(aabbMax[axis]);
-      sweep.motion[k] = static_cast<double>(rayTo[axis]) - from;
+    const std::array<double, 3> from = toArray(rayFrom);  // Bullet's own sums are rounded to its precision.
+    BoxSweep sweep{toBox(aabbMin, aabbMax), toArray(rayTo)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      sweep.box.min[k] += from[k];
+      sweep.box.max[k] += from[k];
+      sweep.motion[k] -= from[k];
     }
     for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
   }
