@@ -121,7 +121,7 @@ std::string describeExtra(const CLI::App& program) {
 
 /// CLI11 says "Could not convert: --name = text". All that it converts are numbers.
 std::string numberProblem(const CLI::ConversionError& problem) {
-  const std::string text = problem.what();
+  std::string text = problem.what();
   const std::size_t name = text.find("--");
   const std::size_t value = text.find(" = ", name);
   if (name == std::string::npos || value == std::string::npos) return text;
