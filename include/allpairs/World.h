@@ -151,7 +151,7 @@ class World {
   ///
   /// Geometry: the margin is added to a maximum, the box's or the other's, in double, as in a pair. Rays, sweeps and
   ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a negative
-  ///           margin turns over is hit by none of them, and overlaps what holds all between its bounds.
+  ///           margin turns over is hit by no ray or sweep, and overlaps what holds all between its bounds.
   /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds
   ///       are searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;

@@ -15,6 +15,9 @@ constexpr std::size_t kMostPlaces = 64;
 constexpr std::size_t kMostTests = std::size_t{1} << 21;  // each is a triangle that a ray is tested against
 
 /// How far along a ray a triangle is, infinite if the ray passes it by.
+///
+/// Reference: T. Möller and B. Trumbore, "Fast, minimum storage ray/triangle intersection", Journal of Graphics Tools 2
+/// (1997), 21-28.
 double wayTo(const Corners& corners, const Point& from, const Point& direction) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const Point u = corners[1] - corners[0];
