@@ -67,9 +67,11 @@ TEST(StlMesh, WordsMayBeInCapitalsAndLinesEndAsElsewhere) {
 
 TEST(StlMesh, BinaryFilesMayBeginWithSolid) {
   for (const char* start : {"", "solid of a program that does not care"}) {
-    const scene::Scene scene = readStl(binaryStl(start, kTwoFacets));
-    EXPECT_EQ(namesOf(scene), "mesh.stl TTriangleModel 2\n");
-    EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 1, 5}}));
+    for (const char* end : {"", "\n", "what some programs add"}) {
+      const scene::Scene scene = readStl(binaryStl(start, kTwoFacets) + end);
+      EXPECT_EQ(namesOf(scene), "mesh.stl TTriangleModel 2\n");
+      EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 1, 5}}));
+    }
   }
 }
 

@@ -29,9 +29,12 @@ std::uint64_t binarySize(std::string_view text) {
   return kHeaderSize + std::uint64_t{kFacetSize} * littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
 }
 
-/// Binary files may begin with "solid" too; then their size gives them away.
+/// Binary files may begin with "solid" too; then their size gives them away, or a byte of their header that no text has.
 bool isBinary(std::string_view text) {
-  if (text.size() >= kHeaderSize && text.size() == binarySize(text)) return true;
+  if (text.size() >= kHeaderSize && text.size() >= binarySize(text)) {
+    const bool isText = text.substr(0, kHeaderSize).find('\0') == std::string_view::npos;
+    if (!isText || text.size() == binarySize(text)) return true;
+  }
   const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");  // or the mark of a text in UTF-8
   return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
 }
