@@ -151,6 +151,7 @@ void addJoin(CLI::App& program) {
   command->add_flag("--count", settings->count, "Only count the pairs");
   addThreads(*command, settings->threads);
   addOutput(*command, settings->output);
+  command->get_option("--output")->description("Write to FILE, which appears only when complete");
   command->callback([settings] { runJoin(*settings); });
 }
 

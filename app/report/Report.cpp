@@ -234,6 +234,7 @@ std::optional<Earlier> readEarlier(const std::string& path) {
 
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
+  if (settings.folder == "-") throw UsageError("-o: a report is a folder, for which '-' is no name");
   if (const double length = settings.metresPerUnit.value_or(1.0); !(length > 0.0) || length > kMostMetres) {
     throw UsageError("--metres-per-unit must be above 0 and at most 1e18");
   }

@@ -29,7 +29,7 @@ Chosen = TypeVar("Chosen")
 
 _UINT32_MAX = 0xFFFFFFFF
 _UINT64_MAX = 0xFFFFFFFFFFFFFFFF
-_MOST_THREADS = 65535
+_MOST_THREADS = 9999
 _EXACT_INTEGERS = 2**53  # up to here float64 holds every integer
 
 _ORDERS = {"first": _core.Order.first, "second": _core.Order.second, "unordered": _core.Order.unordered}

@@ -19,8 +19,8 @@ namespace allpairs::parallel {
 namespace {
 
 int checkedThreads(std::size_t threads) {
-  constexpr std::size_t kMost = 65535;
-  if (threads > kMost) throw InvalidArgument(std::to_string(threads) + " threads; at most 65535 can be asked for");
+  constexpr std::size_t kMost = 9999;  // oneTBB ends the process where the system has no more threads
+  if (threads > kMost) throw InvalidArgument(std::to_string(threads) + " threads; at most 9999 can be asked for");
   return threads == 0 ? tbb::info::default_concurrency() : static_cast<int>(threads);
 }
 

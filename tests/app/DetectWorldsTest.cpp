@@ -103,6 +103,10 @@ TEST_F(DetectWorlds, AreCountedInATable) {
 TEST_F(DetectWorlds, OfWrongShapesOrOptionsAreRefused) {
   write("<f4", "(300, 6)");
   expectFailure(runProgram({"detect", path, "--worlds"}), kBadInput, "frames of boxes are (t, n, 6)");
+  const std::string none = folder.write(
+      "none.npy", npyHeaderBytes("{'descr': '<f4', 'fortran_order': False, 'shape': (100000000, 0, 6), }"));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect", none, "--worlds"}, {"track", none}})
+    expectFailure(runProgram(words), kBadInput, "claims 100000000 frames without boxes; at most 1000000 are taken");
   write();
   expectFailure(runProgram({"detect", path, path, "--worlds"}), kWrongUsage, "one input");
   expectFailure(runProgram({"detect", path, "--worlds", "--exact"}), kWrongUsage, "--exact");

@@ -82,7 +82,7 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
     [
         (lambda: allpairs.overlaps(BOXES, max_pairs=2**70), "max_pairs is 1180591620717411303424; it is at most 18446744073709551615"),
         (lambda: allpairs.overlaps(BOXES, threads=2**70), "threads is 1180591620717411303424; it is at most"),
-        (lambda: allpairs.overlaps(BOXES, threads=2**40), "threads is 1099511627776; it is at most 65535"),
+        (lambda: allpairs.overlaps(BOXES, threads=2**40), "threads is 1099511627776; it is at most 9999"),
         (lambda: allpairs.overlaps(BOXES, max_pairs=10**5000), "max_pairs is a large integer; it is at most"),
         (lambda: allpairs.overlaps(BOXES, distance=10**400), "distance is .*, which float64 does not hold"),
         (lambda: allpairs.batches(BOXES, batch_size=0), "batch_size is 0; it is at least 1"),

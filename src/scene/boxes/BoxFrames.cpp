@@ -17,11 +17,18 @@ namespace {
 
 using Path = std::filesystem::path;
 
+/// Frames without boxes take no byte of a file, and memory all the same.
+constexpr std::uint64_t kMostEmptyFrames = 1'000'000;
+
 void checkFrames(const NpyHeader& header, const Path& path) {
   if (header.shape.size() != 3 || header.shape[2] != 6) {
     throw FileError(path, "has shape " + shapeText(header.shape) + "; frames of boxes are (t, n, 6)");
   }
   if (header.fortranOrder) throw FileError(path, "is in Fortran order, in which frames are not one after the other");
+  if (header.shape[1] == 0 && header.shape[0] > kMostEmptyFrames) {
+    throw FileError(path, "claims " + std::to_string(header.shape[0]) + " frames without boxes; at most " +
+                              std::to_string(kMostEmptyFrames) + " are taken");
+  }
   if (header.shape[1] > std::numeric_limits<std::uint32_t>::max()) {
     throw FileError(path, "claims " + std::to_string(header.shape[1]) + " boxes; at most 4294967295 can be numbered");
   }
