@@ -16,11 +16,17 @@ namespace allpairs::python {
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
+/// Once Python has ended there is no interpreter to ask for: what is left of it is not to be touched.
+inline void waitIfPythonHasEnded() {
+  if (Py_IsInitialized() == 0) waitForTheEnd();
+}
+
 /// Gives the interpreter to other threads while it lives.
 class ReleasedGil {
  public:
   ReleasedGil() : m_state(PyEval_SaveThread()) {}
   ~ReleasedGil() {
+    waitIfPythonHasEnded();
     try {
       PyEval_RestoreThread(m_state);
     } catch (...) {
@@ -38,6 +44,7 @@ class ReleasedGil {
 class HeldGil {
  public:
   HeldGil() {
+    waitIfPythonHasEnded();
     try {
       m_state = PyGILState_Ensure();
     } catch (...) {
