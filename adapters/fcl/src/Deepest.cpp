@@ -53,7 +53,6 @@ constexpr double kGridPoints = 2000.0;  // about so many are asked where few tri
 constexpr int kMostSteps = 16;
 
 void keepEachOnce(std::vector<Point>& points) {
-  const auto isBefore = [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); };
   std::sort(points.begin(), points.end(), isBefore);
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }

@@ -15,8 +15,6 @@ namespace {
 /// From a point to the surface of a part that is not thick.
 double distanceTo(const ExactPart& part, const Point& point) { return nearest(part, point).distance; }
 
-bool isBefore(const Point& a, const Point& b) { return toVec3(a) < toVec3(b); }
-
 /// The corners of the triangles, the middles of their sides and their own, each once.
 std::vector<Point> samplesOf(const ExactPart& part) {
   std::vector<Point> points;

@@ -20,6 +20,9 @@ using Hierarchy = ::fcl::BVHModel<::fcl::OBBRSSd>;
 [[nodiscard]] inline Point toPoint(const collision::Vec3& v) { return {v[0], v[1], v[2]}; }
 [[nodiscard]] inline collision::Vec3 toVec3(const Point& p) { return {p[0], p[1], p[2]}; }
 
+/// An order of points, by x, then y, then z.
+[[nodiscard]] inline bool isBefore(const Point& a, const Point& b) { return toVec3(a) < toVec3(b); }
+
 /// Points to where the corners turn counterclockwise, as long as twice the area.
 [[nodiscard]] inline Point normalOf(const Corners& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]);

@@ -42,15 +42,9 @@ double wayToNext(const ExactPart& part, const Point& from, const Point& directio
   return least;
 }
 
-bool isAmong(const std::vector<Point>& sorted, const Point& point) {
-  return std::binary_search(sorted.begin(), sorted.end(), point,
-                            [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); });
-}
-
-}  // namespace
-
-FlushSides lookBesideFlush(const ExactPart& first, const ExactPart& second, const std::vector<FlushPlace>& places,
-                           double tolerance) {
+/// Halfway from some of the places to the next surface of either part, on both sides; in order.
+std::vector<Point> pointsBeside(const ExactPart& first, const ExactPart& second, const std::vector<FlushPlace>& places,
+                                double tolerance) {
   const std::size_t triangles = first.triangles().size() + second.triangles().size();
   const std::size_t most = std::clamp<std::size_t>(kMostTests / (2 * triangles), 4, kMostPlaces);
   const std::size_t stride = (places.size() + most - 1) / most;
@@ -62,13 +56,21 @@ FlushSides lookBesideFlush(const ExactPart& first, const ExactPart& second, cons
       if (std::isfinite(way)) points.push_back(places[i].point + (way / 2.0) * direction);
     }
   }
-  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return toVec3(a) < toVec3(b); });
+  std::sort(points.begin(), points.end(), isBefore);
+  return points;
+}
+
+}  // namespace
+
+FlushSides lookBesideFlush(const ExactPart& first, const ExactPart& second, const std::vector<FlushPlace>& places,
+                           double tolerance) {
+  const std::vector<Point> points = pointsBeside(first, second, places, tolerance);
   const std::vector<Point> inFirst = pointsInside(first, points);
   const std::vector<Point> inSecond = pointsInside(second, points);
   FlushSides sides;
   for (const Point& point : points) {
-    const bool isInFirst = isAmong(inFirst, point);
-    const bool isInSecond = isAmong(inSecond, point);
+    const bool isInFirst = std::binary_search(inFirst.begin(), inFirst.end(), point, isBefore);
+    const bool isInSecond = std::binary_search(inSecond.begin(), inSecond.end(), point, isBefore);
     if (!isInFirst && !isInSecond) continue;
     const Nearest ofFirst = nearest(first, point);
     const Nearest ofSecond = nearest(second, point);

@@ -184,6 +184,7 @@ class Look {
 
   /// Where all surfaces that bound what the two share lie on each other, no point of one lies in the other.
   void lookBesideFlushPlaces() {
+    if (m_meeting.isDeep && passThrough()) return;  // nothing more is to be told
     if (m_flush.empty() || m_first.volume() == Volume::None || m_second.volume() == Volume::None) return;
     m_sides = lookBesideFlush(m_first, m_second, m_flush, m_sameTolerance);
     if (m_meeting.isDeep || m_sides.common.depth <= m_sameTolerance) return;
@@ -191,8 +192,11 @@ class Look {
     takeDeeper(m_sides.isOfSecond ? m_sides.common : Deepest(), m_sides.isOfSecond ? Deepest() : m_sides.common);
   }
 
+  /// Whether a part of one reaches out of the other, by more than what is as good as within.
+  [[nodiscard]] bool passThrough() const { return m_crossing > m_sameTolerance || m_passing > m_sameTolerance; }
+
   void findWithin() {
-    if (!m_meeting.isDeep || m_crossing > m_sameTolerance || m_passing > m_sameTolerance) return;
+    if (!m_meeting.isDeep || passThrough()) return;
     // Around a cavity of one that the other fills, all of the other's surface is within, and not all of its volume.
     m_meeting.isFirstWithin = !m_reachesIntoFirst && !m_sides.isFirstOut && hasRoom(m_first, m_second) &&
                               isWithin(m_second, m_first, m_sameTolerance);
