@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from threading import Lock
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -19,7 +20,6 @@ Array = npt.NDArray[Any]
 
 #: What each box may have: an array of one dimension, or a number for all.
 Values = dict[str, Any]
-
 
 
 class BoxParts(NamedTuple):
@@ -38,12 +38,18 @@ class BoxParts(NamedTuple):
         return [0, *np.cumsum(self.sizes).tolist()]
 
 
+#: One thread at a time reads the head of a file: NumPy parses it with `ast`, which raises SystemError now and then in threads
+#: of Python 3.11 (https://github.com/python/cpython/issues/106905).
+_READING = Lock()
+
+
 def _read(path: str) -> Array:
     """An array in a file, which is mapped."""
     if os.path.exists(path) and not os.path.isfile(path):
         raise InvalidArgument(f"{path} is no file")
     try:
-        array = np.load(path, mmap_mode="r", allow_pickle=False)
+        with _READING:
+            array = np.load(path, mmap_mode="r", allow_pickle=False)
     except (ValueError, EOFError) as problem:
         raise InvalidArgument(f"{path} cannot be read as .npy: {problem}") from None
     if not isinstance(array, np.ndarray):

@@ -3,6 +3,7 @@
 
 import os
 import signal
+import time
 
 import numpy as np
 import pytest
@@ -328,6 +329,25 @@ def test_a_folder_holds_the_parts_of_one_result(tmp_path):
     assert allpairs.dask.overlaps(fewer, folder) == first
     found = np.concatenate([np.load(path) for path in sorted(folder.iterdir())])
     assert found.tobytes() == allpairs.overlaps(boxes).tobytes()
+
+
+def test_one_thread_at_a_time_reads_the_head_of_a_file(tmp_path, monkeypatch):
+    names = [tmp_path / f"boxes{number}.npy" for number in range(8)]
+    for name in names:
+        np.save(name, boxes_of("uniform", np.float32)[:50])
+    load, reading, most = np.load, [], []
+
+    def slowly(path, **given):
+        reading.append(path)
+        most.append(len(reading))
+        time.sleep(0.02)
+        array = load(path, **given)
+        reading.remove(path)
+        return array
+
+    monkeypatch.setattr(np, "load", slowly)
+    assert allpairs.dask.overlaps(names).compute(scheduler="threads", num_workers=4).shape[1] == 2
+    assert len(most) > len(names) and max(most) == 1
 
 
 def test_files_that_change_before_the_work_are_noticed(tmp_path):
