@@ -7,9 +7,9 @@
 // which accepts null. One thread at a time may use a handle, unless it is const. Null for a required handle or result
 // is an ALLPAIRS_INVALID_ARGUMENT.
 //
-// A call that fails, because memory is exhausted or a visitor stopped it, leaves its handle unchanged and usable: the
-// next allpairs_world_step() reports what has changed since the last one that succeeded. A callback may use other
-// handles, and what takes a const one; else using the handle that is calling it, of allpairs_world_find_between() both,
+// A call that fails, because memory is exhausted or a visitor stopped it, leaves its handle as it was and usable: the
+// next allpairs_world_step() reports what has changed since the last one that succeeded. Only what an allpairs_search
+// found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what takes a const one; else using the handle that is calling it, of allpairs_world_find_between() both,
 // is an ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
 //
 // Structures may grow at their end: struct_size tells the library which fields the caller has. All fields may be 0.

@@ -194,7 +194,7 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   }
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
-    detectWorlds({settings.input.paths, settings.input.limits, settings.format, options}, output);
+    detectWorlds({settings.input, settings.format, options}, output);
     output.commit();
     return;
   }

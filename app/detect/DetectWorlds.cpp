@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,19 +41,21 @@ struct WorldBoxes {
   }
 };
 
-WorldBoxes readWorlds(const WorldsRequest& request) {
-  if (request.paths.size() != 1) throw UsageError("--worlds takes one input: a .npy file of shape (worlds, boxes, 6)");
-  const std::string& path = request.paths.front();
+WorldBoxes readWorlds(const InputSettings& input) {
+  if (input.paths.size() != 1) throw UsageError("--worlds takes one input: a .npy file of shape (worlds, boxes, 6)");
+  const std::string& path = input.paths.front();
   if (lowerExtension(path) != ".npy") throw UsageError("--worlds takes a .npy file of shape (worlds, boxes, 6)");
   scene::BoxFrames file(path);
-  const scene::ReadOptions options = readOptions(request.limits);
+  const scene::ReadOptions options = readOptions(input.limits);
   WorldBoxes result{file.frameCount(), file.boxCount()};
+  scene::EmptyBoxes empty;
   if (options.maxMemory != 0 && 6 * sizeof(float) * result.worlds * result.each > options.maxMemory) {
     throw FileError(path, "needs more memory than --max-memory allows");
   }
-  const ProgressClock clock("reading " + printable(path));
+  std::optional<ProgressClock> clock(std::in_place, "reading " + printable(path));
   for (std::size_t k = 0; k < result.worlds; ++k) {
     const BoxView boxes = file.next();
+    empty.look(boxes, k * result.each);
     const std::size_t numbers = 6 * boxes.size();
     if (boxes.isFloat64()) {
       result.float64.insert(result.float64.end(), boxes.float64().min.data, boxes.float64().min.data + numbers);
@@ -60,6 +63,8 @@ WorldBoxes readWorlds(const WorldsRequest& request) {
       result.float32.insert(result.float32.end(), boxes.float32().min.data, boxes.float32().min.data + numbers);
     }
   }
+  clock.reset();
+  warnOfEmpty(input, empty, result.each, "world");
   return result;
 }
 
@@ -159,7 +164,7 @@ void writeTable(const WorldPairsView& found, const WorldBoxes& boxes, double sec
 }  // namespace
 
 void detectWorlds(const WorldsRequest& request, Output& output) {
-  const WorldBoxes boxes = readWorlds(request);
+  const WorldBoxes boxes = readWorlds(request.input);
   const Worlds worlds = boxes.view();
   const std::unique_ptr<Executor> executor = makeExecutor(request.detection.threads, worlds.boxes().size());
   OverlapOptions options;

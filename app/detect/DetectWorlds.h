@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -12,8 +11,7 @@ namespace allpairs::app {
 
 /// What `detect --worlds` is asked for.
 struct WorldsRequest {
-  std::vector<std::string> paths;
-  ReadLimits limits;
+  const InputSettings& input;
   std::string format;
   DetectionOptions detection;
 };

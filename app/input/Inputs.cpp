@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include "cli/Arguments.h"
 #include "cli/Progress.h"
 #include "cli/Text.h"
+#include "cli/Warning.h"
 #include "input/SpooledInputs.h"
 
 namespace allpairs::app {
@@ -44,35 +44,16 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   return options;
 }
 
-/// The axis on which a box is empty, as a rule by mistake: infinite bounds are meant. 3 if there is none.
-std::size_t emptyAxis(const Box& box) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool isFinite = std::isfinite(box.min[axis]) && std::isfinite(box.max[axis]);
-    if (isFinite && box.min[axis] > box.max[axis]) return axis;
-  }
-  return 3;
-}
-
-/// What to say of a file's boxes with min above max: which one is the first, and how many others. Its reason is empty
-/// if there is none. `boxOf` and `nameOf` take the row of a box.
-template <class BoxOf, class NameOf>
-scene::Remark remarkOnEmpty(std::filesystem::path file, std::size_t boxes, const BoxOf& boxOf, const NameOf& nameOf) {
-  std::size_t count = 0;
-  scene::Remark remark{.file = std::move(file)};
-  for (std::size_t i = 0; i < boxes; ++i) {
-    const std::size_t axis = emptyAxis(boxOf(i));
-    if (axis == 3 || ++count > 1) continue;
-    const std::string name = nameOf(i);
-    remark.subject = fmt::format("box {}", i) + (name == std::to_string(i) ? "" : " '" + name + "'");
-    remark.reason = fmt::format("min above max on {}", "xyz"[axis]);
-  }
-  if (count > 1) remark.reason += " (and " + counted(count - 1, "other box", "other boxes") + ")";
-  if (count > 0) remark.reason += ": empty, in no pair";
-  return remark;
-}
-
-void add(scene::Remark remark, std::vector<scene::Remark>& remarks) {
-  if (!remark.reason.empty()) remarks.push_back(std::move(remark));
+/// Adds what to say of a file's boxes with min above max, if there are any: which one is the first, of a name that
+/// `nameOf` gives, and how many others.
+template <class NameOf>
+void remarkOnEmpty(const scene::EmptyBoxes& empty, const std::filesystem::path& file, const NameOf& nameOf,
+                   std::vector<scene::Remark>& remarks) {
+  if (empty.count == 0) return;
+  const std::string number = std::to_string(empty.first);
+  const std::string name = nameOf(static_cast<std::size_t>(empty.first));
+  const std::string subject = "box " + number + (name == number ? "" : " '" + name + "'");
+  remarks.push_back({.file = file, .subject = subject, .reason = emptyReason(empty)});
 }
 
 std::filesystem::path shownPath(const InputSettings& settings, const std::string& path) {
@@ -85,9 +66,10 @@ BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& 
   for (const std::string& path : settings.paths) {
     arrays.push_back(scene::readBoxArray(path, options));
     const scene::BoxArray& boxes = arrays.back();
-    const auto boxOf = [&boxes](std::size_t i) { return boxes.boxes()[i]; };
+    scene::EmptyBoxes empty;
+    empty.look(boxes.boxes(), 0);
     const auto nameOf = [&boxes](std::size_t i) { return boxes.name(i); };
-    add(remarkOnEmpty(shownPath(settings, path), boxes.size(), boxOf, nameOf), input.warnings);
+    remarkOnEmpty(empty, shownPath(settings, path), nameOf, input.warnings);
   }
   input.boxes = scene::BoxArray::concatenate(std::move(arrays));
   return input;
@@ -109,9 +91,10 @@ scene::Scene readScene(const InputSettings& settings, std::size_t input, const s
   const std::string& path = settings.paths[input];
   scene::Scene scene = scene::readInput(path, options);
   if (scene::isBoxArrayFile(path)) {
-    const auto boxOf = [&scene](std::size_t i) { return boxAsRead(*scene.models[i]); };
+    scene::EmptyBoxes empty;
+    for (std::size_t i = 0; i < scene.models.size(); ++i) empty.look(boxAsRead(*scene.models[i]), i);
     const auto nameOf = [&scene](std::size_t i) { return scene.models[i]->getName(); };
-    add(remarkOnEmpty(path, scene.models.size(), boxOf, nameOf), scene.warnings);
+    remarkOnEmpty(empty, path, nameOf, scene.warnings);
   }
   if (settings.spooled != nullptr)
     nameAsGiven(*settings.spooled, scene);  // models are named by it when others are there
@@ -134,14 +117,12 @@ std::string pipelineText(const scene::ScenePipeline& pipeline) {
   return text;
 }
 
-/// Says on standard error, a line each, where the result may not be what is expected.
-void warn(const std::vector<scene::Remark>& warnings, ProgressLine& line) {
+void warnOf(const std::vector<scene::Remark>& warnings, ProgressLine& line) {
   line.clear();
   for (const scene::Remark& warning : warnings) {
     const std::string place = warning.line == 0 ? "" : fmt::format(":{}", warning.line);
     const std::string subject = warning.subject.empty() ? "" : warning.subject + ": ";
-    fmt::print(stderr, "allpairs: warning: {}\n",
-               printable(fmt::format("{}{}: {}{}", warning.file.string(), place, subject, warning.reason)));
+    warn(fmt::format("{}{}: {}{}", warning.file.string(), place, subject, warning.reason));
   }
 }
 
@@ -169,12 +150,18 @@ Inputs readInputs(const InputSettings& settings) {
                                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
   if (areBoxes) {
     BoxInput input = readBoxArrays(settings, options);
-    warn(input.warnings, line);
+    warnOf(input.warnings, line);
     return input;
   }
   scene::Scene scene = readScenes(settings, options);
-  warn(scene.warnings, line);
+  warnOf(scene.warnings, line);
   return scene;
+}
+
+void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part) {
+  if (boxes.count == 0) return;
+  warn(fmt::format("{}: box {} of {} {}: {}", shownPath(settings, settings.paths.front()).string(), boxes.first % each,
+                   part, boxes.first / each, emptyReason(boxes)));
 }
 
 scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/EmptyBoxes.h"
 #include "allpairs/scene/ReadOptions.h"
 #include "allpairs/scene/Scene.h"
 #include "allpairs/scene/WriteResult.h"
@@ -32,6 +33,10 @@ void withInputs(InputSettings& settings, const std::function<void()>& work);
 
 /// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
+
+/// Warns of the boxes of the only input that are empty, if there are any: `each` of them in every frame or world, of which
+/// `part` is the word, and which are numbered through.
+void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part);
 
 /// What a result says about box i.
 [[nodiscard]] scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i);

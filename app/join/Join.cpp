@@ -73,6 +73,8 @@ class JoinLine {
     m_line.show(text);
   }
 
+  void clear() { m_line.clear(); }
+
  private:
   ProgressLine m_line;
   std::string m_step;
@@ -128,6 +130,8 @@ void runJoin(const JoinSettings& settings) {
     throw FileError(problem.path(),
                     problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }
+  line.clear();
+  warnOfEmpty(settings.shared, summary);
   const std::string text = summaryText(summary, settings.output, !options.second.empty());
   if (settings.output.empty() || std::filesystem::is_regular_file(settings.output)) {
     Output(std::nullopt).write(text);

@@ -7,6 +7,7 @@
 
 #include "allpairs/parallel/TbbExecutor.h"
 #include "cli/Options.h"
+#include "cli/Warning.h"
 
 namespace allpairs::app {
 
@@ -27,6 +28,10 @@ join::JoinOptions joinOptions(const JoinArguments& arguments) {
   options.values = filesOf(arguments.sets.values);
   options.secondValues = filesOf(arguments.sets.withValues);
   return options;
+}
+
+void warnOfEmpty(const JoinArguments& arguments, const join::JoinSummary& summary) {
+  for (const std::string& text : emptyTexts(arguments.sets, summary.empty)) warn(text);
 }
 
 std::unique_ptr<Executor> executorOf(const std::string& threads) {

@@ -33,4 +33,7 @@ void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 
 [[nodiscard]] std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments);
 
+/// Warns of boxes that are empty, if there are any.
+void warnOfEmpty(const JoinArguments& arguments, const join::JoinSummary& summary);
+
 }  // namespace allpairs::app

@@ -85,6 +85,7 @@ void runPlan(const PlanSettings& settings) {
   }
   const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
   clock.reset();
+  warnOfEmpty(settings.shared, plan);
   // What is known is said before what may fail, as where the disk is too small.
   Output(std::nullopt).write(planText(plan, settings.shared));
   clock.emplace("measuring the time of a join");

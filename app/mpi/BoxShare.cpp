@@ -71,6 +71,12 @@ BoxView BoxShare::view() const {
   }
 }
 
+scene::EmptyBoxes BoxShare::empty() const {
+  scene::EmptyBoxes empty;
+  empty.look(view(), m_begin);
+  return empty;
+}
+
 void BoxShare::failAt(std::uint64_t box) const {
   const auto file = std::upper_bound(m_ends.begin(), m_ends.end(), box) - m_ends.begin();
   const std::uint64_t before = file == 0 ? 0 : m_ends[static_cast<std::size_t>(file) - 1];

@@ -9,6 +9,7 @@
 #include "allpairs/BoxView.h"
 #include "allpairs/Filter.h"
 #include "allpairs/scene/BoxValues.h"
+#include "allpairs/scene/EmptyBoxes.h"
 
 namespace allpairs::app {
 
@@ -32,6 +33,9 @@ class BoxShare {
   [[nodiscard]] BoxView view() const;
 
   [[nodiscard]] FilterBits bits() const;
+
+  /// Those of this rank, by their numbers in the set.
+  [[nodiscard]] scene::EmptyBoxes empty() const;
 
   /// Of all files.
   [[nodiscard]] std::uint64_t allBoxes() const noexcept { return m_allBoxes; }

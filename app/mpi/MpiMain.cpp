@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -20,11 +21,13 @@
 #include "allpairs/mpi/DistributedOverlaps.h"
 #include "allpairs/mpi/OnAllRanks.h"
 #include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/EmptyBoxes.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
+#include "cli/Warning.h"
 #include "mpi/BoxShare.h"
 #include "mpi/PairFile.h"
 
@@ -32,6 +35,7 @@ namespace {
 
 using allpairs::app::ExitStatus;
 using allpairs::app::UsageError;
+using allpairs::scene::EmptyBoxes;
 
 constexpr const char* kExamples =
     R"(Boxes are .npy arrays (n, 6), float32 or float64: minx miny minz maxx maxy maxz.
@@ -100,8 +104,11 @@ class Join {
     }
     const std::string all = second ? allpairs::app::countedBoxes(first->allBoxes(), second->allBoxes())
                                    : allpairs::app::counted(first->allBoxes(), "box", "boxes");
+    const std::array<EmptyBoxes, 2> empty{emptyOfAllRanks(*first), second ? emptyOfAllRanks(*second) : EmptyBoxes()};
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
-      if (m_rank == 0) say(pairs, all);
+      if (m_rank != 0) return;
+      for (const std::string& text : allpairs::app::emptyTexts(m_settings.sets, empty)) warn(text);
+      say(pairs, all);
     });
   }
 
@@ -114,6 +121,22 @@ class Join {
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [this] {
       if (m_rank == 0) allpairs::scene::checkIsNoInput(m_settings.output, allpairs::app::filesOf(m_settings.sets));
     });
+  }
+
+  /// The boxes of a set that are empty, on every rank.
+  static EmptyBoxes emptyOfAllRanks(const allpairs::app::BoxShare& share) {
+    EmptyBoxes empty;
+    allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] { empty = share.empty(); });
+    std::uint64_t first = empty.count == 0 ? std::numeric_limits<std::uint64_t>::max() : 4 * empty.first + empty.axis;
+    MPI_Allreduce(MPI_IN_PLACE, &empty.count, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_UINT64_T, MPI_MIN, MPI_COMM_WORLD);
+    empty.first = first / 4;
+    empty.axis = static_cast<std::size_t>(first % 4);
+    return empty;
+  }
+
+  static void warn(const std::string& text) {
+    std::fprintf(stderr, "allpairs-mpi: warning: %s\n", allpairs::app::printable(text).c_str());
   }
 
   void say(std::uint64_t pairs, const std::string& boxes) const {

@@ -26,7 +26,6 @@
 #include "cli/Timer.h"
 #include "detect/Detection.h"
 #include "input/Inputs.h"
-#include "input/SpooledInputs.h"
 #include "track/FrameSource.h"
 #include "track/TrackReport.h"
 
@@ -34,13 +33,12 @@ namespace allpairs::app {
 namespace {
 
 struct TrackSettings {
-  std::vector<std::string> paths;
+  InputSettings input;
   std::string distance = "0";
   std::string threads = "1";
   std::string format;
   std::string output;
   bool verify = false;
-  ReadLimits limits;
 };
 
 constexpr const char* kTrackExamples =
@@ -97,6 +95,7 @@ class Tracker {
     for (std::size_t frame = 0; frame < count; ++frame) {
       line.show(frame, count, "frame " + grouped(frame + 1) + " of " + grouped(count));
       const BoxView boxes = m_source.next();
+      m_empty.look(boxes, frame * boxes.size());
       if (frame == 0) begin(boxes);
       const Timer timer;
       frame == 0 ? m_world->add(boxes, {}, m_ids) : m_world->move(m_ids, boxes);
@@ -106,6 +105,8 @@ class Tracker {
       if (m_verification) m_verification->check(frame, boxes, step);
     }
     if (m_world) m_report.rebuilds = m_world->statistics().rebuilds;
+    line.clear();
+    warnOfEmpty(m_settings.input, m_empty, m_report.boxes, "frame");
     return std::move(m_report);
   }
 
@@ -126,6 +127,7 @@ class Tracker {
 
   const TrackSettings& m_settings;
   FrameSource& m_source;
+  scene::EmptyBoxes m_empty;
   TrackReport m_report;
   std::unique_ptr<Executor> m_executor;
   std::optional<World> m_world;
@@ -138,12 +140,12 @@ const std::vector<std::string> kTrackFormats = {"table", "csv", "json", "npy"};
 void runTrack(const TrackSettings& settings) {
   static_cast<void>(parseThreads(settings.threads));
   const std::string format = formatOf(settings.format, settings.output, kTrackFormats);
-  scene::checkIsNoInput(settings.output, pathsOf(settings.paths));
+  scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
   Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
   if (format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }
-  const std::unique_ptr<FrameSource> source = openFrames(settings.paths, readOptions(settings.limits));
+  const std::unique_ptr<FrameSource> source = openFrames(settings.input.paths, readOptions(settings.input.limits));
   const TrackReport report = Tracker(settings, *source).run();
   writeTrack(report, format, output);
   output.commit();
@@ -157,19 +159,16 @@ void addTrack(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("track", "Find the pairs that begin and end as boxes move, frame by frame");
   command->footer(kTrackExamples);
-  command->add_option("FRAMES", settings->paths, "Boxes (t, n, 6) in a .npy file, or a mesh file for each frame")
+  command->add_option("FRAMES", settings->input.paths, "Boxes (t, n, 6) in a .npy file, or a mesh file for each frame")
       ->required()
       ->type_name("");
   addDistance(*command, settings->distance, "Report pairs up to D apart on every axis");
   addThreads(*command, settings->threads);
   command->add_flag("--verify", settings->verify, "Also search each frame from scratch; fail on any difference");
   addFormat(*command, settings->format, kTrackFormats);
-  addReadLimits(*command, settings->limits);
+  addReadLimits(*command, settings->input.limits);
   addOutput(*command, settings->output);
-  command->callback([settings] {
-    withSpooledInputs(settings->paths, settings->limits.inputFormat,
-                      [settings](const SpooledInputs&) { runTrack(*settings); });
-  });
+  command->callback([settings] { withInputs(settings->input, [settings] { runTrack(*settings); }); });
 }
 
 }  // namespace allpairs::app

@@ -104,11 +104,16 @@ view::ViewScene makeBoxFrames(const InputSettings& input, const DetectionOptions
   view::ViewScene scene = emptyScene(input, options, frames.frameCount());
   addBoxColumns(frames.boxCount(), scene);
   FrameSearch search(scene, options, frames.frameCount());
+  scene::EmptyBoxes empty;
   ProgressLine line;
   for (std::size_t i = 0; i < frames.frameCount(); ++i) {
     line.show(i, frames.frameCount(), fmt::format("frame {} of {}", grouped(i + 1), grouped(frames.frameCount())));
-    search.add(frames.next());
+    const BoxView boxes = frames.next();
+    empty.look(boxes, i * frames.boxCount());
+    search.add(boxes);
   }
+  line.clear();
+  warnOfEmpty(input, empty, frames.boxCount(), "frame");
   scene.statistics.readSeconds = timer.seconds() - scene.statistics.detectSeconds;
   return scene;
 }

@@ -44,6 +44,8 @@ class JoinSummary(NamedTuple):
     """Cells whose pairs were found before, by a join that was resumed."""
     second_boxes: int
     """How many of the boxes are those of the second set."""
+    empty_boxes: int
+    """Boxes with a minimum above its maximum, both finite, as after a mistake: they are in no pair."""
 
 
 def _names_of(argument: str, paths: Path | Iterable[Path]) -> list[str]:

@@ -20,6 +20,18 @@ void bindScene(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindWorlds(pybind11::module_& module);
 
+/// Makes pickling an error for the types of a module, of which none can be pickled: pybind11's own attempt ends the process
+/// with protocols 0 and 1.
+inline void refusePickling(const pybind11::module_& module) {
+  const auto refuse = [](const pybind11::object& object) {
+    throw pybind11::type_error("cannot pickle '" + std::string(Py_TYPE(object.ptr())->tp_name) + "' object");
+  };
+  for (const auto& [name, member] : pybind11::dict(module.attr("__dict__"))) {
+    if (!pybind11::isinstance<pybind11::type>(member) || PyExceptionClass_Check(member.ptr())) continue;
+    member.attr("__reduce__") = pybind11::cpp_function(refuse, pybind11::is_method(member));
+  }
+}
+
 /// Text as Python has it: of a file, whose bytes may be no UTF-8 and are then shown by number.
 [[nodiscard]] inline pybind11::object textOf(std::string_view text) {
   const auto size = static_cast<Py_ssize_t>(text.size());

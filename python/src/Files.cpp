@@ -7,4 +7,5 @@ PYBIND11_MODULE(_files, module) {
   pybind11::module_::import("allpairs._core");  // has the types of arguments and results
   allpairs::python::bindScene(module);
   allpairs::python::bindJoin(module);
+  allpairs::python::refusePickling(module);
 }

@@ -16,15 +16,22 @@ namespace allpairs::python {
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// Once Python has ended there is no interpreter to ask for: what is left of it is not to be touched.
+/// Whether this is the thread in which Python ends: it alone still has the interpreter then, as for the destructors of what
+/// modules hold.
+inline thread_local bool isEndingPython = false;
+
+/// Once Python ends there is no interpreter for other threads to ask for: what is left of it is not to be touched.
 inline void waitIfPythonHasEnded() {
-  if (Py_IsInitialized() == 0) waitForTheEnd();
+  if (Py_IsInitialized() == 0 && !isEndingPython) waitForTheEnd();
 }
 
 /// Gives the interpreter to other threads while it lives.
 class ReleasedGil {
  public:
-  ReleasedGil() : m_state(PyEval_SaveThread()) {}
+  ReleasedGil() {
+    isEndingPython = Py_IsInitialized() == 0;
+    m_state = PyEval_SaveThread();
+  }
   ~ReleasedGil() {
     waitIfPythonHasEnded();
     try {
@@ -37,7 +44,7 @@ class ReleasedGil {
   ReleasedGil& operator=(const ReleasedGil&) = delete;
 
  private:
-  PyThreadState* m_state;
+  PyThreadState* m_state = nullptr;
 };
 
 /// Has the interpreter while it lives, in a thread that has released it or is not known to Python.

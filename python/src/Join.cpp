@@ -35,7 +35,8 @@ py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
     return output ? join::joinFiles(inputs, *output, options) : join::countFiles(inputs, options);
   });
   return py::make_tuple(summary.pairs, summary.boxes, summary.cells, summary.copies, summary.wideBoxes,
-                        summary.boxBytes, summary.pairBytes, summary.resumedCells, summary.secondBoxes);
+                        summary.boxBytes, summary.pairBytes, summary.resumedCells, summary.secondBoxes,
+                        summary.empty[0].count + summary.empty[1].count);
 }
 
 }  // namespace

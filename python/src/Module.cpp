@@ -11,4 +11,5 @@ PYBIND11_MODULE(_core, module) {
   allpairs::python::bindWorld(module);
   allpairs::python::bindWorlds(module);
   allpairs::python::bindPartition(module);
+  allpairs::python::refusePickling(module);
 }

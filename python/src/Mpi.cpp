@@ -70,4 +70,5 @@ PYBIND11_MODULE(_mpi, module) {
       .def(py::init<MPI_Fint, const allpairs::python::Options&>(), py::keep_alive<1, 3>())
       .def("find", &DistributedSearch::find)
       .def("count", &DistributedSearch::count);
+  allpairs::python::refusePickling(module);
 }

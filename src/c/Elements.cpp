@@ -64,9 +64,7 @@ template <class T>
 allpairs_status move(allpairs_elements* elements, std::size_t mesh, const T* start, const T* end) noexcept {
   return guarded([&] {
     ElementCandidates& candidates = candidatesOf(elements);
-    const MeshTopology& topology = candidates.topology();
-    if (mesh >= topology.meshCount()) throw InvalidArgument("there is no mesh " + std::to_string(mesh));
-    const std::size_t numbers = 3 * (topology.before(mesh + 1).vertices - topology.before(mesh).vertices);
+    const std::size_t numbers = 3 * candidates.topology().vertexCount(mesh);
     candidates.setPositions(mesh, requiredSpan(start, numbers, "start"), requiredSpan(end, numbers, "end"));
   });
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 #include "Handles.h"
 #include "allpairs/parallel/TbbExecutor.h"
@@ -87,6 +88,8 @@ allpairs_status noteFailure() noexcept {
   } catch (const Stopped&) {
     return note(ALLPAIRS_STOPPED, "the visitor asked for no more");
   } catch (const std::bad_alloc&) {
+    return note(ALLPAIRS_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::length_error&) {  // more than a container can hold
     return note(ALLPAIRS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception& error) {
     return note(ALLPAIRS_INTERNAL, error.what());

@@ -77,8 +77,8 @@ ElementBoxes::ElementBoxes(const MeshTopology& topology) : m_meshIsExact(topolog
 template <class T>
 void ElementBoxes::setPositions(const MeshTopology& topology, std::size_t mesh, std::span<const T> start,
                                 std::span<const T> end) {
+  const std::size_t count = topology.vertexCount(mesh);
   const std::size_t first = topology.before(mesh).vertices;
-  const std::size_t count = topology.before(mesh + 1).vertices - first;
   checkPositions(mesh, start, count, "start");
   checkPositions(mesh, end, count, "end");
   bool exact = true;

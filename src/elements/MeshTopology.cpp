@@ -17,6 +17,10 @@ constexpr std::size_t kMostElements = std::numeric_limits<std::uint32_t>::max();
                         std::to_string(vertex) + " of " + std::to_string(vertices));
 }
 
+[[noreturn]] void failMesh(std::size_t mesh, std::size_t meshes) {
+  throw InvalidArgument("there is no mesh " + std::to_string(mesh) + " among " + std::to_string(meshes));
+}
+
 /// The place of each vertex's edges to larger vertices, each as often as triangles name it: place[v] to place[v + 1].
 std::vector<std::uint64_t> placesBySmallerVertex(std::span<const Triangle> triangles, std::size_t vertices) {
   std::vector<std::uint64_t> places(vertices + 1);
@@ -86,7 +90,12 @@ MeshTopology::MeshTopology(Span<const MeshView> meshes) : m_before(1) {
 const ElementCounts& MeshTopology::before(std::size_t mesh) const {
   if (mesh == meshCount()) return counts();
   if (mesh < m_before.size()) return m_before[mesh];
-  throw InvalidArgument("there is no mesh " + std::to_string(mesh) + " among " + std::to_string(meshCount()));
+  failMesh(mesh, meshCount());
+}
+
+std::size_t MeshTopology::vertexCount(std::size_t mesh) const {
+  if (mesh >= meshCount()) failMesh(mesh, meshCount());
+  return m_before[mesh + 1].vertices - m_before[mesh].vertices;
 }
 
 void MeshTopology::add(const MeshView& mesh) {

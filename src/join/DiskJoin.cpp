@@ -206,6 +206,7 @@ void DiskJoin::distribute() {
   m_spill->finish();
   requireUnchanged();
   m_manifest.outside = m_input.size() - division.kept[0] - division.kept[1];
+  m_manifest.empty = division.empty;
   m_manifest.cuts.assign(m_cells.cuts().begin(), m_cells.cuts().end());
   m_manifest.extents = m_spill->extents();
   m_manifest.write(file("manifest"));
@@ -324,6 +325,7 @@ JoinSummary DiskJoin::summary() const {
     summary.wideBoxes += m_manifest.extents[partOf(m_cells, set, m_cells.size())].count;
   }
   summary.secondBoxes = m_input.size(1);
+  summary.empty = m_manifest.empty;
   summary.boxBytes = records * recordType().size();
   summary.pairBytes = m_manifest.isCount ? 0 : summary.pairs * pairSize();
   summary.resumedCells = m_resumed;

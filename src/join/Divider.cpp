@@ -112,12 +112,14 @@ BoxSample Divider::keptOf(const BoxSample& all) const {
 void Divider::count(Division& division) {
   division.counts.assign(m_input.sets() * (division.cells.size() + 1), 0);
   division.kept = {};
+  division.empty = {};
   for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
   m_evenNumbers = {};
   CellFinder finder(division, m_options);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     const std::uint64_t step = stepOf(block.set);
+    division.empty[block.set].look(block.boxes, block.begin);
     for (std::size_t i = 0; i < block.boxes.size(); ++i) {
       if (!isKept(block, i, m_options)) continue;
       ++division.kept[block.set];

@@ -27,7 +27,8 @@ struct Division {
   std::vector<std::uint64_t> counts{};     ///< Of each part.
   std::array<double, 2> partnerMargins{};  ///< The greatest margin of what a box of each set may be paired with.
   std::array<std::uint64_t, 2> kept{};     ///< Boxes of each set that the region does not leave out.
-  std::uint64_t pairs = 0;                 ///< Estimated.
+  std::array<scene::EmptyBoxes, 2> empty{};
+  std::uint64_t pairs = 0;  ///< Estimated.
 
   /// Boxes and their copies: what is written.
   [[nodiscard]] std::uint64_t records() const;

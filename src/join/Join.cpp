@@ -142,7 +142,8 @@ JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
           .wideBoxes = division.wideBoxes(),
           .boxBytes = division.records() * input.recordType().size(),
           .pairBytes = division.pairs * pairSizeFor(input.largestSize()),
-          .secondBoxes = input.size(1)};
+          .secondBoxes = input.size(1),
+          .empty = division.empty};
 }
 
 RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {

@@ -50,6 +50,10 @@ std::string textOf(const Manifest& manifest) {
     const auto [x1, y1, z1] = manifest.region->max;
     addLine(text, "region", bitsOf(x0), bitsOf(y0), bitsOf(z0), bitsOf(x1), bitsOf(y1), bitsOf(z1), manifest.outside);
   }
+  for (std::size_t set = 0; set < manifest.empty.size(); ++set) {
+    const auto& [count, first, axis] = manifest.empty[set];
+    if (count != 0) addLine(text, "empty", set, count, first, axis);
+  }
   for (const partition::Cut& cut : manifest.cuts) {
     addLine(text, "cut", std::bit_cast<std::uint64_t>(cut.at), cut.axis, cut.low, cut.high);
   }
@@ -110,6 +114,9 @@ void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
     const auto bound = [&line] { return std::bit_cast<double>(line.number()); };
     manifest.region = Box{{bound(), bound(), bound()}, {bound(), bound(), bound()}};
     manifest.outside = line.number();
+  } else if (line.word() == "empty") {
+    scene::EmptyBoxes& empty = manifest.empty[line.number() == 0 ? 0 : 1];
+    empty = {line.number(), line.number(), static_cast<std::size_t>(line.number())};
   } else if (line.word() == "cut") {
     manifest.cuts.push_back({std::bit_cast<double>(line.number()), static_cast<std::uint32_t>(line.number()),
                              static_cast<std::int32_t>(line.number()), static_cast<std::int32_t>(line.number())});
@@ -156,6 +163,9 @@ void Manifest::write(const fs::path& path) const {
 void Manifest::check() const {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 48;
   (void)partition::Partition::fromCuts(cuts);
+  for (const scene::EmptyBoxes& of : empty) {
+    if (of.axis > 2) throw InvalidArgument("boxes that are empty on no axis");
+  }
   if (secondFiles > inputs.size()) throw InvalidArgument("a second set of other files");
   const std::size_t tasks = cuts.size() + 2;  // cells, and the wide boxes
   if (extents.size() != (secondFiles == 0 ? tasks : 2 * tasks))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -13,6 +14,7 @@
 #include "PairRuns.h"
 #include "allpairs/Box.h"
 #include "allpairs/partition/Partition.h"
+#include "allpairs/scene/EmptyBoxes.h"
 
 namespace allpairs::join {
 
@@ -48,6 +50,7 @@ struct Manifest {
   std::optional<Box> region{};
   bool isCount = false;
   std::uint64_t outside = 0;  ///< Boxes that the region leaves out.
+  std::array<scene::EmptyBoxes, 2> empty{};
   std::vector<partition::Cut> cuts{};
   std::vector<Extent> extents{};              ///< Of each part of the boxes; see partOf().
   std::map<std::size_t, CellResult> cells{};  ///< Those that were searched.

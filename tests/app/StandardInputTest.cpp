@@ -143,46 +143,5 @@ TEST_F(StandardInput, IsTakenAwayWhenASignalEndsTheProgram) {
   EXPECT_GT(result.status, 128) << "a shell's word for a signal";
 }
 
-TEST(BoxWithMinAboveMax, IsNamedInNoResultWhereStandardErrorIsClosed) {
-  const TempFolder folder;
-  folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,3,3,3,4,2,4\nc,0,0,0,1,1,1\n");
-  expectSuccess(runScript("cd '" + folder.path().string() + "' && \"$0\" detect boxes.csv -o pairs.csv 2>&-"));
-  EXPECT_EQ(readBytes(folder.path() / "pairs.csv"), "first,second\nc,a\n");
-}
-
-TEST(BoxWithMinAboveMax, IsNamedInAWarning) {
-  const TempFolder folder;
-  const std::string csv = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,3,3,3,4,2,4\nc,9,3,3,4,2,4\n");
-  const std::string reason = "min above max on y (and 1 other box): empty, in no pair";
-  const std::string line = "allpairs: warning: " + csv + ": box 1 'b': " + reason + '\n';
-  ProgramRun run = runProgram({"detect", csv, "--format", "csv"});
-  EXPECT_EQ(run.status, 0);
-  EXPECT_EQ(run.err, line);
-  const std::string npy = folder.write("boxes.npy", npyBytes({cube(0, 0, 0), Box{{0, 0, 1}, {1, 1, 0}}, kEmptyBox}));
-  const std::string ofNpy = "allpairs: warning: " + npy + ": box 1: min above max on z: empty, in no pair\n";
-  run = runProgram({"detect", npy, "--format", "csv"});
-  EXPECT_EQ(run.err, ofNpy) << "infinite bounds are meant";
-  const std::string mesh = folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
-  EXPECT_EQ(runProgram({"detect", mesh, npy, csv}).err, ofNpy + line) << "beside meshes too";
-  EXPECT_NE(runProgram({"info", csv}).out.find("\nwarnings\n  " + csv + ": box 1 'b': " + reason + '\n'),
-            std::string::npos);
-}
-
-TEST(BoxWithMinAboveMax, IsNamedInJson) {
-  const TempFolder folder;
-  const std::string csv = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,3,3,3,4,2,4\nc,0,0,0,1,1,1\n");
-  const std::string mesh = folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
-  std::vector<std::vector<std::string>> inputs{{csv}, {csv, mesh}};
-#ifdef ALLPAIRS_HAS_FCL
-  inputs.push_back({csv, "--exact"});
-#endif
-  const auto expected = nlohmann::json::array(
-      {{{"file", csv}, {"line", 0}, {"subject", "box 1 'b'"}, {"reason", "min above max on y: empty, in no pair"}}});
-  for (std::vector<std::string>& words : inputs) {
-    words.insert(words.begin(), {"detect", "--format", "json"});
-    EXPECT_EQ(nlohmann::json::parse(runProgram(words).out)["warnings"], expected) << words.back();
-  }
-}
-
 }  // namespace
 }  // namespace allpairs::test

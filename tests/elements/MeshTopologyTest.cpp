@@ -56,6 +56,10 @@ TEST(MeshTopology, NumbersSeveralMeshesThrough) {
   EXPECT_THAT(topology.triangles(), ElementsAre(Triangle{0, 1, 2}, Triangle{4, 5, 6}));
   EXPECT_THAT(topology.meshOfVertex(), ElementsAre(0U, 0U, 0U, 0U, 2U, 2U, 2U));
   EXPECT_THROW(static_cast<void>(topology.before(4)), InvalidArgument);
+  EXPECT_EQ(topology.vertexCount(0), 4U);
+  EXPECT_EQ(topology.vertexCount(1), 0U);
+  EXPECT_EQ(topology.vertexCount(2), 3U);
+  EXPECT_THROW(static_cast<void>(topology.vertexCount(3)), InvalidArgument);
 }
 
 TEST(MeshTopology, KeepsATriangleThatNamesAVertexTwiceWithoutAnEdgeToItself) {

@@ -74,6 +74,20 @@ TEST(Resume, NothingIsDoneAgainThatIsComplete) {
   EXPECT_EQ(with.summary.resumedCells, with.summary.cells + 1) << "and the boxes in many cells";
 }
 
+TEST(Resume, BoxesThatAreEmptyAreStillKnown) {
+  std::vector<Box> boxes = someBoxes();
+  boxes[70] = {{0, 2, 0}, {1, 1, 1}};
+  boxes[90] = {{3, 2, 0}, {1, 1, 1}};
+  JoinCase with(boxes);
+  stoppedWhileWriting(with);
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(boxes));
+  EXPECT_GT(with.summary.resumedCells, 0U);
+  EXPECT_EQ(with.summary.empty[0].count, 2U);
+  EXPECT_EQ(with.summary.empty[0].first, 70U);
+  EXPECT_EQ(with.summary.empty[0].axis, 1U);
+  EXPECT_EQ(with.summary.empty[1].count, 0U);
+}
+
 TEST(Resume, DamagedFilesAreMadeAgain) {
   for (const char* name : {"boxes", "pairs"}) {
     for (const bool isCut : {false, true}) {

@@ -218,6 +218,23 @@ def test_what_boxes_of_two_sets_may_have_decides_as_in_one_search(tmp_path, scen
         assert digest(tmp_path / "mpi.npy") == digest(tmp_path / "join.npy"), ranks
 
 
+def test_boxes_that_are_empty_by_mistake_are_named(tmp_path):
+    first, second = np.tile([0.0, 0, 0, 1, 1, 1], (900, 1)), np.tile([0.0, 0, 0, 1, 1, 1], (800, 1))
+    first[500, :3] = np.inf  # as it was meant
+    second[[777, 411, 9], [4, 5, 3]] = -5
+    np.save(tmp_path / "a.npy", first)
+    np.save(tmp_path / "b.npy", second)
+    arguments = ["join", tmp_path / "a.npy", "--with", tmp_path / "b.npy", tmp_path / "a.npy", "--count"]
+    expected = "warning: box 9 of set 2: min above max on x (and 2 other boxes): empty, in no pair"
+    assert run(PROGRAM, *arguments).stderr == f"allpairs: {expected}\n"
+    for ranks in (1, 3) if MPI_PROGRAM else ():
+        lines = mpirun(ranks, *arguments).stderr.splitlines()
+        assert [line for line in lines if line.startswith("allpairs-mpi: ")] == [f"allpairs-mpi: {expected}"], ranks
+    assert allpairs.join(tmp_path / "b.npy").empty_boxes == 3
+    assert allpairs.join(tmp_path / "a.npy", second=tmp_path / "b.npy").empty_boxes == 3
+    assert allpairs.join(tmp_path / "a.npy").empty_boxes == 0
+
+
 @needs_mpi
 def test_values_that_are_wrong_are_named(tmp_path):
     ranks = 2

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Bad input is a ValueError that names what is wrong."""
 
+import copy
 import pickle
 
 import allpairs
@@ -98,6 +99,7 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: allpairs.overlaps(BOXES, region=["a"] * 6), "region has dtype <U1"),
         (lambda: allpairs.MeshCandidates([[0, 1, 2]], 2**70), "vertex_count is 1180591620717411303424"),
         (lambda: allpairs.MeshCandidates(**MESH).set_positions(np.zeros((3, 3)), mesh=-1), "mesh is -1"),
+        (lambda: allpairs.MeshCandidates(**MESH).set_positions(np.zeros((3, 3)), mesh=1), "there is no mesh 1 among 1"),
         (lambda: allpairs.load("a.scn", max_memory=-1), "max_memory is -1; it is at least 0"),
         (lambda: allpairs.load("a.scn", sofa="21.06"), "sofa is '21.06'; it can be '', '20.06', '26.12'"),
         (lambda: allpairs.overlaps(BOXES, order="x" * 1000), "order is 'xxx.*; it can be 'first'"),
@@ -194,6 +196,19 @@ def test_errors_survive_being_sent_to_another_process():
     ):
         copy = pickle.loads(pickle.dumps(error))
         assert (type(copy), str(copy), vars(copy)) == (type(error), str(error), vars(error))
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_what_cannot_be_pickled_is_a_type_error(protocol, tmp_path):
+    (tmp_path / "part.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n")
+    objects = [allpairs.MeshCandidates(**MESH), allpairs.World()._core, allpairs._core.Order.__members__["first"]]
+    if hasattr(allpairs, "load"):
+        objects.append(allpairs.load(tmp_path / "part.obj"))
+    for each in objects:
+        with pytest.raises(TypeError, match="cannot pickle 'allpairs"):
+            pickle.dumps(each, protocol)
+        with pytest.raises(TypeError, match="cannot pickle 'allpairs"):
+            copy.deepcopy(each)
 
 
 def test_errors_are_value_errors_and_those_of_files_os_errors():

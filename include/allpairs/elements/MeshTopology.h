@@ -62,6 +62,11 @@ class MeshTopology {
   /// Bad input: a mesh out of range throws InvalidArgument; meshCount() is allowed, and gives counts().
   [[nodiscard]] const ElementCounts& before(std::size_t mesh) const;
 
+  /// The number of vertices of a mesh.
+  ///
+  /// Bad input: a mesh out of range throws InvalidArgument.
+  [[nodiscard]] std::size_t vertexCount(std::size_t mesh) const;
+
   [[nodiscard]] Span<const Edge> edges() const noexcept { return m_edges; }
   [[nodiscard]] Span<const Triangle> triangles() const noexcept { return m_triangles; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "allpairs/Span.h"
 #include "allpairs/StopFlag.h"
 #include "allpairs/scene/BoxValues.h"
+#include "allpairs/scene/EmptyBoxes.h"
 
 namespace allpairs::join {
 
@@ -80,8 +82,9 @@ struct JoinSummary {
   std::uint64_t wideBoxes = 0;  ///< Boxes in too many cells: kept apart, and searched with each cell.
   std::uint64_t boxBytes = 0;   ///< Written to the work folder, and read again.
   std::uint64_t pairBytes = 0;  ///< Likewise; and as many once more for the result.
-  std::uint64_t resumedCells = 0;  ///< Cells whose pairs were found before, of a join that was resumed.
-  std::uint64_t secondBoxes = 0;   ///< How many of the boxes are those of the second set.
+  std::uint64_t resumedCells = 0;            ///< Cells whose pairs were found before, of a join that was resumed.
+  std::uint64_t secondBoxes = 0;             ///< How many of the boxes are those of the second set.
+  std::array<scene::EmptyBoxes, 2> empty{};  ///< Of each set, in no pair.
 };
 
 /// Receives the bytes of a result, in order.
