@@ -76,6 +76,10 @@ function(allpairs_install_pkg_config component needs packages)
   if(type STREQUAL "INTERFACE_LIBRARY") # headers only: there is nothing of its own to link
     set(libs)
   endif()
+  set(cflags)
+  if(component STREQUAL "mpi") # we call C's functions: without MPI's own for C++, mpi.pc names all libraries that it takes
+    set(cflags " -DOMPI_SKIP_MPICXX -DMPICH_SKIP_MPICXX")
+  endif()
   if("fcl" IN_LIST packages) # fcl.pc asks for C++11 behind what a program asks for: what it stands on, without that
     list(REMOVE_ITEM packages fcl)
     list(APPEND packages ccd eigen3 octomap)

@@ -82,6 +82,10 @@ function(allpairs_configure target)
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
             # In a unity build GCC takes our sources for headers, whose types with members of unnamed namespaces it warns of.
             $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>)
+  # Another project that names no type of build is not to get the engine unoptimised.
+  if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES AND NOT CMAKE_CXX_FLAGS MATCHES "(^| )-O")
+    target_compile_options(${target} PRIVATE -O2)
+  endif()
   if(ALLPAIRS_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

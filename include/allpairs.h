@@ -312,7 +312,8 @@ ALLPAIRS_C_API allpairs_status allpairs_list_in_worlds(allpairs_search* search, 
 #define ALLPAIRS_NO_BOX UINT32_MAX
 
 /// The properties of a box in a world. Two boxes that overlap are a pair if each one's mask shares a bit with the
-/// other's category, they are not in the same non-zero group, and they are not both static.
+/// other's category, they are not in the same non-zero group, and they are not both static. The margin is added to the
+/// distance at which the box is a pair with another, and enlarges the box in all queries.
 typedef struct allpairs_properties {
   uint32_t category;
   uint32_t mask;
@@ -427,8 +428,8 @@ typedef struct allpairs_query_filter {
   bool skip_moving;
 } allpairs_query_filter;
 
-/// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. Null filter: all
-/// categories and masks. No query finds a box of category 0 or mask 0.
+/// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. As in all queries, boxes
+/// are enlarged by their margins, and the distance of the world does not count. Null filter: all categories and masks. No query finds a box of category 0 or mask 0.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
                                                                const allpairs_query_filter* filter, allpairs_ids* ids);
 

@@ -111,7 +111,8 @@ def repair(wheel, target):
         information = {file.name: file.read_bytes() for file in sorted(about.iterdir()) if file.name != "RECORD"}
         shutil.rmtree(about)
         modules = sorted(tree.rglob("*.so"))
-        found = libraries_of(modules)
+        # MPI is the machine's: a process has one, mpi4py's, and its ranks are started by what belongs to that.
+        found = libraries_of([module for module in modules if not module.name.startswith("_mpi.")])
         names = copy_libraries(tree / "allpairs.libs", found)
         for module in modules:
             redirect(module, names, "$ORIGIN/" + os.path.relpath(tree / "allpairs.libs", module.parent))

@@ -265,7 +265,8 @@ void addReport(CLI::App& program) {
       ->add_option(
           "--since", settings->since,
           "Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check([](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); });
   command->add_flag("--open", settings->open, "Open the report in the browser");
   takeCount(
       *command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")

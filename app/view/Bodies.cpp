@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "view/Bodies.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
+#include <system_error>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -34,12 +37,23 @@ std::vector<std::string> fileNames(const scene::Scene& scene) {
   return names;
 }
 
+constexpr std::size_t kMostParts = 1000;  // of a path
+
+/// The last parts of a path, so many of them.
+std::string endOf(const std::filesystem::path& path, std::size_t parts) {
+  std::filesystem::path end = path.filename();
+  std::filesystem::path folder = path.parent_path();
+  for (; parts > 1 && folder.has_filename(); --parts, folder = folder.parent_path()) end = folder.filename() / end;
+  return end.string();
+}
+
 /// Puts bodies together of their models.
 class BodyMaker {
  public:
   BodyMaker(const scene::Scene& scene, Grouping grouping, const view::ViewScene& shown)
       : m_scene(scene), m_grouping(grouping), m_shown(shown), m_paths(ownerPaths(scene)) {
     if (isByFile()) m_files = fileNames(scene);
+    m_fileIdentities = fileIdentities(scene);
   }
 
   void add(std::size_t model) {
@@ -89,7 +103,7 @@ class BodyMaker {
   [[nodiscard]] Body first(std::size_t model) const {
     const std::size_t file = m_scene.sources[model].file;
     if (!isByFile() || m_files[file].empty()) return {m_scene.models[model]->getName(), m_shown.identities[model]};
-    return {m_files[file], m_scene.files[file].filename().string()};
+    return {m_files[file], m_fileIdentities[file]};
   }
 
   /// By its part of the file, or the path of its node, instead of one of its models, with what stands before: "arm.scn
@@ -103,7 +117,7 @@ class BodyMaker {
       if (path == m_paths.end()) return;
       part = path->second->empty() ? "/" : *path->second;
     }
-    if (source.id.empty() || !isBody) body.identity = m_scene.files[source.file].filename().string() + '\n' + part;
+    if (source.id.empty() || !isBody) body.identity = m_fileIdentities[source.file] + '\n' + part;
     const std::string& name = m_scene.models[model]->getName();
     const std::size_t place = name.rfind(source.name);
     if (place != std::string::npos) body.name = name.substr(0, place) + part;
@@ -114,6 +128,7 @@ class BodyMaker {
   const view::ViewScene& m_shown;
   OwnerPaths m_paths;
   std::vector<std::string> m_files;
+  std::vector<std::string> m_fileIdentities;
   std::map<Key, std::uint32_t> m_numbers;
   std::vector<Body> m_all;
   std::vector<std::uint32_t> m_bodies;
@@ -124,6 +139,27 @@ class BodyMaker {
 std::string Identities::unique(std::string identity) {
   const std::size_t count = ++m_counts[identity];
   return count == 1 ? identity : identity + '\n' + std::to_string(count);
+}
+
+std::vector<std::string> fileIdentities(const scene::Scene& scene) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& file : scene.files) {
+    std::error_code problem;
+    const std::filesystem::path path = std::filesystem::absolute(file, problem);
+    paths.push_back(problem ? file : path.lexically_normal());
+  }
+  std::vector<std::string> ends(paths.size());
+  std::vector<bool> isTold(paths.size(), false);
+  for (std::size_t parts = 1; parts < kMostParts && std::ranges::count(isTold, false) != 0; ++parts) {
+    std::map<std::string, std::set<std::string>> pathsOf;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (isTold[i]) continue;
+      ends[i] = endOf(paths[i], parts);
+      pathsOf[ends[i]].insert(paths[i].string());
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) isTold[i] = isTold[i] || pathsOf[ends[i]].size() == 1;
+  }
+  return ends;
 }
 
 void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to) {

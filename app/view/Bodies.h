@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "ViewScene.h"
 #include "allpairs/scene/Scene.h"
@@ -27,6 +28,10 @@ class Identities {
  private:
   std::map<std::string, std::size_t> m_counts;
 };
+
+/// What the files of a scene are known by, wherever their folder is: their names, and of those of one name as many folders
+/// as tell them apart.
+[[nodiscard]] std::vector<std::string> fileIdentities(const scene::Scene& scene);
 
 /// Gives a scene that is shown, and whose models have their identities, the bodies of the one that was read, and what
 /// these are called. Where each is one model, it gets none.

@@ -68,11 +68,12 @@ class ModelProbe : public collision::BruteForceBroadPhase {
 /// By what models are known later, and what their format says that they are.
 void addSources(const scene::Scene& from, view::ViewScene& to) {
   if (from.sources.size() != from.models.size()) return;
+  const std::vector<std::string> files = fileIdentities(from);
   Identities identities;
   bool hasKinds = false;
   for (const scene::ModelSource& source : from.sources) {
     to.identities.push_back(identities.unique(
-        source.id.empty() ? from.files[source.file].filename().string() + '\n' + source.name : source.id));
+        source.id.empty() ? files[source.file] + '\n' + source.name : source.id));
     to.kinds.push_back(source.kind);
     to.ids.push_back(source.id);
     hasKinds = hasKinds || !source.kind.empty();

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments
+from ._errors import FileError
 from ._search import Pairs
 
 if TYPE_CHECKING:
@@ -206,6 +207,11 @@ def detect(
 ) -> Detection:
     """Reads a file or folder as `load` does and finds the pairs that may touch, as `Scene.detect` does.
 
+    Raises
+    ------
+    FileError
+        As `load`; and if ``partial`` leaves no model, since the result would say nothing of the file.
+
     Examples
     --------
     >>> import allpairs
@@ -224,5 +230,8 @@ def detect(
         allow_outside=allow_outside,
         max_memory=max_memory,
     )
+    if not len(scene) and any(remark.is_partial for remark in scene.remarks):
+        name = os.fsdecode(path)
+        raise FileError(f"{name}: no model of it can be placed or read; load(..., partial=True).remarks says why", name, 0, 0)
     pairs = scene.detect(distance=distance, region=region, strategy=strategy, threads=threads, verify=verify)
     return Detection(scene, pairs)

@@ -154,6 +154,17 @@ def test_names_and_errors_of_files_that_are_no_utf8_show_their_bytes(tmp_path):
         allpairs.load(bytes(tmp_path) + b"/missing\xff.csv")
 
 
+def test_a_scene_of_which_nothing_is_left_is_an_error(tmp_path):
+    scene = tmp_path / "none.scn"
+    scene.write_text(
+        '<Node><MeshOBJLoader name="l" filename="none.obj"/><MeshTopology src="@l"/>'
+        '<MechanicalObject src="@l"/><TriangleCollisionModel/></Node>'
+    )
+    with pytest.raises(allpairs.FileError, match="none.scn: no model of it can be placed or read"):
+        allpairs.detect(scene, partial=True)
+    assert [remark.is_partial for remark in allpairs.load(scene, partial=True).remarks] == [True]
+
+
 def test_an_index_of_no_model_is_an_index_error():
     scene = allpairs.load(SCENE)
     assert scene[-1] == scene[len(scene) - 1]

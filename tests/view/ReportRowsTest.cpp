@@ -216,11 +216,39 @@ TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
             std::string::npos);
 }
 
+TEST(ReportSince, FilesOfOneNameAreKnownByTheirFolders) {
+  const TempFolder folder;
+  for (const char* name : {"left/bolt.obj", "right/bolt.obj", "base/plate.obj"}) {
+    folder.write(name, kTriangle);
+  }
+  // The GUID of each pair, which is known by the one that it is without.
+  const auto guids = [&](const Names& folders, const char* out) {
+    Names words{"report", "--boxes", "-o", folder.path() / out};
+    for (const std::string& name : folders) words.push_back(folder.path() / name);
+    expectSuccess(runProgram(words));
+    std::map<std::string, std::string> found;
+    for (const auto& [names, guid] : guidsByNames(folder.path() / out)) {
+      for (const char* name : {"left", "right", "plate"}) {
+        if (names.find(name) == std::string::npos) found[name] = guid;
+      }
+    }
+    return found;
+  };
+  const std::map<std::string, std::string> before = guids({"left", "right", "base"}, "before");
+  ASSERT_EQ(before.size(), 3U);
+  EXPECT_EQ(guids({"right", "base", "left"}, "turned"), before) << "whatever their order";
+  // Where there is one of the name it may be either: what is found is new.
+  const std::map<std::string, std::string> after = guids({"right", "base"}, "after");
+  ASSERT_EQ(after.size(), 2U) << "without one of the name, and so without its folder";
+  for (const auto& [name, guid] : before) EXPECT_NE(after.at("left"), guid) << name;
+}
+
 TEST(ReportSince, SaysWhatIsNoReport) {
   const TempFolder folder;
   const std::string out = folder.path() / "out";
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path()}), 3,
                 "holds no report to compare with");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", ""}), 2, "--since: the name is empty");
   const std::string table = folder.write("other.csv", "a,b\n1,2\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", table}), 3,
                 "other.csv: is no table of a report");

@@ -396,7 +396,6 @@ HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t
 template <bool kPreceding, bool kPlain>
 HWY_INLINE void searchRun(WorldsRun& run) {
   alignas(64) WorldTile<float> tile;
-  const BoundsTest<float> test(tile);
   WorldSink sink = run.sink;
   for (; run.world < run.end; ++run.world) {
     const std::size_t first = run.worlds->begin(run.world);
@@ -405,6 +404,7 @@ HWY_INLINE void searchRun(WorldsRun& run) {
     const WorldPlaces places = WorldPlaces::of(boxes);
     prefetchAfter(run, first + boxes, boxes);
     readWorld(run, first, places, tile);
+    const BoundsTest<float> test(tile);
     if constexpr (kPlain) {
       searchWorld<kPreceding, false>(test, places, {places}, sink);
     } else {
