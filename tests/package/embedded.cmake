@@ -40,6 +40,12 @@ endfunction()
 set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/subproject)
 configure_consumer(${WORK}/subproject -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D BUILD_SHARED_LIBS=${SHARED})
 expect_steps(${WORK}/subproject 29 engine)
+if(GENERATOR STREQUAL "Ninja" AND NOT FLAGS MATCHES "-O")
+  run(ninja -C ${WORK}/subproject -n -v)
+  if(NOT output MATCHES "-O2")
+    message(FATAL_ERROR "the engine is compiled unoptimised")
+  endif()
+endif()
 build_and_run(${WORK}/subproject)
 expect_built(${WORK}/subproject liballpairs)
 foreach(package TBB assimp fcl Bullet SofaFramework GTest) # whose folders find_package would keep
@@ -49,10 +55,11 @@ foreach(package TBB assimp fcl Bullet SofaFramework GTest) # whose folders find_
   endif()
 endforeach()
 
-# A project that is C++17, which ours is not for it.
+# A project that is C++17, which ours is not for it, is debugged, and wants no warnings.
 set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/consumer)
 configure_consumer(${WORK}/build -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D PARTS=engine,collision -D
-                   BUILD_SHARED_LIBS=${SHARED} -D CMAKE_CXX_STANDARD=17)
+                   BUILD_SHARED_LIBS=${SHARED} -D CMAKE_CXX_STANDARD=17
+                   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_COMPILE_WARNING_AS_ERROR=ON)
 expect_steps(${WORK}/build 81 engine collision)
 build_and_run(${WORK}/build)
 expect_built(${WORK}/build liballpairs liballpairs_collision)
