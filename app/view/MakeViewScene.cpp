@@ -72,8 +72,7 @@ void addSources(const scene::Scene& from, view::ViewScene& to) {
   Identities identities;
   bool hasKinds = false;
   for (const scene::ModelSource& source : from.sources) {
-    to.identities.push_back(identities.unique(
-        source.id.empty() ? files[source.file] + '\n' + source.name : source.id));
+    to.identities.push_back(identities.unique(source.id.empty() ? files[source.file] + '\n' + source.name : source.id));
     to.kinds.push_back(source.kind);
     to.ids.push_back(source.id);
     hasKinds = hasKinds || !source.kind.empty();

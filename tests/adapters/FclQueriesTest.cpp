@@ -180,5 +180,43 @@ TYPED_TEST(FclQueries, RefusesAQueryWithANan) {
   }
 }
 
+TYPED_TEST(FclQueries, AnObjectThatIsAddedAgainWithANanStaysWhereItWas) {
+  using S = TypeParam;
+  const auto objects = this->addObjects(3, S(0.1));
+  FclBroadPhaseManager<S> manager;
+  manager.registerObjects(objects);
+  Threshold<S> before{S(2), {}};
+  manager.distance(&before, Threshold<S>::call);
+  objects[1]->setTranslation({std::numeric_limits<S>::quiet_NaN(), S(0), S(0)});
+  objects[1]->computeAABB();
+  EXPECT_THROW(manager.registerObject(objects[1]), InvalidBox);
+  EXPECT_EQ(manager.size(), 3U);
+  Threshold<S> after{S(2), {}};
+  manager.distance(&after, Threshold<S>::call);
+  EXPECT_EQ(after.given.size(), before.given.size());
+}
+
+TYPED_TEST(FclQueries, WhatIsGoneIsInNoPair) {
+  using S = TypeParam;
+  for (const std::size_t count : {20U, 65U, 1000U}) {
+    auto objects = this->addObjects(count, S(9));
+    FclBroadPhaseManager<S> manager;
+    manager.registerObjects(objects);
+    for (int step = 0; step < 3; ++step) {
+      Threshold<S> all{S(0), {}};
+      manager.collide(&all, [](auto* a, auto* b, void* data) {
+        static_cast<Threshold<S>*>(data)->given.emplace_back(std::minmax(a, b));
+        return false;
+      });
+      for (const auto& pair : all.given) {
+        EXPECT_EQ(std::count(objects.begin(), objects.end(), pair.first), 1);
+        EXPECT_EQ(std::count(objects.begin(), objects.end(), pair.second), 1);
+      }
+      manager.unregisterObject(objects.back());
+      objects.pop_back();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -137,6 +137,44 @@ TEST(ElementCandidates, FollowTheirPositions) {
   expectEqual(candidates, ElementOracle({mesh}));
 }
 
+TEST(ElementCandidates, FollowTheirPositionsWhereFloat32IsTooCoarse) {
+  const double above = 1.0 + 0x1p-52;  // which float32 can't tell from 1
+  const MovingMesh slope{{0, 0, 0, 1, 0, 0, 0, 1, 1}, {0, 0, 0, 1, 0, 0, 0, 1, 1}, {0, 1, 2}};
+  const auto there = [&](double x) { return shifted(slope, x, 0.25, 0.25).start; };
+  ElementCandidates candidates = candidatesOf({slope, shifted(slope, 0.75 + 0x1p-40, 0.25, 0.25)});
+  EXPECT_EQ(candidates.find(CandidateKind::FaceFace).size(), 1U);
+  for (const auto& [x, count] :
+       {std::pair(above, 0U), {0.5 + 0x1p-40, 1U}, {above, 0U}, {3.0 + 0x1p-40, 0U}, {-0.5 - 0x1p-40, 1U}}) {
+    const std::vector<double> positions = there(x);
+    candidates.setPositions(1, std::span<const double>(positions), positions);
+    EXPECT_EQ(candidates.find(CandidateKind::FaceFace).size(), count) << x;
+  }
+}
+
+TEST(ElementCandidates, AreExactWhereOnlyLowerBoundsAreRounded) {
+  const double above = 1.0 + 0x1p-52;  // float32 makes it 1, where the triangle ends
+  const MovingMesh point{{above, above, above}, {4.0, 4.0, 4.0}, {}};
+  const MovingMesh triangle{{1, 0, 0, 0, 0, 0, 1, 1, 0}, {1, 1, 1, 1, 1, 1, 1, 1, 1}, {0, 1, 2}};
+  ElementCandidates candidates = candidatesOf({point, triangle});
+  EXPECT_EQ(toVector(candidates.find(CandidateKind::VertexFace)), std::vector<Pair>());
+  expectEqual(candidates, ElementOracle({point, triangle}));
+}
+
+TEST(ElementCandidates, AreStreamedInBatchesOfAtMostTheSizeThatIsWanted) {
+  ElementCandidates candidates = candidatesOf({rolledSheet(10, 7)});
+  const std::size_t all = candidates.find(CandidateKind::FaceFace).size();
+  ASSERT_GT(all, 100U);
+  for (const std::size_t most : {1U, 7U, 1000000U}) {
+    std::size_t sum = 0;
+    const auto take = [&](Span<const Pair> pairs) {
+      EXPECT_LE(pairs.size(), most);
+      sum += pairs.size();
+    };
+    candidates.stream(CandidateKind::FaceFace, take, most);
+    EXPECT_EQ(sum, all);
+  }
+}
+
 TEST(ElementCandidates, ThatOnlyTouchAreCandidates) {
   // The second triangle lies one further along x, where the first ends.
   ElementCandidates candidates = candidatesOf({kTriangle, shifted(kTriangle, 1.0, 0.0, 0.0)});
@@ -176,6 +214,8 @@ TEST(ElementCandidates, RefusePositionsOfTheWrongNumberNamingTheMesh) {
   MovingMesh mesh = kTriangle;
   mesh.end.resize(6);
   EXPECT_EQ(messageOf(mesh), "mesh 0: its positions at the end are 6 numbers where 3 vertices need 9");
+  mesh.end.resize(12);
+  EXPECT_EQ(messageOf(mesh), "mesh 0: its positions at the end are 12 numbers where 3 vertices need 9");
 }
 
 TEST(ElementCandidates, RefuseANumberThatIsNotFiniteNamingMeshAndVertex) {

@@ -102,6 +102,25 @@ TEST(Resume, DamagedFilesAreMadeAgain) {
   }
 }
 
+/// Of cells that were searched again the pairs come behind those of cells with greater numbers.
+TEST(Resume, PairsOfCellsThatStayAreKeptWhereverTheyLie) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  const fs::path path = with.options().work / "manifest";
+  const auto keepOnly = [&path](const auto& isKept) {
+    join::Manifest manifest = *join::Manifest::read(path);
+    std::erase_if(manifest.cells, [&](const auto& cell) { return !isKept(cell.first); });
+    manifest.write(path);
+  };
+  keepOnly([](std::size_t cell) { return cell != 2; });
+  join::JoinOptions failing = resuming(with);
+  failing.commit = [] { throw std::runtime_error("not committed"); };
+  EXPECT_THROW((void)with.run(failing), std::runtime_error);
+  keepOnly([](std::size_t cell) { return cell == 2 || cell == 3; });
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
+  EXPECT_EQ(with.summary.resumedCells, 2U);
+}
+
 TEST(Resume, FilesThatAreGoneAreMadeAgain) {
   for (const char* name : {"boxes", "pairs"}) {
     JoinCase with(someBoxes());
@@ -124,6 +143,21 @@ TEST(Resume, ADamagedManifestIsAnError) {
   stoppedWhileWriting(with);
   flipByte(with.options().work / "manifest", 20);
   EXPECT_THROW((void)with.run(resuming(with)), FileError);
+}
+
+TEST(Resume, AManifestThatAnotherHandHasWrittenIsAnError) {
+  const auto refused = [](const std::string& before, const std::string& after) {
+    JoinCase with(someBoxes());
+    stoppedWhileWriting(with);
+    const fs::path path = with.options().work / "manifest";
+    std::string text = bytesOfFile(path);
+    const std::size_t at = text.find(before);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, before.size(), after);
+    std::ofstream(path, std::ios::binary) << text;
+    EXPECT_THROW((void)with.run(resuming(with)), FileError) << after;
+  };
+  refused("\noptions ", "\noptions 0");  // a number that means the same, with a checksum of another text
 }
 
 TEST(Resume, WithoutItAJoinThatDidNotEndIsAnError) {

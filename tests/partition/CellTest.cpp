@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "allpairs/Error.h"
@@ -51,6 +52,30 @@ TEST(Cell, ReachIsThatOfTheGreaterOfBothRoundings) {
   const Box point{{0, 0, 0}, {0, 0, 0}};
   EXPECT_EQ(reachOf(point, kHuge, 1.0, 1.0).max[0], kHuge + 2.0);
   EXPECT_EQ(reachOf(point, 1.0, 1.0, kHuge).max[0], kHuge + 2.0);
+}
+
+TEST(Cell, ANanOnAnyAxisIsRefused) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Cell low;
+    Cell high;
+    low.min[axis] = std::numeric_limits<double>::quiet_NaN();
+    high.max[axis] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW((void)countOverlapsInCell(kRow, low), InvalidArgument);
+    EXPECT_THROW((void)countOverlapsInCell(kRow, high), InvalidArgument);
+  }
+}
+
+TEST(Cell, ASearchOfOneSetAfterOneOfTwoKnowsNothingOfThose) {
+  const Cell cell{{-kInfinity, -kInfinity, -kInfinity}, {0.75, kInfinity, kInfinity}};
+  const std::vector<Box> outside(4, cube(1, 0, 0));
+  const std::vector<Box> inside(4, cube(-1, 0, 0));
+  for (const auto& second : {outside, inside}) {
+    CellSearch search;
+    search.stream(kRow, second, cell, [](Span<const Pair>) {});
+    std::uint64_t count = 0;
+    search.stream(kRow, cell, [&](Span<const Pair> pairs) { count += pairs.size(); });
+    EXPECT_EQ(count, countOverlapsInCell(kRow, cell));
+  }
 }
 
 TEST(Cell, PairsOfIdsAreInLexicographicOrder) {

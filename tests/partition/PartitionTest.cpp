@@ -75,6 +75,19 @@ TEST(Partition, CountsByTheGreatestMarginOfEither) {
   EXPECT_EQ(boxesPerCell(partition, view, 0.0, 9.0), (std::vector<std::uint64_t>{2, 3}));
 }
 
+TEST(Partition, AGreatestMarginThatIsNoNumberIsRefused) {
+  const std::vector<Box> boxes = {cube(0, 0, 0)};
+  EXPECT_THROW((void)boxesPerCell(Partition(), boxes, 0.0, std::nan("")), InvalidArgument);
+}
+
+TEST(Partition, IsCutAtNumbersAlone) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 10; ++i) boxes.push_back({{0, 0, 0}, {1, 1, 1}});
+  for (int i = 0; i < 10; ++i) boxes.push_back({{kInfinity, 0, 0}, {kInfinity, 1, 1}});
+  const Partition partition(boxes, 4);
+  for (const Cut& cut : partition.cuts()) EXPECT_TRUE(std::isfinite(cut.at));
+}
+
 TEST(Partition, ComesBackFromItsCuts) {
   const std::vector<Box> boxes = test::toDouble(test::randomBoxes(1'000, 6));
   const Partition partition(boxes, 9);
@@ -93,6 +106,7 @@ TEST(Partition, CutsThatAreNoTreeAreRefused) {
   refused({{0.0, 0, 0, ~0}});
   refused({{0.0, 0, ~0, ~1}, {0.0, 0, ~2, ~3}});
   refused({{0.0, 0, 1, ~0}, {0.0, 0, 0, ~1}});
+  refused({{0.0, 0, ~0, ~1}, {0.0, 0, 1, ~2}});
   EXPECT_THROW((void)Partition().cell(1), InvalidArgument);
 }
 

@@ -139,6 +139,19 @@ TEST(Faces, ThatAreNotConvexAreFilledByTheirTrianglesInEveryFormat) {
   }
 }
 
+TEST(Faces, OfFourCornersAreFilledFromWhicheverCornerTheyBegin) {
+  const Outline arrow{{0, 0}, {4, 0}, {1, 1}, {0, 4}};
+  for (std::size_t first = 0; first < arrow.size(); ++first) {
+    for (const bool isReversed : {false, true}) {
+      const Outline outline = turned(arrow, first, isReversed);
+      for (const Format& format : formats()) {
+        SCOPED_TRACE(format.file + " from corner " + std::to_string(first) + (isReversed ? ", reversed" : ""));
+        expectFilled(outline, trianglesOf(format.file, format.write(outline, 0)));
+      }
+    }
+  }
+}
+
 /// Corners at random distances around a point within, which no two sides cross.
 Outline star(std::mt19937& random, std::size_t size) {
   std::uniform_real_distribution<double> radius(0.05, 4.0);

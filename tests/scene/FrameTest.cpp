@@ -114,5 +114,23 @@ TEST(Frame, FilesThatSayOtherwiseThanThoseBeforeThemAreNamedOnce) {
   EXPECT_TRUE(readFrame("two.ifc", kIfc).warnings.empty());
 }
 
+TEST(Frame, AFileThatSaysNothingIsNoOther) {
+  const TempFolder folder;
+  folder.write("1.gltf", kTriangleInGltf);
+  folder.write("2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_TRUE(scene::readInput(folder.path()).warnings.empty());
+}
+
+TEST(Frame, UnitsThatDifferByMoreThanRoundingAreNamed) {
+  std::string other = collada("");
+  other.replace(other.find("0.01"), 4, "0.01001");
+  const TempFolder folder;
+  folder.write("1.dae", collada(""));
+  folder.write("2.dae", other);
+  const scene::Scene scene = scene::readInput(folder.path());
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_EQ(scene.warnings[0].subject, "unit");
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -71,6 +71,29 @@ TEST(PlyMesh, OfStripsNothingIsThereThatOnlyLeadsToTheNextPiece) {
   EXPECT_EQ(model.triangles(), (Triangles{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}})) << "and all face one way";
 }
 
+TEST(PlyMesh, PropertiesOfOtherNamesAndFacesThatAreNoneAreNoProblem) {
+  const std::string vertices =
+      "element vertex 1\nproperty float a\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float s\nelement face 0\nproperty int other\n";
+  const scene::Scene scene = read(ascii(vertices, "7 1 2 3 8\n"));
+  EXPECT_EQ(namesOf(scene), "mesh.ply TPointModel 1\n");
+  EXPECT_EQ(boxOf(*scene.models[0]), (Box{{1, 2, 3}, {1, 2, 3}}));
+}
+
+TEST(PlyMesh, ListsAndIndicesAreWholeNumbersFromZeroOn) {
+  const std::string body = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const auto expectRefused = [&](const std::string& element, const std::string& row, const std::string& part) {
+    expectFileError([&] { (void)read(ascii(kVertices + element, body + row)); }, part);
+  };
+  const std::string faces = "element face 1\nproperty list float float vertex_indices\n";
+  expectRefused(faces, "-1\n", "face 0 has a list without a proper length");
+  expectRefused(faces, "2.5 0 1 2\n", "face 0 has a list without a proper length");
+  expectRefused(faces, "3 0 1 1.5\n", "face 0 has an index that names no vertex");
+  expectRefused("element tristrips 1\nproperty list int int vertex_indices\n", "4 0 1 2 -2\n",
+                "has an index that names no vertex");
+  expectRefused("element edge 1\nproperty int vertex1\nproperty int vertex2\n", "0 4\n", "edge 0 names vertex 4 of 4");
+}
+
 TEST(PlyMesh, FilesCutAnywhereAreRefused) {
   const TempFolder folder;
   for (const std::string& bytes : {quad(), binary(false)}) {

@@ -103,6 +103,19 @@ TEST(StlMesh, ErrorsNameTheLine) {
   expectStlProblem(binaryStl("", bad), "mesh.stl: facet 1 has a coordinate that is no finite number");
 }
 
+TEST(StlMesh, ColoursAreNoGeometry) {
+  EXPECT_EQ(namesOf(readStl("solid a\ncolor 1 0 0.5\n" + facetText("0 1 0") + "endsolid a\n")), "a TTriangleModel 1\n");
+}
+
+TEST(StlMesh, PiecesThatEndOrBeginTooEarlyAreRefused) {
+  const std::string two = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
+  expectStlProblem("solid a\n" + facetText("0 1 0") + two + "endsolid a\n", "a facet has three vertices, not 2");
+  expectStlProblem("solid a\n" + two + "facet normal 0 0 1\nouter loop\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
+                   "mesh.stl:6: a facet has three vertices, not 2");
+  expectStlProblem("solid a\nendsolid\nvertex 0 0 0\n", "mesh.stl:3: a vertex stands outside of any solid");
+  expectStlProblem("solid a\nendsolid\nfacet normal 0 0 1\n", "mesh.stl:3: a facet or its end stands outside of any");
+}
+
 TEST(StlMesh, HugeClaimsEndWithTheFile) {
   std::string bytes(80, '\0');
   appendNumber(bytes, std::numeric_limits<std::uint32_t>::max(), false);

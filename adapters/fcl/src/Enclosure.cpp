@@ -107,7 +107,9 @@ bool areSame(const ExactPart& first, const ExactPart& second, double tolerance) 
   if (!holds(first.box(), second.box(), tolerance) || !holds(second.box(), first.box(), tolerance)) return false;
   if (haveSameTriangles(first, second, tolerance)) return true;
   if ((first.isOpen() || second.isOpen()) && !haveSameArea(first, second, tolerance)) return false;
-  return first.radius() == 0.0 && liesOn(first, second, tolerance) && liesOn(second, first, tolerance);
+  const bool isThick = first.radius() != 0.0 || second.radius() != 0.0;
+  if (isThick && (first.triangles().size() != 1 || second.triangles().size() != 1)) return false;  // of one core each
+  return liesOn(first, second, tolerance) && liesOn(second, first, tolerance);
 }
 
 }  // namespace allpairs::exact

@@ -178,8 +178,6 @@ class Look {
     if (isInside) takeDeeper(ofFirst, ofSecond);
     if (!isInside && m_meeting.surfacesMeet) m_meeting.depth = std::max(0.0, m_radius - m_coreDistance);
     m_meeting.isDeep = m_meeting.depth > m_tolerance;
-    // A ball around a point within a solid touches its surface only if it reaches so far.
-    if (isInside && m_coreDistance > m_radius + m_tolerance) m_meeting.surfacesMeet = false;
   }
 
   /// Where all surfaces that bound what the two share lie on each other, no point of one lies in the other.
