@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 /// A broad phase and the proxies in it, some of them moved, removed and added at random.
 class Crowd {
@@ -329,6 +330,19 @@ TEST(BulletBroadphase, AnEmptiedOneStartsWithTheSameNumbersAgain) {
     for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
     broadphase.resetPool(nullptr);
   }
+}
+
+TEST(BulletBroadphase, OneThatIsNotEmptyIsNotReset) {
+  BulletBroadphase broadphase;
+  auto* const first = addUnitCube(broadphase, 0);
+  auto* const second = addUnitCube(broadphase, 0);
+  broadphase.calculateOverlappingPairs(nullptr);
+  broadphase.resetPool(nullptr);
+  broadphase.calculateOverlappingPairs(nullptr);
+  EXPECT_THAT(pairsOf(*broadphase.getOverlappingPairCache()), SizeIs(1));
+  EXPECT_EQ(broadphase.proxyOf(0), first);
+  EXPECT_EQ(broadphase.proxyOf(1), second);
+  for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
 }
 
 TEST(BulletBroadphase, RefusesABoxWithANaN) {

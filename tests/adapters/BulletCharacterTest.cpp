@@ -184,6 +184,11 @@ TEST_F(GhostTest, ThatIsACharacterHasAMarginAndAnyOtherHasNone) {
   ghost().setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
   world().performDiscreteCollisionDetection();
   EXPECT_EQ(found(), 1);
+  for (const btScalar x : {-justApart, justApart}) {
+    move(x);
+    world().performDiscreteCollisionDetection();
+    EXPECT_EQ(found(), 1) << x;
+  }
   struct Tally : btBroadphaseAabbCallback {
     int count = 0;
     bool process(const btBroadphaseProxy*) override { return ++count > 0; }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <span>
 #include <vector>
 
 #include "WorldOracle.h"
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "support/Numbers.h"
@@ -184,6 +186,26 @@ TEST(WorldQuery, AnEmptyBoxOverlapsNothingNotEvenWhatLiesAroundIt) {
     std::swap(query.min[axis], query.max[axis]);
     EXPECT_TRUE(world.findOverlapping(query).empty());
   }
+}
+
+TEST(WorldQuery, ARayOfNoLengthIsItsOrigin) {
+  World world;
+  const BoxId id = world.add(Box{{0, 0, 0}, {1, 1, 1}});
+  const Ray within{{0.5, 0.5, 0.5}, {1, 0, 0}, 0.0};
+  const Ray before{{-0.5, 0.5, 0.5}, {1, 0, 0}, 0.0};
+  EXPECT_EQ(world.findFirst(within).id, id);
+  EXPECT_EQ(world.findFirst(before).id, kNoBox);
+  EXPECT_EQ(world.findAll(within).size(), 1U);
+}
+
+TEST(WorldQuery, ASweepThatLastsForeverIsRefused) {
+  World world;
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const BoxId id = world.add(box);
+  const std::vector<double> velocity{1.0, 2.0, 3.0};  // with one of 0 the box would end at a NaN
+  const std::span<const BoxId> ids(&id, 1);
+  EXPECT_THROW(world.moveSwept(ids, std::span<const Box>(&box, 1), velocity, kInfinity), InvalidArgument);
+  EXPECT_EQ(world.box(id), box);
 }
 
 }  // namespace
