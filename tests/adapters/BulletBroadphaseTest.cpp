@@ -179,6 +179,31 @@ TEST(BulletBroadphase, AFilterCallbackTakesThePlaceOfGroupsAndMasks) {
   for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
 }
 
+TEST(BulletBroadphase, AFilterCallbackIsAskedAgainWhereGroupOrMaskChanged) {
+  struct OfOneGroup : btOverlapFilterCallback {
+    bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+      return a->m_collisionFilterGroup == b->m_collisionFilterGroup &&
+             a->m_collisionFilterMask == b->m_collisionFilterMask;
+    }
+  } filter;
+  BulletBroadphase broadphase;
+  broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  auto* const first = addUnitCube(broadphase, 0, 0, 4);
+  auto* const second = addUnitCube(broadphase, 0, 2, 4);
+  const auto stepped = [&] {
+    broadphase.calculateOverlappingPairs(nullptr);
+    return pairsOf(*broadphase.getOverlappingPairCache());
+  };
+  EXPECT_THAT(stepped(), IsEmpty());
+  second->m_collisionFilterGroup = 0;
+  EXPECT_THAT(stepped(), SizeIs(1));
+  first->m_collisionFilterMask = 0;
+  EXPECT_THAT(stepped(), IsEmpty());
+  second->m_collisionFilterMask = 0;
+  EXPECT_THAT(stepped(), SizeIs(1));
+  for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
+}
+
 TEST(BulletBroadphase, TheGhostPairCallbackHearsOfEachPairThatBeginsAndEnds) {
   struct Counter : btOverlappingPairCallback {
     int begun = 0;
