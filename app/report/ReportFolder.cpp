@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "Report.h"
 #include "allpairs/scene/FileError.h"
@@ -111,18 +113,26 @@ void ReportFolder::checkPlaces() const {
   }
 }
 
+/// What takes memory comes before the first file is in its place.
 void ReportFolder::commit(std::size_t pictures, bool hasPage) {
   checkPlaces();
+  std::vector<std::pair<fs::path, fs::path>> moves;
+  for (const fs::path& name : m_names) moves.emplace_back(m_stage / name, m_folder / name);
   std::error_code problem;
-  fs::create_directory(m_folder / "pictures", problem);
-  for (const fs::path& name : m_names) {
-    fs::rename(m_stage / name, m_folder / name, problem);
-    if (problem) throw FileError(m_folder / name, "cannot be put in its place: " + problem.message());
-  }
+  std::vector<fs::path> left;  // of the report that is replaced
   if (m_hadReport) {
-    if (!hasPage) fs::remove(m_folder / "view.html", problem);
-    while (fs::remove(m_folder / view::pictureName(++pictures), problem)) continue;
+    if (!hasPage) left.push_back(m_folder / "view.html");
+    for (fs::path picture = m_folder / view::pictureName(++pictures); fs::exists(picture, problem);
+         picture = m_folder / view::pictureName(++pictures)) {
+      left.push_back(picture);
+    }
   }
+  fs::create_directory(m_folder / "pictures", problem);
+  for (const auto& [from, to] : moves) {
+    fs::rename(from, to, problem);
+    if (problem) throw FileError(to, "cannot be put in its place: " + problem.message());
+  }
+  for (const fs::path& file : left) fs::remove(file, problem);
 }
 
 }  // namespace allpairs::app
