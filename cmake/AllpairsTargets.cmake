@@ -84,7 +84,7 @@ function(allpairs_configure target)
             $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>)
   # Another project that names no type of build is not to get the engine unoptimised.
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES AND NOT CMAKE_CXX_FLAGS MATCHES "(^| )-O")
-    target_compile_options(${target} PRIVATE -O2)
+    target_compile_options(${target} BEFORE PRIVATE -O2)
   endif()
   if(ALLPAIRS_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)

@@ -9,8 +9,9 @@
 //
 // A call that fails, because memory is exhausted or a visitor stopped it, leaves its handle as it was and usable: the
 // next allpairs_world_step() reports what has changed since the last one that succeeded. Only what an allpairs_search
-// found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what takes a const one; else using the handle that is calling it, of allpairs_world_find_between() both,
-// is an ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
+// found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what takes
+// a const one; else using the handle that is calling it, of allpairs_world_find_between() both, is an
+// ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
 //
 // Structures may grow at their end: struct_size tells the library which fields the caller has. All fields may be 0.
 #pragma once
@@ -428,8 +429,9 @@ typedef struct allpairs_query_filter {
   bool skip_moving;
 } allpairs_query_filter;
 
-/// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. As in all queries, boxes
-/// are enlarged by their margins, and the distance of the world does not count. Null filter: all categories and masks. No query finds a box of category 0 or mask 0.
+/// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. As in all queries,
+/// boxes are enlarged by their margins, and the distance of the world does not count. Null filter: all categories and
+/// masks. No query finds a box of category 0 or mask 0.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
                                                                const allpairs_query_filter* filter, allpairs_ids* ids);
 

@@ -72,8 +72,9 @@ void takeCount(CLI::Option& option) {
     constexpr double kMost = 1e15;  // float64 holds every whole number up to it
     double value = -1.0;
     const auto [end, problem] = std::from_chars(text.data(), last, value);
-    if (problem != std::errc() || end != last || !(value >= 0.0 && value <= kMost) || std::floor(value) != value)
+    if (problem != std::errc() || end != last || !(value >= 0.0) || std::floor(value) != value)
       throw UsageError(option.get_name() + ": '" + text + "' is not a whole number from 0 on");
+    if (value > kMost) throw UsageError(option.get_name() + ": '" + text + "' is too large");
     return fmt::format("{:.0f}", value);
   });
 }

@@ -34,8 +34,8 @@ void withInputs(InputSettings& settings, const std::function<void()>& work);
 /// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
 
-/// Warns of the boxes of the only input that are empty, if there are any: `each` of them in every frame or world, of which
-/// `part` is the word, and which are numbered through.
+/// Warns of the boxes of the only input that are empty, if there are any: `each` of them in every frame or world, of
+/// which `part` is the word, and which are numbered through.
 void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part);
 
 /// What a result says about box i.

@@ -37,14 +37,12 @@ std::vector<std::string> fileNames(const scene::Scene& scene) {
   return names;
 }
 
-constexpr std::size_t kMostParts = 1000;  // of a path
-
-/// The last parts of a path, so many of them.
-std::string endOf(const std::filesystem::path& path, std::size_t parts) {
-  std::filesystem::path end = path.filename();
-  std::filesystem::path folder = path.parent_path();
-  for (; parts > 1 && folder.has_filename(); --parts, folder = folder.parent_path()) end = folder.filename() / end;
-  return end.string();
+/// The folder that two are in, or are.
+std::filesystem::path commonPart(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::filesystem::path common;
+  const auto [end, ignored] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  for (auto part = a.begin(); part != end; ++part) common /= *part;
+  return common;
 }
 
 /// Puts bodies together of their models.
@@ -143,23 +141,22 @@ std::string Identities::unique(std::string identity) {
 
 std::vector<std::string> fileIdentities(const scene::Scene& scene) {
   std::vector<std::filesystem::path> paths;
+  std::map<std::string, std::filesystem::path> folders;  // that the files of a name have in common
   for (const auto& file : scene.files) {
     std::error_code problem;
     const std::filesystem::path path = std::filesystem::absolute(file, problem);
     paths.push_back(problem ? file : path.lexically_normal());
+    const std::filesystem::path folder = paths.back().parent_path();
+    const auto [common, isNew] = folders.emplace(paths.back().filename().string(), folder);
+    if (!isNew) common->second = commonPart(common->second, folder);
   }
-  std::vector<std::string> ends(paths.size());
-  std::vector<bool> isTold(paths.size(), false);
-  for (std::size_t parts = 1; parts < kMostParts && std::ranges::count(isTold, false) != 0; ++parts) {
-    std::map<std::string, std::set<std::string>> pathsOf;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      if (isTold[i]) continue;
-      ends[i] = endOf(paths[i], parts);
-      pathsOf[ends[i]].insert(paths[i].string());
-    }
-    for (std::size_t i = 0; i < paths.size(); ++i) isTold[i] = isTold[i] || pathsOf[ends[i]].size() == 1;
+  std::vector<std::string> names;
+  for (const auto& path : paths) {
+    const std::string name = path.filename().string();
+    names.push_back(path.parent_path() == folders[name] ? name
+                                                        : path.lexically_relative(folders[name]).generic_string());
   }
-  return ends;
+  return names;
 }
 
 void addBodies(const scene::Scene& from, Grouping grouping, view::ViewScene& to) {

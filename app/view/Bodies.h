@@ -29,8 +29,8 @@ class Identities {
   std::map<std::string, std::size_t> m_counts;
 };
 
-/// What the files of a scene are known by, wherever their folder is: their names, and of those of one name as many folders
-/// as tell them apart.
+/// What the files of a scene are known by, wherever they are: their names, and of those of one name the folders below
+/// the one that they have in common.
 [[nodiscard]] std::vector<std::string> fileIdentities(const scene::Scene& scene);
 
 /// Gives a scene that is shown, and whose models have their identities, the bodies of the one that was read, and what

@@ -82,7 +82,7 @@ class MeshCandidates:
         settings.between = _arguments.flag("between", between)
         settings.order = _arguments.order_of(order)
         settings.threads = _arguments.threads_of(threads)
-        single = np.ndim(vertex_count) == 0
+        single = isinstance(vertex_count, (int, float, np.number)) or getattr(vertex_count, "ndim", 1) == 0
         meshes: list[Any] = [triangles] if single else list(cast(Any, triangles))
         counts: list[Any] = [vertex_count] if single else list(cast(Any, vertex_count))
         if len(meshes) != len(counts):

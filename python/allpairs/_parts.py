@@ -43,6 +43,16 @@ class BoxParts(NamedTuple):
 _READING = Lock()
 
 
+def _unlock() -> None:
+    """In a process that was forked while another thread was reading, nobody would unlock it."""
+    global _READING
+    _READING = Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_unlock)
+
+
 def _read(path: str) -> Array:
     """An array in a file, which is mapped."""
     if os.path.exists(path) and not os.path.isfile(path):

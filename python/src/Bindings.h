@@ -20,8 +20,8 @@ void bindScene(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindWorlds(pybind11::module_& module);
 
-/// Makes pickling an error for the types of a module, of which none can be pickled: pybind11's own attempt ends the process
-/// with protocols 0 and 1.
+/// Makes pickling an error for the types of a module, which are the package's own matter: pybind11's attempt ends the
+/// process with protocols 0 and 1.
 inline void refusePickling(const pybind11::module_& module) {
   const auto refuse = [](const pybind11::object& object) {
     throw pybind11::type_error("cannot pickle '" + std::string(Py_TYPE(object.ptr())->tp_name) + "' object");

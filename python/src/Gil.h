@@ -16,8 +16,8 @@ namespace allpairs::python {
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// Whether this is the thread in which Python ends: it alone still has the interpreter then, as for the destructors of what
-/// modules hold.
+/// Whether this is the thread in which Python ends: it alone still has the interpreter then, as for the destructors of
+/// what modules hold.
 inline thread_local bool isEndingPython = false;
 
 /// Once Python ends there is no interpreter for other threads to ask for: what is left of it is not to be touched.

@@ -63,13 +63,13 @@ void requireOneSearch(const Scene& scene) {
 
 /// Leaves the models' names as they are.
 void moveAll(Scene& scene, Scene& more) {
-  const std::filesystem::path firstFile = more.files.empty() ? std::filesystem::path() : more.files.front();
+  if (more.frameFile.empty() && !more.files.empty()) more.frameFile = more.files.front();
   moveSources(scene, more);
   moveBehind(scene.remarks, more.remarks);
   moveBehind(scene.warnings, more.warnings);
   chooseMethod(scene, more);
   chooseRegion(scene, more);
-  noteFrame(scene, firstFile, more.up, more.metresPerUnit);
+  noteFrame(scene, more.frameFile, more.up, more.metresPerUnit);
   moveBehind(scene.models, more.models);
   moveBehind(scene.owners, more.owners);
 }

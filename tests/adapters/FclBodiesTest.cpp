@@ -61,6 +61,21 @@ TEST(FclBodies, BallsAroundOnePointAreDuplicatesOnlyOfTheSameRadius) {
   EXPECT_EQ(examine(large, small).state, ExactState::Contained);
 }
 
+TEST(FclBodies, ManySmallFlushFacesHideNoFewOthers) {
+  const auto same = unitCube({20, 20, 0.5});
+  const auto hole = cuboid({20.25, 20.25, 0.75}, {20.75, 20.75, 1.25}, true);
+  const auto inHole = cuboid({20.25, 20.25, 0.75}, {20.75, 20.75, 1.25});
+  for (const std::uint32_t n : {1U, 8U, 20U, 40U}) {
+    const auto left = fineCube({0, 0, 0}, n);
+    const auto right = fineCube({1, 0, 0}, n);
+    EXPECT_EQ(examine(*together({left.get(), same.get()}), *together({right.get(), same.get()})).state,
+              ExactState::Clash)
+        << n;
+    const auto filling = together({left.get(), inHole.get()});  // out of what it shares a cube with
+    EXPECT_EQ(examine(*filling, *together({left.get(), same.get(), hole.get()})).state, ExactState::Clash) << n;
+  }
+}
+
 TEST(FclBodies, ACapsuleIsTheSameFromEitherEnd) {
   CapsuleModel one("one", {{{0, 0, 0}, {1, 2, 3}, 0.5}});
   CapsuleModel turned("turned", {{{1, 2, 3}, {0, 0, 0}, 0.5}});

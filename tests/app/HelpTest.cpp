@@ -90,7 +90,9 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
   expectUsage({"detect", "a.npy", "-x"}, "unknown option '-x' (see");
   expectUsage({"detect", "a.npy", "--" + std::string(5000, 'x')}, "unknown option '--xxx");
   expectUsage({"--verify", "detect", "a.npy"}, "the option '--verify' comes behind 'detect' (see");
-  for (const std::string value : {"-1", "1.5", "99999999999999999999", "many"}) {
+  expectUsage({"bench", "uniform", "--seed", "99999999999999999999"},
+              "--seed: '99999999999999999999' is too large (see");
+  for (const std::string value : {"-1", "1.5", "1e999", "many"}) {
     expectUsage({"report", "a.obj", "-o", "b", "--pictures", value},
                 "--pictures: '" + value + "' is not a whole number from 0 on (see");
     expectUsage({"bench", "uniform", "--repetitions", value},

@@ -350,6 +350,20 @@ def test_one_thread_at_a_time_reads_the_head_of_a_file(tmp_path, monkeypatch):
     assert len(most) > len(names) and max(most) == 1
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_a_process_that_is_forked_while_files_are_read_reads_files(tmp_path):
+    from allpairs import _parts
+
+    np.save(tmp_path / "boxes.npy", boxes_of("uniform", np.float32)[:50])
+    with _parts._READING:  # as by another thread
+        child = os.fork()
+        if child == 0:
+            signal.alarm(20)
+            with dask.config.set(scheduler="synchronous"):  # Dask's threads are not in this process
+                os._exit(allpairs.dask.count(tmp_path / "boxes.npy") > 10**6)
+    assert os.waitpid(child, 0)[1] == 0
+
+
 def test_files_that_change_before_the_work_are_noticed(tmp_path):
     boxes, margins = tmp_path / "boxes.npy", tmp_path / "margins.npy"
     np.save(boxes, np.tile(np.arange(6.0), (20, 1)))

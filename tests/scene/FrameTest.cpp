@@ -114,6 +114,16 @@ TEST(Frame, FilesThatSayOtherwiseThanThoseBeforeThemAreNamedOnce) {
   EXPECT_TRUE(readFrame("two.ifc", kIfc).warnings.empty());
 }
 
+TEST(Frame, OfAFolderTheFileIsNamedThatSaysSo) {
+  const TempFolder folder;
+  folder.write("mix/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("mix/z.ifc", kIfc);
+  scene::Scene scene = readFrame("a.gltf", kTriangleInGltf);
+  append(scene, scene::readInput(folder.path() / "mix"));
+  ASSERT_EQ(scene.warnings.size(), 2U);
+  for (const scene::Remark& warning : scene.warnings) EXPECT_EQ(warning.file.filename(), "z.ifc") << warning.subject;
+}
+
 TEST(Frame, AFileThatSaysNothingIsNoOther) {
   const TempFolder folder;
   folder.write("1.gltf", kTriangleInGltf);

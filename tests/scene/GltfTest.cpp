@@ -168,6 +168,17 @@ TEST(Gltf, RotationsHaveALengthOfAboutOne) {
   EXPECT_EQ(boxOf(*gltf.read().models.at(0)), (Box{{0, 0, 0}, {2, 0, 0}}));
 }
 
+TEST(Gltf, RotationsAndMatricesMayBeRounded) {
+  Gltf turned = triangle();
+  turned.node = R"(, "rotation": [0, 0, 0.711, 0.711])";  // a quarter about z, of length 1.0055
+  const Box box = boxOf(*turned.read().models.at(0));
+  EXPECT_NEAR(box.max[0], 0.0, 1e-12);
+  EXPECT_NEAR(box.max[1], 2.0, 1e-12);
+  Gltf matrix = triangle();
+  matrix.node = R"(, "matrix": [1, 0, 0, 1e-17, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 0.99999994])";
+  EXPECT_EQ(boxOf(*matrix.read().models.at(0)), (Box{{5, 0, 0}, {7, 0, 0}}));
+}
+
 TEST(Gltf, OnlyWeightsThatMoveAnythingAreRemarked) {
   const auto remarks = [](const std::string& ofMesh, const std::string& ofNode) {
     Gltf gltf = triangle();

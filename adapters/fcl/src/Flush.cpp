@@ -2,8 +2,11 @@
 #include "Flush.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "Inside.h"
 #include "Nearest.h"
@@ -12,6 +15,8 @@ namespace allpairs::exact {
 namespace {
 
 constexpr std::size_t kMostPlaces = 64;
+constexpr double kCells = 32.0;                           // along the longest side of all places
+constexpr double kWays = 8.0;                             // of directions, on each axis
 constexpr std::size_t kMostTests = std::size_t{1} << 21;  // each is a triangle that a ray is tested against
 
 /// How far along a ray a triangle is, infinite if the ray passes it by.
@@ -42,18 +47,54 @@ double wayToNext(const ExactPart& part, const Point& from, const Point& directio
   return least;
 }
 
+/// Some of the places that lie far apart or face different ways, whatever their order: of many small faces in one plane
+/// not so many that they hide a few others.
+std::vector<FlushPlace> spread(const std::vector<FlushPlace>& places, std::size_t most) {
+  if (places.size() <= most) return places;
+  Point least = places.front().point;
+  Point greatest = least;
+  for (const FlushPlace& place : places) {
+    least = least.cwiseMin(place.point);
+    greatest = greatest.cwiseMax(place.point);
+  }
+  const double size = std::max((greatest - least).maxCoeff(), std::numeric_limits<double>::min());
+  std::map<std::array<int, 6>, const FlushPlace*> ofCell;  // one of each cell and direction
+  for (const FlushPlace& place : places) {
+    const Point cell = kCells / size * (place.point - least);
+    Eigen::Index axis = 0;
+    place.normal.cwiseAbs().maxCoeff(&axis);
+    const Point way = (place.normal[axis] < 0.0 ? -kWays : kWays) * place.normal;
+    const auto whole = [](double value) { return static_cast<int>(std::lround(value)); };
+    ofCell.emplace(
+        std::array{whole(cell[0]), whole(cell[1]), whole(cell[2]), whole(way[0]), whole(way[1]), whole(way[2])},
+        &place);
+  }
+  std::vector<std::pair<double, const FlushPlace*>> left;  // and how far the nearest one is that was chosen
+  for (const auto& [key, place] : ofCell) left.emplace_back(std::numeric_limits<double>::infinity(), place);
+  std::vector<FlushPlace> chosen;
+  for (auto next = left.begin(); chosen.size() < most && next->first > 0.0;) {
+    chosen.push_back(*next->second);
+    for (auto& [apart, place] : left) {
+      const double way = (place->point - chosen.back().point).squaredNorm() / (size * size);
+      apart = std::min(apart, way + 1.0 - std::abs(place->normal.dot(chosen.back().normal)));
+    }
+    next->first = 0.0;
+    next = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  }
+  return chosen;
+}
+
 /// Halfway from some of the places to the next surface of either part, on both sides; in order.
 std::vector<Point> pointsBeside(const ExactPart& first, const ExactPart& second, const std::vector<FlushPlace>& places,
                                 double tolerance) {
   const std::size_t triangles = first.triangles().size() + second.triangles().size();
   const std::size_t most = std::clamp<std::size_t>(kMostTests / (2 * triangles), 4, kMostPlaces);
-  const std::size_t stride = (places.size() + most - 1) / most;
   std::vector<Point> points;
-  for (std::size_t i = 0; i < places.size(); i += stride) {
-    for (const Point& direction : {places[i].normal, Point(-places[i].normal)}) {
-      const double way = std::min(wayToNext(first, places[i].point, direction, tolerance),
-                                  wayToNext(second, places[i].point, direction, tolerance));
-      if (std::isfinite(way)) points.push_back(places[i].point + (way / 2.0) * direction);
+  for (const FlushPlace& place : spread(places, most)) {
+    for (const Point& direction : {place.normal, Point(-place.normal)}) {
+      const double way = std::min(wayToNext(first, place.point, direction, tolerance),
+                                  wayToNext(second, place.point, direction, tolerance));
+      if (std::isfinite(way)) points.push_back(place.point + (way / 2.0) * direction);
     }
   }
   std::sort(points.begin(), points.end(), isBefore);

@@ -23,7 +23,8 @@ struct FlushSides {
   bool isSecondOut = false;
 };
 
-/// Looks halfway from each place to the next surface of either part, on both sides. Both parts enclose a volume.
+/// Looks halfway from each place to the next surface of either part, on both sides; of many, from some that lie far apart
+/// or face different ways. Both parts enclose a volume.
 [[nodiscard]] FlushSides lookBesideFlush(const ExactPart& first, const ExactPart& second,
                                          const std::vector<FlushPlace>& places, double tolerance);
 

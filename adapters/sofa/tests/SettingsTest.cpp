@@ -73,7 +73,7 @@ TEST_F(SofaSettings, EveryStrategyGivesTheSameList) {
 }
 
 TEST_F(SofaSettings, ThreadsThatMakeNoSenseAreAnErrorAndOneIsUsed) {
-  for (const int threads : {-1, 70000}) {
+  for (const int threads : {-1, 10000, 70000}) {
     messages() = {};
     m_world.ours().d_threads.setValue(threads);
     EXPECT_EQ(m_world.runBoth(m_method), (Numbers{{1, 0}, {3, 2}}));

@@ -70,6 +70,7 @@ struct Scene {
   /// else 0.
   int up = 0;
   std::optional<double> metresPerUnit{};  ///< The length of a unit, where the format says so.
+  std::filesystem::path frameFile{};      ///< The first file whose format says either.
 };
 
 /// One search of a scene: models that are tested against one another, and how.

@@ -48,7 +48,7 @@ void checkSweeps(std::span<const BoxSweep> sweeps) {
 
 /// In a world the margin of a box is one of its properties.
 void refuseMargins(const BoxView& boxes) {
-  if (boxes.hasMargins()) throw InvalidArgument("boxes for a world carry no margins: there a margin is a property of a box");
+  if (boxes.hasMargins()) throw InvalidArgument("boxes for a world carry no margins: there they are properties");
 }
 
 void checkQueryBox(const Box& box) {

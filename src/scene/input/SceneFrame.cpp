@@ -28,6 +28,7 @@ void noteFrame(Scene& scene, const std::filesystem::path& file, int up, std::opt
          .reason = fmt::format("{} in this file, {} in a file before it; coordinates are compared as they are", own,
                                others)});
   };
+  if (scene.frameFile.empty() && (up != 0 || metresPerUnit)) scene.frameFile = file;
   if (up != 0 && scene.up != 0 && up != scene.up) warn("axes", axisText(up) + " points up", axisText(scene.up));
   if (scene.up == 0) scene.up = up;
   if (metresPerUnit && scene.metresPerUnit && !areSame(*metresPerUnit, *scene.metresPerUnit)) {

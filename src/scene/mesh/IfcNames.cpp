@@ -75,11 +75,10 @@ class StepDecoder {
 
   /// Codes of so many digits until \X0\.
   bool takeCodes(std::size_t digits) {
-    const std::size_t end = m_text.find("\\X0\\");
-    if (end == std::string_view::npos || (end - 4) % digits != 0) return false;
     std::string decoded;
     std::uint32_t high = 0;  // of two that are one character
-    for (std::size_t at = 4; at < end; at += digits) {
+    std::size_t at = 4;
+    for (; m_text.substr(std::min(at, m_text.size()), 4) != "\\X0\\"; at += digits) {
       const std::optional<std::uint32_t> code = hexAt(at, digits);
       if (!code || *code > 0x10FFFF) return false;
       const bool isHigh = *code >= 0xD800 && *code < 0xDC00;
@@ -91,7 +90,7 @@ class StepDecoder {
     }
     if (high != 0) return false;
     m_result += decoded;
-    m_text.remove_prefix(end + 4);
+    m_text.remove_prefix(at + 4);
     return true;
   }
 

@@ -24,7 +24,7 @@ using sofa::component::collision::geometry::CubeCollisionModel;
 using Stock = sofa::component::collision::detection::algorithm::BruteForceBroadPhase;
 using PairList = sofa::type::vector<sofa::core::collision::BroadPhaseDetection::CollisionModelPair>;
 
-constexpr int kMostThreads = 65535;
+constexpr int kMostThreads = 9999;  // that TbbExecutor takes
 
 /// In the order of the options of `strategy`.
 constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, Strategy::Bvh};
@@ -85,7 +85,7 @@ void AllpairsBroadPhase::readRegion() {
 
 void AllpairsBroadPhase::readThreads() {
   const int threads = d_threads.getValue();
-  m_state->threads = threads;
+  m_state->phase.setExecutor(nullptr);  // before it goes
   m_state->executor.reset();
   if (threads < 0 || threads > kMostThreads) {
     msg_error() << "'threads' is " << threads << ", not 0 to " << kMostThreads << "; one thread is used";
@@ -97,6 +97,7 @@ void AllpairsBroadPhase::readThreads() {
 #endif
   }
   m_state->phase.setExecutor(m_state->executor.get());
+  m_state->threads = threads;  // else the next step tries again
 }
 
 void AllpairsBroadPhase::readVerify() {

@@ -148,16 +148,21 @@ class GltfNodeReader {
 
   Transform transformOf(const GltfItem& node) const {
     if (const std::vector<double> m = m_document.numbers(node, "matrix", 16); !m.empty()) {  // column by column
-      if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
+      constexpr double kRounding = 1e-6;
+      const auto isNear = [](double value, double wanted) { return std::abs(value - wanted) <= kRounding; };
+      if (!isNear(m[3], 0.0) || !isNear(m[7], 0.0) || !isNear(m[11], 0.0) || !isNear(m[15], 1.0))
         m_document.fail(node.name + " has a matrix whose last row is not 0 0 0 1");
       return {{{m[0], m[4], m[8], m[12]}, {m[1], m[5], m[9], m[13]}, {m[2], m[6], m[10], m[14]}}};
     }
     Transform result = kIdentity;
-    if (const auto q = m_document.numbers(node, "rotation", 4); !q.empty()) {
-      constexpr double kRounding = 1e-3;  // of quaternions in 16 bits, and more
-      const double square = std::inner_product(q.begin(), q.end(), q.begin(), 0.0);
-      if (!(std::abs(square - 1.0) <= 2.0 * kRounding))
+    if (auto q = m_document.numbers(node, "rotation", 4); !q.empty()) {
+      constexpr double kMost = 0.00769;   // the glTF-Validator's: quaternions in 8 bits are so far from length 1
+      constexpr double kRounding = 1e-6;  // of those in float32, which are taken as they are
+      const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
+      if (!(std::abs(length - 1.0) <= kMost))
         m_document.fail(node.name + " has a rotation that is no quaternion of length 1");
+      if (std::abs(length - 1.0) > kRounding)
+        for (double& number : q) number /= length;
       result = rotation(q);
     }
     if (const auto scale = m_document.numbers(node, "scale", 3); !scale.empty()) {
