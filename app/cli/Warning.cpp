@@ -9,7 +9,9 @@
 
 namespace allpairs::app {
 
-void warn(const std::string& text) { fmt::print(stderr, "allpairs: warning: {}\n", printable(text)); }
+void warn(const std::string& text, const char* program) {
+  fmt::print(stderr, "{}: warning: {}\n", program, printable(text));
+}
 
 std::string emptyReason(const scene::EmptyBoxes& boxes) {
   std::string reason = fmt::format("min above max on {}", "xyz"[boxes.axis]);

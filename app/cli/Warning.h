@@ -10,8 +10,8 @@
 
 namespace allpairs::app {
 
-/// Says on standard error, in a line, where the result may not be what is expected.
-void warn(const std::string& text);
+/// Says on standard error, in a line that names the program, where the result may not be what is expected.
+void warn(const std::string& text, const char* program = "allpairs");
 
 /// Why boxes, of which there are some, are in no pair: what is wrong with the first, and how many others there are.
 [[nodiscard]] std::string emptyReason(const scene::EmptyBoxes& boxes);

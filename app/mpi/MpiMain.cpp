@@ -107,7 +107,8 @@ class Join {
     const std::array<EmptyBoxes, 2> empty{emptyOfAllRanks(*first), second ? emptyOfAllRanks(*second) : EmptyBoxes()};
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
       if (m_rank != 0) return;
-      for (const std::string& text : allpairs::app::emptyTexts(m_settings.sets, empty)) warn(text);
+      for (const std::string& text : allpairs::app::emptyTexts(m_settings.sets, empty))
+        allpairs::app::warn(text, "allpairs-mpi");
       say(pairs, all);
     });
   }
@@ -133,10 +134,6 @@ class Join {
     empty.first = first / 4;
     empty.axis = static_cast<std::size_t>(first % 4);
     return empty;
-  }
-
-  static void warn(const std::string& text) {
-    std::fprintf(stderr, "allpairs-mpi: warning: %s\n", allpairs::app::printable(text).c_str());
   }
 
   void say(std::uint64_t pairs, const std::string& boxes) const {

@@ -122,8 +122,9 @@ void ReportFolder::commit(std::size_t pictures, bool hasPage) {
   std::vector<fs::path> left;  // of the report that is replaced
   if (m_hadReport) {
     if (!hasPage) left.push_back(m_folder / "view.html");
-    for (fs::path picture = m_folder / view::pictureName(++pictures); fs::exists(picture, problem);
-         picture = m_folder / view::pictureName(++pictures)) {
+    for (;;) {
+      const fs::path picture = m_folder / view::pictureName(++pictures);
+      if (!fs::exists(picture, problem)) break;
       left.push_back(picture);
     }
   }

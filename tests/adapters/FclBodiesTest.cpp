@@ -71,7 +71,7 @@ TEST(FclBodies, ManySmallFlushFacesHideNoFewOthers) {
     EXPECT_EQ(examine(*together({left.get(), same.get()}), *together({right.get(), same.get()})).state,
               ExactState::Clash)
         << n;
-    const auto filling = together({left.get(), inHole.get()});  // out of what it shares a cube with
+    const auto filling = together({left.get(), inHole.get()});  // only its second cube is outside of the other part
     EXPECT_EQ(examine(*filling, *together({left.get(), same.get(), hole.get()})).state, ExactState::Clash) << n;
   }
 }
