@@ -120,12 +120,15 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
     const ReleasedGil released;
     const BoxView& set = boxes.set();
     const double greatest = std::max(maxMargin, partition::greatestMargin(set));
-    std::vector<std::uint32_t> cells;
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      partition.cellsOf(partition::reachOf(set[i], set.margin(i), distance, greatest), cells);
-      std::sort(cells.begin(), cells.end());
-      for (const std::uint32_t cell : cells) rows.insert(rows.end(), {i, cell});
-    }
+    std::vector<std::uint32_t> ordered;
+    const auto reach = [&](std::size_t i) {
+      return partition::reachOf(set[i], set.margin(i), distance, greatest);
+    };
+    partition.visitCells(set.size(), reach, [&](std::size_t i, Span<const std::uint32_t> cells) {
+      ordered.assign(cells.begin(), cells.end());
+      std::sort(ordered.begin(), ordered.end());
+      for (const std::uint32_t cell : ordered) rows.insert(rows.end(), {i, cell});
+    });
   }
   return std::make_unique<OffsetArray>(std::move(rows), 2);
 }

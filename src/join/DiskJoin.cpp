@@ -192,15 +192,11 @@ void DiskJoin::distribute() {
   requireRoom(division);
   m_cells = division.cells;
   m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
-  CellFinder finder(division, m_options);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
-    for (std::size_t i = 0; i < block.boxes.size(); ++i) {
-      if (!isKept(block, i, m_options)) continue;
-      for (const std::uint32_t cell : finder.cellsOf(block, i)) {
-        m_spill->add(partOf(m_cells, block.set, cell), block, i);
-      }
-    }
+    visitCells(division, block, m_options, [&](std::size_t i, std::span<const std::uint32_t> cells) {
+      for (const std::uint32_t cell : cells) m_spill->add(partOf(m_cells, block.set, cell), block, i);
+    });
     report("distributing", block.before + block.boxes.size(), m_input.size());
   });
   m_spill->finish();

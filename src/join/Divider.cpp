@@ -47,17 +47,6 @@ std::uint64_t Division::countOf(std::size_t cell) const {
   return count;
 }
 
-CellFinder::CellFinder(const Division& division, const JoinOptions& options)
-    : m_division(division), m_options(options) {}
-
-std::span<const std::uint32_t> CellFinder::cellsOf(const BoxBlock& block, std::size_t i) {
-  const partition::Partition& cells = m_division.cells;
-  const double partnerMargin = m_division.partnerMargins[block.set];
-  cells.cellsOf(partition::reachOf(block.boxes[i], block.boxes.margin(i), m_options.distance, partnerMargin), m_found);
-  if (cells.isWide(m_found.size())) m_found.assign(1, static_cast<std::uint32_t>(cells.size()));
-  return m_found;
-}
-
 Divider::Divider(BoxInput& input, const JoinOptions& options, const Budget& budget)
     : m_input(input), m_options(options), m_budget(budget) {}
 
@@ -115,21 +104,17 @@ void Divider::count(Division& division) {
   division.empty = {};
   for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
   m_evenNumbers = {};
-  CellFinder finder(division, m_options);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     const std::uint64_t step = stepOf(block.set);
     division.empty[block.set].look(block.boxes, block.begin);
-    for (std::size_t i = 0; i < block.boxes.size(); ++i) {
-      if (!isKept(block, i, m_options)) continue;
+    visitCells(division, block, m_options, [&](std::size_t i, std::span<const std::uint32_t> cells) {
       ++division.kept[block.set];
-      for (const std::uint32_t cell : finder.cellsOf(block, i)) {
-        ++division.counts[partOf(division.cells, block.set, cell)];
-      }
-      if ((block.begin + i) % step != 0) continue;
+      for (const std::uint32_t cell : cells) ++division.counts[partOf(division.cells, block.set, cell)];
+      if ((block.begin + i) % step != 0) return;
       m_evenSamples[block.set].add(block, i);
       m_evenNumbers[block.set].push_back(block.begin + i);
-    }
+    });
     if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
 }

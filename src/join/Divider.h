@@ -77,19 +77,19 @@ class Divider {
   return !options.region || overlap(block.boxes[i], *options.region, options.distance + block.boxes.margin(i));
 }
 
-/// Finds the cells that a box goes to.
-class CellFinder {
- public:
-  CellFinder(const Division& division, const JoinOptions& options);
-
-  /// The numbers of the cells; of a box in many, that of the wide ones alone, which is the number after the last. The
-  /// region keeps the box.
-  [[nodiscard]] std::span<const std::uint32_t> cellsOf(const BoxBlock& block, std::size_t i);
-
- private:
-  const Division& m_division;
-  const JoinOptions& m_options;
-  std::vector<std::uint32_t> m_found;
-};
+/// Calls `visit(i, cells)` for each box of a block that the region keeps, with the numbers of its cells; of a box in
+/// many, that of the wide ones alone, which is the number after the last.
+template <class Visit>
+void visitCells(const Division& division, const BoxBlock& block, const JoinOptions& options, const Visit& visit) {
+  const auto wide = static_cast<std::uint32_t>(division.cells.size());
+  const auto reach = [&](std::size_t i) {
+    return partition::reachOf(block.boxes[i], block.boxes.margin(i), options.distance,
+                              division.partnerMargins[block.set]);
+  };
+  division.cells.visitCells(block.boxes.size(), reach, [&](std::size_t i, std::span<const std::uint32_t> cells) {
+    if (!isKept(block, i, options)) return;
+    visit(i, division.cells.isWide(cells.size()) ? std::span(&wide, 1) : cells);
+  });
+}
 
 }  // namespace allpairs::join

@@ -151,11 +151,9 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
   if (ranks == 0) throw InvalidArgument("a search on no ranks");
   BoxInput input(inputs, options);
   Budget budget = budgetOf(options, input);
-  const std::uint64_t cells =
-      ranks == 1 ? 1
-                 : std::max<std::uint64_t>(partition::kCellsPerRank * ranks, input.size() / partition::kBoxesPerCell);
+  const std::size_t cells = ranks == 1 ? 1 : partition::cellsOnRanks(input.size(), ranks);
   budget.workers = 1;
-  budget.leastCells = static_cast<std::size_t>(cells);
+  budget.leastCells = cells;
   budget.cellBoxes =
       static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);  // Divider fills cells to seven tenths
   const Division division = Divider(input, options, budget).divide();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -12,10 +13,6 @@ namespace allpairs::partition {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double greatestReach(double margin, double distance, double maxMargin) {
-  return std::max((distance + margin) + maxMargin, (distance + maxMargin) + margin);  // as first, and as second
-}
 
 bool hasAll(const Cell& cell) { return cell == Cell(); }
 
@@ -41,12 +38,18 @@ void checkAscend(const BoxView& boxes, std::span<const std::uint64_t> ids) {
                         "of their ids");
 }
 
-void orderPairs(std::vector<IdPair>& pairs, Order order) {
+template <class AnyPair>
+void orderPairs(std::vector<AnyPair>& pairs, Order order) {
   if (order == Order::ByFirst) std::sort(pairs.begin(), pairs.end());
   if (order != Order::BySecond) return;
-  std::sort(pairs.begin(), pairs.end(), [](const IdPair& a, const IdPair& b) {
+  std::sort(pairs.begin(), pairs.end(), [](const AnyPair& a, const AnyPair& b) {
     return std::pair(a.second, a.first) < std::pair(b.second, b.first);
   });
+}
+
+/// Pairs in the order of the boxes are then in that of their ids.
+bool areAscending(std::span<const std::uint64_t> ids) {
+  return std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end();
 }
 
 OverlapOptions unordered(OverlapOptions options) {
@@ -55,20 +58,6 @@ OverlapOptions unordered(OverlapOptions options) {
 }
 
 }  // namespace
-
-Box reachOf(const Box& box, double margin, double distance, double maxMargin) noexcept {
-  if (isEmpty(box)) return kEmptyBox;
-  const double widening = greatestReach(margin, distance, maxMargin);
-  Box reach = box;
-  for (double& max : reach.max) {
-    if (widening == kInfinity) {
-      max = widening;  // also of -infinity, with which the sum would be NaN
-    } else {
-      max = std::max(max, max + widening);
-    }
-  }
-  return reach;
-}
 
 bool touches(const Cell& cell, const Box& reach) noexcept {
   if (isEmpty(reach)) return false;
@@ -82,21 +71,34 @@ bool touches(const Cell& cell, const Box& reach) noexcept {
 struct CellSearch::State {
   struct Sets {
     const BoxView& first;
-    const BoxView& second;
+    const BoxView* second;  ///< Null where it is one set.
   };
 
-  explicit State(OverlapOptions given) : maxPairs(given.maxPairs), search(withoutLimit(std::move(given))) {}
+  explicit State(OverlapOptions given) : maxPairs(given.maxPairs), search(std::move(given)) {}
 
-  /// Pairs of other cells are found too, and do not count.
-  static OverlapOptions withoutLimit(OverlapOptions options) {
-    options.maxPairs = OverlapOptions().maxPairs;
-    return options;
+  void setLimit(std::uint64_t limit) {
+    if (search.options().maxPairs == limit) return;
+    OverlapOptions options = search.options();
+    options.maxPairs = limit;
+    search.setOptions(std::move(options));
+  }
+
+  void setFilter(Filter filter) {
+    OverlapOptions options = search.options();
+    options.filter = std::move(filter);
+    search.setOptions(std::move(options));
   }
 
   /// Two boxes whose minima are both in the cell need no look at their bounds.
   static void findHome(const BoxView& boxes, const Cell& cell, std::vector<char>& home) {
     home.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) home[i] = cell.holds(boxes[i].min) ? 1 : 0;
+  }
+
+  void findHomes(const Sets& sets, const Cell& cell) {
+    findHome(sets.first, cell, home);
+    secondHome.clear();
+    if (sets.second != nullptr) findHome(*sets.second, cell, secondHome);
   }
 
   void give(std::span<const Pair> pairs, PairVisitor visitor) {
@@ -108,22 +110,65 @@ struct CellSearch::State {
     visitor(pairs);
   }
 
-  /// Passes on those of a batch that belong to the cell.
-  void filter(std::span<const Pair> batch, const Sets& sets, const Cell& cell, PairVisitor visitor) {
-    const std::vector<char>& homeOfSecond = secondHome.empty() ? home : secondHome;
+  /// Keeps those pairs that belong to the cell.
+  void filter(std::span<const Pair> pairs, const Sets& sets, const Cell& cell) {
+    const std::vector<char>& homeOfSecond = sets.second == nullptr ? home : secondHome;
+    const BoxView& second = sets.second == nullptr ? sets.first : *sets.second;
     kept.clear();
-    for (const Pair pair : batch) {
+    for (const Pair pair : pairs) {
       const bool isHome = (home[pair.first] & homeOfSecond[pair.second]) != 0;
-      if (isHome || cell.holds(pairPoint(sets.first[pair.first], sets.second[pair.second]))) kept.push_back(pair);
+      if (isHome || cell.holds(pairPoint(sets.first[pair.first], second[pair.second]))) kept.push_back(pair);
     }
-    give(kept, visitor);
+  }
+
+  /// Pairs of other cells are found too, and do not count.
+  void stream(const Sets& sets, const Cell& cell, PairVisitor visitor) {
+    checkCell(cell);
+    setLimit(OverlapOptions().maxPairs);
+    count = 0;
+    const bool isAll = hasAll(cell);
+    if (!isAll) findHomes(sets, cell);
+    const auto take = [&](std::span<const Pair> batch) {
+      if (!isAll) filter(batch, sets, cell);
+      give(isAll ? batch : std::span<const Pair>(kept), visitor);
+    };
+    if (sets.second == nullptr) {
+      search.stream(sets.first, take);
+    } else {
+      search.stream(sets.first, *sets.second, take);
+    }
+  }
+
+  std::span<const Pair> find(const Sets& sets, const Cell& cell) {
+    checkCell(cell);
+    setLimit(maxPairs);
+    std::span<const Pair> found;
+    try {
+      found = sets.second == nullptr ? search.find(sets.first) : search.find(sets.first, *sets.second);
+    } catch (const LimitExceeded&) {
+      if (hasAll(cell)) throw;
+      return findWithinLimit(sets, cell);
+    }
+    if (hasAll(cell)) return found;
+    findHomes(sets, cell);
+    filter(found, sets, cell);
+    return kept;
+  }
+
+  /// Where there are more pairs than allowed, but perhaps not of this cell.
+  std::span<const Pair> findWithinLimit(const Sets& sets, const Cell& cell) {
+    std::vector<Pair> pairs;
+    stream(sets, cell, [&](std::span<const Pair> batch) { pairs.insert(pairs.end(), batch.begin(), batch.end()); });
+    orderPairs(pairs, search.options().order);
+    kept = std::move(pairs);
+    return kept;
   }
 
   std::uint64_t maxPairs;
   std::uint64_t count = 0;
   OverlapSearch search;
   std::vector<char> home;
-  std::vector<char> secondHome;  ///< Empty for one set.
+  std::vector<char> secondHome;
   std::vector<Pair> kept;
 };
 
@@ -132,54 +177,39 @@ CellSearch::~CellSearch() = default;
 CellSearch::CellSearch(CellSearch&&) noexcept = default;
 CellSearch& CellSearch::operator=(CellSearch&&) noexcept = default;
 
-void CellSearch::setFilter(Filter filter) {
-  OverlapOptions options = m_state->search.options();
-  options.filter = std::move(filter);
-  m_state->search.setOptions(std::move(options));
-}
+void CellSearch::setFilter(Filter filter) { m_state->setFilter(std::move(filter)); }
 
 void CellSearch::stream(const BoxView& boxes, const Cell& cell, PairVisitor visitor) {
-  checkCell(cell);
-  State& state = *m_state;
-  state.count = 0;
-  if (hasAll(cell)) {
-    state.search.stream(boxes, [&](std::span<const Pair> batch) { state.give(batch, visitor); });
-    return;
-  }
-  State::findHome(boxes, cell, state.home);
-  state.secondHome.clear();
-  state.search.stream(boxes, [&](std::span<const Pair> batch) { state.filter(batch, {boxes, boxes}, cell, visitor); });
+  m_state->stream({boxes, nullptr}, cell, visitor);
 }
 
 void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell& cell, PairVisitor visitor) {
-  checkCell(cell);
-  State& state = *m_state;
-  state.count = 0;
-  if (hasAll(cell)) {
-    state.search.stream(first, second, [&](std::span<const Pair> batch) { state.give(batch, visitor); });
-    return;
-  }
-  State::findHome(first, cell, state.home);
-  State::findHome(second, cell, state.secondHome);
-  state.search.stream(first, second, [&](std::span<const Pair> batch) {
-    state.filter(batch, {first, second}, cell, visitor);
-  });
+  m_state->stream({first, &second}, cell, visitor);
+}
+
+Span<const Pair> CellSearch::find(const BoxView& boxes, const Cell& cell) {
+  return m_state->find({boxes, nullptr}, cell);
+}
+
+Span<const Pair> CellSearch::find(const BoxView& first, const BoxView& second, const Cell& cell) {
+  return m_state->find({first, &second}, cell);
 }
 
 std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,
                                    const OverlapOptions& options) {
   checkIds(boxes, ids);
   checkAscend(boxes, ids);
+  const bool isInOrder = areAscending(ids);
+  CellSearch search(isInOrder ? options : unordered(options));
+  const Span<const Pair> found = search.find(boxes, cell);
   std::vector<IdPair> pairs;
-  CellSearch search(unordered(options));
-  search.stream(boxes, cell, [&](std::span<const Pair> batch) {
-    for (const Pair pair : batch) {
-      const auto [low, high] = std::minmax(ids[pair.first], ids[pair.second]);
-      if (low == high) throw InvalidArgument("two boxes have the id " + std::to_string(low));
-      pairs.push_back({low, high});
-    }
-  });
-  orderPairs(pairs, options.order);
+  pairs.reserve(found.size());
+  for (const Pair pair : found) {
+    const auto [low, high] = std::minmax(ids[pair.first], ids[pair.second]);
+    if (low == high) throw InvalidArgument("two boxes have the id " + std::to_string(low));
+    pairs.push_back({low, high});
+  }
+  if (!isInOrder) orderPairs(pairs, options.order);
   return pairs;
 }
 
@@ -189,12 +219,13 @@ std::vector<IdPair> overlapsInCell(const BoxView& first, Span<const std::uint64_
                                    const OverlapOptions& options) {
   checkIds(first, firstIds);
   checkIds(second, secondIds);
+  const bool isInOrder = areAscending(firstIds) && areAscending(secondIds);
+  CellSearch search(isInOrder ? options : unordered(options));
+  const Span<const Pair> found = search.find(first, second, cell);
   std::vector<IdPair> pairs;
-  CellSearch search(unordered(options));
-  search.stream(first, second, cell, [&](std::span<const Pair> batch) {
-    for (const Pair pair : batch) pairs.push_back({firstIds[pair.first], secondIds[pair.second]});
-  });
-  orderPairs(pairs, options.order);
+  pairs.reserve(found.size());
+  for (const Pair pair : found) pairs.push_back({firstIds[pair.first], secondIds[pair.second]});
+  if (!isInOrder) orderPairs(pairs, options.order);
   return pairs;
 }
 

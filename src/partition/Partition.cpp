@@ -190,6 +190,46 @@ void Partition::cellsOf(const Box& reach, std::vector<std::uint32_t>& cells) con
   if (!isEmpty(reach)) addCells(m_cuts.empty() ? sideOfCell(0) : 0, reach, cells);
 }
 
+/// The cell of each reach that touches one; kNoSoleCell for one that touches more, or none. All reaches go down the
+/// tree together, since one by one each cut would be a branch that no processor foresees.
+void Partition::findSoleCells(const std::vector<Box>& reaches, std::vector<std::uint32_t>& cells) const {
+  struct Part {
+    std::int32_t side;
+    std::size_t begin;
+    std::size_t end;
+  };
+  cells.assign(reaches.size(), kNoSoleCell);
+  std::vector<std::size_t> numbers(reaches.size());  // of the reaches of each part
+  std::vector<std::size_t> high(reaches.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    numbers[count] = i;
+    count += isEmpty(reaches[i]) ? 0U : 1U;
+  }
+  std::vector<Part> parts{{m_cuts.empty() ? sideOfCell(0) : 0, 0, count}};
+  while (!parts.empty()) {
+    const Part part = parts.back();
+    parts.pop_back();
+    if (part.side < 0) {
+      for (std::size_t k = part.begin; k < part.end; ++k) cells[numbers[k]] = static_cast<std::uint32_t>(~part.side);
+      continue;
+    }
+    const Cut& cut = m_cuts[static_cast<std::size_t>(part.side)];
+    std::size_t lowEnd = part.begin;
+    std::size_t highCount = 0;
+    for (std::size_t k = part.begin; k < part.end; ++k) {
+      const std::size_t i = numbers[k];
+      numbers[lowEnd] = i;
+      high[highCount] = i;
+      lowEnd += reaches[i].max[cut.axis] < cut.at ? 1U : 0U;
+      highCount += reaches[i].min[cut.axis] >= cut.at ? 1U : 0U;
+    }
+    std::copy_n(high.begin(), highCount, numbers.begin() + static_cast<std::ptrdiff_t>(lowEnd));
+    if (highCount > 0) parts.push_back({cut.high, lowEnd, lowEnd + highCount});
+    if (lowEnd > part.begin) parts.push_back({cut.low, part.begin, lowEnd});
+  }
+}
+
 void Partition::addCells(std::int32_t side, const Box& reach, std::vector<std::uint32_t>& cells) const {
   while (side >= 0) {
     const Cut& cut = m_cuts[static_cast<std::size_t>(side)];
@@ -229,12 +269,20 @@ std::vector<std::uint64_t> boxesPerCell(const Partition& partition, const BoxVie
   if (std::isnan(maxMargin)) throw InvalidArgument("the greatest margin is NaN");
   const double greatest = std::max(maxMargin, greatestMargin(boxes));
   std::vector<std::uint64_t> counts(partition.size());
-  std::vector<std::uint32_t> cells;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    partition.cellsOf(reachOf(boxes[i], boxes.margin(i), distance, greatest), cells);
+  const auto reach = [&](std::size_t i) { return reachOf(boxes[i], boxes.margin(i), distance, greatest); };
+  partition.visitCells(boxes.size(), reach, [&](std::size_t /*box*/, Span<const std::uint32_t> cells) {
     for (const std::uint32_t cell : cells) ++counts[cell];
-  }
+  });
   return counts;
+}
+
+std::size_t cellsOnRanks(std::uint64_t boxes, std::size_t ranks, std::size_t boxesPerCell) noexcept {
+  constexpr std::uint64_t kLeastForARank = 8;
+  constexpr std::uint64_t kMostForARank = 32;
+  constexpr std::uint64_t kMostInCell = 16;  // of boxesPerCell
+  const std::uint64_t cells = boxes / std::max<std::uint64_t>(boxesPerCell, 1);
+  const std::uint64_t wanted = std::min<std::uint64_t>(cells, kMostForARank * ranks);
+  return static_cast<std::size_t>(std::max({kLeastForARank * ranks, wanted, cells / kMostInCell}));
 }
 
 }  // namespace allpairs::partition

@@ -285,7 +285,7 @@ TEST(DistributedOverlaps, RandomBoxesCutAtRandom) {
       }
     }
     mpi::Tuning tuning = tinyTuning();
-    tuning.cellsPerRank = 1 + generator() % 9;
+    tuning.boxesPerCell = 1 + generator() % 40;
     tuning.samplePerCell = 1 + generator() % 9;
     tuning.leastCrowded = generator() % 60;
     tuning.wideAtOnce = 1 + generator() % 20;

@@ -35,8 +35,7 @@ inline int rankCount() {
 
 /// So little that everything is cut, and travels in pieces.
 inline mpi::Tuning tinyTuning() {
-  return {.cellsPerRank = 8,
-          .boxesPerCell = 40,
+  return {.boxesPerCell = 40,
           .samplePerCell = 4,
           .leastSample = 50,
           .leastCrowded = 20,

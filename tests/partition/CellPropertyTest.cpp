@@ -46,13 +46,12 @@ Partition anyPartition() {
   return Partition::fromCuts(cuts);
 }
 
-/// Numbers that are not dense, nor in order unless margins differ.
-std::vector<std::uint64_t> idsOf(const std::vector<double>& margins) {
+/// Numbers that are not dense; in order where margins differ, and now and then otherwise.
+std::vector<std::uint64_t> someIds(const std::vector<double>& margins) {
   std::vector<std::uint64_t> ids(margins.size());
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = (std::uint64_t{1} << 40) + (i * 37) % 1009;
-  if (std::adjacent_find(margins.begin(), margins.end(), std::not_equal_to()) != margins.end()) {
-    std::sort(ids.begin(), ids.end());
-  }
+  const bool doDiffer = std::adjacent_find(margins.begin(), margins.end(), std::not_equal_to()) != margins.end();
+  if (doDiffer || *rc::gen::inRange(0, 2) == 0) std::sort(ids.begin(), ids.end());
   return ids;
 }
 
@@ -62,10 +61,15 @@ struct CellBoxes {
   std::vector<double> margins{};
 };
 
-CellBoxes boxesOf(const Partition& partition, std::uint32_t cell, const std::vector<Box>& boxes,
-                  const std::vector<double>& margins, double d, double maxMargin) {
+double greatest(const std::vector<double>& margins) {
+  return margins.empty() ? 0.0 : *std::max_element(margins.begin(), margins.end());
+}
+
+/// Those of all boxes that go to a cell.
+CellBoxes boxesOf(const Partition& partition, std::uint32_t cell, const CellBoxes& all, double d) {
+  const auto& [boxes, ids, margins] = all;
+  const double maxMargin = greatest(margins);
   CellBoxes result;
-  const std::vector<std::uint64_t> ids = idsOf(margins);
   std::vector<std::uint32_t> cells;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box reach = reachOf(boxes[i], margins[i], d, maxMargin);
@@ -80,10 +84,6 @@ CellBoxes boxesOf(const Partition& partition, std::uint32_t cell, const std::vec
   return result;
 }
 
-double greatest(const std::vector<double>& margins) {
-  return margins.empty() ? 0.0 : *std::max_element(margins.begin(), margins.end());
-}
-
 std::vector<double> someMargins(std::size_t count) {
   if (*rc::gen::inRange(0, 2) == 0) return std::vector<double>(count, 0.0);
   return *rc::gen::container<std::vector<double>>(count, distance());
@@ -94,7 +94,7 @@ RC_GTEST_PROP(CellProperty, TheCellsOfAnyCutsHaveTheOraclesPairsOnce, ()) {
   const std::vector<double> margins = someMargins(boxes.size());
   const double d = *distance();
   const Partition partition = anyPartition();
-  const std::vector<std::uint64_t> ids = idsOf(margins);
+  const std::vector<std::uint64_t> ids = someIds(margins);
   std::vector<IdPair> expected;
   for (const Pair pair : test::oracle(boxes, d, margins)) {
     const auto [low, high] = std::pair(ids[pair.first], ids[pair.second]);
@@ -103,7 +103,7 @@ RC_GTEST_PROP(CellProperty, TheCellsOfAnyCutsHaveTheOraclesPairsOnce, ()) {
   std::sort(expected.begin(), expected.end());
   std::vector<IdPair> found;
   for (std::uint32_t cell = 0; cell < partition.size(); ++cell) {
-    const CellBoxes own = boxesOf(partition, cell, boxes, margins, d, greatest(margins));
+    const CellBoxes own = boxesOf(partition, cell, {boxes, ids, margins}, d);
     BoxView view(own.boxes);
     view.setMargins(own.margins);
     const auto pairs = overlapsInCell(view, own.ids, partition.cell(cell), {.distance = d});
@@ -122,8 +122,8 @@ RC_GTEST_PROP(CellProperty, TheCellsHaveThePairsOfTwoSetsOnce, ()) {
   const std::vector<double> secondMargins(second.size(), 0.0);
   const double d = *distance();
   const Partition partition = anyPartition();
-  const std::vector<std::uint64_t> firstIds = idsOf(firstMargins);
-  const std::vector<std::uint64_t> secondIds = idsOf(secondMargins);
+  const std::vector<std::uint64_t> firstIds = someIds(firstMargins);
+  const std::vector<std::uint64_t> secondIds = someIds(secondMargins);
   std::vector<IdPair> expected;
   for (const Pair pair : test::oracleBetween(first, second, d)) {
     expected.push_back({firstIds[pair.first], secondIds[pair.second]});
@@ -131,9 +131,10 @@ RC_GTEST_PROP(CellProperty, TheCellsHaveThePairsOfTwoSetsOnce, ()) {
   std::sort(expected.begin(), expected.end());
   std::vector<IdPair> found;
   for (std::uint32_t cell = 0; cell < partition.size(); ++cell) {
-    const CellBoxes a = boxesOf(partition, cell, first, firstMargins, d, 0.0);
-    const CellBoxes b = boxesOf(partition, cell, second, secondMargins, d, 0.0);
+    const CellBoxes a = boxesOf(partition, cell, {first, firstIds, firstMargins}, d);
+    const CellBoxes b = boxesOf(partition, cell, {second, secondIds, secondMargins}, d);
     const auto pairs = overlapsInCell(a.boxes, a.ids, b.boxes, b.ids, partition.cell(cell), {.distance = d});
+    RC_ASSERT(std::is_sorted(pairs.begin(), pairs.end()));
     RC_ASSERT(countOverlapsInCell(a.boxes, b.boxes, partition.cell(cell), {.distance = d}) == pairs.size());
     found.insert(found.end(), pairs.begin(), pairs.end());
   }

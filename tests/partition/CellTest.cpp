@@ -19,6 +19,7 @@ namespace {
 using test::cube;
 using test::kInfinity;
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 
 const std::vector<Box> kRow = {cube(0, 0, 0), cube(1, 0, 0), cube(1.5, 0, 0), cube(4, 0, 0)};
 const std::vector<std::uint64_t> kIds = {50, std::uint64_t{1} << 40, 7, 8};
@@ -139,6 +140,36 @@ TEST(Cell, TheLimitCountsPairsOfTheCellOnly) {
   const Cell left{{-kInfinity, -kInfinity, -kInfinity}, {1.5, kInfinity, kInfinity}};
   EXPECT_EQ(overlapsInCell(kRow, kIds, left, {.maxPairs = 1}).size(), 1U);
   EXPECT_THROW((void)overlapsInCell(kRow, kIds, Cell(), {.maxPairs = 1}), LimitExceeded);
+}
+
+/// More pairs than allowed are there, but not of the cell: they are not all in memory then.
+TEST(Cell, PairsWithinTheLimitAreInOrder) {
+  std::vector<Box> boxes;
+  std::vector<Pair> expected;
+  for (int i = 0; i < 8; ++i) boxes.push_back({{static_cast<double>(i % 3), 0, 0}, {9, 1, 1}});
+  for (std::uint32_t first = 0; first < 8; ++first) {
+    for (std::uint32_t second = first + 1; second < 8; ++second) {
+      if (first % 3 == 1 && second % 3 < 2) expected.push_back({first, second});
+      if (first % 3 == 0 && second % 3 == 1) expected.push_back({first, second});
+    }
+  }
+  const Cell middle{{1, -kInfinity, -kInfinity}, {2, kInfinity, kInfinity}};
+  CellSearch search({.order = Order::ByFirst, .maxPairs = expected.size()});
+  EXPECT_THAT(search.find(boxes, middle), ElementsAreArray(expected));
+  EXPECT_THAT(CellSearch({.order = Order::ByFirst}).find(boxes, middle), ElementsAreArray(expected));
+  std::size_t streamed = 0;
+  search.stream(boxes, middle, [&streamed](Span<const Pair> pairs) { streamed += pairs.size(); });
+  EXPECT_EQ(streamed, expected.size());
+  EXPECT_THROW((void)CellSearch({.maxPairs = expected.size() - 1}).find(boxes, middle), LimitExceeded);
+}
+
+TEST(Cell, BoxesOfOneIdDoNotUpsetTheOrder) {
+  const std::vector<Box> first{cube(0, 0, 0), cube(5, 0, 0), cube(5, 0, 0)};
+  const std::vector<Box> second{cube(5, 0, 0), cube(0, 0, 0)};
+  const std::vector<std::uint64_t> firstIds{3, 3, 4};
+  const std::vector<std::uint64_t> secondIds{1, 2};
+  EXPECT_THAT(overlapsInCell(first, firstIds, second, secondIds, Cell()),
+              ElementsAre(IdPair{3, 1}, IdPair{3, 2}, IdPair{4, 1}));
 }
 
 TEST(Cell, FiltersKnowBoxesByIndex) {

@@ -48,6 +48,48 @@ TEST(Partition, WhatNoCutDividesStaysOneCell) {
   EXPECT_LE(sumOf(boxesPerCell(partition, nested)), 100U * partition.size());
 }
 
+TEST(Partition, VisitsTheCellsOfManyBoxesAsOfEachAlone) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(5'000, 6));
+  const Partition partition(boxes, 40);
+  for (std::size_t i = 0; i < boxes.size(); i += 50) boxes[i].max[i % 3] += 0.5;  // in several cells
+  for (std::size_t i = 7; i < boxes.size(); i += 70) boxes[i] = kEmptyBox;
+  boxes[9] = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  for (const Cut& cut : partition.cuts()) {  // up to a cut, and from it on
+    boxes.push_back(cube(0, 0, 0));
+    boxes.back().max[cut.axis] = cut.at;
+    boxes.push_back(cube(0, 0, 0));
+    boxes.back().min[cut.axis] = cut.at;
+    boxes.back().max[cut.axis] = std::nextafter(cut.at, kInfinity);
+  }
+  for (const Partition& any : {partition, Partition()}) {
+    std::vector<std::vector<std::uint32_t>> visited;
+    any.visitCells(
+        boxes.size(), [&](std::size_t i) { return boxes[i]; },
+        [&](std::size_t i, Span<const std::uint32_t> cells) {
+          EXPECT_EQ(i, visited.size());
+          visited.emplace_back(cells.begin(), cells.end());
+        });
+    std::vector<std::vector<std::uint32_t>> expected;
+    for (const Box& box : boxes) {
+      std::vector<std::uint32_t>& cells = expected.emplace_back();
+      for (std::uint32_t cell = 0; cell < any.size(); ++cell) {
+        if (touches(any.cell(cell), box)) cells.push_back(cell);
+      }
+    }
+    for (std::vector<std::uint32_t>& cells : visited) std::sort(cells.begin(), cells.end());
+    EXPECT_EQ(visited, expected);
+  }
+}
+
+TEST(Partition, HasCellsForAllRanksThatFitTheCacheWhereOneRankCanCutThem) {
+  EXPECT_EQ(cellsOnRanks(0, 4), 32U);
+  EXPECT_EQ(cellsOnRanks(10'000'000, 2), 38U);
+  EXPECT_EQ(cellsOnRanks(100'000'000, 2), 64U) << "32 for each rank";
+  EXPECT_EQ(cellsOnRanks(10'000'000'000, 64), 2384U) << "of four million boxes";
+  EXPECT_EQ(cellsOnRanks(1000, 2, 10), 64U);
+  EXPECT_EQ(cellsOnRanks(300, 2, 10), 30U);
+}
+
 TEST(Partition, ACellIsCutAgainAndTheOthersStay) {
   const std::vector<Box> boxes = test::toDouble(test::randomBoxes(5'000, 5));
   Partition partition(boxes, 4);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -49,7 +50,7 @@ void DistributedSearch::search(std::span<const LocalBoxes> given) {
       std::any_of(m_sets.begin(), m_sets.end(), [](const LocalSet& set) { return set.allBoxes == 0; });
   if (!areAllEmpty) {
     const Distribution distribution(m_ranks, m_sets, m_options, m_tuning);
-    for (std::size_t round = 0; round < distribution.rounds(); ++round) searchCells(distribution, round);
+    searchCells(distribution);
     for (std::size_t set = 0; set < m_sets.size(); ++set) searchWide(distribution, set);
   }
   m_ranks.sum({&m_count, 1});
@@ -143,61 +144,73 @@ void DistributedSearch::searchHere() {
   for (const Pair pair : pairs) m_here.push_back({pair.first, pair.second});
 }
 
-/// On several ranks a search finds pairs that are another's too, and only add() knows how many count.
 OverlapOptions DistributedSearch::optionsFor(const FilterBits& first, const FilterBits& second) const {
-  const bool isAlone = m_ranks.size() == 1;
-  return {.order = isAlone ? Order::ByFirst : Order::Unordered,
+  return {.order = m_isCount ? Order::Unordered : Order::ByFirst,
           .distance = m_options.distance,
           .region = m_options.region,
           .filter = {.first = first, .second = second},
           .executor = m_options.executor,
-          .maxPairs = isAlone ? m_options.maxPairs : OverlapOptions().maxPairs,
+          .maxPairs = m_options.maxPairs,
           .stop = m_options.stop};
 }
 
-BoxRecords DistributedSearch::fetchCell(const Distribution& distribution, std::size_t round, std::size_t set) const {
-  std::vector<std::vector<std::uint64_t>> bounds;
-  std::vector<std::vector<std::uint64_t>> others;
+void DistributedSearch::fetchCell(const Distribution& distribution, std::size_t round, std::size_t set,
+                                  CellBoxes& boxes) const {
   m_ranks.onAll([&] {
+    boxes.bounds.resize(static_cast<std::size_t>(m_ranks.size()));
+    boxes.others.resize(boxes.bounds.size());
     for (int rank = 0; rank < m_ranks.size(); ++rank) {
       const std::optional<std::uint32_t> cell = distribution.cellOf(round, rank);
-      PackedBoxes packed;
-      if (cell) packed = packBoxes(m_sets[set], distribution.boxesOf(set, *cell), m_layout);
-      bounds.push_back(std::move(packed.bounds));
-      others.push_back(std::move(packed.others));
+      const auto indices = cell ? distribution.boxesOf(set, *cell) : std::span<const std::uint32_t>();
+      auto& bounds = boxes.bounds[static_cast<std::size_t>(rank)];
+      auto& others = boxes.others[static_cast<std::size_t>(rank)];
+      freeIfLarge(bounds, indices.size() * m_layout.boundsWords());
+      freeIfLarge(others, indices.size() * m_layout.otherWords());
+      PackedBoxes packed{std::move(bounds), std::move(others)};
+      packBoxes(m_sets[set], indices, m_layout, packed);
+      bounds = std::move(packed.bounds);
+      others = std::move(packed.others);
     }
   });
-  PackedBoxes packed;
-  packed.bounds = m_ranks.exchange(bounds);
-  packed.others = m_ranks.exchange(others);
-  std::optional<BoxRecords> records;
-  m_ranks.onAll([&] { records.emplace(std::move(packed), m_layout); });
-  return std::move(*records);
+  m_ranks.exchange(boxes.bounds, boxes.records.packed().bounds);
+  m_ranks.exchange(boxes.others, boxes.records.packed().others);
+  m_ranks.onAll([&] { boxes.records.unpack(); });
 }
 
-/// Each rank searches its cell of the round. Boxes come in the order of their numbers, so that the first of a pair has
-/// the lower one.
-void DistributedSearch::searchCells(const Distribution& distribution, std::size_t round) {
-  const BoxRecords first = fetchCell(distribution, round, 0);
-  std::optional<BoxRecords> second;
-  if (m_sets.size() > 1) second = fetchCell(distribution, round, 1);
+/// In each round each rank searches one cell.
+void DistributedSearch::searchCells(const Distribution& distribution) {
+  std::vector<CellBoxes> sets;
+  std::optional<partition::CellSearch> search;
   m_ranks.onAll([&] {
-    checkStop(m_options.stop);
-    const std::optional<std::uint32_t> cell = distribution.cellOf(round, m_ranks.rank());
-    if (!cell) return;
-    const partition::Cell bounds = distribution.bounds(*cell);
-    partition::CellSearch search(optionsFor(first.bits(), second ? second->bits() : FilterBits()));
-    if (second) {
-      search.stream(first.boxes(), second->boxes(), bounds, [&](std::span<const Pair> pairs) {
-        for (const Pair pair : pairs) add(first.id(pair.first), second->id(pair.second));
-      });
-    } else {
-      search.stream(first.boxes(), bounds, [&](std::span<const Pair> pairs) {
-        for (const Pair pair : pairs) add(first.id(pair.first), first.id(pair.second));
-      });
-    }
+    for (std::size_t set = 0; set < m_sets.size(); ++set) sets.push_back({{}, {}, BoxRecords(m_layout)});
+    search.emplace(optionsFor({}, {}));
   });
-  sendPairs();
+  for (std::size_t round = 0; round < distribution.rounds(); ++round) {
+    for (std::size_t set = 0; set < sets.size(); ++set) fetchCell(distribution, round, set, sets[set]);
+    m_ranks.onAll([&] {
+      checkStop(m_options.stop);
+      const std::optional<std::uint32_t> cell = distribution.cellOf(round, m_ranks.rank());
+      if (cell) searchCell(sets, distribution.bounds(*cell), *search);
+    });
+    sendPairs();
+  }
+}
+
+/// Boxes come in the order of their numbers, so that the first of a pair has the lower one.
+void DistributedSearch::searchCell(std::span<CellBoxes> sets, const partition::Cell& cell,
+                                   partition::CellSearch& search) {
+  const BoxRecords& first = sets.front().records;
+  const BoxRecords& second = sets.back().records;
+  const auto take = [&](std::span<const Pair> pairs) {
+    add(
+        pairs, [&first](std::size_t i) { return first.id(i); }, [&second](std::size_t i) { return second.id(i); });
+  };
+  const bool isOneSet = sets.size() == 1;
+  search.setFilter({.first = first.bits(), .second = isOneSet ? FilterBits() : second.bits()});
+  if (isOneSet && m_isCount) search.stream(first.boxes(), cell, take);
+  if (isOneSet && !m_isCount) take(search.find(first.boxes(), cell));
+  if (!isOneSet && m_isCount) search.stream(first.boxes(), second.boxes(), cell, take);
+  if (!isOneSet && !m_isCount) take(search.find(first.boxes(), second.boxes(), cell));
 }
 
 /// The wide boxes of all ranks come to all of them, a part at a time, and each rank pairs them with its own boxes.
@@ -218,13 +231,15 @@ void DistributedSearch::searchWide(const Distribution& distribution, std::size_t
     m_ranks.onAll([&] {
       const std::uint64_t ownFrom = std::clamp(begin, ownBegin, ownBegin + own.size()) - ownBegin;
       const std::uint64_t ownTo = std::clamp(end, ownBegin, ownBegin + own.size()) - ownBegin;
-      packed = packBoxes(m_sets[set], own.subspan(ownFrom, ownTo - ownFrom), m_layout);
+      packBoxes(m_sets[set], own.subspan(ownFrom, ownTo - ownFrom), m_layout, packed);
     });
     packed.bounds = m_ranks.collect(packed.bounds);
     packed.others = m_ranks.collect(packed.others);
     m_ranks.onAll([&] {
       checkStop(m_options.stop);
-      const BoxRecords wide(std::move(packed), m_layout);
+      BoxRecords wide(m_layout);
+      wide.packed() = std::move(packed);
+      wide.unpack();
       searchChunk(wide, set, isWideHere);
     });
     sendPairs();
@@ -236,31 +251,58 @@ void DistributedSearch::searchWide(const Distribution& distribution, std::size_t
 void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere) {
   const LocalSet& local = m_sets[m_sets.size() - 1 - set];
   const bool isOneSet = m_sets.size() == 1;
+  const auto wideId = [&wide](std::size_t i) { return wide.id(i); };
+  const auto localId = [&local](std::size_t i) { return local.firstId + i; };
+  std::vector<Pair> kept;
+  const auto searchBetween = [&](OverlapOptions options, const BoxView& first, const BoxView& second, auto take) {
+    // Pairs are found that are another's too: each twice, and a box with itself, but for what rounding makes of margins.
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t limit = m_options.maxPairs;
+    const bool isAny = m_isCount || limit > (kMost - wide.size()) / 2;
+    options.maxPairs = isAny ? kMost : 2 * limit + wide.size();
+    OverlapSearch search(std::move(options));
+    std::span<const Pair> found;
+    bool isFound = false;
+    try {
+      if (!m_isCount) found = search.find(first, second);
+      isFound = !m_isCount;
+    } catch (const LimitExceeded&) {  // add() says how many of them count
+      options = search.options();
+      options.maxPairs = kMost;
+      search.setOptions(std::move(options));
+    }
+    if (isFound) {
+      take(found);
+    } else {
+      search.stream(first, second, take);
+    }
+  };
   if (isOneSet || set == 0) {
-    OverlapSearch search(optionsFor(wide.bits(), local.bits));
-    search.stream(wide.boxes(), local.boxes, [&](std::span<const Pair> pairs) {
+    searchBetween(optionsFor(wide.bits(), local.bits), wide.boxes(), local.boxes, [&](std::span<const Pair> pairs) {
+      kept.clear();
       for (const Pair pair : pairs) {
-        const std::uint64_t id = wide.id(pair.first);
-        const std::uint64_t other = local.firstId + pair.second;
-        if (!isOneSet || id < other) add(id, other);
+        if (!isOneSet || wideId(pair.first) < localId(pair.second)) kept.push_back(pair);
       }
+      add(kept, wideId, localId);
     });
   }
   if (isOneSet || set == 1) {
-    OverlapSearch search(optionsFor(local.bits, wide.bits()));
-    search.stream(local.boxes, wide.boxes(), [&](std::span<const Pair> pairs) {
+    searchBetween(optionsFor(local.bits, wide.bits()), local.boxes, wide.boxes(), [&](std::span<const Pair> pairs) {
+      kept.clear();
       for (const Pair pair : pairs) {
-        const std::uint64_t id = local.firstId + pair.first;
-        const std::uint64_t other = wide.id(pair.second);
-        if (isWideHere[pair.first] == 0 && (!isOneSet || id < other)) add(id, other);
+        const bool isBefore = !isOneSet || localId(pair.first) < wideId(pair.second);
+        if (isBefore && isWideHere[pair.first] == 0) kept.push_back(pair);
       }
+      add(kept, localId, wideId);
     });
   }
 }
 
-void DistributedSearch::add(std::uint64_t first, std::uint64_t second) {
-  if (++m_count > m_options.maxPairs) throw LimitExceeded(m_count, "more pairs than allowed");
-  if (!m_isCount) m_pairs.add(first, second);
+template <class FirstId, class SecondId>
+void DistributedSearch::add(std::span<const Pair> pairs, const FirstId& firstId, const SecondId& secondId) {
+  m_count += pairs.size();
+  if (m_count > m_options.maxPairs) throw LimitExceeded(m_count, "more pairs than allowed");
+  if (!m_isCount) m_pairs.add(pairs, firstId, secondId);
 }
 
 void DistributedSearch::sendPairs() {

@@ -30,18 +30,27 @@ class DistributedSearch {
   [[nodiscard]] std::uint64_t count(std::span<const LocalBoxes> given);
 
  private:
+  /// The boxes of one cell, and what is kept from one cell to the next.
+  struct CellBoxes {
+    std::vector<std::vector<std::uint64_t>> bounds;  ///< On their way, by rank.
+    std::vector<std::vector<std::uint64_t>> others;
+    BoxRecords records;
+  };
+
   void search(std::span<const LocalBoxes> given);
   void takeSets(std::span<const LocalBoxes> given);
   void checkSets() const;
   void checkAgreement() const;
   void measureSets();
   void searchHere();
-  void searchCells(const Distribution& distribution, std::size_t round);
+  void searchCells(const Distribution& distribution);
+  void searchCell(std::span<CellBoxes> sets, const partition::Cell& cell, partition::CellSearch& search);
   void searchWide(const Distribution& distribution, std::size_t set);
   void searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere);
-  [[nodiscard]] BoxRecords fetchCell(const Distribution& distribution, std::size_t round, std::size_t set) const;
+  void fetchCell(const Distribution& distribution, std::size_t round, std::size_t set, CellBoxes& boxes) const;
   [[nodiscard]] OverlapOptions optionsFor(const FilterBits& first, const FilterBits& second) const;
-  void add(std::uint64_t first, std::uint64_t second);
+  template <class FirstId, class SecondId>
+  void add(std::span<const Pair> pairs, const FirstId& firstId, const SecondId& secondId);
   void sendPairs();
 
   const Ranks& m_ranks;

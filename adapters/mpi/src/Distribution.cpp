@@ -65,8 +65,7 @@ Distribution::Distribution(const Ranks& ranks, std::span<const LocalSet> sets, c
                            const Tuning& tuning)
     : m_ranks(ranks), m_sets(sets), m_options(options), m_tuning(tuning) {
   for (const LocalSet& set : sets) m_allBoxes += set.allBoxes;
-  const auto size = static_cast<std::size_t>(ranks.size());
-  m_wanted = std::max(tuning.cellsPerRank * size, static_cast<std::size_t>(m_allBoxes / tuning.boxesPerCell));
+  m_wanted = partition::cellsOnRanks(m_allBoxes, static_cast<std::size_t>(ranks.size()), tuning.boxesPerCell);
   for (std::size_t set = 0; set < sets.size(); ++set) takeSample(set);
   ranks.onAll([&] {
     if (ranks.rank() == 0) m_cells = partition::Partition(m_sample, m_wanted);
@@ -112,7 +111,8 @@ void Distribution::takeSample(std::size_t set) {
       for (const double value : reach.max) outgoing.front().push_back(wordOf(value));
     }
   });
-  const std::vector<std::uint64_t> words = m_ranks.exchange(outgoing);
+  std::vector<std::uint64_t> words;
+  m_ranks.exchange(outgoing, words);
   m_ranks.onAll([&] {
     for (std::size_t i = 0; i < words.size(); i += 6) {
       m_sample.push_back({{valueOf(words[i]), valueOf(words[i + 1]), valueOf(words[i + 2])},
@@ -140,14 +140,18 @@ void Distribution::findCells(std::size_t set) {
   std::vector<std::uint32_t>& cells = m_rows[set].cells;
   cells.clear();
   cells.reserve(local.boxes.size() + local.boxes.size() / 16);  // few boxes are in two cells
-  std::vector<std::uint32_t> found;
-  for (std::size_t i = 0; i < local.boxes.size(); ++i) {
-    m_cells.cellsOf(reachOf(local, i), found);
-    if (found.empty()) found.assign(1, kNoCell);
-    if (m_cells.isWide(found.size())) found.assign(1, static_cast<std::uint32_t>(m_cells.size()));
-    found.back() |= kLast;
-    cells.insert(cells.end(), found.begin(), found.end());
-  }
+  const auto wide = static_cast<std::uint32_t>(m_cells.size());
+  const auto reach = [&](std::size_t i) { return reachOf(local, i); };
+  m_cells.visitCells(local.boxes.size(), reach, [&](std::size_t /*box*/, std::span<const std::uint32_t> found) {
+    if (found.empty()) {
+      cells.push_back(kNoCell);
+    } else if (m_cells.isWide(found.size())) {
+      cells.push_back(wide);
+    } else {
+      cells.insert(cells.end(), found.begin(), found.end());
+    }
+    cells.back() |= kLast;
+  });
 }
 
 void Distribution::countBoxes() {

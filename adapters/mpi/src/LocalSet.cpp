@@ -71,13 +71,13 @@ std::size_t RecordLayout::otherWords() const noexcept {
   return 1 + (has(Margins) ? 1U : 0U) + (has(Categories) ? 1U : 0U) + (has(Groups) ? 1U : 0U);
 }
 
-PackedBoxes packBoxes(const LocalSet& set, std::span<const std::uint32_t> indices, RecordLayout layout) {
-  PackedBoxes packed;
+void packBoxes(const LocalSet& set, std::span<const std::uint32_t> indices, RecordLayout layout, PackedBoxes& packed) {
   if (layout.has(RecordLayout::Float64)) {
     packBounds<double>(set, indices, packed.bounds);
   } else {
     packBounds<float>(set, indices, packed.bounds);
   }
+  packed.others.clear();
   packed.others.reserve(indices.size() * layout.otherWords());
   for (const std::uint32_t i : indices) {
     packed.others.push_back(set.firstId + i);
@@ -87,19 +87,21 @@ PackedBoxes packBoxes(const LocalSet& set, std::span<const std::uint32_t> indice
     }
     if (layout.has(RecordLayout::Groups)) packed.others.push_back(valueAt(set.bits.groups, i, 0));
   }
-  return packed;
 }
 
-BoxRecords::BoxRecords(PackedBoxes packed, RecordLayout layout)
-    : m_packed(std::move(packed)), m_layout(layout), m_otherWords(layout.otherWords()) {
+void BoxRecords::unpack() {
+  m_margins.clear();
+  m_categories.clear();
+  m_masks.clear();
+  m_groups.clear();
   for (std::size_t i = 0; m_otherWords > 1 && i < size(); ++i) {
     std::size_t at = i * m_otherWords;
-    if (layout.has(RecordLayout::Margins)) m_margins.push_back(std::bit_cast<double>(m_packed.others[++at]));
-    if (layout.has(RecordLayout::Categories)) {
+    if (m_layout.has(RecordLayout::Margins)) m_margins.push_back(std::bit_cast<double>(m_packed.others[++at]));
+    if (m_layout.has(RecordLayout::Categories)) {
       m_categories.push_back(low(m_packed.others[++at]));
       m_masks.push_back(high(m_packed.others[at]));
     }
-    if (layout.has(RecordLayout::Groups)) m_groups.push_back(low(m_packed.others[++at]));
+    if (m_layout.has(RecordLayout::Groups)) m_groups.push_back(low(m_packed.others[++at]));
   }
 }
 

@@ -41,13 +41,17 @@ struct PackedBoxes {
   std::vector<std::uint64_t> others{};
 };
 
-/// Packs some boxes of a set, by index.
-[[nodiscard]] PackedBoxes packBoxes(const LocalSet& set, std::span<const std::uint32_t> indices, RecordLayout layout);
+/// Replaces `packed` by some boxes of a set, by index.
+void packBoxes(const LocalSet& set, std::span<const std::uint32_t> indices, RecordLayout layout, PackedBoxes& packed);
 
 /// Boxes that came from other ranks.
 class BoxRecords {
  public:
-  BoxRecords(PackedBoxes packed, RecordLayout layout);
+  explicit BoxRecords(RecordLayout layout) : m_layout(layout), m_otherWords(layout.otherWords()) {}
+
+  /// What came; unpack() is called when it is here.
+  [[nodiscard]] PackedBoxes& packed() noexcept { return m_packed; }
+  void unpack();
 
   /// Views of what is here.
   [[nodiscard]] BoxView boxes() const;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -12,8 +11,10 @@
 namespace allpairs::mpi {
 namespace {
 
-constexpr unsigned kGroupBits = 12;  // of first boxes whose pairs are put in order together: they stay in the cache
-constexpr std::size_t kGroupRows = std::size_t{1} << kGroupBits;
+constexpr std::uint64_t kLeastRows = 4096;  // first boxes whose pairs are put in order together: they stay in the cache
+constexpr std::uint64_t kMostRows = std::uint64_t{1} << 20;
+constexpr std::uint64_t kPairsOfRun = 8;  // in a group, or looking at all runs takes longer than at their pairs
+constexpr std::ptrdiff_t kShortRow = 16;  // partners of a box that are put in order by insertion
 
 /// A pair as it travels, in one word.
 struct ShortPair {
@@ -35,64 +36,100 @@ struct LongPair {
   [[nodiscard]] std::uint64_t second() const { return words[1]; }
 };
 
-/// Puts pairs in order that came in parts, which it frees.
+void orderRow(IdPair* begin, IdPair* end) {
+  if (end - begin > kShortRow) {
+    std::sort(begin, end, [](const IdPair& a, const IdPair& b) { return a.second < b.second; });
+    return;
+  }
+  for (IdPair* next = begin; next != end; ++next) {
+    const IdPair pair = *next;
+    IdPair* place = next;
+    for (; place != begin && pair.second < place[-1].second; --place) *place = place[-1];
+    *place = pair;
+  }
+}
+
+/// Puts pairs in order that came in runs, each of which ascends.
 template <class Travelling>
 class Orderer {
  public:
-  Orderer(std::vector<std::vector<std::uint64_t>>& parts, std::uint64_t firstId, std::uint64_t rows)
-      : m_firstId(firstId), m_groups((rows >> kGroupBits) + 2) {
-    for (const std::vector<std::uint64_t>& part : parts) {
-      forEach(part, [this](const Travelling& pair) { ++m_groups[groupOf(pair) + 1]; });
-    }
-    std::partial_sum(m_groups.begin(), m_groups.end(), m_groups.begin());
-    m_pairs = std::make_unique_for_overwrite<Travelling[]>(m_groups.back());
-    std::vector<std::size_t> next(m_groups.begin(), m_groups.end() - 1);
-    for (std::vector<std::uint64_t>& part : parts) {
-      forEach(part, [&](const Travelling& pair) { m_pairs[next[groupOf(pair)]++] = pair; });
-      part = {};
-    }
+  Orderer(std::span<const std::vector<std::uint64_t>> parts, std::uint64_t firstId, std::uint64_t rows)
+      : m_firstId(firstId), m_rows(rows) {
+    for (const std::vector<std::uint64_t>& part : parts) addRuns(part);
+    const std::uint64_t groups = std::max<std::uint64_t>(m_size / (kPairsOfRun * (m_runs.size() + 1)), 1);
+    m_places.resize(std::clamp(rows / groups + 1, kLeastRows, kMostRows));
   }
 
   std::vector<IdPair> inOrder() {
     std::vector<IdPair> ordered;
-    ordered.reserve(m_groups.back());
-    for (std::size_t group = 0; group + 1 < m_groups.size(); ++group) {
-      const std::span<const Travelling> pairs = orderGroup(group);
-      for (const Travelling& pair : pairs) ordered.push_back({pair.first(), pair.second()});
-    }
+    ordered.reserve(m_size);
+    for (std::uint64_t row = 0; row < m_rows; row += m_places.size()) orderGroup(m_firstId + row, ordered);
     return ordered;
   }
 
  private:
-  template <class Use>
-  static void forEach(const std::vector<std::uint64_t>& words, const Use& use) {
-    for (std::size_t at = 0; at < words.size(); at += Travelling::kWords) use(Travelling::from(&words[at]));
+  struct Run {
+    const std::uint64_t* next;  ///< What is not in order yet.
+    const std::uint64_t* end;
+    const std::uint64_t* groupEnd;
+  };
+
+  void addRuns(const std::vector<std::uint64_t>& words) {
+    m_size += words.size() / Travelling::kWords;
+    const std::uint64_t* begin = words.data();
+    const std::uint64_t* const end = begin + words.size();
+    std::uint64_t last = 0;
+    for (const std::uint64_t* at = begin; at != end; at += Travelling::kWords) {
+      const std::uint64_t first = Travelling::from(at).first();
+      if (first < last) {
+        m_runs.push_back({begin, at, begin});
+        begin = at;
+      }
+      last = first;
+    }
+    if (begin != end) m_runs.push_back({begin, end, begin});
   }
 
-  [[nodiscard]] std::size_t groupOf(const Travelling& pair) const { return (pair.first() - m_firstId) >> kGroupBits; }
-
-  std::span<const Travelling> orderGroup(std::size_t group) {
-    const std::span<const Travelling> pairs(m_pairs.get() + m_groups[group], m_groups[group + 1] - m_groups[group]);
-    const std::uint64_t firstOfGroup = m_firstId + (std::uint64_t{group} << kGroupBits);
-    m_ends.fill(0);
-    for (const Travelling& pair : pairs) ++m_ends[pair.first() - firstOfGroup];
-    std::exclusive_scan(m_ends.begin(), m_ends.end(), m_ends.begin(), std::size_t{0});
-    m_ordered.resize(pairs.size());
-    for (const Travelling& pair : pairs) m_ordered[m_ends[pair.first() - firstOfGroup]++] = pair;
-    const auto isLess = [](const Travelling& a, const Travelling& b) { return a.second() < b.second(); };
-    std::size_t begin = 0;
-    for (const std::size_t end : m_ends) {
-      std::sort(m_ordered.data() + begin, m_ordered.data() + end, isLess);
-      begin = end;
+  /// Appends the pairs of the first boxes of a group.
+  void orderGroup(std::uint64_t begin, std::vector<IdPair>& ordered) {
+    std::fill(m_places.begin(), m_places.end(), std::size_t{0});
+    const std::size_t before = ordered.size();
+    ordered.resize(before + countRows(begin));
+    IdPair* const group = ordered.data() + before;
+    std::exclusive_scan(m_places.begin(), m_places.end(), m_places.begin(), std::size_t{0});
+    for (Run& run : m_runs) {
+      for (; run.next != run.groupEnd; run.next += Travelling::kWords) {
+        const Travelling pair = Travelling::from(run.next);
+        group[m_places[pair.first() - begin]++] = {pair.first(), pair.second()};
+      }
     }
-    return m_ordered;
+    IdPair* row = group;
+    for (const std::size_t end : m_places) {
+      orderRow(row, group + end);
+      row = group + end;
+    }
+  }
+
+  /// Counts the pairs of each first box of a group, and finds where they end in each run.
+  std::size_t countRows(std::uint64_t begin) {
+    std::size_t count = 0;
+    for (Run& run : m_runs) {
+      run.groupEnd = run.next;
+      for (; run.groupEnd != run.end; run.groupEnd += Travelling::kWords) {
+        const std::uint64_t row = Travelling::from(run.groupEnd).first() - begin;
+        if (row >= m_places.size()) break;
+        ++m_places[row];
+      }
+      count += static_cast<std::size_t>(run.groupEnd - run.next) / Travelling::kWords;
+    }
+    return count;
   }
 
   std::uint64_t m_firstId;
-  std::vector<std::size_t> m_groups;  ///< Where the pairs of each begin, and the end.
-  std::unique_ptr<Travelling[]> m_pairs;
-  std::array<std::size_t, kGroupRows> m_ends{};  ///< Of each row of a group.
-  std::vector<Travelling> m_ordered;             ///< Pairs of a group.
+  std::uint64_t m_rows;
+  std::size_t m_size = 0;
+  std::vector<Run> m_runs;
+  std::vector<std::size_t> m_places;  ///< Where the next pair of each first box of a group goes.
 };
 
 }  // namespace
@@ -101,30 +138,33 @@ void PairExchange::start(std::span<const std::uint64_t> ends, bool areIdsShort) 
   m_ends.assign(ends.begin(), ends.end());
   m_areIdsShort = areIdsShort;
   m_outgoing.resize(ends.size());
+  m_begin = 0;
+  m_end = 0;
 }
 
-void PairExchange::add(std::uint64_t first, std::uint64_t second) {
-  const auto rank = std::upper_bound(m_ends.begin(), m_ends.end(), first) - m_ends.begin();
-  std::vector<std::uint64_t>& words = m_outgoing[static_cast<std::size_t>(rank)];
-  if (m_areIdsShort) {
-    words.push_back(first << 32 | second);
-  } else {
-    words.insert(words.end(), {first, second});
-  }
+/// Finds the rank of a first box.
+void PairExchange::turnTo(std::uint64_t first) {
+  m_to = static_cast<std::size_t>(std::upper_bound(m_ends.begin(), m_ends.end(), first) - m_ends.begin());
+  m_begin = m_to == 0 ? 0 : m_ends[m_to - 1];
+  m_end = m_ends[m_to];
 }
 
 void PairExchange::send() {
   m_ranks.onAll([this] { m_received.emplace_back(); });
-  m_received.back() = m_ranks.exchange(m_outgoing);
-  for (auto& pairs : m_outgoing) pairs.clear();
+  m_ranks.exchange(m_outgoing, m_received.back());
+  for (auto& words : m_outgoing) {
+    freeIfLarge(words, words.size());
+    words.clear();
+  }
 }
 
 std::vector<IdPair> PairExchange::takeInOrder() {
   const auto rank = static_cast<std::size_t>(m_ranks.rank());
   const std::uint64_t firstId = rank == 0 ? 0 : m_ends[rank - 1];
   const std::uint64_t rows = m_ends[rank] - firstId;
-  std::vector<std::vector<std::uint64_t>> parts = std::move(m_received);
-  m_received.clear();
+  m_outgoing.clear();
+  m_outgoing.shrink_to_fit();
+  const std::vector<std::vector<std::uint64_t>> parts = std::exchange(m_received, {});
   return m_areIdsShort ? Orderer<ShortPair>(parts, firstId, rows).inOrder()
                        : Orderer<LongPair>(parts, firstId, rows).inOrder();
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "Ranks.h"
+#include "allpairs/Pair.h"
 #include "allpairs/partition/Cell.h"
 
 namespace allpairs::mpi {
@@ -21,7 +23,23 @@ class PairExchange {
   /// that a pair travels as one word instead of two.
   void start(std::span<const std::uint64_t> ends, bool areIdsShort);
 
-  void add(std::uint64_t first, std::uint64_t second);
+  /// Pairs of indices whose first ids ascend: any other order is right too, but each descent begins a run, of which
+  /// takeInOrder() looks at all together.
+  template <class FirstId, class SecondId>
+  void add(std::span<const Pair> pairs, const FirstId& firstId, const SecondId& secondId) {
+    for (const Pair pair : pairs) {
+      const std::uint64_t first = firstId(pair.first);
+      const std::uint64_t second = secondId(pair.second);
+      if (first < m_begin || first >= m_end) turnTo(first);
+      std::vector<std::uint64_t>& words = m_outgoing[m_to];
+      if (m_areIdsShort) {
+        words.push_back(first << 32 | second);
+      } else {
+        words.push_back(first);
+        words.push_back(second);
+      }
+    }
+  }
 
   /// Sends what was added since the last time, and receives as much from the others; collective.
   void send();
@@ -30,9 +48,14 @@ class PairExchange {
   [[nodiscard]] std::vector<IdPair> takeInOrder();
 
  private:
+  void turnTo(std::uint64_t first);
+
   const Ranks& m_ranks;
   bool m_areIdsShort = true;
   std::vector<std::uint64_t> m_ends;
+  std::size_t m_to = 0;  ///< The rank that the last pair goes to, and the first boxes that it has.
+  std::uint64_t m_begin = 0;
+  std::uint64_t m_end = 0;
   std::vector<std::vector<std::uint64_t>> m_outgoing;  ///< By rank.
   std::vector<std::vector<std::uint64_t>> m_received;  ///< As they came, a part each time.
 };

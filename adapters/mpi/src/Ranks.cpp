@@ -157,10 +157,9 @@ std::vector<std::uint64_t> Ranks::gather(std::uint64_t value) const {
   return values;
 }
 
-std::vector<std::uint64_t> Ranks::exchange(std::span<const std::vector<std::uint64_t>> outgoing) const {
+void Ranks::exchange(std::span<const std::vector<std::uint64_t>> outgoing, std::vector<std::uint64_t>& incoming) const {
   std::vector<std::uint64_t> sent;
   std::vector<std::uint64_t> ends;
-  std::vector<std::uint64_t> words;
   onAll([&] {
     for (const auto& part : outgoing) sent.push_back(part.size());
     ends.resize(sent.size());
@@ -168,15 +167,14 @@ std::vector<std::uint64_t> Ranks::exchange(std::span<const std::vector<std::uint
   check(MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, ends.data(), 1, MPI_UINT64_T, m_communicator));
   onAll([&] {
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    words.resize(ends.back());
+    incoming.resize(ends.back());
   });
   for (int distance = 0; distance < m_size; ++distance) {
     const auto to = static_cast<std::size_t>((m_rank + distance) % m_size);
     const auto from = static_cast<std::size_t>((m_rank + m_size - distance) % m_size);
     const std::size_t begin = from == 0 ? 0 : ends[from - 1];
-    swap(outgoing[to], std::span(words).subspan(begin, ends[from] - begin), distance);
+    swap(outgoing[to], std::span(incoming).subspan(begin, ends[from] - begin), distance);
   }
-  return words;
 }
 
 /// Sends to the rank that is so far after this one, and receives from the one so far before it.

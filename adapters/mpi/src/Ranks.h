@@ -18,6 +18,11 @@ void requireUsable();
 /// Throws MpiError for a code of MPI that is none of success.
 void check(int code);
 
+/// Gives up memory that the next use of a buffer needs a small part of.
+inline void freeIfLarge(std::vector<std::uint64_t>& words, std::size_t needed) {
+  if (words.capacity() > 4 * needed) words = {};
+}
+
 /// The ranks of a communicator of its own, and what they do together. All of it is collective.
 class Ranks {
  public:
@@ -40,8 +45,8 @@ class Ranks {
   /// The value of every rank, in their order.
   [[nodiscard]] std::vector<std::uint64_t> gather(std::uint64_t value) const;
 
-  /// Sends each rank its words, and returns what came from all, in their order.
-  [[nodiscard]] std::vector<std::uint64_t> exchange(std::span<const std::vector<std::uint64_t>> outgoing) const;
+  /// Sends each rank its words, and replaces `incoming` by what came from all, in their order.
+  void exchange(std::span<const std::vector<std::uint64_t>> outgoing, std::vector<std::uint64_t>& incoming) const;
 
   /// The words of all ranks, in their order: together less than 2^31.
   [[nodiscard]] std::vector<std::uint64_t> collect(std::span<const std::uint64_t> words) const;

@@ -10,9 +10,8 @@ namespace allpairs::mpi {
 
 /// How a search is cut into parts. Tests set less, so that everything is cut.
 struct Tuning {
-  std::size_t cellsPerRank = partition::kCellsPerRank;
   std::size_t boxesPerCell = partition::kBoxesPerCell;
-  std::size_t samplePerCell = 256;  ///< Boxes that say where to cut.
+  std::size_t samplePerCell = 64;  ///< Boxes that say where to cut.
   std::size_t leastSample = std::size_t{1} << 16;
   std::uint64_t leastCrowded = std::uint64_t{1}
                                << 16;             ///< A cell of fewer boxes is no burden, though nothing divides it.

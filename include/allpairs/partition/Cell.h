@@ -76,7 +76,20 @@ struct Cell {
 ///
 /// `maxMargin` is the greatest margin of any box that it may be paired with. Only sums that the test of a pair makes
 /// itself are made, or greater ones, and rounding is monotonic: no pair is lost.
-[[nodiscard]] Box reachOf(const Box& box, double margin = 0.0, double distance = 0.0, double maxMargin = 0.0) noexcept;
+[[nodiscard]] inline Box reachOf(const Box& box, double margin = 0.0, double distance = 0.0,
+                                 double maxMargin = 0.0) noexcept {
+  if (isEmpty(box)) return kEmptyBox;
+  const double asFirst = (distance + margin) + maxMargin;
+  const double asSecond = (distance + maxMargin) + margin;
+  const double widening = asFirst < asSecond ? asSecond : asFirst;
+  Box reach = box;
+  for (double& max : reach.max) {
+    // To infinity also from -infinity, where the sum would be NaN.
+    const double widened = widening == std::numeric_limits<double>::infinity() ? widening : max + widening;
+    if (max < widened) max = widened;
+  }
+  return reach;
+}
 
 /// Whether a reach has points in the cell. An empty box touches none.
 [[nodiscard]] bool touches(const Cell& cell, const Box& reach) noexcept;
@@ -104,6 +117,12 @@ class CellSearch {
   /// memory: at most as many at once as OverlapSearch::stream() passes.
   void stream(const BoxView& boxes, const Cell& cell, PairVisitor visitor);
   void stream(const BoxView& first, const BoxView& second, const Cell& cell, PairVisitor visitor);
+
+  /// The pairs that belong to the cell, all at once, in the order of the options. Valid until the next search.
+  ///
+  /// Cost: memory for the pairs of the given boxes, those of other cells too, but never for more than maxPairs.
+  [[nodiscard]] Span<const Pair> find(const BoxView& boxes, const Cell& cell);
+  [[nodiscard]] Span<const Pair> find(const BoxView& first, const BoxView& second, const Cell& cell);
 
  private:
   struct State;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "allpairs/Box.h"
@@ -67,6 +68,29 @@ class Partition {
   /// Replaces `cells` by the numbers of all cells that a reach (see reachOf()) touches; none if it is empty.
   void cellsOf(const Box& reach, std::vector<std::uint32_t>& cells) const;
 
+  /// Calls `visit(i, cells)` for each of so many boxes, in order, with the numbers of all cells that `reachOf(i)`
+  /// touches, as a span. Of boxes that are mostly in one cell each, it takes a quarter of cellsOf().
+  template <class ReachOf, class Visit>
+  void visitCells(std::size_t boxes, const ReachOf& reachOf, const Visit& visit) const {
+    std::vector<Box> reaches;
+    std::vector<std::uint32_t> sole;
+    std::vector<std::uint32_t> several;
+    for (std::size_t begin = 0; begin < boxes; begin += kTogether) {
+      const std::size_t end = boxes - begin < kTogether ? boxes : begin + kTogether;
+      reaches.clear();
+      for (std::size_t i = begin; i < end; ++i) reaches.push_back(reachOf(i));
+      findSoleCells(reaches, sole);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (sole[i - begin] != kNoSoleCell) {
+          visit(i, Span<const std::uint32_t>(&sole[i - begin], 1));
+        } else {
+          cellsOf(reaches[i - begin], several);
+          visit(i, Span<const std::uint32_t>(several));
+        }
+      }
+    }
+  }
+
   /// Cuts one cell again, into about `parts`; the new cells are numbered after all others. Returns whether a cut
   /// divides the boxes of the sample that touch it.
   bool cutAgain(std::size_t number, const BoxView& sample, std::size_t parts, double distance = 0.0);
@@ -74,15 +98,23 @@ class Partition {
  private:
   class Cutter;
 
+  static constexpr std::size_t kTogether = 2048;  // reaches, which the cache of a core holds
+  static constexpr std::uint32_t kNoSoleCell = std::numeric_limits<std::uint32_t>::max();
+
+  void findSoleCells(const std::vector<Box>& reaches, std::vector<std::uint32_t>& cells) const;
   void addCells(std::int32_t side, const Box& reach, std::vector<std::uint32_t>& cells) const;
 
   std::vector<Cut> m_cuts;
 };
 
-/// What a search on several ranks cuts space into: so many cells for each rank, so that work can be dealt out evenly,
-/// and as many as it takes for none to have many more boxes than these, since a rank holds one cell at a time.
-inline constexpr std::size_t kCellsPerRank = 8;
-inline constexpr std::size_t kBoxesPerCell = std::size_t{1} << 22;
+/// How many boxes of a cell a search on several ranks would like: they stay in the cache of a core.
+inline constexpr std::size_t kBoxesPerCell = std::size_t{1} << 18;
+
+/// Into how many cells a search on several ranks cuts space: at least 8 for each rank, so that work can be dealt out
+/// evenly; as many as cells of `boxesPerCell` boxes take, but no more than 32 for each rank, since one rank makes the
+/// cuts; and in any case so many that none has much more than 16 times `boxesPerCell`: a rank holds one at a time.
+[[nodiscard]] std::size_t cellsOnRanks(std::uint64_t boxes, std::size_t ranks,
+                                       std::size_t boxesPerCell = kBoxesPerCell) noexcept;
 
 /// The greatest margin of a box; -infinity if there is none.
 [[nodiscard]] double greatestMargin(const BoxView& boxes) noexcept;

@@ -79,8 +79,9 @@ struct DistributedOptions {
 ///            A call of MPI that fails throws MpiError on the ranks that see it.
 /// Cost:      each box travels once, and once more for each further cell that it reaches; boxes that reach many cells,
 ///            or lie where no cut divides them, are sent to all ranks, a part at a time. Beside the result a rank holds
-///            4 bytes for each of its boxes and copies, one cell at a time, the pairs of one cell or part, and as much
-///            as the result once more while pairs are put in order. No rank holds all boxes.
+///            4 bytes for each of its boxes and copies, one cell at a time, the pairs of one cell or part three times,
+///            and half as much as the result while pairs are put in order, or as much of more than 2^32 boxes. No rank
+///            holds all boxes.
 /// Threads:   one search at a time per object. MPI must be initialized, with MPI_THREAD_FUNNELED where an executor is
 ///            given.
 class DistributedOverlaps {
