@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "allpairs/scene/ReadInput.h"
 #include "allpairs/scene/WriteResult.h"
 #include "support/IfcText.h"
+#include "support/Npy.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -38,6 +40,57 @@ std::string collada(const std::string& up) {
 </library_geometries><library_visual_scenes><visual_scene id="s" name="s"><node id="n" name="n">
 <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+/// The same in FBX, which numbers the axis that is up; one that it has not is none.
+std::string fbx(int up) {
+  return "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7300\n}\n"
+         "GlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\"," +
+         std::to_string(up) + R"(
+	}
+}
+Objects:  {
+	Geometry: 100, "Geometry::g", "Mesh" {
+		Vertices: *9 {
+			a: 1,2,3,5,2,3,1,9,4
+		}
+		PolygonVertexIndex: *3 {
+			a: 0,1,-3
+		}
+		GeometryVersion: 124
+	}
+	Model: 200, "Model::m", "Mesh" {
+		Version: 232
+	}
+}
+Connections:  {
+	C: "OO",200,0
+	C: "OO",100,200
+}
+)";
+}
+
+constexpr const char* kTriangleInX3d = R"(<?xml version="1.0" encoding="UTF-8"?>
+<X3D profile="Interchange" version="3.0"><Scene><Shape><IndexedFaceSet coordIndex="0 1 2 -1">
+<Coordinate point="1 2 3 5 2 3 1 9 4"/></IndexedFaceSet></Shape></Scene></X3D>)";
+
+/// A chunk of a 3DS file: its kind, its length and what is in it.
+std::string chunk(std::uint16_t kind, const std::string& content) {
+  std::string bytes;
+  appendNumber(bytes, kind, false);
+  appendNumber(bytes, static_cast<std::uint32_t>(6 + content.size()), false);
+  return bytes + content;
+}
+
+/// The same triangle in 3DS.
+std::string triangleIn3ds() {
+  std::string vertices;
+  appendNumber(vertices, std::uint16_t{3}, false);
+  for (const float x : {1.0F, 2.0F, 3.0F, 5.0F, 2.0F, 3.0F, 1.0F, 9.0F, 4.0F}) appendNumber(vertices, x, false);
+  std::string faces;
+  for (const int number : {1, 0, 1, 2, 7}) appendNumber(faces, static_cast<std::uint16_t>(number), false);
+  const std::string mesh = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, faces));
+  return chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, std::string("part") + '\0' + mesh)));
 }
 
 constexpr const char* kTriangleInGltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
@@ -69,6 +122,25 @@ TEST(Frame, AColladaFileHasTheCoordinatesOfItsFileWhicheverAxisIsUp) {
     EXPECT_EQ(boxOfModel(scene, 0), (Box{{1, 2, 3}, {5, 9, 4}})) << axis;
     EXPECT_EQ(scene.up, up) << axis;
     EXPECT_EQ(scene.metresPerUnit, 0.01) << axis;
+  }
+}
+
+TEST(Frame, OtherFormatsHaveTheCoordinatesOfTheirFilesAndTheirAxis) {
+  const std::vector<std::pair<scene::Scene, int>> scenes = [] {
+    std::vector<std::pair<scene::Scene, int>> read;
+    for (int axis = -1; axis < 4; ++axis) {
+      read.emplace_back(readFrame("a.fbx", fbx(axis)), axis >= 0 && axis < 3 ? axis + 1 : 0);
+    }
+    read.emplace_back(readFrame("a.x3d", kTriangleInX3d), 2);
+    read.emplace_back(readFrame("a.3ds", triangleIn3ds()), 3);
+    return read;
+  }();
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto& [scene, up] = scenes[i];
+    ASSERT_EQ(scene.models.size(), 1U) << i;
+    EXPECT_EQ(boxOfModel(scene, 0), (Box{{1, 2, 3}, {5, 9, 4}})) << i;
+    EXPECT_EQ(scene.up, up) << i;
+    EXPECT_EQ(scene.metresPerUnit, std::nullopt) << i;
   }
 }
 

@@ -172,6 +172,7 @@ class NodeReader {
   }
 
   void addMesh(MeshObject& object, const aiMesh& mesh, const Transform& world) {
+    if (mesh.HasBones()) object.passedOver = "its skin is passed over: the vertices are where they are without it";
     const std::size_t base = object.positions.size();
     if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) fail(object, "has too many vertices");
     m_scope.take(mesh.mNumVertices * sizeof(Point));
@@ -274,6 +275,7 @@ class ObjectTransfer {
       put(bytes, object.id);
       put(bytes, object.body);
       put(bytes, object.assembly);
+      put(bytes, object.passedOver);
       put(bytes, object.positions);
       put(bytes, object.triangles);
       put(bytes, object.lines);
@@ -293,6 +295,7 @@ class ObjectTransfer {
       take(bytes, object.id);
       take(bytes, object.body);
       take(bytes, object.assembly);
+      take(bytes, object.passedOver);
       take(bytes, object.positions);
       take(bytes, object.triangles);
       take(bytes, object.lines);

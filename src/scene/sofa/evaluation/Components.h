@@ -20,6 +20,8 @@ class Evaluation;
 [[nodiscard]] Mesh loadMesh(Evaluation& evaluation, const Component& loader);
 [[nodiscard]] Topology buildTopology(Evaluation& evaluation, const Component& component);
 [[nodiscard]] Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target);
+/// Whether a template's name means frames of a rigid body in space: seven numbers each.
+[[nodiscard]] bool isRigidTemplate(std::string_view name);
 [[nodiscard]] State initialState(Evaluation& evaluation, const Component& component);
 [[nodiscard]] State mapState(Evaluation& evaluation, const Component& mapping, State child);
 /// The points of several states, one after the other.

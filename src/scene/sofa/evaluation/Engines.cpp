@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
 #include "sofa/graph/Links.h"
@@ -31,13 +34,29 @@ Steps stepsOf(Evaluation& evaluation, const Component& engine) {
           .translation = evaluation.vector(engine, {"translation"}, {})};
 }
 
+bool hasFrames(const Component& engine) {
+  const auto* kind = engine.attributes.find("template");
+  return kind != nullptr && isRigidTemplate(*kind);
+}
+
 std::optional<Numbers> transformed(Evaluation& evaluation, const Component& engine, std::string_view name) {
   if (name != "output_position") return std::nullopt;
   const auto steps = stepsOf(evaluation, engine);
   const bool inverse = evaluation.flag(engine, "inverse", false);
-  auto points = evaluation.points(engine, {"input_position"});
-  for (auto& point : points) point = inverse ? backwards(steps, point) : forwards(steps, point);
-  return toNumbers(points);
+  const bool isRigid = hasFrames(engine);
+  auto given = evaluation.numbers(engine, {"input_position"}, isRigid ? 7 : 3, {0, 0, 0, 0, 0, 0, 1});
+  if (!given) return Numbers{.values = {}, .width = isRigid ? 7U : 3U};
+  const Quat turn =
+      inverse ? conjugate(steps.rotation) * conjugate(steps.quaternion) : steps.quaternion * steps.rotation;
+  for (std::size_t i = 0; i < given->size(); ++i) {
+    auto* v = given->values.data() + i * given->width;
+    const Vec3 point{v[0], v[1], v[2]};
+    std::ranges::copy(inverse ? backwards(steps, point) : forwards(steps, point), v);
+    if (!isRigid) continue;
+    const Quat q = turn * Quat{v[3], v[4], v[5], v[6]};
+    std::ranges::copy(std::array{q.x, q.y, q.z, q.w}, v + 3);
+  }
+  return given;
 }
 
 /// A map by where it takes the origin and the three axes.
@@ -55,12 +74,19 @@ AffineMap motionOf(Evaluation& evaluation, const Component& engine) {
 
 std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, std::string_view name) {
   if (name != "points") return std::nullopt;
-  const auto* kind = engine.attributes.find("template");
-  const std::size_t width = kind != nullptr && kind->starts_with("Rigid3") ? 7 : 3;
+  const std::size_t width = hasFrames(engine) ? 7 : 3;
   auto points = evaluation.numbers(engine, {"position1"}, width);
   const auto others = evaluation.numbers(engine, {"position2"}, width);
   if (!points) points = Numbers{.values = {}, .width = width};
   if (!others) return points;
+  if (const auto places = evaluation.indices(engine, {"mappingX2"}); !places.empty()) {
+    if (places.size() > others->size()) throw Unplaceable(engine, "its mappingX2 is longer than its position2");
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i] < points->size())
+        std::copy_n(others->values.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                    points->values.begin() + static_cast<std::ptrdiff_t>(places[i] * width));
+    return points;
+  }
   evaluation.takePoints(engine, points->size() + others->size());  // a chain of these doubles with each
   points->values.insert(points->values.end(), others->values.begin(), others->values.end());
   return points;

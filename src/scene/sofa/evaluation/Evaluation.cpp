@@ -82,6 +82,15 @@ std::uint64_t sizeOf(const Mesh& mesh) {
 
 bool isEngine(ComponentKind kind) { return kind >= ComponentKind::TransformEngine && kind <= ComponentKind::Device; }
 
+/// The name under which a component gives a value that has several. Where it gives more than one, SOFA, which goes
+/// through them in the order of the alphabet, keeps the last.
+std::string_view givenName(const Component& component, std::initializer_list<std::string_view> names) {
+  std::string_view given;
+  for (const auto name : names)
+    if (name > given && component.attributes.has(name)) given = name;
+  return given;
+}
+
 }  // namespace
 
 /// Notes that a component's value is being computed, and throws where it turns out to need itself.
@@ -270,9 +279,8 @@ std::optional<Numbers> Evaluation::output(const Component& component, std::strin
 std::optional<Numbers> Evaluation::numbers(const Component& component, Names names, std::size_t width,
                                            const std::vector<double>& filler) {
   std::optional<Numbers> found;
-  for (const auto name : names)
-    if (const auto* text = component.attributes.find(name); text != nullptr && !found)
-      found = written(component, name, *text);
+  if (const auto name = givenName(component, names); !name.empty())
+    found = written(component, name, *component.attributes.find(name));
   if (!found && component.attributes.has("src"))
     for (const auto name : names)
       if (!found) found = throughSrc(component, name);
@@ -295,8 +303,8 @@ bool Evaluation::isGiven(const Component& component, Names names) const {
 }
 
 bool Evaluation::isLinked(const Component& component, Names names) const {
-  for (const auto name : names)
-    if (const auto* text = component.attributes.find(name)) return text->starts_with('@');
+  if (const auto name = givenName(component, names); !name.empty())
+    return component.attributes.find(name)->starts_with('@');
   return component.attributes.has("src");
 }
 

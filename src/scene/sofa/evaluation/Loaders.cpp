@@ -93,7 +93,9 @@ void transformByMatrix(Mesh& mesh, const std::vector<double>& m) {
 
 void transform(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
   const auto matrix = evaluation.numbers(loader, {"transformation"}, Evaluation::kFlat);
-  if (matrix && matrix->values.size() == 16) return transformByMatrix(mesh, matrix->values);
+  const std::vector<double> identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // counts as none, as in SOFA
+  if (matrix && matrix->values.size() == 16 && matrix->values != identity)
+    return transformByMatrix(mesh, matrix->values);
   auto scale = evaluation.vector(loader, {"scale3d"}, {1, 1, 1});
   if (const auto* text = loader.attributes.find("scale")) scale = scale * parseWholeFloat(*text).value_or(1);
   const auto rotation = fromEulerDegrees(evaluation.vector(loader, {"rotation"}, {}));
@@ -101,14 +103,15 @@ void transform(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
   for (auto& p : mesh.positions) p = rotate(rotation, scaled(p, scale)) + translation;
 }
 
+/// Since 21.06 SOFA turns spheres too, and leaves their radii as they are.
 void transformSpheres(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
-  if (loader.attributes.has("scale")) {
-    const auto scale = evaluation.vector(loader, {"scale"}, {});
-    for (auto& radius : mesh.radii) radius *= scale[0];
-    for (auto& p : mesh.positions) p = scaled(p, scale);
-  }
+  const bool isOld = evaluation.generation() == Generation::Sofa20;
+  const auto scale = evaluation.vector(loader, {"scale"}, {1, 1, 1});
+  const auto rotation = fromEulerDegrees(isOld ? Vec3{} : evaluation.vector(loader, {"rotation"}, {}));
   const auto translation = evaluation.vector(loader, {"translation"}, {});
-  for (auto& p : mesh.positions) p = p + translation;
+  if (isOld)
+    for (auto& radius : mesh.radii) radius *= scale[0];
+  for (auto& p : mesh.positions) p = rotate(rotation, scaled(p, scale)) + translation;
 }
 
 /// The numbers of the corners of one square of a grid.
@@ -171,7 +174,10 @@ Mesh readBy(Evaluation& evaluation, const Component& loader, const std::filesyst
   if (loader.type == "MeshGmshLoader") return readGmsh(path);
   if (loader.type == "MeshVTKLoader") return readVtk(path);
   if (loader.type == "MeshOffLoader") return readOff(path);
-  if (loader.type == "MeshTrianLoader") return readTrian(path);
+  if (loader.type == "MeshTrianLoader") {
+    if (evaluation.flag(loader, "trian2", false)) throw Unplaceable(loader, "files of the form trian2 cannot be read");
+    return readTrian(path);
+  }
   if (loader.type == "MeshSTLLoader") throw Unplaceable(loader, "STL meshes in scenes cannot be read");
   return readObj(path, {.triangulate = evaluation.flag(loader, "triangulate", false),
                         .splitSeams = evaluation.flag(loader, "handleSeams", false)});
@@ -222,7 +228,8 @@ Mesh loadMesh(Evaluation& evaluation, const Component& loader) {
   }
   transform(evaluation, loader, mesh);
   if (evaluation.flag(loader, "triangulate", false)) triangulate(mesh);
-  if (evaluation.flag(loader, "createSubelements", false)) addFaces(mesh), addEdges(mesh);
+  const bool isGmsh = loader.type == "MeshGmshLoader";  // which alone makes them if it is not told
+  if (evaluation.flag(loader, "createSubelements", isGmsh)) addFaces(mesh), addEdges(mesh);
   if (evaluation.flag(loader, "onlyAttachedPoints", false)) keepAttachedPoints(mesh);
   return mesh;
 }

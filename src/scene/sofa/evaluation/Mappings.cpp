@@ -31,15 +31,17 @@ class Carriers {
     if (m_perPoint.size() != points) m_perPoint.clear();
     const auto index = evaluation.number(mapping, {"index"}, 0);
     m_index = static_cast<std::size_t>(std::clamp(index, 0.0, 4e9));
-    if (evaluation.flag(mapping, "indexFromEnd", false)) m_index = m_frames - 1 - m_index;
+    m_isFromEnd = evaluation.flag(mapping, "indexFromEnd", false);
   }
 
   [[nodiscard]] std::size_t of(std::size_t point) const {
     const auto frame = m_perPoint.empty() ? m_index : m_perPoint[point];
+    const bool isFromEnd = m_isFromEnd && m_perPoint.empty();
     if (frame >= m_frames)
-      throw Unplaceable(m_mapping, "there is no rigid frame number " + std::to_string(frame) + " among the " +
-                                       std::to_string(m_frames) + " of its input");
-    return frame;
+      throw Unplaceable(m_mapping, "there is no rigid frame number " + std::to_string(frame) +
+                                       (isFromEnd ? " from the end" : "") + " among the " + std::to_string(m_frames) +
+                                       " of its input");
+    return isFromEnd ? m_frames - 1 - frame : frame;
   }
 
  private:
@@ -57,34 +59,48 @@ class Carriers {
   const Component& m_mapping;
   std::size_t m_frames;
   std::size_t m_index = 0;
+  bool m_isFromEnd = false;
   std::vector<std::size_t> m_perPoint;
 };
 
-/// The points of the child in the frames that carry it.
-State localPoints(Evaluation& evaluation, const Component& mapping, const State& child) {
+/// Points in the frames that carry them, and whether they are the child's own.
+struct LocalPoints {
+  State points;
+  bool areOfChild = true;
+};
+
+LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const State& child) {
   State local = child;
+  if (evaluation.flag(mapping, "useX0", false)) {
+    if (child.kind == State::Kind::Rigid && child.rest != child.positions)
+      throw Unplaceable(mapping, "its frames at rest are not known to this reader");
+    local.positions = child.rest;
+    return {std::move(local), false};
+  }
   if (const auto file = evaluation.file(mapping, {"filename", "fileRigidMapping"})) {
     if (file->extension() == ".xs3") throw Unplaceable(mapping, "files of the kind .xs3 cannot be read");
     local.positions = readMesh(*file).positions;
+    return {std::move(local), false};
   } else if (evaluation.isGiven(mapping, {"initialPoints"})) {
     const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.kind == State::Kind::Rigid ? 7 : 3);
-    if (given->size() == 0) return local;
+    if (given->size() == 0) return {std::move(local)};
     local.resize(given->size());
     for (std::size_t i = 0; i < given->size(); ++i) {
       const auto* v = given->values.data() + i * given->width;
       local.positions[i] = {v[0], v[1], v[2]};
       if (given->width == 7) local.orientations[i] = {v[3], v[4], v[5], v[6]};
     }
+    return {std::move(local), false};
   }
-  return local;
+  return {std::move(local)};
 }
 
 State mapRigidly(Evaluation& evaluation, const Component& mapping, const State& parent, const State& child) {
   if (parent.kind != State::Kind::Rigid) throw Unplaceable(mapping, "the state that it reads is not rigid");
-  auto result = localPoints(evaluation, mapping, child);
+  auto [result, areOfChild] = localPoints(evaluation, mapping, child);
   result.fromTopology.reset();
   const Carriers carriers(evaluation, mapping, result.positions.size(), parent.positions.size());
-  const bool isGlobal = evaluation.flag(mapping, "globalToLocalCoords", false);
+  const bool isGlobal = areOfChild && evaluation.flag(mapping, "globalToLocalCoords", false);
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
     const auto frame = carriers.of(i);
     if (isGlobal) continue;  // There and back again.

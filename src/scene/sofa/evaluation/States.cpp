@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
@@ -9,6 +11,7 @@ namespace allpairs::scene::sofa {
 namespace {
 
 using enum ComponentKind;
+using namespace std::string_view_literals;
 
 struct Placement {
   Vec3 scale{1, 1, 1};
@@ -63,8 +66,7 @@ void move(State& state, const Vec3& scale, const Vec3& rotation, const Vec3& tra
 State::Kind kindOf(const Component& component) {
   const auto* text = component.attributes.find("template");
   if (text == nullptr || text->empty()) return State::Kind::Points;
-  for (const auto name : {"Rigid", "Rigid3", "Rigid3d", "Rigid3f"})
-    if (*text == name) return State::Kind::Rigid;
+  if (isRigidTemplate(*text)) return State::Kind::Rigid;
   for (const auto name : {"Vec1", "Vec1d", "Vec1f", "Vec2", "Vec2d", "Vec2f", "Vec6", "Vec6d", "Vec6f", "Rigid2",
                           "Rigid2d", "Rigid2f", "Affine", "Quadratic", "F331", "F332", "F311", "E331", "U331"})
     if (*text == name) return State::Kind::Other;
@@ -150,8 +152,53 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
   const auto placement = placementOf(evaluation, component);
   move(state, placement.scale, placement.rotation, placement.translation);
   state.rest = restPositions(evaluation, component, state);
-  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
+  if (state.rest.size() != state.positions.size()) {
+    state.rest = state.positions;
+    if (const double scale = evaluation.number(component, {"restScale"}, 1); scale != 1)
+      for (auto& p : state.rest) p = p * scale;
+  }
   move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
+}
+
+/// Constraints that put the points of their state somewhere as the simulation starts, before SOFA detects anything.
+constexpr std::array kProjections{
+    "AffineMovementConstraint"sv,
+    "AffineMovementProjectiveConstraint"sv,
+    "AttachConstraint"sv,
+    "AttachProjectiveConstraint"sv,
+    "FixedRotationConstraint"sv,
+    "FixedRotationProjectiveConstraint"sv,
+    "HermiteSplineConstraint"sv,
+    "HermiteSplineProjectiveConstraint"sv,
+    "LineProjectiveConstraint"sv,
+    "LinearMovementConstraint"sv,
+    "LinearMovementProjectiveConstraint"sv,
+    "LinearVelocityConstraint"sv,
+    "LinearVelocityProjectiveConstraint"sv,
+    "OscillatorConstraint"sv,
+    "OscillatorProjectiveConstraint"sv,
+    "ParabolicConstraint"sv,
+    "ParabolicProjectiveConstraint"sv,
+    "PartialLinearMovementConstraint"sv,
+    "PartialLinearMovementProjectiveConstraint"sv,
+    "PatchTestMovementConstraint"sv,
+    "PatchTestMovementProjectiveConstraint"sv,
+    "PlaneProjectiveConstraint"sv,
+    "PointProjectiveConstraint"sv,
+    "PositionBasedDynamicsConstraint"sv,
+    "PositionBasedDynamicsProjectiveConstraint"sv,
+    "ProjectToLineConstraint"sv,
+    "ProjectToPlaneConstraint"sv,
+    "ProjectToPointConstraint"sv,
+    "SkeletalMotionConstraint"sv,
+    "SkeletalMotionProjectiveConstraint"sv,
+};
+
+void warnOfProjections(Evaluation& evaluation, const Component& state) {
+  for (const auto& component : state.node->components)
+    if (std::ranges::binary_search(kProjections, std::string_view{component->type}))
+      evaluation.warn(*component,
+                      "SOFA may move points by it before it detects anything; here they are where they are without it");
 }
 
 }  // namespace
@@ -168,11 +215,17 @@ std::optional<Vec3> placementData(Evaluation& evaluation, const Component& compo
   return std::nullopt;
 }
 
+bool isRigidTemplate(std::string_view name) {
+  if (name.starts_with("Cuda")) name.remove_prefix(4);
+  return name == "Rigid" || name == "Rigid3" || name == "Rigid3d" || name == "Rigid3f";
+}
+
 State initialState(Evaluation& evaluation, const Component& component) {
   State state;
   state.kind = kindOf(component);
   if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
+  warnOfProjections(evaluation, component);
   const std::size_t width = widthOf(state);
   state.resize(1);
   const auto motion = state.kind == State::Kind::Points ? evaluation.gridMotion(component, "position") : std::nullopt;

@@ -17,6 +17,15 @@ namespace {
 
 using enum ComponentKind;
 
+/// One more than the highest point that cells name of which nothing else is read.
+std::size_t highestOf(Evaluation& evaluation, const Component& component, std::string_view list, std::size_t width) {
+  std::size_t used = 0;
+  if (const auto given = evaluation.numbers(component, {list}, width))
+    for (const double corner : given->values)
+      if (corner >= 0 && corner < kMaxPoints) used = std::max(used, static_cast<std::size_t>(corner) + 1);
+  return used;
+}
+
 Topology meshTopology(Evaluation& evaluation, const Component& component) {
   Topology topology;
   if (const auto file = evaluation.file(component, {"filename", "fileTopology"})) {
@@ -26,7 +35,8 @@ Topology meshTopology(Evaluation& evaluation, const Component& component) {
   } else {
     topology.given = evaluation.elementLists(component);
     topology.given.positions = evaluation.points(component, {"position", "points"});
-    topology.pointCount = indicesUsed(topology.given);
+    topology.pointCount = std::max({indicesUsed(topology.given), highestOf(evaluation, component, "prisms", 6),
+                                    highestOf(evaluation, component, "pyramids", 5)});
   }
   topology.hasPositions = !topology.given.positions.empty();
   return topology;
@@ -56,10 +66,10 @@ Topology containerTopology(Evaluation& evaluation, const Component& component) {
   topology.given = containerLists(evaluation, component);
   const double count = evaluation.number(component, {"nbPoints"}, 0);
   topology.pointCount = static_cast<std::size_t>(std::clamp(count, 0.0, kMaxPoints));
-  Mesh counted;  // Only edges and tetrahedra make room for the points that they use.
-  if (topology.given.positions.empty()) counted.edges = topology.given.edges;
+  Mesh counted;  // Beside positions only tetrahedra make room for the points that they use; since 19.06 all do alone.
   counted.tetrahedra = topology.given.tetrahedra;
-  topology.pointCount = std::max({topology.pointCount, indicesUsed(counted), topology.given.positions.size()});
+  const std::size_t used = indicesUsed(topology.given.positions.empty() ? topology.given : counted);
+  topology.pointCount = std::max({topology.pointCount, used, topology.given.positions.size()});
   topology.hasPositions = !topology.given.positions.empty();
   return topology;
 }

@@ -18,9 +18,15 @@ const State& stateOf(Evaluation& evaluation, const Component& model) {
   return evaluation.knownState(*which);
 }
 
+/// The topology that a model names, else the one that it sees.
 const Component& topologyComponentOf(const Component& model) {
-  const auto* which = inContext(*model.node, [](const Component& c) { return isTopology(c.kind()); });
-  if (which == nullptr) throw Unplaceable(model, "there is no topology in its node or above");
+  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
+  const auto* link = model.attributes.find("topology");
+  const bool isNamed = link != nullptr && !link->empty();
+  const auto* which = isNamed ? followTo(model, *link, topologies) : inContext(*model.node, topologies);
+  if (which == nullptr)
+    throw Unplaceable(model, isNamed ? "topology=\"" + link->substr(0, 80) + "\" leads to no topology"
+                                     : "there is no topology in its node or above");
   return *which;
 }
 
@@ -70,10 +76,14 @@ std::vector<double> padded(Evaluation& evaluation, const Component& model, std::
   return values;
 }
 
-/// A model of triangles from a Wavefront file without faces is empty, as in SOFA; most likely another file was meant.
-void noteObjWithoutFaces(Evaluation& evaluation, const Component& model) {
-  const auto file = evaluation.objFileOf(topologyComponentOf(model));
-  if (!file.empty()) evaluation.warn(model, "it has no triangles: '" + file + "' has no line of 'f' with a face");
+/// An empty model is right where SOFA has one too; most often another file, or another topology, was meant.
+void noteEmpty(Evaluation& evaluation, const Component& model) {
+  std::string reason = "it has no elements, and is in no pair";
+  if (model.kind() == ComponentKind::TriangleModel) {
+    const auto file = evaluation.objFileOf(topologyComponentOf(model));
+    if (!file.empty()) reason += ": '" + file + "' has no line of 'f' with a face";
+  }
+  evaluation.warn(model, std::move(reason));
 }
 
 void describeTriangles(Evaluation& evaluation, const Component& component, ModelDescription& model) {
@@ -84,7 +94,6 @@ void describeTriangles(Evaluation& evaluation, const Component& component, Model
     model.triangles.push_back({q[1], q[2], q[0]});
     model.triangles.push_back({q[3], q[0], q[2]});
   }
-  if (model.triangles.empty()) noteObjWithoutFaces(evaluation, component);
   checkCorners(component, model.triangles, model.positions.size());
 }
 
@@ -139,8 +148,9 @@ void describeRigidCapsules(Evaluation& evaluation, const Component& component, M
   const auto& state = framesOf(evaluation, component);
   const auto count = state.positions.size();
   const bool cylinder = component.kind() == CylinderModel;
-  const double height = cylinder ? evaluation.number(component, {"defaultHeight", "dafaultHeight"}, 2)
-                                 : evaluation.number(component, {"dafaultHeight", "defaultHeight"}, 2);
+  const auto [own, other] = cylinder ? std::pair{"defaultHeight", "dafaultHeight"}
+                                     : std::pair{"dafaultHeight", "defaultHeight"};  // as SOFA spells it
+  const double height = evaluation.number(component, {own}, evaluation.number(component, {other}, 2));
   const auto heights = padded(evaluation, component, "heights", {count, height});
   model.radii = padded(evaluation, component, "radii", {count, evaluation.number(component, {"defaultRadius"}, 0.5)});
   const Vec3 along = cylinder ? evaluation.vector(component, {"defaultLocalAxis"}, {0, 1, 0}) : Vec3{0, 1, 0};
@@ -291,6 +301,7 @@ ModelDescription describeModel(Evaluation& evaluation, const Component& componen
   describeRules(evaluation, component, model);
   evaluation.scope().take(ReadScope::kBytesPerModel + 4 * model.path.size());
   if (model.active) describeElements(evaluation, component, model);
+  if (model.active && model.elementCount() == 0) noteEmpty(evaluation, component);
   evaluation.takePoints(component, model.positions.size() + model.elementCount());
   return model;
 }
