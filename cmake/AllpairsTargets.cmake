@@ -44,8 +44,8 @@ function(allpairs_components_of part library_variable development_variable)
 endfunction()
 
 # Compiles one of our targets as C++20 with our warnings; without fused multiply-add, which would make the result depend
-# on the instruction set; and without the path of the source tree in what is built. With AS_CXX17 as C++17, as programs
-# of users may be.
+# on the instruction set; without the -ffast-math of a parent project, which loses pairs and lets a NaN pass; and without
+# the path of the source tree in what is built. With AS_CXX17 as C++17, as programs of users may be.
 function(allpairs_configure target)
   if("AS_CXX17" IN_LIST ARGN)
     set_target_properties(${target} PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON)
@@ -62,7 +62,13 @@ function(allpairs_configure target)
   endif()
   target_compile_options(
     ${target}
-    PRIVATE -ffp-contract=off
+    PRIVATE -fno-fast-math
+            -fno-unsafe-math-optimizations
+            -fno-finite-math-only
+            -fno-associative-math
+            -fno-reciprocal-math
+            -fsigned-zeros
+            -ffp-contract=off
             -fmacro-prefix-map=${PROJECT_SOURCE_DIR}=.
             -fdebug-prefix-map=${PROJECT_SOURCE_DIR}=.
             -Wall
@@ -102,8 +108,10 @@ function(allpairs_add_library target export_name)
   if(export_name STREQUAL "c")
     set(soversion ${ALLPAIRS_C_SOVERSION})
   endif()
+  # Nothing marks what is exported: a parent that hides the rest would get libraries without a function.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION}
-                                             SOVERSION ${soversion})
+                                             SOVERSION ${soversion}
+                                             CXX_VISIBILITY_PRESET default VISIBILITY_INLINES_HIDDEN OFF)
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
                                               "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   if(ALLPAIRS_INSTALL)

@@ -205,7 +205,8 @@ def source_files():
     if tracked.returncode == 0 and tracked.stdout:
         return sorted(name for name in tracked.stdout.decode().split("\0") if name and (ROOT / name).is_file())
     files = (path.relative_to(ROOT) for path in ROOT.rglob("*") if path.is_file())
-    return sorted(path.as_posix() for path in files if path.parts[0] not in ("build", ".git"))
+    # PKG-INFO is there in an unpacked sdist, and is written anew.
+    return sorted(path.as_posix() for path in files if path.parts[0] not in ("build", ".git", "PKG-INFO"))
 
 
 def build_sdist(sdist_directory, config_settings=None):

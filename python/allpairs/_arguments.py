@@ -289,7 +289,7 @@ def depth_of(distance: float, margins: Iterable[npt.ArrayLike | None]) -> float:
     for margin in margins:
         if margin is not None:
             depth += 2 * max(0.0, -float(floats("margin", margin).min(initial=0)))
-    return 2 * depth
+    return max(2 * depth, 1.0) if depth else 0.0
 
 
 def two_corners(value: BoxesLike, name: str) -> tuple[npt.ArrayLike, npt.ArrayLike | None]:
@@ -326,7 +326,7 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:
     """A filter's array: one number for each box, from an array or from a number for all."""
-    if not is_one(value):
+    if not is_one(value) or _hides(value):  # the latter is refused
         return of_length(name, _uint32(name, value), length)
     single = value.item() if isinstance(value, (np.generic, np.ndarray)) else value
     return np.full(length, bits(name, cast(int, single)), np.uint32)

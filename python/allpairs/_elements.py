@@ -65,6 +65,9 @@ class MeshCandidates:
     (6, 9)
     """
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("cannot pickle 'allpairs.MeshCandidates' object")
+
     def __init__(
         self,
         triangles: Union[npt.ArrayLike, Sequence[npt.ArrayLike]],

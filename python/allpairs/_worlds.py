@@ -64,11 +64,20 @@ def _divided(
     return low.reshape(-1, columns), None if high is None else high.reshape(-1, columns), _equal_offsets(low.shape)
 
 
+def _flat(name: str, array: npt.NDArray[Any], begin: npt.NDArray[np.uint64]) -> npt.NDArray[Any]:
+    """Values of boxes one after the other, from such or, of worlds of equal size, from a row for each world."""
+    if array.ndim == 2 and len(array) == len(begin) - 1 and (np.diff(begin) == array.shape[1]).all():
+        return array.ravel()
+    if array.ndim != 1:
+        raise InvalidArgument(f"{name} has shape {array.shape}; it takes (boxes,), or (worlds, n) of worlds of n boxes each")
+    return array
+
+
 def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint32]:
     """A filter's array: for each box of all worlds, or, if they are of equal size, of one."""
     if _arguments.is_one(value):
         return _arguments.labels(name, value, boxes)
-    array = _array(name, value).ravel()
+    array = _flat(name, _array(name, value), begin)
     sizes = np.diff(begin)
     one = int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else boxes
     return _arguments.labels(name, array, one if array.size == one else boxes)
@@ -139,7 +148,7 @@ def overlaps_in_worlds(
     """
     low, high, begin = _divided(lower, upper, offsets)
     if margin is not None and not _arguments.is_one(margin):
-        margin = _array("margin", margin).ravel()
+        margin = _flat("margin", _array("margin", margin), begin)
     boxes = _arguments.with_margins(_arguments.boxes_of(low, high), margin)
     values = dict(locals())
     nothing = np.empty((0, 2), dtype=np.uint32)

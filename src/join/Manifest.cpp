@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFirstLine = "allpairs join 1";  // the form of the file
+constexpr std::string_view kFirstLine = "allpairs join 1\n";  // the form of the file
 
 std::uint64_t checksumOf(std::string_view text) {
   Checksum checksum;
@@ -40,7 +40,6 @@ std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value);
 
 std::string textOf(const Manifest& manifest) {
   std::string text(kFirstLine);
-  text += '\n';
   for (const InputState& input : manifest.inputs) addLine(text, "input", input.path, input.bytes, input.changed);
   addLine(text, "options", std::bit_cast<std::uint64_t>(manifest.distance), manifest.isCount);
   if (manifest.secondFiles != 0) addLine(text, "second", manifest.secondFiles);
@@ -197,7 +196,7 @@ std::optional<Manifest> Manifest::read(const fs::path& path) {
   const bool isWhole = content.starts_with(kFirstLine) && text.substr(content.size()) == last;
   try {
     if (!isWhole) throw InvalidArgument("its checksum is another");
-    Manifest manifest = manifestOf(content.substr(kFirstLine.size() + 1));
+    Manifest manifest = manifestOf(content.substr(kFirstLine.size()));
     manifest.check();
     return manifest;
   } catch (const InvalidArgument& problem) {

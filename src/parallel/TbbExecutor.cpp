@@ -6,8 +6,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +42,55 @@ class Inside {
   const TbbExecutor* m_outer;
 };
 
+/// oneTBB starts no more workers than the machine has cores, and warns on standard error, unless it is told to. Of
+/// several limits it takes the least: the executors share one, the greatest that any of them needs.
+class WorkerLimit {
+ public:
+  explicit WorkerLimit(std::size_t threads) : m_threads(threads) {
+    const std::lock_guard lock(shared().mutex);
+    const auto place = shared().wanted.insert(threads);
+    try {
+      renew();
+    } catch (...) {
+      shared().wanted.erase(place);
+      throw;
+    }
+  }
+  WorkerLimit(const WorkerLimit&) = delete;
+  WorkerLimit& operator=(const WorkerLimit&) = delete;
+  ~WorkerLimit() {
+    const std::lock_guard lock(shared().mutex);
+    shared().wanted.erase(shared().wanted.find(m_threads));
+    try {
+      renew();
+    } catch (const std::bad_alloc&) {  // the limit of before is no less
+    }
+  }
+
+ private:
+  struct Shared {
+    std::mutex mutex;
+    std::multiset<std::size_t> wanted;
+    std::size_t most = 0;
+    std::unique_ptr<tbb::global_control> limit;
+  };
+  static Shared& shared() {
+    static auto* const shared = new Shared;  // NOLINT(*-owning-memory): executors may be static
+    return *shared;
+  }
+  static void renew() {
+    Shared& all = shared();
+    const std::size_t most = all.wanted.empty() ? 0 : *all.wanted.rbegin();
+    if (most == all.most) return;
+    auto limit =
+        most == 0 ? nullptr : std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, most);
+    all.limit = std::move(limit);
+    all.most = most;
+  }
+
+  std::size_t m_threads;
+};
+
 }  // namespace
 
 /// An arena for each call that runs at the same time: a thread that comes from outside would wait for a place in one
@@ -46,10 +98,7 @@ class Inside {
 class TbbExecutor::Arenas {
  public:
   explicit Arenas(int threads) : m_threads(threads) {
-    // oneTBB starts no more workers than the machine has cores, and warns on standard error, unless it is told to.
-    if (threads > tbb::info::default_concurrency()) {
-      m_limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    }
+    if (threads > tbb::info::default_concurrency()) m_limit.emplace(static_cast<std::size_t>(threads));
   }
 
   [[nodiscard]] int threads() const noexcept { return m_threads; }
@@ -80,7 +129,7 @@ class TbbExecutor::Arenas {
   }
 
   int m_threads;
-  std::optional<tbb::global_control> m_limit;
+  std::optional<WorkerLimit> m_limit;
   std::mutex m_mutex;
   std::vector<std::unique_ptr<tbb::task_arena>> m_all;
   std::vector<tbb::task_arena*> m_idle;

@@ -38,6 +38,21 @@ class CountingExecutor final : public Executor {
   std::size_t runs = 0;
 };
 
+/// oneTBB's limit on its workers is one for the whole process, and of several the least.
+TEST(Executor, KeepsItsThreadsBesideASmallerOne) {
+  const std::size_t cores = parallel::TbbExecutor().concurrency();
+  const std::size_t threads = cores + 4;
+  parallel::TbbExecutor large(threads);
+  const parallel::TbbExecutor small(cores + 1);
+  std::atomic<std::size_t> arrived = 0;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  large.run(threads, [&](std::size_t) {
+    ++arrived;
+    while (arrived < threads && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+  });
+  EXPECT_LT(std::chrono::steady_clock::now(), deadline) << "the tasks waited for more threads than there are";
+}
+
 TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
   const std::vector<BoxF> boxes = test::randomBoxes(60000, 31);
   parallel::TbbExecutor two(2);

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "Checksum.h"
 #include "ResumeCase.h"
 #include "WorkFile.h"
 #include "allpairs/Error.h"
@@ -59,6 +61,17 @@ TEST(Resume, AfterAnErrorAtAnyStepTheBytesAreTheSame) {
   EXPECT_GT(resumed, 5U) << "cells that were not searched again";
 }
 
+TEST(Resume, AfterAnErrorAmongTheCellsThoseBeforeItAreNotSearchedAgain) {
+  JoinCase with(someBoxes());
+  join::JoinOptions failing = with.options();
+  failing.progress = [](const join::JoinProgress& progress) {
+    if (progress.step == "searching" && progress.done == 7) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW((void)with.run(failing), std::runtime_error);
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
+  EXPECT_EQ(with.summary.resumedCells, 7U);
+}
+
 void flipByte(const fs::path& path, std::streamoff at) {
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   file.seekg(at);
@@ -72,6 +85,41 @@ TEST(Resume, NothingIsDoneAgainThatIsComplete) {
   stoppedWhileWriting(with);
   EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
   EXPECT_EQ(with.summary.resumedCells, with.summary.cells + 1) << "and the boxes in many cells";
+}
+
+TEST(Resume, CellsThatAreCompleteAreNotSearchedAgain) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  join::JoinOptions options = resuming(with);
+  std::size_t searched = 0;
+  options.progress = [&searched](const join::JoinProgress& progress) {
+    searched += progress.step == "searching" ? 1U : 0U;
+  };
+  EXPECT_TRUE(with.run(options) == expectedBytes(someBoxes()));
+  EXPECT_EQ(searched, 0U);
+}
+
+TEST(Resume, WhatAKillLeavesOfRangesThatWereDividedIsRemoved) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  for (const char* name : {"divided", "divided-", "divided--"}) std::ofstream(with.options().work / name) << "pairs";
+  EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
+  EXPECT_FALSE(fs::exists(with.options().work));
+}
+
+TEST(Resume, TheSameFilesMayBeNamedOtherwise) {
+  JoinCase with(someBoxes());
+  const fs::path file = with.paths[0];
+  for (const fs::path& name :
+       {file.parent_path() / "." / file.filename(), file.parent_path() / "folder" / ".." / file.filename(),
+        file.lexically_relative(fs::current_path())}) {
+    fs::create_directories(file.parent_path() / "folder");
+    with.paths[0] = file;
+    stoppedWhileWriting(with);
+    with.paths[0] = name;
+    EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes())) << name;
+    EXPECT_EQ(with.summary.resumedCells, with.summary.cells + 1) << name;
+  }
 }
 
 TEST(Resume, BoxesThatAreEmptyAreStillKnown) {
@@ -160,6 +208,36 @@ TEST(Resume, AManifestThatAnotherHandHasWrittenIsAnError) {
   refused("\noptions ", "\noptions 0");  // a number that means the same, with a checksum of another text
 }
 
+/// With the checksum of what it holds.
+TEST(Resume, AManifestOfAnotherFormIsAnError) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  const fs::path path = with.options().work / "manifest";
+  std::string text = bytesOfFile(path);
+  text.erase(text.rfind("checksum "));
+  ASSERT_TRUE(text.starts_with("allpairs join 1\n"));
+  text.replace(0, text.find('\n'), "allpairs join 2");
+  for (const std::string& other : {text, std::string("allpairs join 1"), std::string()}) {
+    join::Checksum checksum;
+    checksum.add(other.data(), other.size());
+    std::ofstream(path, std::ios::binary) << other << "checksum " << checksum.value() << '\n';
+    EXPECT_THROW((void)with.run(resuming(with)), FileError);
+  }
+}
+
+/// Of more than is read at once.
+TEST(Resume, TheChecksumOfAPartOfAFileIsThatOfItsBytes) {
+  const TempFolder folder;
+  std::string bytes(3'000'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2'654'435'761U >> 20U);
+  const join::WorkFile file(folder.path() / "bytes", join::WorkFile::Mode::Create);
+  file.write(0, bytes.data(), bytes.size());
+  join::Checksum checksum;
+  checksum.add(bytes.data() + 7, 2'500'000);
+  EXPECT_EQ(join::checksumOf(file, 7, 2'500'000), checksum.value());
+  EXPECT_EQ(join::checksumOf(file, 7, 3'000'000), std::nullopt) << "the file ends before";
+}
+
 TEST(Resume, WithoutItAJoinThatDidNotEndIsAnError) {
   JoinCase with(someBoxes());
   stoppedWhileWriting(with);
@@ -175,6 +253,17 @@ TEST(Resume, OfAnotherJoinIsAnError) {
   EXPECT_THROW((void)with.run(farther), FileError);
   EXPECT_THROW((void)with.count(resuming(with)), FileError);
   fs::last_write_time(with.paths[0], fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  EXPECT_THROW((void)with.run(resuming(with)), FileError);
+}
+
+TEST(Resume, OfAFileOfAnotherSizeIsAnErrorWhateverItsTime) {
+  std::vector<Box> boxes = someBoxes();
+  JoinCase with(boxes);
+  stoppedWhileWriting(with);
+  const fs::file_time_type time = fs::last_write_time(with.paths[0]);
+  boxes.push_back(cube(0, 0, 0));
+  with.folder.write("boxes0.npy", npyBytes(boxes, {.descr = "<f4"}));
+  fs::last_write_time(with.paths[0], time);
   EXPECT_THROW((void)with.run(resuming(with)), FileError);
 }
 
@@ -221,6 +310,7 @@ TEST(Resume, AManifestOfPartsThatDoNotFitIsAnError) {
   refused([](join::Manifest& manifest) { manifest.cells[1'000'000] = {}; });
   refused([](join::Manifest& manifest) { manifest.cells.begin()->second.pairs += 7; });
   refused([](join::Manifest& manifest) { manifest.cuts[0].low = 77; });
+  refused([](join::Manifest& manifest) { manifest.empty[0] = {.count = 1, .first = 0, .axis = 3}; });
 }
 
 TEST(Resume, OneJoinAtATime) {

@@ -38,7 +38,11 @@ CALLS = {
     "second set: lower": [lambda: allpairs.count_between(BOXES, masked(BOXES))],
     "starts: lower": [lambda: world().move_swept(range(4), masked(BOXES), BOXES)],
     "margin": [lambda: allpairs.overlaps(BOXES, margin=masked(np.ones(4))), lambda: world().set_properties(range(4), margin=masked(np.ones(4)))],
-    "group": [lambda: allpairs.overlaps(BOXES, group=masked(range(4)))],
+    "group": [
+        lambda: allpairs.overlaps(BOXES, group=masked(range(4))),
+        lambda: allpairs.overlaps(BOXES, group=np.ma.array(3, mask=True)),
+    ],
+    "category": [lambda: allpairs.overlaps(BOXES, category=np.ma.array(3, mask=True))],
     "mask": [lambda: allpairs.World().add(BOXES, mask=masked(range(4)))],
     "static": [lambda: allpairs.World().add(BOXES, static=masked([True] * 4))],
     "ignore": [lambda: allpairs.overlaps(BOXES, ignore=masked([[0, 1], [1, 2]]))],

@@ -78,3 +78,9 @@ def test_a_set_without_boxes_has_any_number_of_axes():
 def test_a_nan_is_named_as_in_space():
     with pytest.raises(allpairs.InvalidBox, match="^box 1: max y"):
         allpairs.overlaps([[0, 0, 1, 1], [0, 0, 1, np.nan]])
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+@pytest.mark.parametrize("setting", [{"distance": -1e-46}, {"margin": -1e-50}, {"distance": -5e-324}])
+def test_depth_decides_nothing_however_small_a_negative_distance_is(kind, setting):
+    assert allpairs.overlaps(np.array([[0, 0, 2, 2], [1, 1, 3, 3]], kind), **setting).tolist() == [[0, 1]]

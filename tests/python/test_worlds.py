@@ -160,3 +160,15 @@ def test_masked_entries_are_refused_and_one_number_holds_for_all_boxes():
     assert len(allpairs.overlaps_in_worlds(boxes, group=0, mask=1, category=3)[0]) == 10
     with pytest.raises(allpairs.InvalidArgument, match="mask is"):
         allpairs.overlaps_in_worlds(boxes, mask=2**40)
+
+
+def test_values_for_each_box_have_the_shape_of_the_worlds():
+    boxes = np.tile([0, 0, 0, 1, 1, 1], (2, 3, 1))
+    rows = np.array([[1, 1, 0], [2, 2, 0]])  # of each world the first two boxes are of one group
+    for group in (rows, rows.ravel()):
+        assert allpairs.overlaps_in_worlds(boxes, group=group)[0].tolist() == [[0, 2], [1, 2]] * 2
+    assert len(allpairs.overlaps_in_worlds(boxes, margin=np.full((2, 3), -0.25))[0]) == 6
+    for name in ("group", "category", "mask", "margin"):
+        for wrong in (rows.T, rows[np.newaxis]):
+            with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has shape .* worlds of n boxes"):
+                allpairs.overlaps_in_worlds(boxes, **{name: wrong})

@@ -18,7 +18,7 @@ class TbbExecutor final : public Executor {
   /// `threads` includes the calling thread; 0 means one per hardware thread. More than that raise oneTBB's process-wide
   /// limit on its workers for the lifetime of the executor.
   ///
-  /// Bad input: more than 65,535 threads throw InvalidArgument.
+  /// Bad input: more than 9,999 threads throw InvalidArgument.
   explicit TbbExecutor(std::size_t threads = 0);
   ~TbbExecutor() override;
 
