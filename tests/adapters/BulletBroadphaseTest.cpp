@@ -341,7 +341,13 @@ TEST(BulletBroadphase, ItsBoxHoldsAllProxiesAndIsAPointWithoutAny) {
   broadphase.getAabb(first, lower, upper);
   EXPECT_EQ(lower, btVector3(4, 0, 0));
   EXPECT_EQ(upper, btVector3(5, 1, 1));
-  for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
+  broadphase.destroyProxy(first, nullptr);
+  broadphase.getBroadphaseAabb(min, max);
+  EXPECT_EQ(min, btVector3(-3, 0, 0));
+  EXPECT_EQ(max, btVector3(-2, 1, 1));
+  broadphase.destroyProxy(second, nullptr);
+  broadphase.getBroadphaseAabb(min, max);
+  EXPECT_TRUE(min.isZero() && max.isZero());
 }
 
 TEST(BulletBroadphase, AnEmptiedOneStartsWithTheSameNumbersAgain) {
@@ -355,6 +361,19 @@ TEST(BulletBroadphase, AnEmptiedOneStartsWithTheSameNumbersAgain) {
     for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
     broadphase.resetPool(nullptr);
   }
+}
+
+TEST(BulletBroadphase, AnEmptiedOneForgetsThePairsThatWereAddedAtOnce) {
+  BulletBroadphase broadphase({.immediatePairs = ImmediatePairs::All});
+  std::vector<btBroadphaseProxy*> proxies;
+  for (int i = 0; i < 40; ++i) proxies.push_back(addUnitCube(broadphase, 0));
+  for (auto* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+  broadphase.resetPool(nullptr);
+  auto* const only = addUnitCube(broadphase, 0);
+  broadphase.calculateOverlappingPairs(nullptr);
+  EXPECT_EQ(only->getUid(), 1);
+  EXPECT_THAT(pairsOf(*broadphase.getOverlappingPairCache()), IsEmpty());
+  broadphase.destroyProxy(only, nullptr);
 }
 
 TEST(BulletBroadphase, OneThatIsNotEmptyIsNotReset) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "allpairs/Neighbors.h"
@@ -76,6 +77,83 @@ TEST_P(Doubt, OfTwoSetsIsDecidedWhereItIs) {
   for (const Strategy strategy : kWays) {
     ASSERT_EQ(overlaps(first, second, optionsFor(strategy)), expected);
     ASSERT_EQ(countOverlaps(first, second, optionsFor(strategy)), expected.size());
+  }
+}
+
+struct Widened {
+  std::vector<Box> boxes;
+  std::vector<double> margins;
+};
+
+std::vector<Pair> oracleBetween(const Widened& first, const Widened& second, double distance) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < first.boxes.size(); ++i) {
+    for (std::uint32_t j = 0; j < second.boxes.size(); ++j) {
+      const double d = distance + first.margins[i] + second.margins[j];
+      if (test::overlapByOracle(first.boxes[i], second.boxes[j], d)) pairs.push_back({i, j});
+    }
+  }
+  return pairs;
+}
+
+/// Boxes that end, or begin, some millionths from a point.
+Widened besideAPoint(std::size_t n, unsigned seed, double point, bool end, double margin) {
+  std::mt19937 generator(seed);
+  Widened set{std::vector<Box>(n), std::vector<double>(n, margin)};
+  for (Box& box : set.boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double bound = point + 1e-6 * (static_cast<double>(generator() % 16) - 8.0);
+      box.min[axis] = end ? bound - 1.0 : bound;
+      box.max[axis] = end ? bound : bound + 1.0;
+    }
+  }
+  return set;
+}
+
+Widened cubesOfSide(double side, std::size_t n, unsigned seed, double margin) {
+  std::mt19937 generator(seed);
+  Widened set{{}, std::vector<double>(n, margin)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto coordinate = [&generator] { return 0.1 * static_cast<double>(generator() % 40); };
+    const double x = coordinate();
+    const double y = coordinate();
+    set.boxes.push_back(test::cube(x, y, coordinate(), side));
+  }
+  return set;
+}
+
+/// What widens or shrinks boxes may be far greater than what is left of them, or leave nothing; and boxes may be far from
+/// the origin.
+TEST_P(Doubt, OfTwoSetsThatAreWidenedIsDecidedWhereItIs) {
+  constexpr double kFar = 1e9;
+  struct Scene {
+    Widened some;
+    Widened others;
+    double distance = 0.0;
+  };
+  const std::vector<Scene> scenes{
+      {besideAPoint(300, 5, kFar, false, kFar), besideAPoint(320, 6, 0.0, true, 0.0)},
+      {cubesOfSide(0.3, 300, 7, -0.5), cubesOfSide(2.0, 320, 8, 0.0)},
+      {besideAPoint(300, 9, kFar / 2.0, false, 0.0), besideAPoint(320, 10, -kFar / 2.0, true, 0.0), kFar},
+      {besideAPoint(300, 11, kFar + 0.1, false, 0.0), besideAPoint(320, 12, kFar, true, 0.0), 0.1},
+  };
+  for (const auto& [some, others, distance] : scenes) {
+    for (const bool isSwapped : {false, true}) {
+      const Widened& first = isSwapped ? others : some;
+      const Widened& second = isSwapped ? some : others;
+      BoxView firstView(first.boxes);
+      BoxView secondView(second.boxes);
+      if (!isSwapped) firstView.setMargins(first.margins);
+      if (isSwapped) secondView.setMargins(second.margins);
+      const std::vector<Pair> expected = oracleBetween(first, second, distance);
+      ASSERT_GT(expected.size(), 100U);
+      for (const Strategy strategy : kWays) {
+        OverlapOptions options = optionsFor(strategy);
+        options.distance = distance;
+        ASSERT_EQ(overlaps(firstView, secondView, options), expected) << isSwapped;
+        ASSERT_EQ(countOverlaps(firstView, secondView, options), expected.size()) << isSwapped;
+      }
+    }
   }
 }
 

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -10,6 +14,7 @@
 #include "allpairs/World.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
+#include "support/PoolExecutor.h"
 
 namespace allpairs {
 namespace {
@@ -52,6 +57,35 @@ TEST_P(WorldThreads, SeveralThreadsGiveTheListsOfOne) {
     serial.move(ids, moved);
     many.move(ids, moved);
   }
+}
+
+/// Worlds of boxes in a row, each of which touches the next one. Neither thread goes on before both have a pair.
+TEST(WorldExecutor, PairsThatEachThreadHasInOrderAreListedTogether) {
+  constexpr BoxId kWorlds = 200;
+  constexpr BoxId kBoxes = 60;
+  std::mutex mutex;
+  std::condition_variable both;
+  std::set<std::thread::id> threads;
+  test::PoolExecutor executor(2);
+  WorldOptions options;
+  options.executor = &executor;
+  options.accept = [&](BoxId, BoxId) {
+    std::unique_lock lock(mutex);
+    threads.insert(std::this_thread::get_id());
+    both.notify_all();
+    return both.wait_for(lock, std::chrono::seconds(5), [&threads] { return threads.size() == 2; });
+  };
+  World world(options);
+  std::vector<Pair> expected;
+  for (BoxId i = 0; i < kWorlds * kBoxes; ++i) {
+    BoxProperties properties;
+    properties.world = i / kBoxes;
+    ASSERT_EQ(world.add(test::cube(i % kBoxes, 0, 0), properties), i);
+    if (i % kBoxes != 0) expected.push_back({i - 1, i});
+  }
+  const StepResult step = world.step();
+  EXPECT_TRUE(std::vector<Pair>(step.pairs.begin(), step.pairs.end()) == expected);
+  EXPECT_EQ(step.began.size(), expected.size());
 }
 
 TEST(WorldExecutor, SeveralThreadsGiveTheQueriesOfOne) {

@@ -2,6 +2,8 @@
 // Queries whose numbers are at the ends of what float32 and float64 hold, where bounds in float32 must not lose a box.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <random>
 #include <span>
 #include <vector>
@@ -149,6 +151,33 @@ TEST_P(WorldQueryExtremes, PairsAreThoseOfTheOracle) {
     EXPECT_EQ(std::vector<Pair>(pairs.begin(), pairs.end()), m_oracle.pairs);
     EXPECT_GT(pairs.size(), 1000U);
   }
+}
+
+/// So small that float32 rounds a product of them by half of itself: 2^-149 is its least number.
+TEST_P(WorldQueryExtremes, TimesThatFloat32HardlyTellsFromZeroLoseNoBox) {
+  constexpr double kLeast = 0x1p-149;
+  WorldOptions options;
+  options.instructionSet = GetParam();
+  World world(options);
+  const BoxId id = world.add(Box{{15.0 * kLeast, -1.0, 0.0}, {1.0, 5.0 * kLeast, 1.0}});
+  const BoxSweep sweep{{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, {6.0, 2.0, 0.0}, 1.0};  // enters it on x as it leaves on y
+  const SweepHit hit{id, 2.5 * kLeast};
+  EXPECT_EQ(world.findFirst(sweep), hit);
+  EXPECT_EQ(world.findAll(sweep), std::vector<SweepHit>{hit});
+}
+
+TEST_P(WorldQueryExtremes, SquaresThatFloat32HardlyTellsFromZeroLoseNoBox) {
+  const double near = test::asFloat32(std::sqrt(0.6 * 0x1p-149));  // on each axis; its square is rounded up
+  const double far = test::asFloat32(std::sqrt(1.9 * 0x1p-149));
+  WorldOptions options;
+  options.instructionSet = GetParam();
+  World world(options);
+  test::WorldOracle oracle;
+  for (const Box& box : {Box{{far, 0.0, 0.0}, {1.0, 1.0, 1.0}}, Box{{near, near, near}, {1.0, 1.0, 1.0}}}) {
+    oracle.boxes[world.add(box)] = {box, {}};
+  }
+  const std::array<double, 3> origin{0.0, 0.0, 0.0};
+  EXPECT_EQ(world.findNearest(origin, 1), oracle.nearest(origin, 1, {}));
 }
 
 TEST(WorldQuery, ABoxAtInfinityWithAnInfiniteMarginIsNearestToEveryPoint) {

@@ -11,6 +11,7 @@
 #include "PairMerge.h"
 #include "allpairs/Error.h"
 #include "allpairs/StopFlag.h"
+#include "allpairs/scene/FileError.h"
 #include "support/Numbers.h"
 #include "support/PoolExecutor.h"
 
@@ -180,6 +181,54 @@ TEST(DiskJoin, NumbersOf64BitsAreWrittenWhole) {
     for (const auto& pair : batch) found.emplace_back(pair.first, pair.second);
   });
   EXPECT_EQ(found, expected);
+}
+
+/// It is read in several batches.
+TEST(DiskJoin, ARangeOfManyPairsIsDividedWhole) {
+  constexpr std::uint32_t kPairs = 150'001;
+  const TempFolder folder;
+  const join::KeyRanges ranges = join::KeyRanges::of(0, kPairs, false, 1);
+  join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+  join::RunWriter<std::uint32_t> writer(ranges, kPairs, file);
+  std::vector<Pair> expected;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const auto mixed = static_cast<std::uint32_t>(std::uint64_t{i} * 7919 % kPairs);
+    writer.add(mixed, mixed + 1);
+    expected.push_back({i, i + 1});
+  }
+  std::vector<Pair> found;
+  join::PairMerge<std::uint32_t> merge(ranges, kPairs + 1, 400'000, file.file, folder.path() / "divided");
+  merge.merge(writer.finish(), [&found](std::span<const join::StoredPair<std::uint32_t>> batch) {
+    for (const auto& pair : batch) found.push_back({pair.first, pair.second});
+  });
+  EXPECT_TRUE(found == expected);
+}
+
+/// The disk may give back other bytes than were written.
+TEST(DiskJoin, BoxesThatAreNotOfTheJoinAndRangesThatAreNoneAreErrors) {
+  const TempFolder folder;
+  const join::KeyRanges ranges = join::KeyRanges::of(0, 100, false, 4);
+  const auto problemWith = [&](std::uint64_t at, std::uint64_t number) -> std::string {
+    join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+    join::RunWriter<std::uint64_t> writer(ranges, 10, file);
+    for (const std::uint64_t first : {10U, 40U, 70U}) writer.add(first, first + 1);
+    const std::vector<join::Run> runs = writer.finish();
+    file.file.write(at, &number, sizeof(number));
+    try {
+      join::PairMerge<std::uint64_t>(ranges, 100, 4'000, file.file, folder.path() / "divided").merge(runs, [](auto) {});
+    } catch (const FileError& problem) {
+      return problem.problem();
+    }
+    return "";
+  };
+  constexpr std::uint64_t kRanges = 3 * sizeof(join::StoredPair<std::uint64_t>);  // where it is said where they begin
+  EXPECT_EQ(problemWith(0, 11), "") << "which only the checksum tells";
+  EXPECT_EQ(problemWith(0, 400), join::kForeignBox);
+  EXPECT_EQ(problemWith(kRanges + 4 * sizeof(std::uint64_t), 1'000), "is damaged: a run's ranges");
+  join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+  join::RunWriter<std::uint64_t> writer(ranges, 10, file);
+  writer.add(100, 5);
+  EXPECT_THROW((void)writer.finish(), FileError);
 }
 
 TEST(DiskJoin, ARangeThatIsDividedAgainCanBeStopped) {

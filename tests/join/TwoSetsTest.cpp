@@ -221,6 +221,21 @@ TEST(TwoSets, WhatIsCompleteIsNotDoneAgainAndWhatIsDamagedIs) {
   }
 }
 
+TEST(TwoSets, BoxesThatAreEmptyAreStillKnownAsThoseOfTheirSet) {
+  Sets sets{some(250, 23), some(300, 24)};
+  sets.first[70] = {{0, 2, 0}, {1, 1, 1}};
+  sets.second[90] = {{0, 0, 2}, {1, 1, 1}};
+  TwoSetsCase with(sets);
+  stoppedWhileWriting(with);
+  EXPECT_TRUE(with.run(resuming(with)) == bytesBetween(sets));
+  EXPECT_GT(with.summary.resumedCells, 0U);
+  for (const std::size_t set : {0U, 1U}) {
+    EXPECT_EQ(with.summary.empty[set].count, 1U) << set;
+    EXPECT_EQ(with.summary.empty[set].first, set == 0 ? 70U : 90U);
+    EXPECT_EQ(with.summary.empty[set].axis, set + 1);
+  }
+}
+
 TEST(TwoSets, AreNotResumedAsOthers) {
   const Sets sets{some(250, 23), some(300, 24)};
   const auto refused = [&sets](const auto& change) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ResumeCase.h"
@@ -383,6 +384,19 @@ TEST(Values, AreNotResumedWithARegionThatThereWasNot) {
   join::JoinOptions options = leftWhileWriting(with, {});
   options.region = Box{{1, 1, 1}, {9, 9, 9}};
   EXPECT_THROW((void)with.run(options), FileError);
+}
+
+TEST(Values, AFileOfThemThatChangesWhileItIsReadIsAnError) {
+  std::mt19937 random(19);
+  ValuesCase with(anyBoxes(random, 300));
+  join::JoinOptions options = with.options();
+  options.progress = [file = options.values.groups[0], isChanged = false](const join::JoinProgress&) mutable {
+    if (!std::exchange(isChanged, true)) {
+      fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(1));
+    }
+  };
+  EXPECT_THROW((void)with.run(options), FileError);
+  EXPECT_FALSE(fs::exists(options.work));
 }
 
 TEST(Values, BadInputIsNamed) {
