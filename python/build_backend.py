@@ -115,21 +115,27 @@ def cmake_arguments(build, prefix, config_settings):
     return ["-S", str(ROOT), "-B", str(build), *generator, *(f"-D{name}={value}" for name, value in definitions.items())]
 
 
-def run(*command):
+WITHOUT_FILES = (
+    ". Where a library that reads files is not there, such as Assimp, "
+    "--config-settings cmake.ALLPAIRS_BUILD_SCENE=OFF builds the engine alone"
+)
+
+
+def run(*command, hint=""):
     print("+", *command, flush=True)
     try:
         subprocess.run(command, check=True)
     except FileNotFoundError:
         raise SystemExit(f"allpairs: {command[0]} is not there; scripts/packages.txt lists what the build needs") from None
     except subprocess.CalledProcessError as error:
-        raise SystemExit(f"allpairs: {command[0]} failed with status {error.returncode}; see above") from None
+        raise SystemExit(f"allpairs: {command[0]} failed with status {error.returncode}; see above{hint}") from None
 
 
 def build_package(folder, config_settings):
     """Builds the module and returns the folder with the package in it."""
     build, prefix = folder / "build", folder / "prefix"
     jobs = os.environ.get("ALLPAIRS_JOBS", str(os.cpu_count() or 1))
-    run("cmake", *cmake_arguments(build, prefix, config_settings))
+    run("cmake", *cmake_arguments(build, prefix, config_settings), hint=WITHOUT_FILES)
     run("cmake", "--build", str(build), "--parallel", jobs, "--target", "allpairs_python")
     run("cmake", "--install", str(build), "--component", "python", "--strip")
     run("cmake", "--install", str(build), "--component", "mpi", "--strip")  # nothing, where there is no MPI

@@ -117,6 +117,48 @@ TEST(DistributedFailure, MorePairsThanAllowed) {
   EXPECT_THROW((void)MpiSearch({.maxPairs = 1}).find({hereOf(someBoxes(), begins)}), LimitExceeded);
 }
 
+/// Wide boxes are searched with all boxes of every rank, which finds pairs twice, and boxes with themselves.
+TEST(DistributedFailure, PairsOfWideBoxesCountOnce) {
+  std::vector<Box> boxes = someBoxes();
+  for (std::size_t i = 0; i < boxes.size(); i += 10) boxes[i] = {{0, 0, 0}, {50, 1, 1}};
+  const auto begins = evenly(boxes.size());
+  const std::vector<Pair> pairs = oracle(boxes);
+  EXPECT_EQ(MpiSearch({.maxPairs = pairs.size()}).find({hereOf(boxes, begins)}), pairsHere(pairs, begins));
+  EXPECT_EQ(MpiSearch({.maxPairs = pairs.size()}).count({hereOf(boxes, begins)}), pairs.size());
+  EXPECT_THROW((void)MpiSearch({.maxPairs = pairs.size() - 1}).find({hereOf(boxes, begins)}), LimitExceeded);
+}
+
+/// Of a wide box and those before it, whose margins are added first, there are many pairs the other way round.
+TEST(DistributedFailure, PairsThatAreNoneInTheirOrderDoNotCount) {
+  const double distance = 0.1;
+  double early = 0.0;
+  double late = 0.0;
+  for (int i = 1; i < 100 && late == 0.0; ++i) {
+    for (int j = 1; j < i && late == 0.0; ++j) {
+      const double a = 0.1 * i;
+      const double b = 0.1 * j;
+      if ((distance + a) + b == (distance + b) + a) continue;
+      early = (distance + a) + b < (distance + b) + a ? a : b;
+      late = early == a ? b : a;
+    }
+  }
+  ASSERT_LT((distance + early) + late, (distance + late) + early);
+  std::vector<Box> boxes;
+  for (int i = 0; i < 200; ++i) boxes.push_back({{-1, 100.0 * i, 0}, {0, 100.0 * i + 1, 1}});
+  const double gap = (distance + late) + early;
+  boxes.push_back({{gap, 0, 0}, {gap + 1, 20'000, 1}});
+  std::vector<double> margins(200, early);
+  margins.push_back(late);
+  ASSERT_TRUE(oracle(boxes, distance, margins).empty());
+  const auto begins = evenly(boxes.size());
+  const auto view = [&] {
+    BoxView here(hereOf(boxes, begins));
+    here.setMargins(hereOf(margins, begins));
+    return here;
+  };
+  EXPECT_TRUE(MpiSearch({.distance = distance, .maxPairs = 0}).find({view}).empty());
+}
+
 TEST(DistributedFailure, StoppedOnOneRank) {
   StopFlag flag;
   if (rankHere() == 0) flag.set();
