@@ -207,9 +207,10 @@ def test_what_cannot_be_pickled_is_a_type_error(protocol, tmp_path):
     for each in objects:
         with pytest.raises(TypeError, match="cannot pickle 'allpairs"):
             pickle.dumps(each, protocol)
-        for copied in (copy.copy, copy.deepcopy):
-            with pytest.raises(TypeError, match="cannot pickle 'allpairs"):
-                copied(each)
+        with pytest.raises(TypeError, match="cannot pickle 'allpairs"):
+            copy.deepcopy(each)
+    with pytest.raises(TypeError, match="cannot pickle 'allpairs"):
+        copy.copy(objects[0])  # two would move together
 
 
 def test_errors_are_value_errors_and_those_of_files_os_errors():

@@ -161,6 +161,7 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
 }
 
 /// Constraints that put the points of their state somewhere as the simulation starts, before SOFA detects anything.
+/// Those of position-based dynamics do so too, but towards a goal that lies where the points are.
 constexpr std::array kProjections{
     "AffineMovementConstraint"sv,
     "AffineMovementProjectiveConstraint"sv,
@@ -185,8 +186,6 @@ constexpr std::array kProjections{
     "PatchTestMovementProjectiveConstraint"sv,
     "PlaneProjectiveConstraint"sv,
     "PointProjectiveConstraint"sv,
-    "PositionBasedDynamicsConstraint"sv,
-    "PositionBasedDynamicsProjectiveConstraint"sv,
     "ProjectToLineConstraint"sv,
     "ProjectToPlaneConstraint"sv,
     "ProjectToPointConstraint"sv,
