@@ -121,9 +121,7 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
     const BoxView& set = boxes.set();
     const double greatest = std::max(maxMargin, partition::greatestMargin(set));
     std::vector<std::uint32_t> ordered;
-    const auto reach = [&](std::size_t i) {
-      return partition::reachOf(set[i], set.margin(i), distance, greatest);
-    };
+    const auto reach = [&](std::size_t i) { return partition::reachOf(set[i], set.margin(i), distance, greatest); };
     partition.visitCells(set.size(), reach, [&](std::size_t i, Span<const std::uint32_t> cells) {
       ordered.assign(cells.begin(), cells.end());
       std::sort(ordered.begin(), ordered.end());

@@ -35,12 +35,8 @@ inline int rankCount() {
 
 /// So little that everything is cut, and travels in pieces.
 inline mpi::Tuning tinyTuning() {
-  return {.boxesPerCell = 40,
-          .samplePerCell = 4,
-          .leastSample = 50,
-          .leastCrowded = 20,
-          .wideAtOnce = 7,
-          .pieceWords = 5};
+  return {
+      .boxesPerCell = 40, .samplePerCell = 4, .leastSample = 50, .leastCrowded = 20, .wideAtOnce = 7, .pieceWords = 5};
 }
 
 /// How boxes are dealt out to the ranks: where each rank's begin, and the end.
