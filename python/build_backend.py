@@ -211,7 +211,7 @@ def source_files():
     if tracked.returncode == 0 and tracked.stdout:
         return sorted(name for name in tracked.stdout.decode().split("\0") if name and (ROOT / name).is_file())
     files = (path.relative_to(ROOT) for path in ROOT.rglob("*") if path.is_file())
-    # PKG-INFO is there in an unpacked sdist, and is written anew.
+    # An unpacked sdist has a PKG-INFO, which build_sdist() writes itself.
     return sorted(path.as_posix() for path in files if path.parts[0] not in ("build", ".git", "PKG-INFO"))
 
 
