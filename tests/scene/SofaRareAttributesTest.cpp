@@ -197,7 +197,7 @@ TEST_F(SofaRareAttributes, TopologiesAndFilesThatAreNotThereAreNamed) {
   EXPECT_THAT(complaint("<Node>" + state +
                         "<Node><MechanicalObject position='0 0 0'/><BarycentricMapping "
                         "input_topology='@nowhere'/><SphereModel/></Node></Node>"),
-              testing::HasSubstr("its input_topology leads to no topology"));
+              testing::HasSubstr("input_topology=\"@nowhere\" leads to no topology"));
   m_folder.write("a.trian", "0\n0\n");
   EXPECT_THAT(complaint("<Node><MeshTrianLoader name='l' filename='a.trian' trian2='1'/><MeshTopology src='@l'/>"
                         "<MechanicalObject src='@l'/><TriangleModel/></Node>"),

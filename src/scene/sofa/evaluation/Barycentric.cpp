@@ -205,12 +205,8 @@ bool areOf(const Topology& grid, const State& state) {
 
 std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,
                                      const State& child) {
-  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
-  const auto* link = mapping.attributes.find("input_topology");
-  const bool isNamed = link != nullptr && !link->empty();
-  const auto* which = isNamed ? followTo(mapping, *link, topologies) : inContext(*parent.node, topologies);
-  if (which == nullptr)
-    throw Unplaceable(mapping, isNamed ? "its input_topology leads to no topology" : "its input has no topology");
+  const auto* which = namedTopology(mapping, "input_topology", *parent.node);
+  if (which == nullptr) throw Unplaceable(mapping, "its input has no topology");
   auto& topology = evaluation.topology(*which);
   const auto& in = evaluation.state(parent);
   if (topology.sparse) {

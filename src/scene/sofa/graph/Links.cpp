@@ -98,4 +98,14 @@ const Component* followTo(const Component& self, std::string_view text, const Wa
   return only != nullptr ? only : inContext(*target.node, wanted);
 }
 
+const Component* namedTopology(const Component& self, std::string_view attribute, const Node& node) {
+  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
+  const auto* link = self.attributes.find(attribute);
+  if (link == nullptr || link->empty()) return inContext(node, topologies);
+  const auto* found = followTo(self, *link, topologies);
+  if (found == nullptr)
+    throw Unplaceable(self, std::string{attribute} + "=\"" + link->substr(0, 80) + "\" leads to no topology");
+  return found;
+}
+
 }  // namespace allpairs::scene::sofa

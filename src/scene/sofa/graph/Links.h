@@ -37,4 +37,8 @@ using Wanted = std::function<bool(const Component&)>;
 /// The one that a node's own components see: the last wanted one in it, or else the first in its nearest ancestor.
 [[nodiscard]] const Component* inContext(const Node& node, const Wanted& wanted);
 
+/// The topology that an attribute of a component links to; without one, that in the context of a node, or null.
+/// Throws Unplaceable where the link leads to no topology.
+[[nodiscard]] const Component* namedTopology(const Component& self, std::string_view attribute, const Node& node);
+
 }  // namespace allpairs::scene::sofa

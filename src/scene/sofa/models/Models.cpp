@@ -20,13 +20,8 @@ const State& stateOf(Evaluation& evaluation, const Component& model) {
 
 /// The topology that a model names, else the one that it sees.
 const Component& topologyComponentOf(const Component& model) {
-  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
-  const auto* link = model.attributes.find("topology");
-  const bool isNamed = link != nullptr && !link->empty();
-  const auto* which = isNamed ? followTo(model, *link, topologies) : inContext(*model.node, topologies);
-  if (which == nullptr)
-    throw Unplaceable(model, isNamed ? "topology=\"" + link->substr(0, 80) + "\" leads to no topology"
-                                     : "there is no topology in its node or above");
+  const auto* which = namedTopology(model, "topology", *model.node);
+  if (which == nullptr) throw Unplaceable(model, "there is no topology in its node or above");
   return *which;
 }
 
