@@ -10,6 +10,10 @@ array([[0, 1],
        [1, 2]], dtype=uint32)
 """
 
+from . import _interpreter
+
+_interpreter.require_main()
+
 from ._core import version as __version__
 from ._elements import MeshCandidates
 from ._errors import Error, FileError, InvalidArgument, InvalidBox, LimitExceeded

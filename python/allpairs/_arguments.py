@@ -344,8 +344,10 @@ def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Points or directions as rows of three; those in the plane have no depth."""
+    """Points or directions as rows of three; those in the plane have no depth, and an empty list has none."""
     array: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
+    if array.shape == (1, 0):
+        return np.empty((0, 3))
     if array.ndim != 2 or array.shape[1] not in (3, 2):
         raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, 3) or (k, 2)")
     return array if array.shape[1] == 3 else np.pad(array, ((0, 0), (0, 1)))
@@ -353,7 +355,7 @@ def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     """Rays, all in space or all in the plane."""
-    if np.shape(origins)[-1:] != np.shape(directions)[-1:]:
+    if np.size(origins) and np.shape(origins)[-1:] != np.shape(directions)[-1:]:
         raise InvalidArgument(f"origins has shape {np.shape(origins)}, directions {np.shape(directions)}: not of the same axes")
     return points("origins", origins), points("directions", directions)
 
@@ -366,6 +368,17 @@ def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.
     if array.ndim != 2 or array.shape[1] != columns:
         raise InvalidArgument(f"{name} has shape {array.shape}; it takes (k, {columns})")
     return array
+
+
+def pairs_of_boxes(name: str, value: npt.ArrayLike, first: int, second: int) -> npt.NDArray[np.uint32]:
+    """Pairs by index, of sets of so many boxes."""
+    rows = index_rows(name, value, 2)
+    absent = np.flatnonzero((rows >= np.array([first, second], dtype=np.uint64)).any(axis=1))
+    if len(absent):
+        row = int(absent[0])
+        sizes = f"{first} boxes" if first == second else f"{first} and {second} boxes"
+        raise InvalidArgument(f"{name} row {row} is ({rows[row, 0]}, {rows[row, 1]}): there are {sizes}")
+    return rows
 
 
 def region_of(region: npt.ArrayLike, axes: int = 3) -> list[float]:

@@ -22,7 +22,7 @@ Path = Union[str, "os.PathLike[str]"]
 IdPairs = npt.NDArray[np.uint64]
 
 #: What the settings of a search have that a search of a cell has not.
-_FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto"}
+_FIXED: dict[str, Any] = {"strategy": "auto"}
 
 
 class JoinSummary(NamedTuple):
@@ -196,14 +196,14 @@ def _by_id(values: dict[str, Any]) -> dict[str, Any]:
 def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
     """Boxes of a cell, and the settings of a search of them."""
     boxes = _arguments.with_margins(_arguments.boxes_of(values["lower"], values["upper"]), values["margin"])
-    options = _search._settings({**_FIXED, **values}, 3, one_set=True)
+    options = _search._settings({**_FIXED, **values}, 3)
     _search._filter(options, _core.Side.FIRST, boxes, values, "")
     return boxes, options
 
 
 def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
     """Likewise of two sets."""
-    options = _search._settings({**_FIXED, **values}, 3, one_set=False)
+    options = _search._settings({**_FIXED, **values}, 3)
     own = {name: _arguments.both(name, values[name]) for name in _arguments.OF_EACH_BOX}
     sets = []
     for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):

@@ -185,7 +185,7 @@ def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str) -> 
         single = np.asarray(value).reshape(1)
         _check_type(name, called, single.shape, single.dtype)
         return [_checked(name, single, called, 0)[0].item()] * (len(begins) - 1)
-    array = value if isinstance(value, DaskArray) else _arguments.array_of(called, value)
+    array: Any = value if isinstance(value, DaskArray) else _arguments.array_of(called, value)
     _check_type(name, called, array.shape, array.dtype)
     if isinstance(array, DaskArray):
         _check_chunks(called, array)

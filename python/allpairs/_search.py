@@ -30,7 +30,13 @@ def _filter(options: _core.Options, side: _core.Side, boxes: _core.Boxes, values
             setter(side, _arguments.labels(prefix + name, values[name], len(boxes)))
 
 
-def _settings(values: dict[str, Any], axes: int, one_set: bool) -> _core.Options:
+def _ignore(options: _core.Options, pairs: npt.ArrayLike | None, *sizes: int) -> None:
+    """Pairs that are none, of one or two sets of so many boxes."""
+    if pairs is not None:
+        options.set_ignored(_arguments.pairs_of_boxes("ignore", pairs, sizes[0], sizes[-1]), len(sizes) == 1)
+
+
+def _settings(values: dict[str, Any], axes: int) -> _core.Options:
     """What is not about single boxes; a function that lacks a setting has no such name among its values."""
     options = _core.Options()
     options.set_distance(_arguments.number("distance", values["distance"]))
@@ -38,8 +44,6 @@ def _settings(values: dict[str, Any], axes: int, one_set: bool) -> _core.Options
     options.threads = _arguments.threads_of(values["threads"])
     if values["region"] is not None:
         options.set_region(_arguments.region_of(values["region"], axes))
-    if values["ignore"] is not None:
-        options.set_ignored(_arguments.index_rows("ignore", values["ignore"], 2), one_set)
     if "order" in values:
         options.set_order(_arguments.order_of(values["order"]))
     if values.get("max_pairs") is not None:
@@ -51,7 +55,8 @@ def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
     margin = values["margin"]
     depth = lambda: _arguments.depth_of(values["distance"], [margin])
     boxes, axes = _arguments.box_set(values["lower"], values["upper"], margin, depth)
-    options = _settings(values, axes, one_set=True)
+    options = _settings(values, axes)
+    _ignore(options, values["ignore"], len(boxes))
     _filter(options, _core.Side.FIRST, boxes, values, "")
     return boxes, options
 
@@ -72,7 +77,8 @@ def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Option
         prefix = f"{name} set: "
         lower, upper = _arguments.two_corners(values[name], prefix)
         sets.append(_arguments.box_set(lower, upper, margin, depth, prefix))
-    options = _settings(values, _axes_of(sets[0], sets[1]), one_set=False)
+    options = _settings(values, _axes_of(sets[0], sets[1]))
+    _ignore(options, values["ignore"], len(sets[0].boxes), len(sets[1].boxes))
     for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
         _filter(options, side, sets[i].boxes, {key: pair[i] for key, pair in labels.items()}, f"{name} set: ")
     return sets[0].boxes, sets[1].boxes, options
@@ -117,7 +123,7 @@ def overlaps(
     category, mask : int or array_like, shape (n,), integers 0 to 2**32 - 1
         Bits: a pair is kept if each box's mask shares a bit with the other's category. By default all bits are set.
     ignore : array_like, shape (k, 2), integers
-        Pairs to exclude, in either orientation.
+        Pairs to exclude, in either orientation. A pair of boxes that are not there raises InvalidArgument.
     order : {"first", "second", "unordered"}
         Ascending by (first, second); by (second, first); or in the order of discovery, which is faster and also
         deterministic.

@@ -151,14 +151,16 @@ def overlaps_in_worlds(
         margin = _flat("margin", _array("margin", margin), begin)
     boxes = _arguments.with_margins(_arguments.boxes_of(low, high), margin)
     values = dict(locals())
-    nothing = np.empty((0, 2), dtype=np.uint32)
-    ignored = nothing
-    if shared is None and ignore is not None:
-        ignored, values["ignore"] = _arguments.index_rows("ignore", ignore, 2), None
-    options = _search._settings(values, 3, one_set=shared is None)
+    options = _search._settings(values, 3)
     for name, setter in (("group", options.set_groups), ("category", options.set_categories), ("mask", options.set_masks)):
         if values[name] is not None:
             setter(_core.Side.FIRST, _labels(name, values[name], len(boxes), begin))
-    others = None if shared is None else _arguments.boxes_of(*_arguments.two_corners(shared, "shared: "), "shared: ")
+    ignored = np.empty((0, 2), dtype=np.uint32)
+    others = None
+    if shared is not None:
+        others = _arguments.boxes_of(*_arguments.two_corners(shared, "shared: "), "shared: ")
+        _search._ignore(options, ignore, int(np.diff(begin).max(initial=0)), len(others))
+    elif ignore is not None:
+        ignored = _arguments.index_rows("ignore", ignore, 2)
     pairs, places = _core.overlaps_in_worlds(_core.Worlds(boxes, begin, ignored), others, options)
     return np.asarray(pairs), np.asarray(places).view(np.int64)

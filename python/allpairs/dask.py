@@ -177,7 +177,7 @@ class _Cell(NamedTuple):
 
 def _settings_of(values: Values) -> Values:
     """What is not about single boxes, checked."""
-    settings = {"distance": _arguments.number("distance", values["distance"]), "region": None}
+    settings: Values = {"distance": _arguments.number("distance", values["distance"]), "region": None}
     if values["region"] is not None:
         settings["region"] = _arguments.region_of(values["region"])
     count_in_memory(np.zeros((1, 6)), **settings)

@@ -64,3 +64,13 @@ time.sleep(0.1)
     for _ in range(10):
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
         assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_sub_interpreter_is_told_that_it_cannot():
+    interpreters = pytest.importorskip("_xxsubinterpreters")
+    if not hasattr(interpreters, "run_string"):
+        pytest.skip("this Python runs no code in a sub-interpreter")
+    code = "import _xxsubinterpreters as i\ni.run_string(i.create(), 'import allpairs')"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1
+    assert "allpairs works in the main interpreter of a process only" in done.stderr

@@ -293,3 +293,12 @@ def test_a_copy_while_others_change_the_world_is_of_one_moment():
         done.set()
         for thread in threads:
             thread.join()
+
+
+def test_queries_of_an_empty_list_find_nothing():
+    world = allpairs.World()
+    world.add(np.zeros((2, 6)))
+    ids, distances = world.nearest([], k=2)
+    assert (ids.shape, distances.shape) == ((0, 2), (0, 2))
+    assert [len(found) for found in world.first_hits([], [])] == [0, 0]
+    assert [len(found) for found in world.first_hits([], [1, 0, 0])] == [0, 0]

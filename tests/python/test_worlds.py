@@ -89,8 +89,13 @@ def test_a_filter_of_one_world_holds_for_all_of_equal_size():
 def test_shared_boxes_are_in_every_world():
     lower, upper, offsets = scene()
     shared = np.hstack(random_boxes(9, seed=7))
+
+    def alone(a, b, ignore=(), **settings):
+        here = [pair for pair in ignore if pair[0] < len(a)]  # a world may be smaller than the largest
+        return allpairs.overlaps_between((a, b), shared, ignore=here, **settings)
+
     for settings in ({}, {"order": "second"}, {"ignore": [[0, 3], [1, 1]]}, {"distance": 1}):
-        expected = each(lower, upper, offsets, lambda a, b, s=settings: allpairs.overlaps_between((a, b), shared, **s))
+        expected = each(lower, upper, offsets, lambda a, b, s=settings: alone(a, b, **s))
         assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, shared=shared, **settings), expected)
 
 
@@ -172,3 +177,13 @@ def test_values_for_each_box_have_the_shape_of_the_worlds():
         for wrong in (rows.T, rows[np.newaxis]):
             with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has shape .* worlds of n boxes"):
                 allpairs.overlaps_in_worlds(boxes, **{name: wrong})
+
+
+def test_ignored_pairs_with_shared_boxes_are_of_boxes_that_are_there():
+    rows = np.zeros((5, 6))
+    given = {"offsets": [0, 3, 5], "shared": np.zeros((2, 6))}
+    pairs, offsets = allpairs.overlaps_in_worlds(rows, ignore=[[2, 1], [0, 0]], **given)
+    assert offsets.tolist() == [0, 4, 7]
+    assert [2, 1] not in pairs.tolist()
+    with pytest.raises(allpairs.InvalidArgument, match=r"ignore row 0 is \(3, 0\): there are 3 and 2 boxes"):
+        allpairs.overlaps_in_worlds(rows, ignore=[[3, 0]], **given)

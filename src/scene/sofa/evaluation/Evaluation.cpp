@@ -203,7 +203,11 @@ std::optional<Numbers> Evaluation::written(const Component& component, std::stri
     if (values)
       warn(component, std::string{name} + ": '" + joined.substr(0, 40) + "' is read as several numbers, as SOFA does");
   }
-  if (!values) throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) + "' is not a finite number");
+  if (!values) {
+    throw Unplaceable(component, std::string{name} + ": '" + bad.substr(0, 40) +
+                                     (isIndexList(name) ? "' is neither an index nor a range of few enough to be read"
+                                                        : "' is not a finite number"));
+  }
   return Numbers{std::move(*values), 1};
 }
 

@@ -7,14 +7,10 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-const Component* componentNamed(const Node& node, std::string_view name) {
-  const auto found = std::ranges::find_if(node.components, [&](const auto& c) { return c->name == name; });
-  return found == node.components.end() ? nullptr : found->get();
-}
-
-const Node* childNamed(const Node& node, std::string_view name) {
-  const auto found = std::ranges::find_if(node.children, [&](const auto& c) { return c->name == name; });
-  return found == node.children.end() ? nullptr : found->get();
+template <class Found>
+const Found* named(const std::unordered_map<std::string_view, const Found*>& byName, std::string_view name) {
+  const auto found = byName.find(name);
+  return found == byName.end() ? nullptr : found->second;
 }
 
 const Node& rootOf(const Node& node) { return node.parent == nullptr ? node : rootOf(*node.parent); }
@@ -30,14 +26,22 @@ LinkTarget countBack(const Node& node, const Component* self, std::string_view p
 /// A name in a node, or, for the first name of a path that starts with one, in the nearest ancestor that has it.
 LinkTarget findName(const Node* node, std::string_view name, bool alsoInAncestors) {
   for (; node != nullptr; node = node->parent) {
-    if (const auto* child = childNamed(*node, name)) return {child, nullptr};
-    if (const auto* component = componentNamed(*node, name)) return {node, component};
+    if (const auto* child = named(node->childByName, name)) return {child, nullptr};
+    if (const auto* component = named(node->componentByName, name)) return {node, component};
     if (!alsoInAncestors) break;
   }
   return {};
 }
 
 }  // namespace
+
+void indexNames(Node& node) {
+  for (const auto& component : node.components) node.componentByName.emplace(component->name, component.get());
+  for (const auto& child : node.children) {
+    node.childByName.emplace(child->name, child.get());
+    indexNames(*child);
+  }
+}
 
 std::optional<LinkText> parseLink(std::string_view text) {
   if (!text.starts_with('@')) return std::nullopt;

@@ -10,6 +10,9 @@
 
 namespace allpairs::scene::sofa {
 
+/// Notes who has which name in a node and all below it; names are final then, and links can be followed.
+void indexNames(Node& node);
+
 /// "@../mesh.position": the path "../mesh" and the data "position".
 struct LinkText {
   std::string path;

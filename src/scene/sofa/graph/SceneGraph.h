@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,9 @@ struct Node {
   std::vector<std::pair<std::string, std::string>> order;
   std::vector<std::unique_ptr<Component>> components;
   std::vector<std::unique_ptr<Node>> children;
+  /// The first of each name, once indexNames() was called.
+  std::unordered_map<std::string_view, const Component*> componentByName;
+  std::unordered_map<std::string_view, const Node*> childByName;
 
   /// "/Body/Surface"; empty for the root.
   [[nodiscard]] std::string path() const;

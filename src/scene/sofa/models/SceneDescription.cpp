@@ -154,6 +154,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   const auto root = readSceneGraph(path, scope);
   const auto generation = generationOf(*root, options.sofa);
   if (generation == Generation::Sofa26) nameByClass(*root);
+  indexNames(*root);
   Evaluation evaluation(*root, scope, generation);
   SceneDescription scene;
   scene.up = upOf(*root);
