@@ -27,6 +27,7 @@ struct InputSettings {
   bool partial = false;
   std::string sofa{};  ///< The word of --sofa; empty for the default.
   ReadLimits limits{};
+  std::string output{};  ///< The file that is written, which may be none that is read; empty where there is none.
   const SpooledInputs* spooled = nullptr;  ///< Knows what paths that are temporary files stand for.
 };
 

@@ -245,6 +245,7 @@ void addDetect(CLI::App& program) {
       ->description("Colours in the table; auto: on a terminal, unless NO_COLOR is set");
   command->callback([settings] {
     settings->format = formatOf(settings->format, settings->output, kDetectFormats);
+    settings->input.output = settings->output;
     withInputs(settings->input, [settings] { runDetect(*settings, detectionOptions(*settings)); });
   });
 }

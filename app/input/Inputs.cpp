@@ -12,6 +12,7 @@
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
+#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/Progress.h"
 #include "cli/Text.h"
@@ -155,6 +156,7 @@ Inputs readInputs(const InputSettings& settings) {
   }
   scene::Scene scene = readScenes(settings, options);
   warnOf(scene.warnings, line);
+  scene::checkIsNoInput(settings.output, scene.inputs);
   return scene;
 }
 

@@ -137,6 +137,7 @@ void addView(CLI::App& program) {
     if (!extension.empty() && extension != ".html" && extension != ".htm") {
       throw UsageError("-o: '" + settings->output + "': a page is written as .html");
     }
+    settings->input.output = settings->output;
     withInputs(settings->input, [settings] { runView(*settings); });
   });
 }

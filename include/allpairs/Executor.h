@@ -19,7 +19,8 @@ class Executor {
   Executor& operator=(Executor&&) = delete;
   virtual ~Executor() = default;
 
-  /// The number of tasks that may run concurrently; at least 1. It determines how work is divided, never the result.
+  /// The number of tasks that may run concurrently; 0 counts as 1. It determines how work is divided and how much memory
+  /// each call takes for that, never the result. It is asked at the beginning of a call, and may change at any time.
   [[nodiscard]] virtual std::size_t concurrency() const noexcept = 0;
 
   /// Calls task(0) … task(count - 1), each once, in any order and on any thread, and returns when all are done. A thread

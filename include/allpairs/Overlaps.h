@@ -72,8 +72,8 @@ class OverlapSearch {
 
   /// Writes the pairs of find() to memory of the caller, and returns the part of it that they take. Count them first.
   ///
-  /// Bad input: memory for fewer pairs than there are throws LimitExceeded, whose count() is their number. It is then
-  ///            as it was, unless the pairs are unordered or tested exhaustively.
+  /// Bad input: memory for fewer pairs than there are throws LimitExceeded, whose count() is their number. Some of
+  ///            them may have been written.
   /// Cost:      no second copy of the result, unless several threads find unordered pairs or test exhaustively.
   Span<Pair> findInto(const BoxView& boxes, Span<Pair> memory);
   Span<Pair> findInto(const BoxView& first, const BoxView& second, Span<Pair> memory);

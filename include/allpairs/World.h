@@ -43,9 +43,9 @@ namespace allpairs {
 /// Memory:    a call that throws, whether std::bad_alloc or an exception of `accept`, leaves all boxes unchanged: a
 ///            batch is applied completely or not at all. After a step() that threw, result() has the pairs of the last
 ///            step that returned, and no changes; the next step reports the changes since that one.
-/// Callbacks: `accept` may use other worlds, and const members of the world that calls it, except findBetween(), which
-///            would call it again. All other members throw InvalidArgument, and it must not move or destroy that world.
-///            The same holds for a task of the executor.
+/// Callbacks: `accept` may use other worlds, and const members of the world that calls it, but not findBetween(),
+///            which calls `accept` again, and so on. All other members throw InvalidArgument, and it must not move or
+///            destroy that world. The same holds for a task of the executor.
 /// Moving:    a moved-from world is like a new one with default options.
 ///
 /// The lists of a step are valid until the next step. Queries return their own memory.
@@ -151,7 +151,7 @@ class World {
   ///
   /// Geometry: the margin is added to a maximum, the box's or the other's, in double, as in a pair. Rays, sweeps and
   ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a negative
-  ///           margin turns over is hit by no ray or sweep, and overlaps what holds all between its bounds.
+  ///           margin turns over is hit by no ray; it overlaps what holds all between its bounds, and a sweep of that hits it.
   /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds
   ///       are searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;

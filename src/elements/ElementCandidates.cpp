@@ -48,7 +48,8 @@ template <class Check>
 void addSelected(std::span<const Pair> pairs, const Check& check, Executor& executor, Found& found) {
   found.pairs.grow(found.size + pairs.size());
   Pair* to = found.pairs.data() + found.size;
-  const std::size_t tasks = std::clamp<std::size_t>(pairs.size() / kPairsPerTask, 1, 4 * executor.concurrency());
+  const std::size_t tasks =
+      std::clamp<std::size_t>(pairs.size() / kPairsPerTask, 1, 4 * std::max<std::size_t>(executor.concurrency(), 1));
   std::vector<std::size_t> sizes(tasks);
   const auto begin = [&](std::size_t task) { return pairs.size() * task / tasks; };
   executor.run(tasks, [&](std::size_t task) {

@@ -28,7 +28,8 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
   if (memory < kLeastMemory) {
     throw InvalidArgument("a join needs at least " + std::to_string(kLeastMemory >> 20) + " MiB of memory");
   }
-  const std::size_t threads = options.executor != nullptr ? options.executor->concurrency() : 1;
+  const std::size_t threads =
+      options.executor != nullptr ? std::max<std::size_t>(options.executor->concurrency(), 1) : 1;
   const std::uint64_t workers = std::min<std::uint64_t>(threads, 1 + (memory - kLeastMemory) / kMemoryPerThread);
   return Budget::of(memory, static_cast<std::size_t>(workers), input.recordType(), pairSizeFor(input.largestSize()));
 }

@@ -36,6 +36,7 @@ Scene readBoxes(const std::filesystem::path& path, const ReadOptions& options) {
   scope.admit(path);
   scope.take(ReadScope::kBytesPerModel * boxes.size());
   Scene scene = toScene(boxes);
+  scene.inputs = scope.files();
   noteSources(scene, path);
   return scene;
 }

@@ -24,6 +24,7 @@ void moveSources(Scene& scene, Scene& more) {
   noteSources(more, {});
   for (ModelSource& source : more.sources) source.file += scene.files.size();
   moveBehind(scene.files, more.files);
+  moveBehind(scene.inputs, more.inputs);
   moveBehind(scene.sources, more.sources);
 }
 

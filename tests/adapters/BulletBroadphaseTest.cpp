@@ -154,6 +154,24 @@ TEST(BulletBroadphase, AProxyOfNoGroupOrMaskHasNoPairsAndIsHitByRaysAndBoxes) {
   for (auto* proxy : {plain, noMask, noGroup}) broadphase.destroyProxy(proxy, nullptr);
 }
 
+TEST(BulletBroadphase, WhatIsNotFiniteHitsNothing) {
+  constexpr btScalar kInfinite = std::numeric_limits<btScalar>::infinity();
+  constexpr btScalar kNan = std::numeric_limits<btScalar>::quiet_NaN();
+  BulletBroadphase broadphase;
+  auto* const cube = addUnitCube(broadphase, 0, -1, -1);
+  Collector found;
+  for (const btScalar bad : {kInfinite, -kInfinite, kNan}) {
+    broadphase.rayTest({-1, 0.5F, 0.5F}, {bad, 0.5F, 0.5F}, found);
+    broadphase.rayTest({bad, 0.5F, 0.5F}, {3, 0.5F, 0.5F}, found);
+    broadphase.rayTest({-1, 0.5F, 0.5F}, {3, 0.5F, 0.5F}, found, {-1, -1, -1}, {1, 1, bad});
+  }
+  broadphase.aabbTest({0, 0, kNan}, {1, 1, 1}, found);
+  EXPECT_THAT(found.found, IsEmpty());
+  broadphase.aabbTest({-kInfinite, 0, 0}, {kInfinite, 1, 1}, found);
+  EXPECT_THAT(found.found, ::testing::ElementsAre(cube));
+  broadphase.destroyProxy(cube, nullptr);
+}
+
 TEST(BulletBroadphase, AFilterCallbackTakesThePlaceOfGroupsAndMasks) {
   struct Switch : btOverlapFilterCallback {
     bool isOn = true;

@@ -205,11 +205,11 @@ void expectWithObject(const Base& manager, const Objects& objects, const std::se
   Object* const object = objects[objects.size() - 1];
   Collect collect(objects);
   manager.collide(object, &collect);
-  EXPECT_EQ(collect.sorted(false), objects.pairs(probe, members, 0));
+  EXPECT_EQ(collect.sorted(false), objects.pairs(members, probe, 0));
   EXPECT_EQ(collect.begun, 1);
   Measure least(objects, kLeast);
   manager.distance(object, &least);
-  EXPECT_EQ(least.nearest, leastOf(objects, probe, members));
+  EXPECT_EQ(least.nearest, leastOf(objects, members, probe));
   EXPECT_EQ(least.begun, 1);
 }
 

@@ -154,11 +154,12 @@ TEST_P(FclOwnExpectations, DistancesAreThoseOfTheNaiveManagerAlsoAfterMoving) {
   for (int step = 0; step < 3; ++step) {
     EXPECT_NEAR(distance(m_ours), distance(m_naive), 1e-6) << "seed " << kEnvironmentSeed << ", step " << step;
     for (Object* query : queries()) {
-      // Apart from the scene too, where a least distance is to be found.
-      EXPECT_NEAR(distance(m_ours, query), distance(m_naive, query), 1e-6);
+      // Apart from the scene too, where a least distance is to be found. FCL's distance depends on which object is the
+      // first, and a query is that of the naive manager.
+      EXPECT_NEAR(distance(m_ours, query), distance(m_naive, query), 1e-5);
       query->setTranslation(query->getTranslation() + ::fcl::Vector3d(kScale, kScale, kScale));
       query->computeAABB();
-      EXPECT_NEAR(distance(m_ours, query), distance(m_naive, query), 1e-6);
+      EXPECT_NEAR(distance(m_ours, query), distance(m_naive, query), 1e-5);
       most = std::max(most, distance(m_naive, query));
     }
     moveAll();

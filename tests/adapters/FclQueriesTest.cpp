@@ -7,6 +7,8 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -69,6 +71,79 @@ TYPED_TEST(FclQueries, GivesACallbackThatHoldsADistanceAllPairsWithinItOnce) {
   }
 }
 
+TYPED_TEST(FclQueries, GivesThePairsOfManagersOfAnySizesOnceAndItsOwnFirst) {
+  using S = TypeParam;
+  const std::vector<std::size_t> counts{3, 12, 70, 400};
+  for (const std::size_t ours : counts) {
+    for (const std::size_t theirs : counts) {
+      const auto objects = this->addObjects(ours, S(9));
+      const auto others = this->addObjects(theirs, S(9));
+      FclBroadPhaseManager<S> manager;
+      FclBroadPhaseManager<S> other;
+      manager.registerObjects(objects);
+      other.registerObjects(others);
+      manager.unregisterObject(objects.front());
+      other.unregisterObject(others.back());
+      for (const S distance : {S(-1), S(0), S(0.25)}) {
+        std::set<std::pair<void*, void*>> expected;
+        for (auto* object : std::span(objects).subspan(1)) {
+          for (auto* second : std::span(others).first(theirs - 1)) {
+            const bool isIn = distance < 0 ? object->getAABB().overlap(second->getAABB())
+                                           : object->getAABB().distance(second->getAABB()) <= distance;
+            if (isIn) expected.emplace(object, second);
+          }
+        }
+        Threshold<S> found{distance, {}};
+        if (distance < 0) {
+          manager.collide(&other, &found, [](auto* a, auto* b, void* data) {
+            static_cast<Threshold<S>*>(data)->given.emplace_back(a, b);
+            return false;
+          });
+        } else {
+          manager.distance(&other, &found, [](auto* a, auto* b, void* data, S& least) {
+            auto& self = *static_cast<Threshold<S>*>(data);
+            least = self.distance;
+            self.given.emplace_back(a, b);
+            return false;
+          });
+        }
+        std::set<std::pair<void*, void*>> given(found.given.begin(), found.given.end());
+        EXPECT_EQ(given.size(), found.given.size()) << "a pair came twice";
+        std::erase_if(given, [&](const auto& pair) {
+          const auto& a = static_cast<::fcl::CollisionObject<S>*>(pair.first)->getAABB();
+          const auto& b = static_cast<::fcl::CollisionObject<S>*>(pair.second)->getAABB();
+          return distance >= 0 && a.distance(b) > distance;
+        });
+        EXPECT_EQ(given, expected) << ours << " with " << theirs << ", distance " << distance;
+      }
+    }
+  }
+}
+
+TYPED_TEST(FclQueries, GivesThePairsWithinADistanceFarFromTheOrigin) {
+  using S = TypeParam;
+  const S far = std::is_same_v<S, float> ? S(1e4) : S(1e12);
+  for (const std::size_t count : {12U, 100U, 300U}) {
+    const auto objects = this->addObjects(count, S(9));
+    for (auto* object : objects) {
+      object->setTranslation(object->getTranslation() + ::fcl::Vector3<S>(far, -far, far));
+      object->computeAABB();
+    }
+    FclBroadPhaseManager<S> manager;
+    manager.registerObjects(objects);
+    for (const S distance : {S(0.0625), S(0.5)}) {
+      Threshold<S> expected{distance, {}};
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < i; ++j) expected.given.emplace_back(std::minmax(objects[i], objects[j]));
+      }
+      Threshold<S> self{distance, {}};
+      manager.distance(&self, Threshold<S>::call);
+      EXPECT_EQ(self.within(), expected.within()) << count << " objects, distance " << distance;
+      EXPECT_EQ(std::set(self.given.begin(), self.given.end()).size(), self.given.size()) << "a pair came twice";
+    }
+  }
+}
+
 TYPED_TEST(FclQueries, GivesAllObjectsWithinADistanceInTheFirstQueryAndInTheHundredth) {
   using S = TypeParam;
   for (const std::size_t count : {3U, 64U, 65U, 300U}) {
@@ -98,7 +173,7 @@ TYPED_TEST(FclQueries, GivesTheSameCollisionsInTheFirstQueryAndInTheHundredth) {
       typename TestFixture::Pairs expected;
       for (auto* object : objects) {
         const bool isThere = object != objects[count / 2];
-        if (isThere && object->getAABB().overlap(probe->getAABB())) expected.emplace_back(probe, object);
+        if (isThere && object->getAABB().overlap(probe->getAABB())) expected.emplace_back(object, probe);
       }
       typename TestFixture::Pairs found;
       manager.collide(probe, &found, [](auto* a, auto* b, void* data) {

@@ -51,16 +51,28 @@ TEST(OutputFile, IsNoInput) {
   const std::string clothBefore = readBytes(cloth);
   const std::string link = folder.path() / "link.npy";
   std::filesystem::create_symlink("boxes.npy", link);
+  std::filesystem::create_directory(folder.path() / "parts");
+  const std::string part = folder.path() / "parts" / "part.obj";
+  std::filesystem::copy_file(cloth, part);
+  const std::string page = folder.path() / "page.html";
+  std::filesystem::create_symlink("parts/part.obj", page);
   const std::string margins = folder.write("margins.npy", "not read yet");
   const std::string other = folder.write("other.npy", before);
-  const std::vector<std::vector<std::string>> commands = {{"detect", boxes, "-o", boxes},
-                                                          {"detect", table, "-o", table},
-                                                          {"detect", boxes, "-o", link},
-                                                          {"track", other, boxes, "-o", boxes},
-                                                          {"elements", cloth, "--format", "json", "-o", cloth},
-                                                          {"join", boxes, "-o", boxes},
-                                                          {"join", other, "-o", link, "--with", boxes},
-                                                          {"join", other, "-o", margins, "--margins", margins}};
+  const std::string scene = folder.write(
+      "a.scn", R"(<Node name="root"><MeshOBJLoader name="loader" filename="cloth.obj"/><MeshTopology src="@loader"/>
+                  <MechanicalObject/><TriangleCollisionModel/></Node>)");
+  const std::vector<std::vector<std::string>> commands = {
+      {"detect", scene, "--format", "csv", "-o", cloth},
+      {"detect", folder.path() / "parts", "--format", "csv", "-o", part},
+      {"view", folder.path() / "parts", "-o", page},
+      {"detect", boxes, "-o", boxes},
+      {"detect", table, "-o", table},
+      {"detect", boxes, "-o", link},
+      {"track", other, boxes, "-o", boxes},
+      {"elements", cloth, "--format", "json", "-o", cloth},
+      {"join", boxes, "-o", boxes},
+      {"join", other, "-o", link, "--with", boxes},
+      {"join", other, "-o", margins, "--margins", margins}};
   for (const std::vector<std::string>& command : commands) {
     const ProgramRun run = runProgram(command);
     EXPECT_EQ(run.status, 3) << command.front() << ": " << run.err;
@@ -68,6 +80,7 @@ TEST(OutputFile, IsNoInput) {
   }
   EXPECT_TRUE(readBytes(boxes) == before);
   EXPECT_TRUE(readBytes(cloth) == clothBefore);
+  EXPECT_TRUE(readBytes(part) == clothBefore);
   EXPECT_EQ(readBytes(margins), "not read yet");
 }
 

@@ -131,6 +131,14 @@ TEST(BoxView, RefusesSpansThatAreNoWholeNumberOfRows) {
   EXPECT_THROW(static_cast<void>(BoxView::fromCorners(seven, seven)), InvalidArgument);
 }
 
+TEST(BoxView, RefusesCornersThatAreNotInMemory) {
+  const double one = 0.0;
+  const CornerView<double> there{&one, 0, 0};
+  EXPECT_THROW(static_cast<void>(BoxView::fromStrided(1, CornerView<double>{}, there)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(BoxView::fromStrided(1, there, CornerView<double>{})), InvalidArgument);
+  EXPECT_EQ(BoxView::fromStrided(0, CornerView<float>{}, CornerView<float>{}).size(), 0U);
+}
+
 TEST(BoxView, RefusesMoreBoxesThanAnIndexCanNumber) {
   const float one = 0.0F;
   const CornerView<float> sameForAll{&one, 0, 0};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -24,6 +25,22 @@ class BackwardExecutor final : public Executor {
   void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
     for (std::size_t i = count; i-- > 0;) task(i);
   }
+};
+
+/// A pool that is resized while it is used: it says something else each time, also that it has no threads, and always runs
+/// four tasks at once.
+class ChangingExecutor final : public Executor {
+ public:
+  explicit ChangingExecutor(std::size_t first) : m_asked(first) {}
+  [[nodiscard]] std::size_t concurrency() const noexcept override {
+    constexpr std::array<std::size_t, 5> kAnswers{1, 4, 0, 2, 9};
+    return kAnswers[m_asked++ % kAnswers.size()];
+  }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override { m_pool.run(count, task); }
+
+ private:
+  mutable std::atomic<std::size_t> m_asked;
+  parallel::TbbExecutor m_pool{4};
 };
 
 /// Claims two threads and counts what it is asked to run.
@@ -69,6 +86,28 @@ TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
         options.executor = executor;
         ASSERT_EQ(overlaps(part, options), serial);
         ASSERT_EQ(countOverlaps(part, options), serial.size());
+      }
+    }
+  }
+}
+
+TEST(Executor, MayHaveMoreOrFewerThreadsEachTimeItIsAsked) {
+  const std::vector<BoxF> boxes = test::randomBoxes(20000, 39);
+  const std::vector<BoxF> dense = test::randomBoxes(1400, 40, 30.0F);
+  OverlapOptions options;
+  for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
+    for (std::size_t first = 0; first < 5; ++first) {
+      ChangingExecutor executor(first);
+      OverlapSearch kept;
+      for (const std::vector<BoxF>* part : {&boxes, &dense, &boxes}) {
+        options.order = order;
+        options.executor = nullptr;
+        const std::vector<Pair> serial = overlaps(*part, options);
+        options.executor = &executor;
+        ASSERT_EQ(overlaps(*part, options), serial);
+        ASSERT_EQ(countOverlaps(*part, options), serial.size());
+        kept.setOptions(options);
+        ASSERT_TRUE(std::ranges::equal(kept.find(*part), serial));
       }
     }
   }

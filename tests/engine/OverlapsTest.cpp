@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "allpairs/Neighbors.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/World.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -462,6 +464,25 @@ TEST(Overlaps, AllowsMorePairsThan32BitsHold) {
     options.maxPairs = most;
     EXPECT_EQ(overlaps(boxes, options).size(), 4950U);
   }
+}
+
+/// A number of a file that was cast to an enumeration.
+TEST(OverlapOptions, AreOfKnownValues) {
+  const std::vector<BoxF> boxes = test::randomBoxes(400, 3);
+  const OverlapOptions order{.order = static_cast<Order>(3)};
+  const OverlapOptions strategy{.strategy = static_cast<Strategy>(3)};
+  for (const std::size_t size : {2U, 100U, 400U}) {
+    const std::span<const BoxF> part(boxes.data(), size);
+    for (const OverlapOptions& options : {order, strategy}) {
+      EXPECT_THROW(static_cast<void>(overlaps(part, options)), InvalidArgument) << size;
+      EXPECT_THROW(static_cast<void>(overlaps(part, part, options)), InvalidArgument) << size;
+      EXPECT_THROW(static_cast<void>(countOverlaps(part, options)), InvalidArgument) << size;
+      EXPECT_THROW(static_cast<void>(OverlapSearch(options).find(part)), InvalidArgument) << size;
+    }
+    EXPECT_THROW(static_cast<void>(neighbors(part, static_cast<NeighborRows>(2))), InvalidArgument) << size;
+    EXPECT_THROW(static_cast<void>(OverlapSearch().findNeighbors(part, static_cast<NeighborRows>(2))), InvalidArgument);
+  }
+  EXPECT_THROW(World({.order = static_cast<Order>(3)}), InvalidArgument);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -56,6 +57,37 @@ TEST_P(WorldThreads, SeveralThreadsGiveTheListsOfOne) {
     for (const BoxId id : ids) moved.push_back(boxes[id]);
     serial.move(ids, moved);
     many.move(ids, moved);
+  }
+}
+
+/// A pool that is resized while it is used.
+class ResizedExecutor final : public Executor {
+ public:
+  explicit ResizedExecutor(std::size_t first) : m_asked(first) {}
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_asked++ % 3 == 0 ? 1 : 4; }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override { m_pool.run(count, task); }
+
+ private:
+  mutable std::atomic<std::size_t> m_asked;
+  parallel::TbbExecutor m_pool{4};
+};
+
+TEST_P(WorldThreads, MayBeMoreOrFewerEachTimeTheExecutorIsAsked) {
+  for (std::size_t first = 0; first < 3; ++first) {
+    ResizedExecutor executor(first);
+    World serial;
+    World many({.executor = &executor});
+    std::vector<BoxF> boxes = test::randomBoxes(20000, 12);
+    std::vector<BoxId> ids = serial.add(boxes);
+    ASSERT_EQ(many.add(boxes), ids);
+    for (std::size_t frame = 0; frame < 4; ++frame) {
+      ASSERT_NO_FATAL_FAILURE(test::compareLists(many.step(), serial.step()));
+      moveSome(boxes, GetParam(), frame, ids);
+      std::vector<BoxF> moved;
+      for (const BoxId id : ids) moved.push_back(boxes[id]);
+      serial.move(ids, moved);
+      many.move(ids, moved);
+    }
   }
 }
 

@@ -63,3 +63,10 @@ configure_consumer(${WORK}/build -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D PARTS=
 expect_steps(${WORK}/build 81 engine collision)
 build_and_run(${WORK}/build)
 expect_built(${WORK}/build liballpairs liballpairs_collision)
+
+# A part without what it needs is refused before anything is compiled.
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../.. -B ${WORK}/partly -D ALLPAIRS_BUILD_SCENE=OFF
+                RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
+if(status EQUAL 0 OR NOT said MATCHES "ALLPAIRS_BUILD_APP needs ALLPAIRS_BUILD_SCENE")
+  message(FATAL_ERROR "a command without readers: ${status}: ${said}")
+endif()

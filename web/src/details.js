@@ -166,7 +166,8 @@ export class Details {
     for (let other = 0; other < scene.models; ++other) {
       if (partners.has(other)) continue;
       const reason = explainAny(scene, frame, model, other);
-      const text = other === model ? selfText(reason) : reasonText(reason);
+      const isOfBoxes = reason.verdict === "pair" && other !== model; // and none of shapes: then these are told apart
+      const text = isOfBoxes ? "the shapes are apart" : other === model ? selfText(reason) : reasonText(reason);
       reasons.push({ other, text, gap: other === model ? -2 : reason.verdict === "apart" ? reason.gap : -1 });
     }
     reasons.sort((a, b) => a.gap - b.gap || a.other - b.other);

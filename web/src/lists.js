@@ -221,7 +221,7 @@ export class ModelPanel extends Panel {
   makeChips() {
     const counts = new Map();
     for (const is of this.app.kinds) counts.set(is, (counts.get(is) ?? 0) + 1);
-    const labels = [[this.app.scene.exact ? "in clashes" : "in pairs", kind.pair], ["self only", kind.self], ["excluded", kind.excluded], ["free", kind.free], ["left out", kind.out]];
+    const labels = [[this.app.scene.exact ? "with partners" : "in pairs", kind.pair], ["self only", kind.self], ["excluded", kind.excluded], ["free", kind.free], ["left out", kind.out]];
     return labels
       .filter(([, is]) => counts.has(is))
       .map(([label, is]) => chip(label, counts.get(is), kindNames[is], this.filter(is), () => this.update()));

@@ -11,7 +11,8 @@ const byRule = new Set(["not-simulated", "same-owner", "same-group"]);
 /** Calls `visit(newer, older)` for all pairs of boxes that may be within the distance: those near on x. */
 function sweep(scene, boxes, distance, visit) {
   const widest = scene.addsContactDistances ? scene.contactDistances.reduce((most, d) => Math.max(most, d), 0) : 0;
-  const reach = (distance + 2 * widest) * (1 + 1e-9); // more than any sum that is compared below
+  const sum = distance + 2 * widest;
+  const reach = sum + 1e-9 * Math.abs(sum); // more than any sum that is compared below
   const order = Array.from({ length: scene.models }, (_, i) => i).filter((i) => !isEmpty(boxes, i));
   order.sort((a, b) => boxes[6 * a] - boxes[6 * b]);
   for (let p = 0; p < order.length; ++p) {
@@ -43,7 +44,10 @@ export function pairsAt(scene, frame, distance) {
 
 const isOffered = ({ frames, exact, region, sequence, models }) => frames.length === 1 && exact === null && region === null && sequence === null && models <= mostModels;
 
-/** The slider above the pairs, and the number beside it, which may be any from 0 on. */
+/** As many digits as a slider has. */
+const rounded = (distance) => Number(distance.toPrecision(3));
+
+/** The slider above the pairs, and the number beside it, which may be any, below 0 too. */
 export class Margin {
   constructor(app, size) {
     this.app = app;
@@ -56,20 +60,20 @@ export class Margin {
     this.slider = byId("margin-slider");
     this.number = byId("margin-number");
     this.slider.addEventListener("input", () => this.soon(this.most * (this.slider.value / 1000) ** 2)); // finer near 0
-    this.number.addEventListener("change", () => this.number.validity.valid && this.set(Number(this.number.value)));
+    this.number.addEventListener("change", () => this.set(this.number.value === "" ? app.scene.distance : Number(this.number.value)));
     byId("margin-reset").addEventListener("click", () => this.set(distance));
     this.show(distance);
   }
 
   soon(distance) {
-    this.show(Number(measure(distance, 3)));
+    this.show(rounded(distance));
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.set(Number(measure(distance, 3))), 40);
+    this.timer = setTimeout(() => this.set(rounded(distance)), 40);
   }
 
   show(distance) {
     this.number.value = distance;
-    this.slider.value = 1000 * Math.sqrt(Math.min(1, distance / this.most));
+    this.slider.value = 1000 * Math.sqrt(Math.max(0, Math.min(1, distance / this.most)));
     this.slider.setAttribute("aria-valuetext", measure(distance));
     byId("margin-reset").hidden = distance === this.first.distance;
   }

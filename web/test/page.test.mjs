@@ -135,7 +135,7 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
     await page.fill("#margin-number", "");
     await page.locator("#margin-number").pressSequentially("1.25e-1");
     assert.equal(await page.inputValue("#margin-number"), "1.25e-1", "keys of the page do not take what is typed");
-    for (const distance of [0, 0.1, 0.10000000000000009, 0.5, 1.2, 3, 0.25]) {
+    for (const distance of [0, 0.1, 0.10000000000000009, 0.5, 1.2, 3, -0.2, -3, 0.25]) {
       await page.fill("#margin-number", String(distance));
       await page.press("#margin-number", "Enter");
       const result = detect(input, "--distance", String(distance));
@@ -153,6 +153,15 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
     const chosen = await settled(page, () => page.inputValue("#margin-number"), (value) => Number(value) > 0.3);
     assert.equal(await number(page, "#fact-pairs"), detect(input, "--distance", chosen).pairs.length);
     await screenshot(page, `margin-${name}`);
+    await page.$eval("#margin-slider", (slider) => {
+      slider.value = 1;
+      slider.dispatchEvent(new Event("input"));
+    });
+    const least = await settled(page, () => page.inputValue("#margin-number"), (value) => Number(value) > 0 && Number(value) < 1e-5);
+    assert.equal(await number(page, "#fact-pairs"), detect(input, "--distance", least).pairs.length, "the first position of the slider");
+    await page.fill("#margin-number", "");
+    await page.press("#margin-number", "Enter");
+    assert.equal(await page.inputValue("#margin-number"), least, "an empty field is no margin");
     await page.click("#margin-reset");
     assert.equal(await number(page, "#fact-pairs"), before);
     assert.deepEqual(page.problems, []);

@@ -107,6 +107,12 @@ void checkNoNan(std::size_t size, const BoxView::Corners<T>& corners, const BoxV
   if (found) throwFirstNan(set);
 }
 
+template <class T>
+void checkData(std::size_t size, const CornerView<T>& min, const CornerView<T>& max) {
+  if (size == 0 || (min.data != nullptr && max.data != nullptr)) return;
+  throw InvalidArgument("the corners are not in memory: their data is null");
+}
+
 /// Moves the view to start at box `begin`.
 template <class T>
 void moveTo(BoxView::Corners<T>& corners, std::size_t begin) {
@@ -167,6 +173,7 @@ BoxView BoxView::fromCorners(Span<const double> min, Span<const double> max) {
 
 BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
   checkCount(size);
+  checkData(size, min, max);
   BoxView set;
   set.m_size = size;
   set.m_float32 = {min, max};
@@ -176,6 +183,7 @@ BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView
 
 BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max) {
   checkCount(size);
+  checkData(size, min, max);
   BoxView set;
   set.m_size = size;
   set.m_isFloat64 = true;

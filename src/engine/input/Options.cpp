@@ -25,10 +25,20 @@ void checkRegion(const Box& region) {
   if (isEmpty(region)) throw InvalidArgument("the region is empty: its min is above its max on some axis");
 }
 
+/// Whether an enumerator is one of those up to the last: it may have been cast from a number.
+template <class Enum>
+void checkValue(const char* name, Enum value, Enum last) {
+  if (value > last) throw InvalidArgument("no " + std::string(name) + ' ' + std::to_string(static_cast<int>(value)));
+}
+
 }  // namespace
+
+void checkRows(NeighborRows rows) { checkValue("kind of rows", rows, NeighborRows::Half); }
 
 void checkOptions(const Sets& sets, const OverlapOptions& options) {
   if (!isDistance(options.distance)) throw InvalidArgument("the distance is NaN or -infinity");
+  checkValue("order", options.order, Order::Unordered);
+  checkValue("strategy", options.strategy, Strategy::Bvh);
   if (options.region) checkRegion(*options.region);
   checkBits(options.filter.first, sets.first.size());
   if (!sets.one) {

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "input/Options.h"
 #include "input/Parts.h"
 #include "memory/Platform.h"
 #include "search/FewBoxes.h"
@@ -64,6 +65,7 @@ Span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& boxes, NeighborRows rows) {
+  engine::checkRows(rows);
   return state().run([&](auto& search, auto& options) {
     return search.findNeighbors({boxes, boxes, true}, options, rows);
   });
@@ -88,6 +90,7 @@ Span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, 
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
+  engine::checkRows(rows);
   return state().run([&](auto& search, auto& options) {
     return search.findNeighborsInto({boxes, boxes, true}, options, rows, memory);
   });
@@ -208,6 +211,7 @@ std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const Ov
 }
 
 Neighbors neighbors(const BoxView& boxes, NeighborRows rows, const OverlapOptions& options) {
+  engine::checkRows(rows);
   const engine::Sets sets{boxes, boxes, true};
   return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
 }

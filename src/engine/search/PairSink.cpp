@@ -5,7 +5,7 @@
 #include <string>
 
 #include "allpairs/Error.h"
-#include "search/StoppableExecutor.h"
+#include "search/CallExecutor.h"
 
 namespace allpairs::engine {
 namespace {

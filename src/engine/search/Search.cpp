@@ -146,7 +146,7 @@ void Search::shrink() noexcept {
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
   checkOptions(sets, options);
   m_kernels = &chooseKernels(options);
-  m_executor = &m_stoppable.over(options.executor, options.stop);
+  m_executor = &m_callExecutor.over(options.executor, options.stop);
   m_statistics = {};
   m_pairs = {};
   m_rowsFound = {};
@@ -188,7 +188,7 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
 void Search::planJoin(const Readers& readers, Plan& plan) {
   const std::size_t boxes = readers.first.size() + (readers.one ? 0 : readers.second.size());
   // A filter may take any time for a pair.
-  if (boxes <= kFewForThreads && !plan.sink.test.isFiltered()) m_executor = &m_stoppable.over(nullptr, plan.sink.stop);
+  if (boxes <= kFewForThreads && !plan.sink.test.isFiltered()) m_executor = &m_callExecutor.over(nullptr, plan.sink.stop);
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
   plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;

@@ -17,9 +17,9 @@
 #include "input/Readers.h"
 #include "order/BucketSort.h"
 #include "order/PairSort.h"
+#include "search/CallExecutor.h"
 #include "search/JoinRunner.h"
 #include "search/PairLists.h"
-#include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
 
@@ -141,7 +141,7 @@ class Search {
 
   OverlapStatistics m_statistics;
   const Kernels* m_kernels = nullptr;
-  StoppableExecutor m_stoppable;
+  CallExecutor m_callExecutor;
   Executor* m_executor = nullptr;
 
   Buffer<LaneTile> m_rows;

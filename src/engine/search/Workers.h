@@ -10,21 +10,22 @@
 
 namespace allpairs::engine {
 
-/// What the tasks of an executor work with, as many as it has threads; kept from run to run. A worker has a flag
-/// `busy`.
+/// What the tasks of a call work with, as many as its executor says that run concurrently: should more do, they wait.
+/// Kept from call to call. A worker has a flag `busy`.
 template <class Worker>
 class Workers {
  public:
   explicit Workers(std::pmr::memory_resource* memory) : m_workers(memory) {}
 
   [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.get_allocator().resource(); }
-  [[nodiscard]] std::size_t size() const noexcept { return m_workers.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] Worker& operator[](std::size_t i) const noexcept { return *m_workers[i]; }
 
-  /// Makes sure that there are so many.
+  /// Begins a call that uses so many.
   void require(std::size_t count) {
     const std::pmr::polymorphic_allocator<Worker> allocator(memory());
     while (m_workers.size() < count) m_workers.push_back(std::allocate_shared<Worker>(allocator, memory()));
+    m_size = count;
   }
 
   /// Calls use(index, worker) with a worker that no other task has meanwhile.
@@ -39,7 +40,7 @@ class Workers {
  private:
   std::size_t claim() {
     for (;;) {
-      for (std::size_t i = 0; i < m_workers.size(); ++i) {
+      for (std::size_t i = 0; i < m_size; ++i) {
         if (!m_workers[i]->busy.test_and_set(std::memory_order_acquire)) return i;
       }
       std::this_thread::yield();
@@ -48,6 +49,7 @@ class Workers {
 
   /// Shared with nobody: so they are in the memory of the resource.
   std::pmr::vector<std::shared_ptr<Worker>> m_workers;
+  std::size_t m_size = 0;  ///< Of this call.
 };
 
 }  // namespace allpairs::engine

@@ -7,8 +7,8 @@
 
 #include "input/Parts.h"
 #include "memory/Platform.h"
+#include "search/CallExecutor.h"
 #include "search/PairTest.h"
-#include "search/StoppableExecutor.h"
 
 namespace allpairs::engine {
 namespace {

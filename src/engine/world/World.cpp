@@ -121,6 +121,7 @@ struct World::State {
 World::World(WorldOptions options) {
   OverlapOptions checked;
   checked.distance = options.distance;
+  checked.order = options.order;
   checked.instructionSet = options.instructionSet;
   const BoxView none;
   if (options.order == Order::Unordered)

@@ -59,6 +59,7 @@ void WorldSearch::shrink() noexcept {
 }
 
 StepResult WorldSearch::step(BoxStore& store) {
+  static_cast<void>(m_callExecutor.over(m_options.executor, m_options.stop));
   m_history.dropChanges();
   m_lists.prepareStep(store);
   static_cast<void>(store.set());  // The tests read it.

@@ -10,7 +10,7 @@
 #include "kernels/Kernels.h"
 #include "search/JoinRunner.h"
 #include "search/PairTest.h"
-#include "search/StoppableExecutor.h"
+#include "search/CallExecutor.h"
 #include "world/BoxStore.h"
 #include "world/ChangedBoxes.h"
 #include "world/PairHistory.h"
@@ -32,7 +32,7 @@ class WorldSearch {
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
       : m_options(options),
         m_kernels(kernels),
-        m_executor(m_stoppable.over(options.executor, options.stop)),
+        m_executor(m_callExecutor.over(options.executor, options.stop)),
         m_members(memory),
         m_forest(memory),
         m_changedDynamic(memory, kernels),
@@ -104,7 +104,7 @@ class WorldSearch {
 
   const WorldOptions& m_options;
   const Kernels& m_kernels;
-  StoppableExecutor m_stoppable;
+  CallExecutor m_callExecutor;
   Executor& m_executor;
   WorldMembers m_members;
   WorldForest m_forest;

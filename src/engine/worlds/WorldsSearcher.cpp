@@ -54,7 +54,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_statistics = {};
   m_kernels = &chooseKernels(options);
   checkStop(options.stop);
-  m_executor = &m_stoppable.over(options.executor, options.stop);
+  m_executor = &m_callExecutor.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && areRun<float>(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);

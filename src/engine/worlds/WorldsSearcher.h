@@ -13,7 +13,7 @@
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
 #include "search/Search.h"
-#include "search/StoppableExecutor.h"
+#include "search/CallExecutor.h"
 #include "search/Workers.h"
 #include "worlds/WorldsFilter.h"
 
@@ -77,7 +77,7 @@ class WorldsSearcher {
   const OverlapOptions* m_options = nullptr;
   const Kernels* m_kernels = nullptr;
   Executor* m_executor = nullptr;
-  StoppableExecutor m_stoppable;
+  CallExecutor m_callExecutor;
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
   bool m_isPlain = false;       ///< Boxes that the kernel reads from the caller's memory.
   WorldsFilter m_filter;

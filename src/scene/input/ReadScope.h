@@ -68,6 +68,9 @@ class ReadScope {
   /// Throws Stopped if ReadOptions::stop is set.
   void checkStop() const { allpairs::checkStop(m_stop); }
 
+  /// All files that were read.
+  [[nodiscard]] std::vector<std::filesystem::path> files() const { return {m_files.begin(), m_files.end()}; }
+
   [[nodiscard]] const StopFlag* stop() const noexcept { return m_stop; }
 
   /// How much is left of what may be taken.

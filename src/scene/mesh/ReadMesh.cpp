@@ -160,6 +160,7 @@ Scene readMesh(const fs::path& path, const ReadOptions& options) {
   Scene scene = emptyScene();
   ReadScope scope(path, options);
   readInto(scene, path, scope);
+  scene.inputs = scope.files();
   return scene;
 }
 
@@ -182,6 +183,7 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
                                .isPartial = true});
     }
   }
+  scene.inputs = scope.files();
   nameModels(scene);
   return scene;
 }

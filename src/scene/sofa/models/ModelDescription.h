@@ -84,6 +84,7 @@ struct SceneDescription {
   std::vector<Ignored> ignored;                ///< Models that are missing.
   std::vector<Ignored> outside;                ///< Models that no pipeline takes.
   std::vector<Ignored> warnings;               ///< Where the result may not be what is expected; nothing is missing.
+  std::vector<std::filesystem::path> inputs;   ///< All files that were read.
   int up = 2;                                  ///< Against the root's gravity, which pulls along -y by default.
 };
 

@@ -216,6 +216,7 @@ Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& option
   moveRemarks(description.warnings, false, scene.warnings);
   const Kept kept = addModels(description, options.partial, scene);
   noteSources(scene, path);
+  scene.inputs = std::move(description.inputs);
   if (description.pipelines.size() > 1)
     for (auto& pipeline : description.pipelines) scene.pipelines.push_back(makePipeline(pipeline, kept));
   return scene;

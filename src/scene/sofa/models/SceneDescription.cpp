@@ -167,6 +167,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   for (const auto* component : modelsBelow(*root))
     if (!models.has(*component))
       scene.outside.push_back(remarkOn(*component, "no collision pipeline of the scene takes this model"));
+  scene.inputs = scope.files();
   return scene;
 }
 

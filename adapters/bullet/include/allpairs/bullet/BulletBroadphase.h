@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <unordered_set>
@@ -38,7 +40,7 @@ namespace allpairs {
 ///            in double.
 /// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same.
 ///            With BulletBroadphaseOptions::number the order does not depend on earlier calls either.
-/// Bad input: a box with a NaN throws InvalidBox; a number that is negative or taken, and a number with a pairCache,
+/// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, and a number with a pairCache,
 ///            InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject() made it has
 ///            the object in its list already, without a proxy: remove it from the world before the next step.
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the cache.
@@ -118,10 +120,12 @@ class BulletBroadphase : public btBroadphaseInterface {
     aabbMax = proxy->m_aabbMax;
   }
 
-  /// Calls the callback for each box that the ray, or the given box along the ray, hits: from near to far.
+  /// Calls the callback for each box that the ray, or the given box along the ray, hits: from near to far. A ray or a
+  /// box that is not finite hits nothing, as in Bullet.
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
+    if (!areFinite({rayFrom, rayTo, aabbMin, aabbMax})) return;
     const std::array<double, 3> from = toArray(rayFrom);  // Bullet's own sums are rounded to its precision.
     BoxSweep sweep{toBox(aabbMin, aabbMax), toArray(rayTo)};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -132,7 +136,9 @@ class BulletBroadphase : public btBroadphaseInterface {
     for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
   }
 
+  /// Calls the callback for each box that overlaps another: none that has a NaN.
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override {
+    if (hasNan(toBox(aabbMin, aabbMax))) return;
     for (const BoxId id : m_world.findOverlapping(toBox(aabbMin, aabbMax))) {
       if (overlaps(*m_proxies[id], aabbMin, aabbMax)) callback.process(m_proxies[id].get());  // not only its reach
     }
@@ -205,6 +211,13 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   static std::array<double, 3> toArray(const btVector3& v) {
     return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+  }
+  static bool areFinite(std::initializer_list<btVector3> points) {
+    const auto isFinite = [](double x) { return std::isfinite(x); };
+    return std::all_of(points.begin(), points.end(), [&](const btVector3& point) {
+      const std::array<double, 3> x = toArray(point);
+      return std::all_of(x.begin(), x.end(), isFinite);
+    });
   }
   static Box toBox(const btVector3& min, const btVector3& max) { return {toArray(min), toArray(max)}; }
   static BoxId idOf(const btBroadphaseProxy& proxy) { return static_cast<const Proxy&>(proxy).id; }

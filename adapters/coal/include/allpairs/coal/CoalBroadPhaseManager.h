@@ -53,14 +53,14 @@ class CoalBroadPhaseManager : public HostManager<CoalHost> {
 
   void collide(Object* object, CollisionCallBack* callback) const override {
     callback->init();
-    objects().eachOverlapping(*object, [&](Object* own) { return (*callback)(object, own); });
+    objects().eachOverlapping(*object, [&](Object* own) { return (*callback)(own, object); });
   }
 
   void distance(Object* object, DistanceCallBack* callback) const override {
     callback->init();
     S least = std::numeric_limits<S>::max();
     objects().eachNear(
-        *object, [&](Object* own, S& now) { return (*callback)(object, own, now); }, least);
+        *object, [&](Object* own, S& now) { return (*callback)(own, object, now); }, least);
   }
 
   void collide(CollisionCallBack* callback) const override {

@@ -30,7 +30,7 @@ struct FclHost {
 /// A broad phase for FCL: use it where you use an fcl::DynamicAABBTreeCollisionManager.
 ///
 /// Callbacks get the pairs whose boxes overlap, each once: first the object that was registered first, where an object
-/// takes the place of one that left. The order of the pairs is the same each time. A callback that returns true ends
+/// takes the place of one that left; of a query with an object or a manager, first the one that is here. The order of the pairs is the same each time. A callback that returns true ends
 /// the query.
 ///
 /// For distances, a callback gets no pair twice, and near pairs early. It gets every pair whose boxes overlap, and
@@ -63,13 +63,13 @@ class FclBroadPhaseManager : public HostManager<FclHost<S>> {
   explicit FclBroadPhaseManager(const FclBroadPhaseManagerOptions& options = {}) : HostManager<FclHost<S>>(options) {}
 
   void collide(Object* object, void* data, CollisionCallBack callback) const override {
-    objects().eachOverlapping(*object, [&](Object* own) { return callback(object, own, data); });
+    objects().eachOverlapping(*object, [&](Object* own) { return callback(own, object, data); });
   }
 
   void distance(Object* object, void* data, DistanceCallBack callback) const override {
     S least = std::numeric_limits<S>::max();
     objects().eachNear(
-        *object, [&](Object* own, S& now) { return callback(object, own, data, now); }, least);
+        *object, [&](Object* own, S& now) { return callback(own, object, data, now); }, least);
   }
 
   void collide(void* data, CollisionCallBack callback) const override {

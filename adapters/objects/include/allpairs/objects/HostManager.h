@@ -80,7 +80,7 @@ class HostManager : public Host::Tree {
   [[nodiscard]] bool empty() const override { return m_objects.rows().size() == 0; }
 
   /// The first call after an update or a registration brings the host's tree up to date, which the host's trees read
-  /// after they have called this.
+  /// after they have called this: from the objects, which must all be alive.
   [[nodiscard]] std::size_t size() const override {
     bringTree();
     return m_objects.rows().size();

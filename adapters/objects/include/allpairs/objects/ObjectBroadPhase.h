@@ -7,10 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "allpairs/Error.h"
+#include "allpairs/Overlaps.h"
 #include "allpairs/Span.h"
 #include "allpairs/World.h"
 #include "allpairs/objects/ObjectRows.h"
@@ -107,6 +109,10 @@ class ObjectBroadPhase {
   template <class Visit>
   bool eachPairWith(const ObjectBroadPhase& others, const Visit& visit) const {
     if (m_search.isFasterByScans(m_rows.rows(), others.m_rows.bound())) return scanEachOf(others, visit);
+    if (isMuchSmaller(others.m_rows)) return askEachOf(others, visit);
+    if (others.isMuchSmaller(m_rows)) {
+      return others.askEachOf(*this, [&](Object* other, Object* own) { return visit(own, other); });
+    }
     for (const Pair& pair : world().findBetween(others.world())) {
       if (visit(m_rows[pair.first], others.m_rows[pair.second])) return true;
     }
@@ -134,7 +140,12 @@ class ObjectBroadPhase {
     for (const Pair& pair : pairs()) {
       if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
     }
-    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+    bool isTried = m_rows.bound() <= kOneByOne;
+    for (BoxId id = 0; id < m_rows.bound() && least > S(0); ++id) {  // what is left is apart
+      if (!isTried && least != std::numeric_limits<S>::max()) {
+        isTried = true;
+        if (const auto near = pairsApart(id, least)) return askInTurn(*near, ask, least);
+      }
       if (m_rows.hasBox(id) && eachNearApart(id, ask, least)) return true;
     }
     return false;
@@ -143,11 +154,9 @@ class ObjectBroadPhase {
   /// The same for the pairs of an object here and one of others: ask(own, other, least).
   template <class Ask>
   bool eachNearPairWith(const ObjectBroadPhase& others, const Ask& ask, S& least) const {
-    for (BoxId id = 0; id < others.m_rows.bound(); ++id) {
-      const auto askOf = [&](Object* own, S& now) { return ask(own, others.m_rows[id], now); };
-      if (others.m_rows.hasBox(id) && eachNearBox(others.m_rows.bounds(id), askOf, least)) return true;
-    }
-    return false;
+    if (m_rows.size() >= others.m_rows.size()) return askNearEachOf(others, ask, least);
+    return others.askNearEachOf(
+        *this, [&](Object* other, Object* own, S& now) { return ask(own, other, now); }, least);
   }
 
   /// The same with a host's objects as they lie, those of a manager of another kind.
@@ -182,6 +191,33 @@ class ObjectBroadPhase {
     return box;
   }
 
+  /// So many times as few boxes are searched for one by one: two hierarchies cost by the larger one (robot_benchmark).
+  static constexpr std::size_t kMuchSmaller = 8;
+
+  [[nodiscard]] bool isMuchSmaller(const ObjectRows<Object>& others) const {
+    return kMuchSmaller * m_rows.size() <= others.size();
+  }
+
+  /// eachPairWith() by a query for each object here.
+  template <class Visit>
+  bool askEachOf(const ObjectBroadPhase& others, const Visit& visit) const {
+    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+      const auto visitBoth = [&](BoxId found) { return visit(m_rows[id], others.m_rows[found]); };
+      if (m_rows.hasBox(id) && others.eachOverlapping(m_rows.bounds(id), visitBoth)) return true;
+    }
+    return false;
+  }
+
+  /// eachNearPairWith() by a query for each of the others.
+  template <class Ask>
+  bool askNearEachOf(const ObjectBroadPhase& others, const Ask& ask, S& least) const {
+    for (BoxId id = 0; id < others.m_rows.bound(); ++id) {
+      const auto askOf = [&](Object* own, S& now) { return ask(own, others.m_rows[id], now); };
+      if (others.m_rows.hasBox(id) && eachNearBox(others.m_rows.bounds(id), askOf, least)) return true;
+    }
+    return false;
+  }
+
   /// Reads where the object with this number is now.
   void refresh(BoxId number) {
     if (m_rows.read(number)) m_search.note(number);
@@ -205,7 +241,7 @@ class ObjectBroadPhase {
     const auto askAbout = [&](BoxId id) { return ask(m_rows[id], least); };
     const auto isWanted = [](BoxId) { return true; };
     return isBox(bounds) &&
-           askNear(Question<decltype(isWanted), decltype(askAbout)>{bounds, isWanted, askAbout}, least);
+           askNear(Question<decltype(isWanted), decltype(askAbout)>{bounds, isWanted, askAbout, 0}, least);
   }
 
   /// Calls visit(id) for the objects whose boxes overlap a box until it returns true, and says whether it did.
@@ -252,13 +288,57 @@ class ObjectBroadPhase {
     return false;
   }
 
+  struct NearPair {
+    S distance = S(0);
+    Pair pair;
+
+    friend bool operator<(const NearPair& a, const NearPair& b) {
+      return std::pair(a.distance, a.pair) < std::pair(b.distance, b.pair);
+    }
+  };
+
+  /// All pairs from a first object on that are apart and within a distance, near ones first; none where they are many,
+  /// since each that is asked about may make the distance smaller.
+  [[nodiscard]] std::optional<std::vector<NearPair>> pairsApart(BoxId begin, S least) const {
+    constexpr std::size_t kManyOfEach = 4;
+    const double most = std::max(m_rows.magnitude(), static_cast<double>(least));
+    OverlapOptions options;
+    options.order = Order::Unordered;
+    options.distance =
+        static_cast<double>(least) + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;
+    options.maxPairs = kManyOfEach * m_rows.size();
+    if (!std::isfinite(options.distance)) return std::nullopt;
+    std::vector<NearPair> near;
+    try {
+      for (const Pair& pair : overlaps(BoxView::fromRows(m_rows.rows().subspan(std::size_t{6} * begin)), options)) {
+        const Pair ids{begin + pair.first, begin + pair.second};
+        const Bounds bounds = m_rows.bounds(ids.first);
+        const Bounds others = m_rows.bounds(ids.second);
+        if (!bounds.overlap(others)) near.push_back({bounds.distance(others), ids});
+      }
+    } catch (const LimitExceeded&) {
+      return std::nullopt;
+    }
+    std::sort(near.begin(), near.end());
+    return near;
+  }
+
+  template <class Ask>
+  bool askInTurn(const std::vector<NearPair>& near, const Ask& ask, S& least) const {
+    for (const auto& [distance, pair] : near) {
+      if (distance > limitOf(least)) return false;
+      if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
+    }
+    return false;
+  }
+
   /// Asks about the objects behind one that are apart from it and near.
   template <class Ask>
   bool eachNearApart(BoxId id, const Ask& ask, S& least) const {
     const Bounds bounds = m_rows.bounds(id);
     const auto askBoth = [&](BoxId other) { return ask(m_rows[id], m_rows[other], least); };
     const auto isWanted = [&](BoxId other) { return other > id && !bounds.overlap(m_rows.bounds(other)); };
-    return askNear(Question<decltype(isWanted), decltype(askBoth)>{bounds, isWanted, askBoth}, least);
+    return askNear(Question<decltype(isWanted), decltype(askBoth)>{bounds, isWanted, askBoth, id + 1}, least);
   }
 
   /// Which objects to ask about that are near a box, and how.
@@ -267,6 +347,7 @@ class ObjectBroadPhase {
     const Bounds& bounds;
     const IsWanted& isWanted;
     const Ask& ask;
+    BoxId begin = 0;  ///< No object before it is wanted.
   };
 
   /// Boxes that overlap are asked about however small the least distance is.
@@ -282,20 +363,43 @@ class ObjectBroadPhase {
   /// Asks about objects from the nearest on, as long as they are near enough.
   template <class AnyQuestion>
   bool askFew(const AnyQuestion& question, S& least) const {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): read only where it has been written
-    std::array<S, RowSearch<S>::kBatch> squares;
+    std::array<S, RowSearch<S>::kBatch> squares{};
     std::uint64_t left = 0;
-    for (BoxId id = 0; id < m_rows.bound(); ++id) {
+    for (std::uint64_t near = nearRows(question, least); near != 0; near &= near - 1) {
+      const BoxId id = lowestBit(near);
+      if (!m_rows.hasBox(id) || !question.isWanted(id)) continue;
       squares[id] = m_rows.squaredDistance(id, question.bounds);
-      left |= std::uint64_t{m_rows.hasBox(id)} << id;
+      left |= std::uint64_t{1} << id;
     }
     while (left != 0) {
       const BoxId id = nearestOf(squares, left);
       if (squares[id] > squaredLimit(least)) return false;
-      if (question.isWanted(id) && question.ask(id)) return true;
-      left &= ~(std::uint64_t{1} << id);
+      if (question.ask(id)) return true;
+      left &= within(squares, squaredLimit(least)) & ~(std::uint64_t{1} << id);
     }
     return false;
+  }
+
+  /// Which of up to kBatch rows, as bits, may be asked about and near enough.
+  template <class AnyQuestion>
+  [[nodiscard]] std::uint64_t nearRows(const AnyQuestion& question, S least) const {
+    if (question.begin >= m_rows.bound()) return 0;
+    if (least == std::numeric_limits<S>::max())
+      return ~std::uint64_t{0} >> (63U - (m_rows.bound() - 1)) >> question.begin << question.begin;
+    const Box box = widened(question.bounds, limitOf(least));
+    typename RowSearch<S>::Row row{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      row[axis] = static_cast<S>(box.min[axis]);
+      row[3 + axis] = static_cast<S>(box.max[axis]);
+    }
+    return RowSearch<S>::overlapping(m_rows.rows().subspan(std::size_t{6} * question.begin), row) << question.begin;
+  }
+
+  /// Which numbers are no greater than a limit, as bits; those of rows that are not there may be.
+  [[nodiscard]] std::uint64_t within(const std::array<S, RowSearch<S>::kBatch>& squares, S limit) const {
+    std::uint64_t found = 0;
+    for (BoxId id = 0; id < m_rows.bound(); ++id) found |= std::uint64_t{squares[id] <= limit ? 1U : 0U} << id;
+    return found;
   }
 
   /// The index of the lowest bit that is set, of which there is one; std::countr_zero is of C++20.
@@ -344,8 +448,8 @@ class ObjectBroadPhase {
   /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
   template <class AnyQuestion>
   bool askByWorld(const World& world, const AnyQuestion& question, S& least) const {
-    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question.bounds) : kNoBox;
-    if (first != kNoBox && question.isWanted(first) && question.ask(first)) return true;
+    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question) : kNoBox;
+    if (first != kNoBox && question.ask(first)) return true;
     std::vector<Candidate> found;
     for (const BoxId id : world.findOverlapping(widened(question.bounds, limitOf(least)))) {
       if (id != first && question.isWanted(id)) addCandidate(question.bounds, id, least, found);
@@ -363,14 +467,21 @@ class ObjectBroadPhase {
     if (distance <= limitOf(least)) candidates.push_back({distance, id});
   }
 
-  /// An object near the middle of a box; kNoBox if there is none, or if the box has no middle.
-  [[nodiscard]] static BoxId nearest(const World& world, const Bounds& bounds) {
+  /// A wanted object near the middle of a box; kNoBox if there is none, or if the box has no middle.
+  template <class AnyQuestion>
+  [[nodiscard]] static BoxId nearest(const World& world, const AnyQuestion& question) {
     std::array<double, 3> middle{};
-    const Box box = toBox(bounds);
+    const Box box = toBox(question.bounds);
     for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = (box.min[axis] + box.max[axis]) / 2.0;
     if (!std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); })) return kNoBox;
-    const std::vector<Neighbor> found = world.findNearest(middle, 1);
-    return found.empty() ? kNoBox : found.front().id;
+    // Of the objects here, the box itself and those that it overlaps are near and not wanted.
+    for (std::size_t count = question.begin == 0 ? 1 : 4;; count *= 4) {
+      const std::vector<Neighbor> found = world.findNearest(middle, count);
+      const auto wanted =
+          std::find_if(found.begin(), found.end(), [&](const auto& x) { return question.isWanted(x.id); });
+      if (wanted != found.end()) return wanted->id;
+      if (found.size() < count) return kNoBox;
+    }
   }
 
   /// Holds all boxes that the host finds within a distance, however it rounds: by the finite bounds, which it takes gaps

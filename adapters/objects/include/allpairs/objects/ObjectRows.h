@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -134,6 +135,16 @@ class ObjectRows {
   /// Whether a box that is not empty overlaps the box around all that were read since the last clear(): else it
   /// overlaps none.
   [[nodiscard]] bool mayOverlap(const Bounds& other) const { return m_hull.overlap(other); }
+
+  /// No bound that was read since the last clear() is further from 0.
+  [[nodiscard]] double magnitude() const {
+    double most = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      most = std::max(
+          {most, std::abs(static_cast<double>(m_hull.min_[axis])), std::abs(static_cast<double>(m_hull.max_[axis]))});
+    }
+    return most;
+  }
 
   /// The square of the distance of an object's box from another box.
   [[nodiscard]] S squaredDistance(BoxId number, const Bounds& other) const {

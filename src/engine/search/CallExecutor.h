@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "allpairs/Executor.h"
@@ -8,19 +9,22 @@
 
 namespace allpairs::engine {
 
-/// Runs tasks on another executor until a flag is set: from then on they throw Stopped.
-class StoppableExecutor final : public Executor {
+/// Runs the tasks of one call on another executor. That is asked once how many run concurrently, since memory is laid out
+/// by the answer, and a pool may be resized meanwhile. Once a flag is set, tasks throw Stopped.
+class CallExecutor final : public Executor {
  public:
-  /// Returns the executor to use: this one, or the given one if there is no flag. Null gives a serial one.
+  /// Begins a call; null is a serial executor.
   [[nodiscard]] Executor& over(Executor* given, const StopFlag* stop) noexcept {
     m_other = given != nullptr ? given : &m_serial;
+    m_concurrency = std::max<std::size_t>(m_other->concurrency(), 1);
     m_stop = stop;
-    return stop == nullptr ? *m_other : *this;
+    return *this;
   }
 
-  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_other->concurrency(); }
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_concurrency; }
 
   void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    if (m_stop == nullptr) return m_other->run(count, task);
     m_other->run(count, [&](std::size_t i) {
       checkStop(m_stop);
       task(i);
@@ -30,6 +34,7 @@ class StoppableExecutor final : public Executor {
  private:
   SerialExecutor m_serial;
   Executor* m_other = nullptr;
+  std::size_t m_concurrency = 1;
   const StopFlag* m_stop = nullptr;
 };
 
