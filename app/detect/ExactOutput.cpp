@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,14 @@ std::string openText(const ExactPair& pair) {
 std::string gapText(const ExactPair& pair) {
   return fmt::format("{:.6g} between {} and {}", pair.distance, pointText(pair.pointOnFirst),
                      pointText(pair.pointOnSecond));
+}
+
+/// Of a pair of which one is contained, whether it is the first: its box is the smaller one.
+bool isFirstInner(const scene::ResultView& result, std::size_t i) {
+  const auto size = [](const Box& box) {
+    return std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
+  };
+  return size(result.model(result.pairs[i].first).box) < size(result.model(result.pairs[i].second).box);
 }
 
 /// What a line of the table says behind the names.
@@ -79,6 +88,8 @@ std::vector<PairLine> worstLines(const scene::ResultView& result, const ExactRep
   for (const std::size_t i : order) {
     const auto [first, second] = namesOf(result, i);
     lines.push_back({report.pairs[i].state, printable(first), printable(second), finding(report.pairs[i])});
+    if (report.pairs[i].state != ExactState::Contained) continue;
+    lines.back().finding += isFirstInner(result, i) ? "; the first is in the second" : "; the second is in the first";
   }
   return lines;
 }
@@ -128,11 +139,12 @@ std::string contactsText(const ExactPair& pair) {
   return text + fmt::format("[{}, {}]", vectorText(pair.contactBox.min), vectorText(pair.contactBox.max));
 }
 
-std::string jsonOf(const ExactPair& pair) {
+/// `inner` is which of the two is contained, as JSON says it.
+std::string jsonOf(const ExactPair& pair, const std::string& inner) {
   if (pair.state == ExactState::NotExamined) return R"({"state": "not-examined"})";
   return fmt::format(
-      R"({{"state": "{}", "distance": {}, "depth": {}, "points": [{}, {}], "normal": {}, {}, "open": [{}, {}]}})",
-      stateName(pair.state), pair.distance, pair.depth ? fmt::format("{}", *pair.depth) : "null",
+      R"({{"state": "{}", {}"distance": {}, "depth": {}, "points": [{}, {}], "normal": {}, {}, "open": [{}, {}]}})",
+      stateName(pair.state), inner, pair.distance, pair.depth ? fmt::format("{}", *pair.depth) : "null",
       vectorText(pair.pointOnFirst), vectorText(pair.pointOnSecond), vectorText(pair.normal), contactsText(pair),
       pair.isFirstOpen, pair.isSecondOpen);
 }
@@ -179,7 +191,11 @@ void writeExactCsv(const scene::ResultView& result, const ExactReport& report, s
 
 void writeExactJson(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink) {
   sink("{\"exact\": [");
-  for (std::size_t i = 0; i < report.pairs.size(); ++i) sink((i == 0 ? "\n  " : ",\n  ") + jsonOf(report.pairs[i]));
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    const bool isContained = report.pairs[i].state == ExactState::Contained;
+    const std::string inner = !isContained ? "" : isFirstInner(result, i) ? R"("inner": 0, )" : R"("inner": 1, )";
+    sink((i == 0 ? "\n  " : ",\n  ") + jsonOf(report.pairs[i], inner));
+  }
   sink("],\n\"exactStatistics\": " + statisticsText(report) + ",\n");
   bool isOpen = false;  // the object is open already, so the brace that opens it there is left out
   scene::writeJson(result, [&](std::string_view bytes) {

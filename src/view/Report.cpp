@@ -124,8 +124,9 @@ std::string worstOf(const ViewScene& scene, std::span<const Clash> clashes) {
 
 /// What was left out, and of what.
 std::string scopeOf(const ViewScene& scene, std::size_t candidates) {
-  std::string text = fmt::format("<p>{}, {} by their boxes. {}.", counted(scene.modelCount, "model"),
-                                 counted(candidates, "candidate"), escapeHtml(scene.method));
+  const std::string method = scene.method == "boxes" ? "" : ' ' + escapeHtml(scene.method) + '.';
+  std::string text = fmt::format("<p>{}, {} by their boxes.{}", counted(scene.modelCount, "model"),
+                                 counted(candidates, "candidate"), method);
   if (!scene.bodies.empty()) text += " Pairs of the same two bodies are one row: the worst of them.";
   if (scene.clearance > 0.0) text += fmt::format(" Clearance {}.", shortNumber(scene.clearance));
   const std::uint64_t apart = scene.isExact ? countStates(scene.exact).of(ExactState::Apart) : 0;
@@ -188,6 +189,7 @@ std::string introduction(const Report& report) {
   std::string text =
       fmt::format("<h1>{}</h1>\n<p class=\"headline\">{}</p>\n", escapeHtml(scene.title), headlineOf(scene));
   text += changesOf(report.since) + worstOf(scene, clashes) + scopeOf(scene, candidates) + aboutOf(report);
+  if (scene.modelCount == 0) return text + "<p>The input has no models.</p>\n";
   if (candidates == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
   if (count == 0) return text + "<p>No two models touch: there is nothing to look at.</p>\n";
   return text + (scene.isExact ? kOfShapes : kOfBoxes) + filesOf(report);

@@ -60,6 +60,8 @@ TEST_F(Exact, TheTableSaysWhichPartsClashWhereAndHowDeepAndHowFarTheOthersAre) {
   EXPECT_THAT(run.out,
               HasSubstr("pairs    4 by their boxes; by their shapes 2 clashes (1 contained), 1 touching, 1 apart\n\n"
                         "  contained    e-pin       a-plate     0.5 deep at "));
+  EXPECT_THAT(run.out,
+              ::testing::ContainsRegex("e-pin       a-plate     0.5 deep at [^\n]*; the first is in the second\n"));
   EXPECT_THAT(run.out, HasSubstr("\n  clash        b-bracket   a-plate     0.125 deep at (0.9375, "));
   EXPECT_THAT(run.out, HasSubstr("\n  touching     c-shim      b-bracket   at (2, 0.5, 0.5)\n"
                                  "  apart        d-far       c-shim      0.25 between (3.25, "));
@@ -87,6 +89,8 @@ TEST_F(Exact, JsonHasWhatTheShapesSayForEachPairBesidesAllElse) {
   EXPECT_EQ(result["exact"][0]["depth"], 0.125);
   EXPECT_EQ(result["exact"][0]["contactBox"], nlohmann::json::parse("[[0.875,0,0],[1,1,1]]"));
   EXPECT_EQ(result["exact"][3]["state"], "contained");
+  EXPECT_EQ(result["exact"][3]["inner"], 0);
+  EXPECT_FALSE(result["exact"][0].contains("inner"));
   EXPECT_EQ(result["exact"][1]["state"], "touching");
   EXPECT_EQ(result["exact"][2]["distance"], 0.25);
   EXPECT_EQ(result["exact"][2]["depth"], nullptr);

@@ -192,6 +192,19 @@ TEST(MeshFolder, WithoutMeshesIsAnError) {
   expectFileError([&] { (void)scene::readInput(folder.path()); }, "is a folder without mesh files");
 }
 
+TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "wheels");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "folders within it are not searched: name them, too");
+  const auto cad = folder.write("gear.STEP", "ISO-10303-21;");
+  expectFileError([&] { (void)scene::readInput(cad); }, "has the exact surfaces of a CAD program, which are not read");
+  folder.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const scene::Scene scene = scene::readInput(folder.path());
+  EXPECT_EQ(scene.models.size(), 1U);
+  ASSERT_EQ(scene.remarks.size(), 2U);
+  EXPECT_NE(scene.remarks[0].reason.find("CAD program"), std::string::npos) << scene.remarks[0].reason;
+}
+
 TEST(MeshFolder, AMeshThatCannotBeReadIsAnErrorUnlessPartial) {
   const TempFolder folder;
   folder.write("a.obj", kTwoParts);

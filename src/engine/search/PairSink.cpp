@@ -24,8 +24,8 @@ static_assert(kHitStride >= kHitCapacity + kVectorSlack);
 
 void checkLimit(std::uint64_t maxPairs, std::uint64_t count) {
   if (count <= maxPairs) return;
-  throw LimitExceeded(count, "more than " + std::to_string(maxPairs) + " pairs, the limit that was set; " +
-                                 std::to_string(count) + " had been found");
+  throw LimitExceeded(count, "more than " + std::to_string(maxPairs) + (maxPairs == 1 ? " pair" : " pairs") +
+                                 ", the limit that was set; " + std::to_string(count) + " had been found");
 }
 
 void checkLimit(const SinkOptions& options, std::uint64_t count) {

@@ -188,7 +188,8 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
 void Search::planJoin(const Readers& readers, Plan& plan) {
   const std::size_t boxes = readers.first.size() + (readers.one ? 0 : readers.second.size());
   // A filter may take any time for a pair.
-  if (boxes <= kFewForThreads && !plan.sink.test.isFiltered()) m_executor = &m_callExecutor.over(nullptr, plan.sink.stop);
+  if (boxes <= kFewForThreads && !plan.sink.test.isFiltered())
+    m_executor = &m_callExecutor.over(nullptr, plan.sink.stop);
   m_first.build(readers.first, *m_executor);
   if (!readers.one) m_second.build(readers.second, *m_executor);
   plan.sink.side = readers.one ? PairSide::SmallerFirst : PairSide::RowFirst;

@@ -8,9 +8,9 @@
 
 #include "allpairs/WorldTypes.h"
 #include "kernels/Kernels.h"
+#include "search/CallExecutor.h"
 #include "search/JoinRunner.h"
 #include "search/PairTest.h"
-#include "search/CallExecutor.h"
 #include "world/BoxStore.h"
 #include "world/ChangedBoxes.h"
 #include "world/PairHistory.h"

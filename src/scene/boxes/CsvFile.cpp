@@ -45,7 +45,11 @@ std::optional<std::size_t> coordinateOf(std::string_view word) {
 /// The layout of a file without a header: six numbers, or seven columns of which the first or the last is a name.
 CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& place) {
   if (fields.size() != kCoordinates && fields.size() != kCoordinates + 1) {
-    throw FileError(place.file, "has " + std::to_string(fields.size()) + " columns where a box has 6, or 7 with a name",
+    const bool hasSemicolons = fields.size() == 1 && fields.front().text.find(';') != std::string::npos;
+    throw FileError(place.file,
+                    "has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns") +
+                        " where a box has 6, or 7 with a name" +
+                        (hasSemicolons ? "; commas separate them, not semicolons" : ""),
                     place.line);
   }
   CsvLayout layout{.columns = fields.size()};

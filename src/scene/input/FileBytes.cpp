@@ -23,7 +23,10 @@ std::string lastProblem() { return std::generic_category().message(errno); }
 void requireFile(const std::filesystem::path& path) {
   std::error_code problem;
   const std::filesystem::file_status status = std::filesystem::status(path, problem);
-  if (status.type() == std::filesystem::file_type::not_found) throw FileError(path, "no such file or folder");
+  if (status.type() == std::filesystem::file_type::not_found) {
+    const bool isLink = std::filesystem::is_symlink(std::filesystem::symlink_status(path, problem));
+    throw FileError(path, isLink ? "is a link that leads nowhere" : "no such file or folder");
+  }
   if (problem) throw FileError(path, problem.message());
   if (std::filesystem::is_directory(status)) throw FileError(path, "is a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) throw FileError(path, "is not a regular file");  // a pipe would wait

@@ -12,6 +12,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -373,9 +374,16 @@ std::string importInChild(const Path& path, ReadScope& scope) {
 
 }  // namespace
 
+bool isCadFile(const Path& path) {
+  static const std::set<std::string_view> kExtensions{".step",       ".stp",    ".iges", ".igs", ".brep",
+                                                      ".sldprt",     ".sldasm", ".x_t",  ".x_b", ".catpart",
+                                                      ".catproduct", ".ipt",    ".iam"};
+  return kExtensions.contains(lowerExtension(path));
+}
+
 bool isAssimpFile(const Path& path) {
   const std::string extension = lowerExtension(path);
-  return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension.c_str());
+  return !extension.empty() && !isCadFile(path) && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
 std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame) {

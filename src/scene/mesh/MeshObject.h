@@ -72,7 +72,12 @@ struct MeshFrame {
 [[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope,
                                                         MeshFrame& frame);
 
-/// Whether Assimp knows files of this extension.
+/// Whether a file is of CAD's exact surfaces, by its extension, and what to say of it then.
+[[nodiscard]] bool isCadFile(const std::filesystem::path& path);
+inline constexpr const char* kIsCad =
+    "has the exact surfaces of a CAD program, which are not read: export a mesh, such as glTF, STL or OBJ";
+
+/// Whether Assimp knows files of this extension, and reads shapes from them.
 [[nodiscard]] bool isAssimpFile(const std::filesystem::path& path);
 
 }  // namespace allpairs::scene

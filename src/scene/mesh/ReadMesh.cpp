@@ -115,9 +115,10 @@ std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Re
     if (!isFolder && !isSpecial && isMeshFile(entry)) {
       meshes.push_back(std::move(entry));
     } else {
-      const char* reason = isFolder    ? "is a folder; folders within a folder are not searched"
-                           : isSpecial ? "is not a regular file"
-                                       : "is no mesh file by its extension";
+      const char* reason = isFolder           ? "is a folder; folders within a folder are not searched"
+                           : isSpecial        ? "is not a regular file"
+                           : isCadFile(entry) ? kIsCad
+                                              : "is no mesh file by its extension";
       remarks.push_back({.file = entry, .subject = entry.filename().string(), .reason = reason});
     }
   }
@@ -168,7 +169,12 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
   Scene scene = emptyScene();
   ReadScope scope(path, options);
   const std::vector<fs::path> meshes = chooseMeshes(sortedEntries(path), scene.remarks);
-  if (meshes.empty()) throw FileError(path, "is a folder without mesh files");
+  if (meshes.empty()) {
+    const auto folders = std::count_if(scene.remarks.begin(), scene.remarks.end(),
+                                       [](const Remark& remark) { return fs::is_directory(remark.file); });
+    const char* hint = folders == 0 ? "" : "; folders within it are not searched: name them, too";
+    throw FileError(path, "is a folder without mesh files" + std::string(hint));
+  }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     if (options.progress) options.progress({.done = i, .total = meshes.size(), .file = meshes[i]});
     try {

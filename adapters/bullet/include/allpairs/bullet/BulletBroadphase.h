@@ -8,11 +8,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <string>
 #include <unordered_set>
@@ -24,6 +22,7 @@
 #include "allpairs/World.h"
 #include "allpairs/bullet/BulletBroadphaseOptions.h"
 #include "allpairs/bullet/OrderedPairCache.h"
+#include "allpairs/bullet/Vectors.h"
 
 namespace allpairs {
 
@@ -125,9 +124,9 @@ class BulletBroadphase : public btBroadphaseInterface {
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
-    if (!areFinite({rayFrom, rayTo, aabbMin, aabbMax})) return;
-    const std::array<double, 3> from = toArray(rayFrom);  // Bullet's own sums are rounded to its precision.
-    BoxSweep sweep{toBox(aabbMin, aabbMax), toArray(rayTo)};
+    if (!internal::areFinite({rayFrom, rayTo, aabbMin, aabbMax})) return;
+    const std::array<double, 3> from = internal::toArray(rayFrom);  // Bullet's own sums are rounded to its precision.
+    BoxSweep sweep{internal::toBox(aabbMin, aabbMax), internal::toArray(rayTo)};
     for (std::size_t k = 0; k < 3; ++k) {
       sweep.box.min[k] += from[k];
       sweep.box.max[k] += from[k];
@@ -138,8 +137,8 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   /// Calls the callback for each box that overlaps another: none that has a NaN.
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override {
-    if (hasNan(toBox(aabbMin, aabbMax))) return;
-    for (const BoxId id : m_world.findOverlapping(toBox(aabbMin, aabbMax))) {
+    if (hasNan(internal::toBox(aabbMin, aabbMax))) return;
+    for (const BoxId id : m_world.findOverlapping(internal::toBox(aabbMin, aabbMax))) {
       if (overlaps(*m_proxies[id], aabbMin, aabbMax)) callback.process(m_proxies[id].get());  // not only its reach
     }
   }
@@ -170,8 +169,8 @@ class BulletBroadphase : public btBroadphaseInterface {
     bool isFirst = true;
     for (const auto& proxy : m_proxies) {
       if (!proxy->isThere) continue;
-      aabbMin = isFirst ? proxy->m_aabbMin : minimum(aabbMin, proxy->m_aabbMin);
-      aabbMax = isFirst ? proxy->m_aabbMax : maximum(aabbMax, proxy->m_aabbMax);
+      aabbMin = isFirst ? proxy->m_aabbMin : internal::minimum(aabbMin, proxy->m_aabbMin);
+      aabbMax = isFirst ? proxy->m_aabbMax : internal::maximum(aabbMax, proxy->m_aabbMax);
       isFirst = false;
     }
   }
@@ -209,27 +208,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     bool isGhost = false;
   };
 
-  static std::array<double, 3> toArray(const btVector3& v) {
-    return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
-  }
-  static bool areFinite(std::initializer_list<btVector3> points) {
-    const auto isFinite = [](double x) { return std::isfinite(x); };
-    return std::all_of(points.begin(), points.end(), [&](const btVector3& point) {
-      const std::array<double, 3> x = toArray(point);
-      return std::all_of(x.begin(), x.end(), isFinite);
-    });
-  }
-  static Box toBox(const btVector3& min, const btVector3& max) { return {toArray(min), toArray(max)}; }
   static BoxId idOf(const btBroadphaseProxy& proxy) { return static_cast<const Proxy&>(proxy).id; }
-
-  static btVector3 minimum(btVector3 a, const btVector3& b) {
-    a.setMin(b);
-    return a;
-  }
-  static btVector3 maximum(btVector3 a, const btVector3& b) {
-    a.setMax(b);
-    return a;
-  }
 
   World makeWorld() {
     WorldOptions options;
@@ -300,9 +279,9 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   /// Where a proxy has pairs: around characters, else in its box.
   [[nodiscard]] Box reachOf(const Proxy& proxy, const btVector3& min, const btVector3& max) const {
-    if (!isCharacter(proxy)) return toBox(min, max);
+    if (!isCharacter(proxy)) return internal::toBox(min, max);
     const btVector3 margin(m_characterMargin, m_characterMargin, m_characterMargin);
-    return toBox(min - margin, max + margin);
+    return internal::toBox(min - margin, max + margin);
   }
 
   static bool overlaps(const btBroadphaseProxy& proxy, const btVector3& min, const btVector3& max) {

@@ -7,14 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "allpairs/Error.h"
-#include "allpairs/Overlaps.h"
 #include "allpairs/Span.h"
 #include "allpairs/World.h"
+#include "allpairs/objects/NearPairs.h"
 #include "allpairs/objects/ObjectRows.h"
 #include "allpairs/objects/RowSearch.h"
 
@@ -144,7 +143,7 @@ class ObjectBroadPhase {
     for (BoxId id = 0; id < m_rows.bound() && least > S(0); ++id) {  // what is left is apart
       if (!isTried && least != std::numeric_limits<S>::max()) {
         isTried = true;
-        if (const auto near = pairsApart(id, least)) return askInTurn(*near, ask, least);
+        if (const auto near = pairsApart(m_rows, id, least)) return askInTurn(*near, ask, least);
       }
       if (m_rows.hasBox(id) && eachNearApart(id, ask, least)) return true;
     }
@@ -288,43 +287,8 @@ class ObjectBroadPhase {
     return false;
   }
 
-  struct NearPair {
-    S distance = S(0);
-    Pair pair;
-
-    friend bool operator<(const NearPair& a, const NearPair& b) {
-      return std::pair(a.distance, a.pair) < std::pair(b.distance, b.pair);
-    }
-  };
-
-  /// All pairs from a first object on that are apart and within a distance, near ones first; none where they are many,
-  /// since each that is asked about may make the distance smaller.
-  [[nodiscard]] std::optional<std::vector<NearPair>> pairsApart(BoxId begin, S least) const {
-    constexpr std::size_t kManyOfEach = 4;
-    const double most = std::max(m_rows.magnitude(), static_cast<double>(least));
-    OverlapOptions options;
-    options.order = Order::Unordered;
-    options.distance =
-        static_cast<double>(least) + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;
-    options.maxPairs = kManyOfEach * m_rows.size();
-    if (!std::isfinite(options.distance)) return std::nullopt;
-    std::vector<NearPair> near;
-    try {
-      for (const Pair& pair : overlaps(BoxView::fromRows(m_rows.rows().subspan(std::size_t{6} * begin)), options)) {
-        const Pair ids{begin + pair.first, begin + pair.second};
-        const Bounds bounds = m_rows.bounds(ids.first);
-        const Bounds others = m_rows.bounds(ids.second);
-        if (!bounds.overlap(others)) near.push_back({bounds.distance(others), ids});
-      }
-    } catch (const LimitExceeded&) {
-      return std::nullopt;
-    }
-    std::sort(near.begin(), near.end());
-    return near;
-  }
-
   template <class Ask>
-  bool askInTurn(const std::vector<NearPair>& near, const Ask& ask, S& least) const {
+  bool askInTurn(const std::vector<NearPair<S>>& near, const Ask& ask, S& least) const {
     for (const auto& [distance, pair] : near) {
       if (distance > limitOf(least)) return false;
       if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
