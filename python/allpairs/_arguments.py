@@ -333,14 +333,14 @@ def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint3
 
 
 def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
-    """Boxes of a world by number. Booleans, which choose entries of an array elsewhere, are none."""
+    """Boxes of a world by number, or one. Booleans, which choose entries of an array elsewhere, are none."""
     given = array_of("ids", value)
     if given.dtype.kind == "b":
         raise InvalidArgument("ids has dtype bool; it takes the numbers of boxes")
     array = _uint32("ids", given)
-    if array.ndim != 1:
+    if array.ndim > 1:
         raise InvalidArgument(f"ids has shape {array.shape}; it takes (k,)")
-    return array
+    return array.reshape(-1)
 
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:

@@ -93,6 +93,7 @@ class MeshCandidates:
         arrays = [_arguments.index_rows(f"triangles of mesh {i}", mesh, 3) for i, mesh in enumerate(meshes)]
         numbers = [_arguments.whole("vertex_count", count, most=_core.NO_BOX) for count in counts]
         self._core = _core.MeshCandidates(arrays, numbers, settings)
+        self._without = [mesh for mesh, count in enumerate(numbers) if count != 0]  # positions
         self.edges: npt.NDArray[np.uint32] = np.asarray(self._core.edges())
         self.triangles: npt.NDArray[np.uint32] = np.asarray(self._core.triangles())
 
@@ -108,6 +109,17 @@ class MeshCandidates:
         begin, finish = _arguments.corner_pair("start", start, "end", start if end is None else end)
         number = _arguments.whole("mesh", mesh)
         self._core.set_positions(number, _arguments.contiguous(begin), _arguments.contiguous(finish))
+        self._without = [mesh for mesh in self._without if mesh != number]
+
+    def _chosen(self, kind: Kind) -> Any:
+        """The kind, of meshes that all have positions."""
+        chosen = _arguments.choice("kind", kind, _KINDS)
+        if self._without:
+            raise InvalidArgument(f"mesh {self._without[0]} has no positions: set_positions() is to come first")
+        return chosen
+
+    def __repr__(self) -> str:
+        return f"MeshCandidates({len(self.triangles)} triangles, {len(self.edges)} edges)"
 
     def find(self, kind: Kind) -> Pairs:
         """All candidates of a kind, each once.
@@ -121,8 +133,8 @@ class MeshCandidates:
         ndarray, shape (m, 2), uint32
             Vertex and triangle, or two edges or triangles with ``first < second``.
         """
-        return np.asarray(self._core.find(_arguments.choice("kind", kind, _KINDS)))
+        return np.asarray(self._core.find(self._chosen(kind)))
 
     def count(self, kind: Kind) -> int:
         """The number of candidates of `find`; uses memory independent of that number."""
-        return self._core.count(_arguments.choice("kind", kind, _KINDS))
+        return self._core.count(self._chosen(kind))

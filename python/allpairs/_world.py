@@ -186,7 +186,7 @@ class World:
 
         Parameters
         ----------
-        ids : array_like, shape (k,), integers
+        ids : int or array_like, shape (k,), integers
         lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
             With 2 and 4 instead of 3 and 6 in the plane.
         """
@@ -230,6 +230,9 @@ class World:
         """Sets all properties of boxes, those of `add`; an omitted one gets its default."""
         chosen = _arguments.ids(ids)
         self._core.set_properties(chosen, _properties(len(chosen), locals()))
+
+    def __repr__(self) -> str:
+        return f"World({len(self)} boxes)"
 
     def __len__(self) -> int:
         return self._core.size()

@@ -77,3 +77,14 @@ def test_bad_input_is_named():
         mesh.set_positions(np.zeros((2, 3)))
     with pytest.raises(allpairs.InvalidArgument, match="'vertex-face', 'edge-edge', 'face-face'"):
         mesh.find("faces")
+
+
+def test_meshes_without_positions_are_named():
+    meshes = allpairs.MeshCandidates([[[0, 1, 2]], [[0, 1, 2]], np.empty((0, 3), int)], [3, 3, 0])
+    assert repr(meshes) == "MeshCandidates(2 triangles, 6 edges)"
+    meshes.set_positions(np.eye(3), mesh=0)
+    for search in (meshes.find, meshes.count):
+        with pytest.raises(allpairs.InvalidArgument, match="mesh 1 has no positions"):
+            search("face-face")
+    meshes.set_positions(np.eye(3), mesh=1)
+    assert meshes.count("face-face") == 1

@@ -302,3 +302,15 @@ def test_queries_of_an_empty_list_find_nothing():
     assert (ids.shape, distances.shape) == ((0, 2), (0, 2))
     assert [len(found) for found in world.first_hits([], [])] == [0, 0]
     assert [len(found) for found in world.first_hits([], [1, 0, 0])] == [0, 0]
+
+
+def test_one_box_may_be_named_by_its_number():
+    world = allpairs.World()
+    world.add(np.tile([0, 0, 0, 1, 1, 1], (3, 1)))
+    assert repr(world) == "World(3 boxes)"
+    world.move(2, [5, 5, 5], [6, 6, 6])
+    assert world.step().pairs.tolist() == [[0, 1]]
+    world.remove(np.int64(0))
+    assert world.step().ended.tolist() == [[0, 1]]
+    with pytest.raises(allpairs.InvalidArgument, match=r"ids has shape \(1, 1\)"):
+        world.remove([[1]])
