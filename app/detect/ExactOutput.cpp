@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,14 +29,6 @@ std::string gapText(const ExactPair& pair) {
                      pointText(pair.pointOnSecond));
 }
 
-/// Of a pair of which one is contained, whether it is the first: its box is the smaller one.
-bool isFirstInner(const scene::ResultView& result, std::size_t i) {
-  const auto size = [](const Box& box) {
-    return std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
-  };
-  return size(result.model(result.pairs[i].first).box) < size(result.model(result.pairs[i].second).box);
-}
-
 /// What a line of the table says behind the names.
 std::string finding(const ExactPair& pair) {
   std::string place = "at " + pointText(placeOf(pair));
@@ -57,7 +48,9 @@ std::string finding(const ExactPair& pair) {
       break;
   }
   if (!pair.depth) return place + ", of unknown depth: " + openText(pair);
-  return fmt::format("{:.6g} deep {}", *pair.depth, place);
+  const std::string deep = fmt::format("{:.6g} deep {}", *pair.depth, place);
+  if (pair.state != ExactState::Contained) return deep;
+  return deep + (pair.isFirstInner ? "; the first is in the second" : "; the second is in the first");
 }
 
 std::pair<std::string, std::string> namesOf(const scene::ResultView& result, std::size_t i) {
@@ -88,8 +81,6 @@ std::vector<PairLine> worstLines(const scene::ResultView& result, const ExactRep
   for (const std::size_t i : order) {
     const auto [first, second] = namesOf(result, i);
     lines.push_back({report.pairs[i].state, printable(first), printable(second), finding(report.pairs[i])});
-    if (report.pairs[i].state != ExactState::Contained) continue;
-    lines.back().finding += isFirstInner(result, i) ? "; the first is in the second" : "; the second is in the first";
   }
   return lines;
 }
@@ -139,14 +130,14 @@ std::string contactsText(const ExactPair& pair) {
   return text + fmt::format("[{}, {}]", vectorText(pair.contactBox.min), vectorText(pair.contactBox.max));
 }
 
-/// `inner` is which of the two is contained, as JSON says it.
-std::string jsonOf(const ExactPair& pair, const std::string& inner) {
+std::string jsonOf(const ExactPair& pair) {
   if (pair.state == ExactState::NotExamined) return R"({"state": "not-examined"})";
+  const char* const inner = pair.isFirstInner ? R"("inner": 0, )" : R"("inner": 1, )";
   return fmt::format(
       R"({{"state": "{}", {}"distance": {}, "depth": {}, "points": [{}, {}], "normal": {}, {}, "open": [{}, {}]}})",
-      stateName(pair.state), inner, pair.distance, pair.depth ? fmt::format("{}", *pair.depth) : "null",
-      vectorText(pair.pointOnFirst), vectorText(pair.pointOnSecond), vectorText(pair.normal), contactsText(pair),
-      pair.isFirstOpen, pair.isSecondOpen);
+      stateName(pair.state), pair.state == ExactState::Contained ? inner : "", pair.distance,
+      pair.depth ? fmt::format("{}", *pair.depth) : "null", vectorText(pair.pointOnFirst),
+      vectorText(pair.pointOnSecond), vectorText(pair.normal), contactsText(pair), pair.isFirstOpen, pair.isSecondOpen);
 }
 
 std::string statisticsText(const ExactReport& report) {
@@ -191,11 +182,7 @@ void writeExactCsv(const scene::ResultView& result, const ExactReport& report, s
 
 void writeExactJson(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink) {
   sink("{\"exact\": [");
-  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
-    const bool isContained = report.pairs[i].state == ExactState::Contained;
-    const std::string inner = !isContained ? "" : isFirstInner(result, i) ? R"("inner": 0, )" : R"("inner": 1, )";
-    sink((i == 0 ? "\n  " : ",\n  ") + jsonOf(report.pairs[i], inner));
-  }
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) sink((i == 0 ? "\n  " : ",\n  ") + jsonOf(report.pairs[i]));
   sink("],\n\"exactStatistics\": " + statisticsText(report) + ",\n");
   bool isOpen = false;  // the object is open already, so the brace that opens it there is left out
   scene::writeJson(result, [&](std::string_view bytes) {

@@ -58,6 +58,8 @@ class BoxView {
   [[nodiscard]] static BoxView fromCorners(Span<const double> min, Span<const double> max);
 
   /// From corners in any strided layout, such as columns of a larger table or six separate arrays one after the other.
+  ///
+  /// Bad input: null data throws InvalidArgument, unless there are no boxes.
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
 

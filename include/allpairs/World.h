@@ -151,7 +151,8 @@ class World {
   ///
   /// Geometry: the margin is added to a maximum, the box's or the other's, in double, as in a pair. Rays, sweeps and
   ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a negative
-  ///           margin turns over is hit by no ray; it overlaps what holds all between its bounds, and a sweep of that hits it.
+  ///           margin turns over is hit by no ray; it overlaps what holds all between its bounds, and a sweep of that
+  ///           hits it.
   /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds
   ///       are searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;

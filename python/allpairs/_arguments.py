@@ -344,7 +344,7 @@ def ids(value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 
 def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Points or directions as rows of three; those in the plane have no depth, and an empty list has none."""
+    """Points or directions as rows of three; those in the plane have no depth. An empty list is no points."""
     array: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
     if array.shape == (1, 0):
         return np.empty((0, 3))
@@ -376,8 +376,8 @@ def pairs_of_boxes(name: str, value: npt.ArrayLike, first: int, second: int) -> 
     absent = np.flatnonzero((rows >= np.array([first, second], dtype=np.uint64)).any(axis=1))
     if len(absent):
         row = int(absent[0])
-        sizes = f"{first} boxes" if first == second else f"{first} and {second} boxes"
-        raise InvalidArgument(f"{name} row {row} is ({rows[row, 0]}, {rows[row, 1]}): there are {sizes}")
+        sizes = str(first) if first == second else f"{first} and {second}"
+        raise InvalidArgument(f"{name} row {row} is ({rows[row, 0]}, {rows[row, 1]}); the number of boxes is {sizes}")
     return rows
 
 

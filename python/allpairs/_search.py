@@ -123,7 +123,7 @@ def overlaps(
     category, mask : int or array_like, shape (n,), integers 0 to 2**32 - 1
         Bits: a pair is kept if each box's mask shares a bit with the other's category. By default all bits are set.
     ignore : array_like, shape (k, 2), integers
-        Pairs to exclude, in either orientation. A pair of boxes that are not there raises InvalidArgument.
+        Pairs to exclude, in either orientation. A pair that names a box that is not there raises InvalidArgument.
     order : {"first", "second", "unordered"}
         Ascending by (first, second); by (second, first); or in the order of discovery, which is faster and also
         deterministic.

@@ -122,7 +122,8 @@ def overlaps_in_worlds(
         As in `overlaps`: one for each box of all worlds, or, if worlds are of equal size, of one world for all. Shared
         boxes have no group, and every category and mask.
     ignore : array_like, shape (k, 2), integers
-        Pairs to exclude in every world, numbered within a world; with ``shared``, pairs of a box and a shared one.
+        Pairs to exclude in every world, numbered within a world; with ``shared``, pairs of a box, of the largest
+        world, and a shared one.
 
     The other parameters, and what is raised, are those of `overlaps`; ``max_pairs`` is for all worlds together.
 

@@ -54,13 +54,8 @@ std::string openText(const ViewScene& scene, const Clash& clash) {
                      scene.name(clash.exact->isFirstOpen ? clash.first : clash.second));
 }
 
-/// The one of which the box is the smaller is the one that is contained.
 std::string containedText(const ViewScene& scene, const Clash& clash) {
-  const auto size = [&scene](std::uint32_t model) {
-    const Box& box = scene.frames.front().boxes[model];
-    return std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
-  };
-  const bool isFirst = size(clash.first) < size(clash.second);
+  const bool isFirst = clash.exact->isFirstInner;
   return fmt::format("{} lies wholly in {}, {} deep at {}.", scene.name(isFirst ? clash.first : clash.second),
                      scene.name(isFirst ? clash.second : clash.first), shortNumber(clash.exact->depth.value_or(0.0)),
                      pointText(allpairs::placeOf(*clash.exact)));

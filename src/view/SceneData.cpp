@@ -173,7 +173,7 @@ std::vector<float> viewsOf(const ViewScene& scene) {
   return views;
 }
 
-/// What shapes say of each pair: its state, which model is open, 17 numbers, and where surfaces cross.
+/// What shapes say of each pair: its state, which model is open or inside, 17 numbers, and where surfaces cross.
 void addExact(const ViewScene& scene, const std::vector<double>& origin, ArrayWriter& arrays) {
   std::vector<std::uint8_t> states;
   std::vector<double> numbers;
@@ -181,7 +181,7 @@ void addExact(const ViewScene& scene, const std::vector<double>& origin, ArrayWr
   std::vector<std::uint32_t> lineEnds;
   for (const ExactPair& pair : scene.exact) {
     states.push_back(static_cast<std::uint8_t>(static_cast<unsigned>(pair.state) | (pair.isFirstOpen ? 16U : 0U) |
-                                               (pair.isSecondOpen ? 32U : 0U)));
+                                               (pair.isSecondOpen ? 32U : 0U) | (pair.isFirstInner ? 64U : 0U)));
     numbers.insert(numbers.end(), {pair.distance, pair.depth.value_or(std::numeric_limits<double>::quiet_NaN())});
     for (const auto* vector : {&pair.pointOnFirst, &pair.pointOnSecond, &pair.normal})
       numbers.insert(numbers.end(), vector->begin(), vector->end());

@@ -301,7 +301,6 @@ class CountingExecutor final : public Executor {
 TYPED_TEST(FclManager, SearchesNothingBeforeItIsAskedFor) {
   CountingExecutor executor;
   FclBroadPhaseManager<TypeParam> manager({.executor = &executor});
-  static_cast<void>(executor.takeAsked());
   const auto objects = this->addObjects(3000, TypeParam(40));
   const auto changeAll = [&] {
     for (auto* object : objects) this->place(*object, TypeParam(40));

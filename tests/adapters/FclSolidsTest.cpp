@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a narrow phase says of solids made of cubes of a grid, whose faces lie on each other in every way: the relation of
-// such solids can be told by their cells alone.
+// What a narrow phase says of solids made of cubes of a grid, whose faces lie on each other in every way: the relation
+// of such solids can be told by their cells alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -155,6 +155,11 @@ TEST_F(FclSolids, StatesAndDistancesAreThoseOfTheirCells) {
     ++seen[static_cast<std::size_t>(expected)];
     ASSERT_EQ(stateName(pair.state), stateName(expected)) << text;
     ASSERT_NEAR(pair.distance, scale * distanceOf(first, second), scale * 1e-9) << text;
+    if (expected == ExactState::Contained) {
+      const std::set<Cell> outer = cellsOf(second);
+      const std::set<Cell> inner = cellsOf(first);
+      ASSERT_EQ(pair.isFirstInner, std::ranges::includes(outer, inner)) << text;
+    }
     if (isClash(expected) && expected != ExactState::Duplicate) {
       ASSERT_GE(pair.depth.value_or(0.0), 0.125 * scale) << text;
       ASSERT_NEAR(distance(pair.pointOnFirst, pair.pointOnSecond), *pair.depth, scale * 1e-9) << text;

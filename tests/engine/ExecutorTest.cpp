@@ -27,8 +27,8 @@ class BackwardExecutor final : public Executor {
   }
 };
 
-/// A pool that is resized while it is used: it says something else each time, also that it has no threads, and always runs
-/// four tasks at once.
+/// A pool that is resized while it is used: it says something else each time, also that it has no threads, and always
+/// runs four tasks at once.
 class ChangingExecutor final : public Executor {
  public:
   explicit ChangingExecutor(std::size_t first) : m_asked(first) {}
@@ -108,6 +108,11 @@ TEST(Executor, MayHaveMoreOrFewerThreadsEachTimeItIsAsked) {
         ASSERT_EQ(countOverlaps(*part, options), serial.size());
         kept.setOptions(options);
         ASSERT_TRUE(std::ranges::equal(kept.find(*part), serial));
+        ASSERT_EQ(neighbors(*part, NeighborRows::Half, options).indices.size(), serial.size());
+        std::size_t streamed = 0;
+        streamOverlaps(
+            *part, [&](Span<const Pair> batch) { streamed += batch.size(); }, options);
+        ASSERT_EQ(streamed, serial.size());
       }
     }
   }

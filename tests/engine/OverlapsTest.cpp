@@ -2,6 +2,7 @@
 #include "allpairs/Neighbors.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
+#include "allpairs/Worlds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -482,6 +483,9 @@ TEST(OverlapOptions, AreOfKnownValues) {
     EXPECT_THROW(static_cast<void>(neighbors(part, static_cast<NeighborRows>(2))), InvalidArgument) << size;
     EXPECT_THROW(static_cast<void>(OverlapSearch().findNeighbors(part, static_cast<NeighborRows>(2))), InvalidArgument);
   }
+  const Worlds worlds = Worlds::ofEqualSize(boxes, 4);
+  EXPECT_THROW(static_cast<void>(overlapsInWorlds(worlds, order)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(overlapsInWorlds(worlds, strategy)), InvalidArgument);
   EXPECT_THROW(World({.order = static_cast<Order>(3)}), InvalidArgument);
 }
 

@@ -82,6 +82,8 @@ TEST_P(WorldThreads, MayBeMoreOrFewerEachTimeTheExecutorIsAsked) {
     ASSERT_EQ(many.add(boxes), ids);
     for (std::size_t frame = 0; frame < 4; ++frame) {
       ASSERT_NO_FATAL_FAILURE(test::compareLists(many.step(), serial.step()));
+      ASSERT_EQ(many.findBetween(many), serial.findBetween(serial));
+      ASSERT_EQ(many.findOverlapping(BoxView(boxes)).values, serial.findOverlapping(BoxView(boxes)).values);
       moveSome(boxes, GetParam(), frame, ids);
       std::vector<BoxF> moved;
       for (const BoxId id : ids) moved.push_back(boxes[id]);

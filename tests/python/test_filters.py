@@ -57,7 +57,7 @@ def test_ignored_pairs_of_two_sets_are_read_as_first_and_second():
     found = allpairs.overlaps_between(boxes, boxes, ignore=[[0, 1], [2, 2]])
     assert found.tolist() == [[0, 0], [0, 2], [1, 0], [1, 1], [1, 2], [2, 0], [2, 1]]
     assert allpairs.overlaps_between(boxes, boxes[:1], ignore=[[2, 0]]).tolist() == [[0, 0], [1, 0]]
-    with pytest.raises(allpairs.InvalidArgument, match=r"ignore row 1 is \(2, 1\): there are 3 and 1 boxes"):
+    with pytest.raises(allpairs.InvalidArgument, match=r"ignore row 1 is \(2, 1\); the number of boxes is 3 and 1"):
         allpairs.overlaps_between(boxes, boxes[:1], ignore=[[2, 0], [2, 1]])
 
 

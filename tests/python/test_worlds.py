@@ -185,5 +185,5 @@ def test_ignored_pairs_with_shared_boxes_are_of_boxes_that_are_there():
     pairs, offsets = allpairs.overlaps_in_worlds(rows, ignore=[[2, 1], [0, 0]], **given)
     assert offsets.tolist() == [0, 4, 7]
     assert [2, 1] not in pairs.tolist()
-    with pytest.raises(allpairs.InvalidArgument, match=r"ignore row 0 is \(3, 0\): there are 3 and 2 boxes"):
+    with pytest.raises(allpairs.InvalidArgument, match=r"ignore row 0 is \(3, 0\); the number of boxes is 3 and 2"):
         allpairs.overlaps_in_worlds(rows, ignore=[[3, 0]], **given)

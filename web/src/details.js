@@ -81,8 +81,7 @@ export class Details {
   showFinding(finding, first, second) {
     const { scene, frame } = this.app;
     const names = make("p", "names", this.modelButton(first, "first"), make("span", "and", "and"), this.modelButton(second, "second"));
-    const size = (model) => Math.hypot(...[0, 1, 2].map((k) => frame.boxes[6 * model + 3 + k] - frame.boxes[6 * model + k]));
-    const words = findingOf(finding, scene.nameOf(first), scene.nameOf(second), size(first) < size(second));
+    const words = findingOf(finding, scene.nameOf(first), scene.nameOf(second));
     const facts = make("dl", "facts-small");
     const add = (label, value, id) => {
       const cell = make("dd", "", value);

@@ -31,7 +31,7 @@ export class ExactPairs {
     return {
       state: this.stateOf(entry), distance: n[0], depth: Number.isNaN(n[1]) ? null : n[1],
       first: n.subarray(2, 5), second: n.subarray(5, 8), normal: n.subarray(8, 11), box: hasBox ? n.subarray(11, 17) : null,
-      openFirst: (this.flags[entry] & 16) !== 0, openSecond: (this.flags[entry] & 32) !== 0,
+      openFirst: (this.flags[entry] & 16) !== 0, openSecond: (this.flags[entry] & 32) !== 0, isFirstInner: (this.flags[entry] & 64) !== 0,
     };
   }
 
@@ -75,10 +75,10 @@ export const headingOf = (pair) => headings[pair.state];
 const openWords = (pair, first, second) => (pair.openFirst && pair.openSecond ? "the surfaces of both are not closed" : `the surface of ${pair.openFirst ? first : second} is not closed`);
 
 /** A sentence for what numbers do not say, or nothing. `inner` is the smaller of the two. */
-export function findingOf(pair, first, second, isFirstInner) {
+export function findingOf(pair, first, second) {
   const sentences = {
     [state.duplicate]: () => "The same shape in the same place: one of the two is too many.",
-    [state.contained]: () => `${isFirstInner ? first : second} lies wholly in ${isFirstInner ? second : first}.`,
+    [state.contained]: () => `${pair.isFirstInner ? first : second} lies wholly in ${pair.isFirstInner ? second : first}.`,
     [state.clash]: () => (pair.depth === null ? `How deep is not known: ${openWords(pair, first, second)}.` : ""),
     [state.undecided]: () => `Surfaces are apart. Whether one lies in the other is not known: ${openWords(pair, first, second)}.`,
   };

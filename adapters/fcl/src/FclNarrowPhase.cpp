@@ -56,6 +56,7 @@ class PairReport {
 
   void finish(const ExactBody& first, const ExactBody& second) {
     m_pair.state = stateOf(first, second);
+    m_pair.isFirstInner = m_pair.state == ExactState::Contained && isWithin(first);
     m_pair.pointOnFirst = exact::toVec3(m_best.onFirst);
     m_pair.pointOnSecond = exact::toVec3(m_best.onSecond);
     m_pair.normal = exact::toVec3(m_best.normal);

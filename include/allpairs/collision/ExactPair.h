@@ -75,6 +75,9 @@ struct ExactPair {
   /// Whether the triangles of a model don't close: it has no inside, so that nothing can be said to lie in it.
   bool isFirstOpen = false;
   bool isSecondOpen = false;
+
+  /// Of a pair of which one is contained: whether that is the first.
+  bool isFirstInner = false;
 };
 
 /// Where to look: between the deepest or the nearest points; in the middle of where surfaces meet that only touch.

@@ -121,8 +121,9 @@ inline constexpr std::size_t kBoxesPerCell = std::size_t{1} << 18;
 
 /// How many of the boxes go to each cell: the copies that a partition makes are the sum less their number.
 ///
-/// `maxMargin` is the greatest margin of any box that they may be paired with. The boxes' own are taken for some of these,
-/// so that of one of two sets, whose boxes are not paired with each other, more may be counted than have to go there.
+/// `maxMargin` is the greatest margin of any box that they may be paired with. The boxes' own are taken for some of
+/// these, so that of one of two sets, whose boxes are not paired with each other, more may be counted than have to go
+/// there.
 [[nodiscard]] std::vector<std::uint64_t> boxesPerCell(const Partition& partition, const BoxView& boxes,
                                                       double distance = 0.0, double maxMargin = 0.0);
 

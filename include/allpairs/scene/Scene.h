@@ -56,9 +56,10 @@ struct ScenePipeline {
 struct Scene {
   std::vector<std::unique_ptr<collision::CollisionModel>> models;
   std::vector<std::unique_ptr<Owner>> owners;
-  std::vector<std::filesystem::path> files{};   ///< What models were read from, in the order in which it was read.
-  std::vector<ModelSource> sources{};           ///< Of each model; models behind the last one are of no file.
-  std::vector<std::filesystem::path> inputs{};  ///< All files that were read for it, and those that these name.
+  std::vector<std::filesystem::path> files{};  ///< What models were read from, in the order in which it was read.
+  std::vector<ModelSource> sources{};          ///< Of each model; models behind the last one are of no file.
+  std::vector<std::filesystem::path>
+      inputs{};  ///< The files that were read for it; not those that a file for Assimp names.
   std::unique_ptr<collision::Intersection> intersection;  ///< Never null.
   std::string intersectionName;                           ///< As in the file; empty if it names none.
   std::optional<Box> region;

@@ -9,8 +9,8 @@
 
 namespace allpairs::engine {
 
-/// Runs the tasks of one call on another executor. That is asked once how many run concurrently, since memory is laid out
-/// by the answer, and a pool may be resized meanwhile. Once a flag is set, tasks throw Stopped.
+/// Runs the tasks of one call on another executor. That is asked once how many run concurrently, since memory is laid
+/// out by the answer, and a pool may be resized meanwhile. Once a flag is set, tasks throw Stopped.
 class CallExecutor final : public Executor {
  public:
   /// Begins a call; null is a serial executor.

@@ -124,14 +124,16 @@ std::vector<CurveKey> WorldQueries::orderOf(std::size_t queries, const PointOf& 
   const BoxView boxes(starts);
   std::vector<CurveKey> spare(queries);
   HilbertSort sort(defaultMemory());
-  const std::span<const CurveKey> order = sort.sort({boxes, {}, m_search.kernels()}, spare, m_search.executor());
+  CallExecutor call;
+  const std::span<const CurveKey> order = sort.sort({boxes, {}, m_search.kernels()}, spare, m_search.begin(call));
   return {order.begin(), order.end()};
 }
 
 /// Calls answer(task, query) for all queries, in spatial order: the same task answers neighbours.
 template <class Answer>
 void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& answer) const {
-  m_search.executor().run((order.size() + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
+  CallExecutor call;
+  m_search.begin(call).run((order.size() + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
     const std::size_t end = std::min(order.size(), (task + 1) * kQueriesPerTask);
     for (std::size_t i = task * kQueriesPerTask; i < end; ++i) answer(task, indexOf(order[i]));
   });

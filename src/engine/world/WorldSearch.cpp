@@ -39,8 +39,10 @@ void WorldSearch::update(BoxStore& store) {
   // Queries test the boxes themselves: lanes contain them.
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
-  m_members.update(store, executor());
-  m_rebuilds += m_forest.update(store, m_members, reader, executor());
+  CallExecutor call;  // queries make updates, too
+  Executor& executor = begin(call);
+  m_members.update(store, executor);
+  m_rebuilds += m_forest.update(store, m_members, reader, executor);
   store.settle();
 }
 
@@ -59,13 +61,13 @@ void WorldSearch::shrink() noexcept {
 }
 
 StepResult WorldSearch::step(BoxStore& store) {
-  static_cast<void>(m_callExecutor.over(m_options.executor, m_options.stop));
+  static_cast<void>(begin(m_stepExecutor));
   m_history.dropChanges();
   m_lists.prepareStep(store);
   static_cast<void>(store.set());  // The tests read it.
-  m_members.update(store, executor());
+  m_members.update(store, m_stepExecutor);
   const PairTest filter = testOf(store, 0.0, true);
-  m_small.start(store, filter, executor().concurrency());
+  m_small.start(store, filter, m_stepExecutor.concurrency());
   m_statistics.changed = store.touched().size();
   m_statistics.joinedAll = chooseWorlds(store);
   moveLarge();
@@ -78,12 +80,12 @@ StepResult WorldSearch::step(BoxStore& store) {
   join(store);
   m_statistics.boxTests += m_small.boxTests();
   if (m_statistics.joinedAll) {
-    m_history.finishAll(executor(), m_runner);
+    m_history.finishAll(m_stepExecutor, m_runner);
   } else if (m_chosen.empty() && m_large.empty()) {
     m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
-                            executor());
+                            m_stepExecutor);
   } else {
-    m_history.finishChanged([&](Pair pair) { return isLookedFor(store, pair); }, executor());
+    m_history.finishChanged([&](Pair pair) { return isLookedFor(store, pair); }, m_stepExecutor);
   }
   m_statistics.rebuilds = m_rebuilds;
   m_lists.noteStep(store);
@@ -177,10 +179,11 @@ bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
 /// Finds the pairs of the chosen worlds.
 void WorldSearch::join(const BoxStore& store) {
   const auto takeSmall = [&](std::span<const Pair> pairs, std::size_t worker) { m_history.take(pairs, worker, true); };
-  m_history.begin(store.idBound(), executor().concurrency(), m_statistics.joinedAll ? Joined::All : Joined::Changed);
+  m_history.begin(store.idBound(), m_stepExecutor.concurrency(),
+                  m_statistics.joinedAll ? Joined::All : Joined::Changed);
   cutIntoRuns(
       m_chosen, [&](std::uint32_t world) { return m_members.size(world); }, m_runs);
-  executor().run(m_runs.size() - 1, [&](std::size_t run) {
+  m_stepExecutor.run(m_runs.size() - 1, [&](std::size_t run) {
     m_small.search(std::span(m_chosen).subspan(m_runs[run], m_runs[run + 1] - m_runs[run]), takeSmall);
   });
   if (!m_large.empty() || m_statistics.joinedAll) joinTrees(store);  // All pairs are ordered in its memory.
@@ -199,18 +202,18 @@ void WorldSearch::joinTrees(const BoxStore& store) {
   SinkOptions sink{test, &m_kernels, PairSide::SmallerFirst};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
-  m_runner.start(sink, executor());
+  m_runner.start(sink, m_stepExecutor);
   const std::span<const std::uint32_t> worlds = m_large;
   const auto sizeOf = [&](std::uint32_t world) { return m_members.size(world); };
   const auto isHuge = [&](std::uint32_t world) { return worlds.size() == 1 || sizeOf(world) > kPartSize; };
   cutIntoRuns(worlds, sizeOf, m_runs);
-  m_runner.runTasks(m_runs.size() - 1, executor(), [&](std::size_t task, const auto& joinPart) {
+  m_runner.runTasks(m_runs.size() - 1, m_stepExecutor, [&](std::size_t task, const auto& joinPart) {
     for (std::size_t i = m_runs[task]; i < m_runs[task + 1]; ++i) {
       if (!isHuge(worlds[i])) joinWorld(worlds[i], joinPart);
     }
   });
   for (const std::uint32_t world : worlds) {
-    if (isHuge(world)) joinWorld(world, [&](const JoinRunner::Job& job) { return run(job, m_runner); });
+    if (isHuge(world)) joinWorld(world, [&](const JoinRunner::Job& job) { return run(job); });
   }
   noteTotals();
 }
@@ -274,7 +277,7 @@ void WorldSearch::joinPartly(const BoxStore& store) {
   SinkOptions sink{test.boundsOfHits(), &m_kernels};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
-  m_runner.start(sink, executor());
+  m_runner.start(sink, m_stepExecutor);
   if (m_partly.size() == 1) {  // What is of other worlds is not in its hierarchies.
     joinTouched(m_partly[0], store.touched());
   } else {
@@ -290,11 +293,11 @@ void WorldSearch::joinTouched(std::size_t world, std::span<const BoxId> touched)
   const std::size_t shared = m_members.everyWorld();
   DynamicBvh& dynamicBoxes = m_forest.tree(world, false);
   DynamicBvh& staticBoxes = m_forest.tree(world, true);
-  m_changedDynamic.gather(touched, m_forest, dynamicBoxes, executor());
-  m_changedStatic.gather(touched, m_forest, staticBoxes, executor());
+  m_changedDynamic.gather(touched, m_forest, dynamicBoxes, m_stepExecutor);
+  m_changedStatic.gather(touched, m_forest, staticBoxes, m_stepExecutor);
   const auto joinWith = [&](const ChangedBoxes& changed, const DynamicBvh& with) -> std::uint64_t {
     if (changed.size() == 0 || with.size() == 0) return 0;
-    return run(JoinRunner::Job::ofJoin(changed.view(), with.view()), m_runner);
+    return run(JoinRunner::Job::ofJoin(changed.view(), with.view()));
   };
   const auto joinHere = [&](const ChangedBoxes& changed, DynamicBvh& with) {
     with.rule().note(Joined::Changed, changed.size(), joinWith(changed, with));
@@ -308,10 +311,10 @@ void WorldSearch::joinTouched(std::size_t world, std::span<const BoxId> touched)
 }
 
 /// Runs a join on all threads; returns the number of box tests.
-std::uint64_t WorldSearch::run(const JoinRunner::Job& job, JoinRunner& runner) const {
-  const std::uint64_t before = runner.totals().boxTests;
-  runner.run(job, executor());
-  return runner.totals().boxTests - before;
+std::uint64_t WorldSearch::run(const JoinRunner::Job& job) {
+  const std::uint64_t before = m_runner.totals().boxTests;
+  m_runner.run(job, m_stepExecutor);
+  return m_runner.totals().boxTests - before;
 }
 
 void WorldSearch::noteTotals() {
@@ -338,13 +341,15 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
   SinkOptions sink{test, &m_kernels};
   sink.stop = m_options.stop;
   sink.emit.emplace(take);
+  CallExecutor call;
+  Executor& executor = begin(call);
   JoinRunner runner(defaultMemory());
-  runner.start(sink, executor());
+  runner.start(sink, executor);
   const WorldMembers& others = other.m_members;
   const auto joinWith = [&](std::size_t world, std::size_t otherWorld) {
     eachTree(world, [&](const DynamicBvh& mine, bool) {
       other.eachTree(otherWorld, [&](const DynamicBvh& theirs, bool) {
-        run(JoinRunner::Job::ofJoin(mine.view(), theirs.view()), runner);
+        runner.run(JoinRunner::Job::ofJoin(mine.view(), theirs.view()), executor);
       });
     });
   };
@@ -353,7 +358,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
     joinWith(world, others.everyWorld());
   }
   for (std::size_t world = 0; world <= others.everyWorld(); ++world) joinWith(m_members.everyWorld(), world);
-  PairSort(defaultMemory()).sort(found, {store.idBound(), otherStore.idBound(), m_options.order}, {}, executor());
+  PairSort(defaultMemory()).sort(found, {store.idBound(), otherStore.idBound(), m_options.order}, {}, executor);
   return found;
 }
 

@@ -32,7 +32,6 @@ class WorldSearch {
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
       : m_options(options),
         m_kernels(kernels),
-        m_executor(m_callExecutor.over(options.executor, options.stop)),
         m_members(memory),
         m_forest(memory),
         m_changedDynamic(memory, kernels),
@@ -81,8 +80,11 @@ class WorldSearch {
 
   [[nodiscard]] const WorldStatistics& statistics() const noexcept { return m_statistics; }
   [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_runner.memory(); }
+  /// Begins a call on the executor of the options.
+  [[nodiscard]] Executor& begin(CallExecutor& call) const noexcept {
+    return call.over(m_options.executor, m_options.stop);
+  }
   [[nodiscard]] const Kernels& kernels() const noexcept { return m_kernels; }
-  [[nodiscard]] Executor& executor() const noexcept { return m_executor; }
 
  private:
   [[nodiscard]] PairTest testOf(const BoxStore& store, double distance, bool exact) const;
@@ -99,13 +101,12 @@ class WorldSearch {
   void searchChanged(const BoxStore& store);
   void joinPartly(const BoxStore& store);
   void joinTouched(std::size_t world, std::span<const BoxId> touched);
-  std::uint64_t run(const JoinRunner::Job& job, JoinRunner& runner) const;
+  std::uint64_t run(const JoinRunner::Job& job);
   void noteTotals();
 
   const WorldOptions& m_options;
   const Kernels& m_kernels;
-  CallExecutor m_callExecutor;
-  Executor& m_executor;
+  CallExecutor m_stepExecutor;  ///< Of a step; calls that are const have one of their own.
   WorldMembers m_members;
   WorldForest m_forest;
   ChangedBoxes m_changedDynamic;

@@ -32,6 +32,8 @@ void checkOthers(const Worlds& worlds, const OverlapOptions& options) {
   OverlapOptions others;
   others.distance = options.distance;
   others.region = options.region;
+  others.order = options.order;
+  others.strategy = options.strategy;
   others.filter.second = options.filter.second;
   checkOptions({worlds.boxes(), worlds.boxes(), true}, others);
 }

@@ -12,8 +12,8 @@
 #include "allpairs/Worlds.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
-#include "search/Search.h"
 #include "search/CallExecutor.h"
+#include "search/Search.h"
 #include "search/Workers.h"
 #include "worlds/WorldsFilter.h"
 

@@ -30,8 +30,8 @@ struct FclHost {
 /// A broad phase for FCL: use it where you use an fcl::DynamicAABBTreeCollisionManager.
 ///
 /// Callbacks get the pairs whose boxes overlap, each once: first the object that was registered first, where an object
-/// takes the place of one that left; of a query with an object or a manager, first the one that is here. The order of the pairs is the same each time. A callback that returns true ends
-/// the query.
+/// takes the place of one that left; of a query with an object or a manager, first the one that is here. The order of
+/// the pairs is the same each time. A callback that returns true ends the query.
 ///
 /// For distances, a callback gets no pair twice, and near pairs early. It gets every pair whose boxes overlap, and
 /// every pair whose boxes are no farther apart than the smallest distance that it has set so far. So a callback that

@@ -28,8 +28,8 @@ struct NearPair {
   }
 };
 
-/// All pairs of objects from a first number on whose boxes are apart, and within a distance however the host rounds, near
-/// ones first. Nothing where there are more than a few for each object: who asks about them may make the distance
+/// All pairs of objects from a first number on whose boxes are apart, and within a distance however the host rounds,
+/// near ones first. Nothing where there are more than a few for each object: who asks about them may make the distance
 /// smaller with each.
 template <class Object>
 [[nodiscard]] std::optional<std::vector<NearPair<typename ObjectRows<Object>::S>>> pairsApart(
