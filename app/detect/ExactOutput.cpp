@@ -48,9 +48,11 @@ std::string finding(const ExactPair& pair) {
       break;
   }
   if (!pair.depth) return place + ", of unknown depth: " + openText(pair);
-  const std::string deep = fmt::format("{:.6g} deep {}", *pair.depth, place);
-  if (pair.state != ExactState::Contained) return deep;
-  return deep + (pair.isFirstInner ? "; the first is in the second" : "; the second is in the first");
+  std::string deep = fmt::format("{:.6g} deep {}", *pair.depth, place);
+  if (pair.state == ExactState::Contained) {
+    deep += pair.isFirstInner ? "; the first is in the second" : "; the second is in the first";
+  }
+  return deep;
 }
 
 std::pair<std::string, std::string> namesOf(const scene::ResultView& result, std::size_t i) {
