@@ -59,7 +59,7 @@ class BoxView {
 
   /// From corners in any strided layout, such as columns of a larger table or six separate arrays one after the other.
   ///
-  /// Bad input: null data throws InvalidArgument, unless there are no boxes.
+  /// Bad input: a null pointer throws InvalidArgument if there are boxes.
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max);
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
 

@@ -52,6 +52,19 @@ struct Threshold {
   }
 };
 
+/// Expects that a callback that holds a distance gets all pairs within it, each once.
+template <class Object, class S>
+void expectAllWithin(const std::vector<Object*>& objects, const FclBroadPhaseManager<S>& manager, S distance) {
+  Threshold<S> expected{distance, {}};
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) expected.given.emplace_back(std::minmax(objects[i], objects[j]));
+  }
+  Threshold<S> self{distance, {}};
+  manager.distance(&self, Threshold<S>::call);
+  EXPECT_EQ(self.within(), expected.within()) << objects.size() << " objects, distance " << distance;
+  EXPECT_EQ(std::set(self.given.begin(), self.given.end()).size(), self.given.size()) << "a pair came twice";
+}
+
 TYPED_TEST(FclQueries, GivesACallbackThatHoldsADistanceAllPairsWithinItOnce) {
   using S = TypeParam;
   for (const std::size_t count : {3U, 20U, 64U, 65U, 200U}) {
@@ -59,14 +72,7 @@ TYPED_TEST(FclQueries, GivesACallbackThatHoldsADistanceAllPairsWithinItOnce) {
     FclBroadPhaseManager<S> manager;
     manager.registerObjects(objects);
     for (const S distance : {S(0), S(0.25), S(2)}) {
-      Threshold<S> expected{distance, {}};
-      for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = 0; j < i; ++j) expected.given.emplace_back(std::minmax(objects[i], objects[j]));
-      }
-      Threshold<S> self{distance, {}};
-      manager.distance(&self, Threshold<S>::call);
-      EXPECT_EQ(self.within(), expected.within()) << count << " objects, distance " << distance;
-      EXPECT_EQ(std::set(self.given.begin(), self.given.end()).size(), self.given.size()) << "a pair came twice";
+      expectAllWithin(objects, manager, distance);
     }
   }
 }
@@ -132,14 +138,7 @@ TYPED_TEST(FclQueries, GivesThePairsWithinADistanceFarFromTheOrigin) {
     FclBroadPhaseManager<S> manager;
     manager.registerObjects(objects);
     for (const S distance : {S(0.0625), S(0.5)}) {
-      Threshold<S> expected{distance, {}};
-      for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = 0; j < i; ++j) expected.given.emplace_back(std::minmax(objects[i], objects[j]));
-      }
-      Threshold<S> self{distance, {}};
-      manager.distance(&self, Threshold<S>::call);
-      EXPECT_EQ(self.within(), expected.within()) << count << " objects, distance " << distance;
-      EXPECT_EQ(std::set(self.given.begin(), self.given.end()).size(), self.given.size()) << "a pair came twice";
+      expectAllWithin(objects, manager, distance);
     }
   }
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "allpairs/World.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
+#include "support/ChangingExecutor.h"
 
 namespace allpairs {
 namespace {
@@ -25,22 +25,6 @@ class BackwardExecutor final : public Executor {
   void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
     for (std::size_t i = count; i-- > 0;) task(i);
   }
-};
-
-/// A pool that is resized while it is used: it says something else each time, also that it has no threads, and always
-/// runs four tasks at once.
-class ChangingExecutor final : public Executor {
- public:
-  explicit ChangingExecutor(std::size_t first) : m_asked(first) {}
-  [[nodiscard]] std::size_t concurrency() const noexcept override {
-    constexpr std::array<std::size_t, 5> kAnswers{1, 4, 0, 2, 9};
-    return kAnswers[m_asked++ % kAnswers.size()];
-  }
-  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override { m_pool.run(count, task); }
-
- private:
-  mutable std::atomic<std::size_t> m_asked;
-  parallel::TbbExecutor m_pool{4};
 };
 
 /// Claims two threads and counts what it is asked to run.
@@ -96,8 +80,8 @@ TEST(Executor, MayHaveMoreOrFewerThreadsEachTimeItIsAsked) {
   const std::vector<BoxF> dense = test::randomBoxes(1400, 40, 30.0F);
   OverlapOptions options;
   for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
-    for (std::size_t first = 0; first < 5; ++first) {
-      ChangingExecutor executor(first);
+    for (std::size_t first = 0; first < test::ChangingExecutor::kAnswers.size(); ++first) {
+      test::ChangingExecutor executor(first);
       OverlapSearch kept;
       for (const std::vector<BoxF>* part : {&boxes, &dense, &boxes}) {
         options.order = order;

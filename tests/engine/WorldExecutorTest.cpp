@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include "allpairs/World.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
+#include "support/ChangingExecutor.h"
 #include "support/PoolExecutor.h"
 
 namespace allpairs {
@@ -60,21 +60,9 @@ TEST_P(WorldThreads, SeveralThreadsGiveTheListsOfOne) {
   }
 }
 
-/// A pool that is resized while it is used.
-class ResizedExecutor final : public Executor {
- public:
-  explicit ResizedExecutor(std::size_t first) : m_asked(first) {}
-  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_asked++ % 3 == 0 ? 1 : 4; }
-  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override { m_pool.run(count, task); }
-
- private:
-  mutable std::atomic<std::size_t> m_asked;
-  parallel::TbbExecutor m_pool{4};
-};
-
 TEST_P(WorldThreads, MayBeMoreOrFewerEachTimeTheExecutorIsAsked) {
-  for (std::size_t first = 0; first < 3; ++first) {
-    ResizedExecutor executor(first);
+  for (std::size_t first = 0; first < test::ChangingExecutor::kAnswers.size(); ++first) {
+    test::ChangingExecutor executor(first);
     World serial;
     World many({.executor = &executor});
     std::vector<BoxF> boxes = test::randomBoxes(20000, 12);

@@ -40,8 +40,9 @@ namespace allpairs {
 /// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same.
 ///            With BulletBroadphaseOptions::number the order does not depend on earlier calls either.
 /// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, and a number with a
-///            pairCache, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject() made it has
-///            the object in its list already, without a proxy: remove it from the world before the next step.
+///            pairCache, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject()
+///            made it has the object in its list already, without a proxy: remove it from the world before the next
+///            step.
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the cache.
 /// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
 ///            too, and must not add, move or remove proxies.
@@ -137,8 +138,9 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   /// Calls the callback for each box that overlaps another: none that has a NaN.
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override {
-    if (hasNan(internal::toBox(aabbMin, aabbMax))) return;
-    for (const BoxId id : m_world.findOverlapping(internal::toBox(aabbMin, aabbMax))) {
+    const Box box = internal::toBox(aabbMin, aabbMax);
+    if (hasNan(box)) return;
+    for (const BoxId id : m_world.findOverlapping(box)) {
       if (overlaps(*m_proxies[id], aabbMin, aabbMax)) callback.process(m_proxies[id].get());  // not only its reach
     }
   }

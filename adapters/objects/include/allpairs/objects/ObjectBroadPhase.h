@@ -107,8 +107,8 @@ class ObjectBroadPhase {
   /// Visits the pairs of an object here and one of others, whose boxes overlap.
   template <class Visit>
   bool eachPairWith(const ObjectBroadPhase& others, const Visit& visit) const {
-    if (m_search.isFasterByScans(m_rows.rows(), others.m_rows.bound())) return scanEachOf(others, visit);
-    if (isMuchSmaller(others.m_rows)) return askEachOf(others, visit);
+    const bool areFew = m_search.isFasterByScans(m_rows.rows(), others.m_rows.bound());
+    if (areFew || isMuchSmaller(others.m_rows)) return askEachOf(others, visit);
     if (others.isMuchSmaller(m_rows)) {
       return others.askEachOf(*this, [&](Object* other, Object* own) { return visit(own, other); });
     }
@@ -277,16 +277,6 @@ class ObjectBroadPhase {
     return false;
   }
 
-  template <class Visit>
-  bool scanEachOf(const ObjectBroadPhase& others, const Visit& visit) const {
-    for (BoxId id = 0; id < m_rows.bound(); ++id) {
-      const auto visitBoth = [&](BoxId found) { return visit(m_rows[id], others.m_rows[found]); };
-      if (!m_rows.hasBox(id) || !others.m_rows.mayOverlap(m_rows.bounds(id))) continue;
-      if (others.scan(m_rows.bounds(id), visitBoth)) return true;
-    }
-    return false;
-  }
-
   template <class Ask>
   bool askInTurn(const std::vector<NearPair<S>>& near, const Ask& ask, S& least) const {
     for (const auto& [distance, pair] : near) {
@@ -359,7 +349,7 @@ class ObjectBroadPhase {
     return RowSearch<S>::overlapping(m_rows.rows().subspan(std::size_t{6} * question.begin), row) << question.begin;
   }
 
-  /// Which numbers are no greater than a limit, as bits; those of rows that are not there may be.
+  /// Which of the first bound() numbers are no greater than a limit, as bits.
   [[nodiscard]] std::uint64_t within(const std::array<S, RowSearch<S>::kBatch>& squares, S limit) const {
     std::uint64_t found = 0;
     for (BoxId id = 0; id < m_rows.bound(); ++id) found |= std::uint64_t{squares[id] <= limit ? 1U : 0U} << id;
