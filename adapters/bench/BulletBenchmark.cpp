@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The broad phase of a Bullet world, step by step: ours beside btDbvtBroadphase, on the same boxes in the same run. The
-// boxes are those of real bodies that fall into a pile, and of a gas; what is timed is what Bullet asks of a broad
-// phase in a step, setAabb() of every body and calculateOverlappingPairs().
+// boxes are those of real bodies that fall into a pile, and of a gas, moving and at rest; what is timed is what Bullet
+// asks of a broad phase in a step, setAabb() of every body and calculateOverlappingPairs().
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 
@@ -98,6 +98,17 @@ Film gasOf(int count, int steps) {
   return film;
 }
 
+/// The gas at rest: one of its boxes is elsewhere in each step.
+Film restOf(const Film& gas) {
+  Film film;
+  for (std::size_t step = 0; step < gas.size(); ++step) {
+    film.push_back(gas.front());
+    const int moved = static_cast<int>(step) * 37 % gas.front().size();
+    film.back()[moved] = gas[step][moved];
+  }
+  return film;
+}
+
 struct Timing {
   double moving = 0.0;
   double pairing = 0.0;
@@ -189,6 +200,8 @@ void compare(const std::string& name, const Film& film) {
 int main(int count, char** arguments) {
   const int bodies = count > 1 ? std::atoi(arguments[1]) : 10000;
   const int steps = count > 2 ? std::atoi(arguments[2]) : 120;
-  compare("gas", gasOf(bodies, steps));
+  const Film gas = gasOf(bodies, steps);
+  compare("gas", gas);
+  compare("at rest", restOf(gas));
   compare("pile", pileOf(bodies, steps));
 }

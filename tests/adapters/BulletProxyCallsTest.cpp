@@ -292,6 +292,46 @@ TEST(BulletProxyCalls, AStepThatFailsIsMadeUpForByTheNext) {
   EXPECT_GT(failures, 5);
 }
 
+/// Refuses some calls, whatever they ask about.
+struct RefusesCalls : btOverlapFilterCallback {
+  bool needBroadphaseCollision(btBroadphaseProxy* /*a*/, btBroadphaseProxy* /*b*/) const override {
+    const int call = calls++;
+    return call < begin || call >= end;
+  }
+  mutable int calls = 0;
+  int begin = 0;
+  int end = 0;
+};
+
+TEST(BulletProxyCalls, APairThatTheFilterRefusesOnlyWhenItIsAddedIsAddedInTheNextStep) {
+  int refusedPairs = 0;
+  for (int begin = 0; begin < 24; ++begin) {
+    for (int end = begin; end <= 24; ++end) {
+      RefusesCalls filter;
+      filter.begin = begin;
+      filter.end = end;
+      BulletBroadphase broadphase;
+      broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+      std::vector<btBroadphaseProxy*> proxies;
+      for (const btScalar x : {btScalar(0), btScalar(0.5), btScalar(1.25), btScalar(1.75)}) {
+        proxies.push_back(broadphase.createProxy({x, 0, 0}, {x + 1, 1, 1}, 0, nullptr, 1, -1, nullptr));
+      }
+      broadphase.calculateOverlappingPairs(nullptr);
+      refusedPairs += static_cast<int>(broadphase.world().result().pairs.size()) -
+                      broadphase.getOverlappingPairCache()->getNumOverlappingPairs();
+      filter.end = 0;
+      broadphase.calculateOverlappingPairs(nullptr);
+      ProxyPairs found;
+      for (const Pair& pair : broadphase.world().result().pairs) {
+        found.emplace_back(broadphase.proxyOf(pair.first), broadphase.proxyOf(pair.second));
+      }
+      EXPECT_EQ(pairsOf(*broadphase.getOverlappingPairCache()), sorted(found)) << begin << " to " << end;
+      for (auto* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+    }
+  }
+  EXPECT_GT(refusedPairs, 0);
+}
+
 TEST(BulletProxyCalls, AProxyWhosePairsFailIsNotThere) {
   struct Refuses : btOverlapFilterCallback {
     bool needBroadphaseCollision(btBroadphaseProxy* /*a*/, btBroadphaseProxy* /*b*/) const override {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -66,6 +67,7 @@ class PairHistory {
   /// Ends a step that has searched for the pairs of changed boxes: those for which `lookedFor(pair)` is true.
   template <class LookedFor>
   void finishChanged(const LookedFor& lookedFor, Executor& executor) {
+    if (freshSize() == 0 && !hasAnyEnded(lookedFor)) return;  // All persist, as begin() left them.
     makeRoomForChanges();
     sortFresh(m_began, {m_persisted.data(), m_persisted.capacity()}, executor);
     // Nothing below throws.
@@ -87,6 +89,20 @@ class PairHistory {
     std::size_t size = 0;
     bool isInOrder = true;
   };
+
+  /// Whether an old pair was looked for and not found.
+  template <class LookedFor>
+  [[nodiscard]] bool hasAnyEnded(const LookedFor& lookedFor) const {
+    const std::span<const Pair> old = m_result.pairs;
+    for (std::size_t begin = 0; begin < old.size(); begin += kLinePairs) {
+      const std::size_t end = std::min(begin + kLinePairs, old.size());
+      if (end == begin + kLinePairs && isNoneOf(old.subspan(begin).first<kLinePairs>(), lookedFor)) continue;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (m_seen[i] == 0 && lookedFor(old[i])) return true;
+      }
+    }
+    return false;
+  }
 
   /// Splits the old pairs into those that persist and those that ended, in order: a cache line of pairs at a time where
   /// none was looked for, and else without branches (moving_benchmark --scene one-percent).

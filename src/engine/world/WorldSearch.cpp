@@ -81,6 +81,8 @@ StepResult WorldSearch::step(BoxStore& store) {
   m_statistics.boxTests += m_small.boxTests();
   if (m_statistics.joinedAll) {
     m_history.finishAll(m_stepExecutor, m_runner);
+  } else if (store.touched().empty()) {
+    // All pairs persist, as begin() left them.
   } else if (m_chosen.empty() && m_large.empty()) {
     m_history.finishChanged([&](Pair pair) { return store.isTouched(pair.first) | store.isTouched(pair.second); },
                             m_stepExecutor);

@@ -20,8 +20,11 @@
 #include "allpairs/Error.h"
 #include "allpairs/Span.h"
 #include "allpairs/World.h"
+#include "allpairs/bullet/Blocks.h"
 #include "allpairs/bullet/BulletBroadphaseOptions.h"
+#include "allpairs/bullet/CountingPairCache.h"
 #include "allpairs/bullet/OrderedPairCache.h"
+#include "allpairs/bullet/PairDigest.h"
 #include "allpairs/bullet/Vectors.h"
 
 namespace allpairs {
@@ -43,7 +46,8 @@ namespace allpairs {
 ///            pairCache, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject()
 ///            made it has the object in its list already, without a proxy: remove it from the world before the next
 ///            step.
-/// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the cache.
+/// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the proxies; one
+///            over the cache if it is the user's, or was changed from outside. setAabb() with the same box: nothing.
 /// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
 ///            too, and must not add, move or remove proxies.
 class BulletBroadphase : public btBroadphaseInterface {
@@ -64,7 +68,7 @@ class BulletBroadphase : public btBroadphaseInterface {
       m_ordered = ordered.get();
       m_ownCache = std::move(ordered);
     } else {
-      m_ownCache = std::make_unique<btHashedOverlappingPairCache>();
+      m_ownCache = std::make_unique<CountingPairCache>();
     }
     m_cache = m_ownCache.get();
   }
@@ -78,7 +82,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int /*shapeType*/, void* userPtr,
                                  int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override {
-    if (m_proxies.size() <= m_world.idBound()) m_proxies.push_back(std::make_unique<Proxy>());
+    if (m_proxies.size() <= m_world.idBound()) m_proxies.add();
     Proxy made(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
     made.m_uniqueId = 0;
     made.knownGroup = collisionFilterGroup;
@@ -87,7 +91,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     made.isGhost = isGhost(made, dispatcher);
     const std::vector<BoxId> near = nearTo(made, aabbMin, aabbMax);
     addToWorld(made);
-    Proxy& proxy = *m_proxies[made.id];
+    Proxy& proxy = m_proxies[made.id];
     proxy = made;
     try {
       addPairs(proxy, near);
@@ -103,12 +107,13 @@ class BulletBroadphase : public btBroadphaseInterface {
     const BoxId id = idOf(*proxy);
     m_world.remove(id);
     m_numbers.erase(proxy->m_uniqueId);
-    m_proxies[id]->isThere = false;
+    m_proxies[id].isThere = false;
   }
 
   void setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
                btDispatcher* /*dispatcher*/) override {
-    Proxy& own = *m_proxies[idOf(*proxy)];
+    Proxy& own = m_proxies[idOf(*proxy)];
+    if (!isImmediate(own) && own.m_aabbMin == aabbMin && own.m_aabbMax == aabbMax) return;
     m_world.move(idOf(own), reachOf(own, aabbMin, aabbMax));
     own.m_aabbMin = aabbMin;
     own.m_aabbMax = aabbMax;
@@ -133,7 +138,7 @@ class BulletBroadphase : public btBroadphaseInterface {
       sweep.box.max[k] += from[k];
       sweep.motion[k] -= from[k];
     }
-    for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(m_proxies[hit.id].get());
+    for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(&m_proxies[hit.id]);
   }
 
   /// Calls the callback for each box that overlaps another: none that has a NaN.
@@ -141,12 +146,13 @@ class BulletBroadphase : public btBroadphaseInterface {
     const Box box = internal::toBox(aabbMin, aabbMax);
     if (hasNan(box)) return;
     for (const BoxId id : m_world.findOverlapping(box)) {
-      if (overlaps(*m_proxies[id], aabbMin, aabbMax)) callback.process(m_proxies[id].get());  // not only its reach
+      if (overlaps(m_proxies[id], aabbMin, aabbMax)) callback.process(&m_proxies[id]);  // not only its reach
     }
   }
 
   void calculateOverlappingPairs(btDispatcher* dispatcher) override {
     const bool wasLeft = std::exchange(m_isInStep, true);  // by an exception
+    const bool isUntouched = m_ownCache != nullptr && m_ownCache->changes() == m_changes;
     noteFilterCallback();
     noteFilters();
     const StepResult step = m_world.step();
@@ -156,8 +162,10 @@ class BulletBroadphase : public btBroadphaseInterface {
     }
     m_early.clear();
     noteChanges(step);
-    if (wasLeft || !isComplete()) restorePairs(step.pairs, dispatcher);
+    const bool isExact = !wasLeft && (isUntouched ? hasAllOf(step) : isComplete());
+    if (!isExact) restorePairs(step.pairs, dispatcher);
     if (m_ordered != nullptr) m_ordered->order();
+    if (m_ownCache != nullptr) m_changes = m_ownCache->changes();
     m_isInStep = false;
   }
 
@@ -169,12 +177,11 @@ class BulletBroadphase : public btBroadphaseInterface {
     aabbMin.setZero();
     aabbMax.setZero();
     bool isFirst = true;
-    for (const auto& proxy : m_proxies) {
-      if (!proxy->isThere) continue;
-      aabbMin = isFirst ? proxy->m_aabbMin : internal::minimum(aabbMin, proxy->m_aabbMin);
-      aabbMax = isFirst ? proxy->m_aabbMax : internal::maximum(aabbMax, proxy->m_aabbMax);
+    forEachProxy([&](const Proxy& proxy) {
+      aabbMin = isFirst ? proxy.m_aabbMin : internal::minimum(aabbMin, proxy.m_aabbMin);
+      aabbMax = isFirst ? proxy.m_aabbMax : internal::maximum(aabbMax, proxy.m_aabbMax);
       isFirst = false;
-    }
+    });
   }
 
   /// Resets to the state of a new broad phase, with its numbering, if there are no proxies.
@@ -193,7 +200,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   [[nodiscard]] World& world() { return m_world; }
 
   /// The proxy of a box of world(), which has that box.
-  [[nodiscard]] btBroadphaseProxy* proxyOf(BoxId id) const { return m_proxies[id].get(); }
+  [[nodiscard]] btBroadphaseProxy* proxyOf(BoxId id) const { return &m_proxies[id]; }
 
  private:
   struct Proxy : btBroadphaseProxy {
@@ -216,8 +223,8 @@ class BulletBroadphase : public btBroadphaseInterface {
     WorldOptions options;
     options.executor = m_executor;
     options.accept = [this](BoxId a, BoxId b) {
-      if (m_filter == nullptr) return !isOfNoGroup(*m_proxies[a]) && !isOfNoGroup(*m_proxies[b]);
-      return m_filter->needBroadphaseCollision(m_proxies[a].get(), m_proxies[b].get());
+      if (m_filter == nullptr) return !isOfNoGroup(m_proxies[a]) && !isOfNoGroup(m_proxies[b]);
+      return m_filter->needBroadphaseCollision(&m_proxies[a], &m_proxies[b]);
     };
     return World(std::move(options));
   }
@@ -293,16 +300,23 @@ class BulletBroadphase : public btBroadphaseInterface {
     return true;
   }
 
+  template <class Do>
+  void forEachProxy(const Do& doWith) const {
+    for (std::size_t i = 0; i < m_proxies.size(); ++i) {
+      if (m_proxies[i].isThere) doWith(m_proxies[i]);
+    }
+  }
+
   /// Users change group and mask in the proxy itself.
   void noteFilters() {
-    for (const auto& proxy : m_proxies) {
-      if (!proxy->isThere || proxy->hasKnownFilter()) continue;
-      const BoxId id = idOf(*proxy);
-      m_world.setProperties(id, propertiesOf(proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask));
+    forEachProxy([this](Proxy& proxy) {
+      if (proxy.hasKnownFilter()) return;
+      const BoxId id = idOf(proxy);
+      m_world.setProperties(id, propertiesOf(proxy.m_collisionFilterGroup, proxy.m_collisionFilterMask));
       m_world.invalidate(Span<const BoxId>(&id, 1));  // of no group, it may have the same properties
-      proxy->knownGroup = proxy->m_collisionFilterGroup;
-      proxy->knownMask = proxy->m_collisionFilterMask;
-    }
+      proxy.knownGroup = proxy.m_collisionFilterGroup;
+      proxy.knownMask = proxy.m_collisionFilterMask;
+    });
   }
 
   void noteFilterCallback() {
@@ -310,12 +324,11 @@ class BulletBroadphase : public btBroadphaseInterface {
     if (filter == m_filter) return;
     btOverlapFilterCallback* const before = std::exchange(m_filter, filter);
     try {
-      for (const auto& proxy : m_proxies) {
-        if (!proxy->isThere) continue;
-        const BoxId id = idOf(*proxy);
-        m_world.setProperties(id, propertiesOf(proxy->knownGroup, proxy->knownMask));
+      forEachProxy([this](const Proxy& proxy) {
+        const BoxId id = idOf(proxy);
+        m_world.setProperties(id, propertiesOf(proxy.knownGroup, proxy.knownMask));
         m_world.invalidate(Span<const BoxId>(&id, 1));
-      }
+      });
     } catch (...) {
       m_filter = before;  // the next step begins again
       throw;
@@ -335,9 +348,9 @@ class BulletBroadphase : public btBroadphaseInterface {
   void addPairs(Proxy& proxy, Span<const BoxId> near) {
     const BoxId id = idOf(proxy);
     for (const BoxId other : near) {
-      if (other == id || m_cache->findPair(&proxy, m_proxies[other].get()) != nullptr) continue;
+      if (other == id || m_cache->findPair(&proxy, &m_proxies[other]) != nullptr) continue;
       const Pair pair{std::min(id, other), std::max(id, other)};
-      if (m_cache->addOverlappingPair(m_proxies[pair.first].get(), m_proxies[pair.second].get()) != nullptr) {
+      if (m_cache->addOverlappingPair(&m_proxies[pair.first], &m_proxies[pair.second]) != nullptr) {
         m_early.push_back(pair);
       }
     }
@@ -345,8 +358,8 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   /// A filter callback that refuses a pair now is asked again in the next step.
   void addPair(const Pair& pair) {
-    btBroadphaseProxy* const first = m_proxies[pair.first].get();
-    btBroadphaseProxy* const second = m_proxies[pair.second].get();
+    btBroadphaseProxy* const first = &m_proxies[pair.first];
+    btBroadphaseProxy* const second = &m_proxies[pair.second];
     if (m_cache->addOverlappingPair(first, second) != nullptr) return;
     if (m_cache->needsBroadphaseCollision(first, second)) {
       m_keepsPairs = m_cache->getNumOverlappingPairs() != 0;
@@ -357,8 +370,8 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   /// Those of a proxy that was destroyed are gone already.
   void removePair(const Pair& pair, btDispatcher* dispatcher) {
-    Proxy* const first = m_proxies[pair.first].get();
-    Proxy* const second = m_proxies[pair.second].get();
+    Proxy* const first = &m_proxies[pair.first];
+    Proxy* const second = &m_proxies[pair.second];
     if (first->isThere && second->isThere) m_cache->removeOverlappingPair(first, second, dispatcher);
   }
 
@@ -404,40 +417,21 @@ class BulletBroadphase : public btBroadphaseInterface {
     return {std::min(a, b), std::max(a, b)};
   }
 
-  /// A number for a set of pairs that others get only by a chance of 1 to 2^64, whatever their order is.
-  struct Digest {
-    std::size_t count = 0;
-    std::uint64_t sum = 0;
-
-    void add(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
-      ++count;
-      sum += valueOf(a, b);
-    }
-    void remove(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
-      --count;
-      sum -= valueOf(a, b);
-    }
-    friend bool operator==(const Digest& a, const Digest& b) { return a.count == b.count && a.sum == b.sum; }
-
-   private:
-    static std::uint64_t valueOf(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
-      constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15U;
-      const std::hash<const btBroadphaseProxy*> hash;
-      const std::uint64_t product = (hash(a) + kOdd) * (hash(b) + kOdd);
-      return (product ^ (product >> 32U)) * kOdd;
-    }
-  };
-
   /// The pairs that the cache has to hold are those of before and the changes of the step.
   void noteChanges(const StepResult& step) {
-    for (const Pair& pair : step.began) m_wanted.add(m_proxies[pair.first].get(), m_proxies[pair.second].get());
-    for (const Pair& pair : step.ended) m_wanted.remove(m_proxies[pair.first].get(), m_proxies[pair.second].get());
+    for (const Pair& pair : step.began) m_wanted.add(&m_proxies[pair.first], &m_proxies[pair.second]);
+    for (const Pair& pair : step.ended) m_wanted.remove(&m_proxies[pair.first], &m_proxies[pair.second]);
+  }
+
+  /// Whether a cache that holds no other pairs holds all of them.
+  [[nodiscard]] bool hasAllOf(const StepResult& step) const {
+    return static_cast<std::size_t>(m_cache->getNumOverlappingPairs()) == step.pairs.size();
   }
 
   /// Whether the cache holds the pairs that it has to.
   [[nodiscard]] bool isComplete() const {
-    if (!m_keepsPairs) return true;
-    Digest held;
+    if (m_ownCache == nullptr && !m_keepsPairs && m_cache->getNumOverlappingPairs() == 0) return true;
+    internal::PairDigest held;
     const btBroadphasePairArray& pairs = m_cache->getOverlappingPairArray();
     for (int i = 0; i < pairs.size(); ++i) held.add(pairs[i].m_pProxy0, pairs[i].m_pProxy1);
     return held == m_wanted;
@@ -458,7 +452,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     }
     m_wanted = {};
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      m_wanted.add(m_proxies[wanted[i].first].get(), m_proxies[wanted[i].second].get());
+      m_wanted.add(&m_proxies[wanted[i].first], &m_proxies[wanted[i].second]);
       if (isHeld[i] == 0) addPair(wanted[i]);
     }
   }
@@ -473,7 +467,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     for (const auto& [first, second] : unwanted) m_cache->removeOverlappingPair(first, second, dispatcher);
   }
 
-  std::unique_ptr<btOverlappingPairCache> m_ownCache;
+  std::unique_ptr<CountingPairCache> m_ownCache;
   Executor* m_executor;
   ImmediatePairs m_immediatePairs;
   btScalar m_characterMargin;
@@ -481,13 +475,14 @@ class BulletBroadphase : public btBroadphaseInterface {
   std::unordered_set<int> m_numbers;      // of all proxies, if they have numbers
   OrderedPairCache* m_ordered = nullptr;  // the own cache, if proxies have numbers
   btOverlapFilterCallback* m_filter = nullptr;
-  std::vector<std::unique_ptr<Proxy> > m_proxies;  // by id; one that was destroyed waits for a box with its id
+  internal::Blocks<Proxy> m_proxies;  // by id; one that was destroyed waits for a box with its id
   World m_world;
   btOverlappingPairCache* m_cache;
-  bool m_keepsPairs = true;  // unlike a btNullPairCache
+  bool m_keepsPairs = true;  // unlike a btNullPairCache that it was given
   bool m_isInStep = false;
-  Digest m_wanted;            // of the pairs of the last step
-  std::vector<Pair> m_early;  // that were added to the cache since the last step
+  std::uint64_t m_changes = 0;    // of the own cache at the end of the last step
+  internal::PairDigest m_wanted;  // of the pairs of the last step
+  std::vector<Pair> m_early;      // that were added to the cache since the last step
   std::vector<Pair> m_ended;
 };
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "allpairs/bullet/CountingPairCache.h"
+
 namespace allpairs {
 
 /// Bullet's hashed pair cache, whose pairs can be put in the order of the m_uniqueId of their proxies, ascending, that
@@ -19,18 +21,8 @@ namespace allpairs {
 ///          not in their place; about 72 bytes of scratch memory per pair, which are kept.
 /// Threads: one call at a time, as in Bullet's caches.
 /// Memory:  if order() throws std::bad_alloc, the cache is as before.
-class OrderedPairCache : public btHashedOverlappingPairCache {
+class OrderedPairCache : public CountingPairCache {
  public:
-  btBroadphasePair* addOverlappingPair(btBroadphaseProxy* first, btBroadphaseProxy* second) override {
-    m_isOrdered = false;
-    return btHashedOverlappingPairCache::addOverlappingPair(first, second);
-  }
-
-  void* removeOverlappingPair(btBroadphaseProxy* first, btBroadphaseProxy* second, btDispatcher* dispatcher) override {
-    m_isOrdered = false;
-    return btHashedOverlappingPairCache::removeOverlappingPair(first, second, dispatcher);
-  }
-
   using btHashedOverlappingPairCache::processAllOverlappingPairs;
 
   /// The narrow phase calls this. The pairs are in order, so that btDispatcherInfo::m_deterministicOverlappingPairs has
@@ -45,13 +37,13 @@ class OrderedPairCache : public btHashedOverlappingPairCache {
   void sortOverlappingPairs(btDispatcher* /*dispatcher*/) override { order(); }
 
   void order() {
-    if (m_isOrdered) return;
+    if (m_ordered == changes()) return;
     readKeys();
     if (!m_misplaced.empty()) {
       mergeMisplaced();
       permute();
     }
-    m_isOrdered = true;
+    m_ordered = changes();
   }
 
  private:
@@ -113,7 +105,7 @@ class OrderedPairCache : public btHashedOverlappingPairCache {
     for (int i = 0; i < m_hashTable.size(); ++i) m_hashTable[i] = renamed(m_hashTable[i]);
   }
 
-  bool m_isOrdered = true;
+  std::uint64_t m_ordered = 0;  // changes() at the last order()
   std::vector<Place> m_placed;  // the scratch memory of order(), kept
   std::vector<Place> m_misplaced;
   std::vector<Place> m_merged;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include <cstdint>
+
+namespace allpairs {
+
+/// Bullet's hashed pair cache, which counts the calls that add or remove a pair: two equal counts, and no pair was added
+/// or removed between. Its array of pairs is to be read only, as with Bullet's, whose hash table knows nothing of changes.
+class CountingPairCache : public btHashedOverlappingPairCache {
+ public:
+  btBroadphasePair* addOverlappingPair(btBroadphaseProxy* first, btBroadphaseProxy* second) override {
+    ++m_changes;
+    return btHashedOverlappingPairCache::addOverlappingPair(first, second);
+  }
+
+  void* removeOverlappingPair(btBroadphaseProxy* first, btBroadphaseProxy* second, btDispatcher* dispatcher) override {
+    ++m_changes;
+    return btHashedOverlappingPairCache::removeOverlappingPair(first, second, dispatcher);
+  }
+
+  [[nodiscard]] std::uint64_t changes() const { return m_changes; }
+
+ private:
+  std::uint64_t m_changes = 0;
+};
+
+}  // namespace allpairs
