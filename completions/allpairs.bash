@@ -30,7 +30,7 @@ _allpairs() {
         -o | --output) files=-f ;;
         --color) words='auto always never' ;;
         *)
-          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --strategy --threads --verify --exact --worlds --format -o --output --color'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --strategy --threads --verify --exact --worlds --format -o --output --color'
           files=-f
           ;;
       esac
@@ -88,7 +88,7 @@ _allpairs() {
         --max-memory) return ;;
         --input-format) return ;;
         *)
-          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format'
           files=-f
           ;;
       esac
@@ -135,7 +135,7 @@ _allpairs() {
         -o | --output) files=-f ;;
         --port) return ;;
         *)
-          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up --sequence -o --output --open --serve --port'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up --sequence -o --output --open --serve --port'
           files=-f
           ;;
       esac
@@ -157,7 +157,7 @@ _allpairs() {
         --pictures) return ;;
         --metres-per-unit) return ;;
         *)
-          options='-h --help --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up -o --output --force --bcf --since --open --pictures --metres-per-unit'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up -o --output --force --bcf --since --open --pictures --metres-per-unit'
           files=-f
           ;;
       esac

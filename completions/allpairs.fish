@@ -17,6 +17,7 @@ complete -c allpairs -n __fish_use_subcommand -a completion -d 'Print the comple
 complete -c allpairs -n __fish_use_subcommand -a help -d 'Print the help of a command'
 complete -c allpairs -n '__fish_seen_subcommand_from help' -a 'detect join plan info elements track view report generate bench completion'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -s h -l help -d 'Print this help message and exit'
+complete -c allpairs -n '__fish_seen_subcommand_from detect' -l recursive -d 'Of a folder, also read the meshes of the folders within it'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l partial -d 'Ignore what cannot be placed or read'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l data -x -a '(__fish_complete_directories)' -d 'Also search this folder for files that a scene names; repeatable'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l sofa -x -a '20.06 26.12' -d 'Read scenes as this SOFA does; by default the one that knows their components'
@@ -72,6 +73,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from plan' -l ranks -x -d 'What 
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -l threads -x -d 'Number of threads; 0: one per core'
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -F
 complete -c allpairs -n '__fish_seen_subcommand_from info' -s h -l help -d 'Print this help message and exit'
+complete -c allpairs -n '__fish_seen_subcommand_from info' -l recursive -d 'Of a folder, also read the meshes of the folders within it'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l partial -d 'Ignore what cannot be placed or read'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l data -x -a '(__fish_complete_directories)' -d 'Also search this folder for files that a scene names; repeatable'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l sofa -x -a '20.06 26.12' -d 'Read scenes as this SOFA does; by default the one that knows their components'
@@ -100,6 +102,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from track' -l input-format -x -
 complete -c allpairs -n '__fish_seen_subcommand_from track' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
 complete -c allpairs -n '__fish_seen_subcommand_from track' -F
 complete -c allpairs -n '__fish_seen_subcommand_from view' -s h -l help -d 'Print this help message and exit'
+complete -c allpairs -n '__fish_seen_subcommand_from view' -l recursive -d 'Of a folder, also read the meshes of the folders within it'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l partial -d 'Ignore what cannot be placed or read'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l data -x -a '(__fish_complete_directories)' -d 'Also search this folder for files that a scene names; repeatable'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l sofa -x -a '20.06 26.12' -d 'Read scenes as this SOFA does; by default the one that knows their components'
@@ -120,6 +123,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from view' -l serve -d 'Serve th
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l port -x -d 'Port to serve on; 0, the default: any free port'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -F
 complete -c allpairs -n '__fish_seen_subcommand_from report' -s h -l help -d 'Print this help message and exit'
+complete -c allpairs -n '__fish_seen_subcommand_from report' -l recursive -d 'Of a folder, also read the meshes of the folders within it'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l partial -d 'Ignore what cannot be placed or read'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l data -x -a '(__fish_complete_directories)' -d 'Also search this folder for files that a scene names; repeatable'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l sofa -x -a '20.06 26.12' -d 'Read scenes as this SOFA does; by default the one that knows their components'

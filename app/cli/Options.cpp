@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "cli/ExitStatus.h"
+#include "cli/Text.h"
 
 namespace allpairs::app {
 
@@ -35,6 +35,7 @@ void addInputs(CLI::App& command, InputSettings& settings) {
   command.add_option("INPUT", settings.paths, "Scenes, meshes, folders of meshes, box arrays; taken together")
       ->required()
       ->type_name("");
+  command.add_flag("--recursive", settings.recursive, "Of a folder, also read the meshes of the folders within it");
   command.add_flag("--partial", settings.partial, "Ignore what cannot be placed or read");
   command
       .add_option("--data", settings.searchRoots, "Also search this folder for files that a scene names; repeatable")
@@ -110,13 +111,6 @@ void addOutput(CLI::App& command, std::string& path) {
         if (text.empty()) throw CLI::ValidationError("-o", "the name of a file is needed");
         return text == "-" ? "" : text;
       });
-}
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
 }
 
 }  // namespace allpairs::app

@@ -25,6 +25,7 @@ struct InputSettings {
   std::vector<std::string> paths;
   std::vector<std::string> searchRoots;
   bool partial = false;
+  bool recursive = false;
   std::string sofa{};  ///< The word of --sofa; empty for the default.
   ReadLimits limits{};
   std::string output{};  ///< The file that is written, which may be none that is read; empty where there is none.
@@ -64,8 +65,5 @@ void addFormat(CLI::App& command, std::string& format, const std::vector<std::st
 
 /// Declares -o FILE; `path` stays empty where it isn't given, or is "-".
 void addOutput(CLI::App& command, std::string& path);
-
-/// The end of a file's name from its last dot, in lower case; empty where there is none.
-[[nodiscard]] std::string lowerExtension(const std::string& path);
 
 }  // namespace allpairs::app

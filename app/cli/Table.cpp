@@ -61,8 +61,11 @@ std::size_t mostOfName(const TableNotes& notes, std::size_t others) {
 }
 
 std::string tableHead(const scene::ResultView& result, const TableNotes& notes) {
-  std::string text = fmt::format("models   {}, of which {} simulated\n", grouped(result.modelCount),
-                                 notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
+  std::string text = fmt::format("models   {}", grouped(result.modelCount));
+  if (notes.simulated != result.modelCount) {
+    text += fmt::format(", of which {} simulated", notes.simulated == 1 ? "1 is" : grouped(notes.simulated) + " are");
+  }
+  text += '\n';
   text += fmt::format("method   {}\n", notes.method);
   if (notes.remarkCount != 0) {
     text += fmt::format("ignored  {}; 'allpairs info{}' lists them\n",

@@ -23,4 +23,7 @@ namespace allpairs::app {
 /// A box as [0, 0, 0] to [1, 1, 1], short enough to read.
 [[nodiscard]] std::string boxText(const Box& box);
 
+/// The end of a file's name from its last dot, in lower case; empty where there is none.
+[[nodiscard]] std::string lowerExtension(const std::string& path);
+
 }  // namespace allpairs::app

@@ -24,9 +24,10 @@ std::vector<std::string> emptyTexts(const BoxSetArguments& sets, const std::arra
   for (std::size_t set = 0; set < empty.size(); ++set) {
     if (empty[set].count == 0) continue;
     const std::vector<std::string>& paths = set == 0 ? sets.paths : sets.with;
-    const std::string file = paths.size() == 1 ? paths.front() + ": " : "";
-    const std::string of = sets.with.empty() || paths.size() == 1 ? "" : fmt::format(" of set {}", set + 1);
-    texts.push_back(fmt::format("{}box {}{}: {}", file, empty[set].first, of, emptyReason(empty[set])));
+    const std::string others = paths.size() == 1 ? "" : fmt::format(" and {} more", paths.size() - 1);
+    const std::string of = paths.size() == 1 ? "" : " of all of them";
+    texts.push_back(
+        fmt::format("{}{}: box {}{}: {}", paths.front(), others, empty[set].first, of, emptyReason(empty[set])));
   }
   return texts;
 }

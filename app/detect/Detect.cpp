@@ -49,7 +49,7 @@ struct DetectSettings {
 constexpr const char* kDetectExamples = R"(INPUT is one or more of
   .scn, .xml                     a SOFA scene
   .obj .stl .ply .glb .off ...   a mesh file: each object or node is a model
-  a folder                       all mesh files in it
+  a folder                       all mesh files in it; --recursive: and in those within it
   .npy                           boxes as a NumPy array (n, 6), float32 or float64:
                                  minx miny minz maxx maxy maxz
   .csv                           the same as text, with a name in the first or last column
@@ -88,13 +88,6 @@ void write(const scene::ResultView& result, const TableNotes& notes, const std::
   } else {
     writeTable(result, notes, sink);
   }
-}
-
-std::string boxMethod(const DetectionOptions& options) {
-  std::string text = "boxes";
-  if (options.distance) text += fmt::format(" at most {} apart on every axis", *options.distance);
-  if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
-  return text;
 }
 
 /// A detection and all that is needed to write it down.
@@ -138,7 +131,7 @@ Outcome detect(const BoxInput& input, const DetectSettings& settings, const Dete
   const scene::BoxArray& boxes = input.boxes;
   const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
   Outcome outcome{.detection = withClock(boxes.size(), [&] { return detectBoxes(boxes, order, options); }),
-                  .notes = {.method = boxMethod(options), .simulated = boxes.size()}};
+                  .notes = {.method = boxMethod(options.distance, options.region), .simulated = boxes.size()}};
   outcome.result.modelCount = boxes.size();
   outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
   outcome.result.warnings = input.warnings;

@@ -20,6 +20,7 @@
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
+#include "cli/Text.h"
 #include "cli/Timer.h"
 #include "detect/Detection.h"
 #include "elements/ElementReport.h"

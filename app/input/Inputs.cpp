@@ -34,6 +34,7 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   scene::ReadOptions options = readOptions(settings.limits);
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;
+  options.recursive = settings.recursive;
   if (!settings.sofa.empty())
     options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.progress = [&line](const scene::Progress& progress) {
@@ -110,6 +111,14 @@ scene::Scene readScenes(const InputSettings& settings, const scene::ReadOptions&
   return scene;
 }
 
+/// Whether any of the inputs is a SOFA scene, whose words its user knows.
+bool isOfSofa(const scene::Scene& scene) {
+  return std::any_of(scene.inputs.begin(), scene.inputs.end(), [](const std::filesystem::path& file) {
+    const std::string extension = lowerExtension(file.string());
+    return extension == ".scn" || extension == ".xml";
+  });
+}
+
 std::string pipelineText(const scene::ScenePipeline& pipeline) {
   std::string text =
       fmt::format("{}: {}, {}, alarm distance {}", printable(pipeline.name), counted(pipeline.models.size(), "model"),
@@ -170,14 +179,23 @@ scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i) {
   return {.name = boxes.name(i), .type = "BoxModel", .elements = 1, .box = boxes.boxes()[i]};
 }
 
+std::string boxMethod(std::optional<double> distance, const std::optional<Box>& region) {
+  std::string text = distance ? fmt::format("boxes at most {} apart on every axis", *distance) : "boxes";
+  if (region) text += fmt::format(", in the region {}", boxText(*region));
+  return text;
+}
+
 std::string methodText(const scene::Scene& scene) {
   if (!scene.pipelines.empty()) {
     std::string text = fmt::format("{} pipelines, each of its own models", scene.pipelines.size());
     for (const scene::ScenePipeline& pipeline : scene.pipelines) text += "\n         " + pipelineText(pipeline);
     return text;
   }
+  const double alarmDistance = scene.intersection->getAlarmDistance();
+  if (!isOfSofa(scene))
+    return boxMethod(alarmDistance == 0.0 ? std::nullopt : std::optional(alarmDistance), scene.region);
   const std::string method(scene.intersection->typeName());
-  std::string text = fmt::format("{}, alarm distance {}", method, scene.intersection->getAlarmDistance());
+  std::string text = fmt::format("{}, alarm distance {}", method, alarmDistance);
   if (scene.intersection->isContinuous()) text += fmt::format(", continuous over {} s", scene.timeStep);
   if (scene.region) text += fmt::format(", in the region {}", boxText(*scene.region));
   return text;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,7 +42,10 @@ void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, 
 /// What a result says about box i.
 [[nodiscard]] scene::ModelRecord boxRecord(const scene::BoxArray& boxes, std::size_t i);
 
-/// How a scene's models are tested, in words: the method and its alarm distance.
+/// How boxes are tested, in words.
+[[nodiscard]] std::string boxMethod(std::optional<double> distance, const std::optional<Box>& region);
+
+/// How a scene's models are tested, in words: of a SOFA scene the method and its alarm distance, of meshes as boxes.
 [[nodiscard]] std::string methodText(const scene::Scene& scene);
 
 }  // namespace allpairs::app

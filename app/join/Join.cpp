@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -28,7 +29,8 @@ namespace {
 
 struct JoinSettings {
   JoinArguments shared;
-  std::string output;
+  std::string output;  ///< Empty for standard output, if it was given at all.
+  bool hasOutput = false;
   std::string work;
   std::string threads = "0";
   bool resume = false;
@@ -97,8 +99,8 @@ std::string summaryText(const join::JoinSummary& summary, const std::string& out
 }
 
 void runJoin(const JoinSettings& settings) {
-  if (settings.output.empty() && !settings.count) throw UsageError("join takes -o FILE, or --count");
-  if (!settings.output.empty() && settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
+  if (!settings.hasOutput && !settings.count) throw UsageError("join takes -o FILE, or --count");
+  if (settings.hasOutput && settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
   const std::string extension = lowerExtension(settings.output);
   if (!extension.empty() && extension != ".npy") {
     throw UsageError("join writes .npy files; the name of its output ends in something else");
@@ -110,7 +112,9 @@ void runJoin(const JoinSettings& settings) {
   options.resume = settings.resume;
   options.work = settings.work;
   if (options.work.empty())
-    options.work = (settings.count ? settings.shared.sets.paths.front() : settings.output) + ".work";
+    options.work = (settings.output.empty() ? settings.shared.sets.paths.front() : settings.output) + ".work";
+  const std::optional<std::filesystem::path> target =
+      settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output);
   JoinLine line;
   options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
   join::JoinSummary summary;
@@ -119,21 +123,25 @@ void runJoin(const JoinSettings& settings) {
     if (settings.count) {
       summary = join::countFiles(inputs, options);
     } else {
-      Output output(settings.output);
+      Output output(target);
+      if (output.isTerminal()) throw UsageError("pairs are binary and not written to a terminal: use -o FILE");
       options.commit = [&output] { output.commit(); };
       summary = join::joinFiles(
           inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
     }
   } catch (const FileError& problem) {
     const std::filesystem::path manifest = options.work / "manifest";
-    if (problem.path() == options.work || problem.path() == manifest || !std::filesystem::exists(manifest)) throw;
+    const std::vector<std::filesystem::path> read = filesOf(settings.shared.sets);
+    const bool isOfInput = std::find(read.begin(), read.end(), problem.path()) != read.end();
+    if (isOfInput || problem.path() == options.work || problem.path() == manifest) throw;
+    if (!std::filesystem::exists(manifest)) throw;
     throw FileError(problem.path(),
                     problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }
   line.clear();
   warnOfEmpty(settings.shared, summary);
   const std::string text = summaryText(summary, settings.output, !options.second.empty());
-  if (settings.output.empty() || std::filesystem::is_regular_file(settings.output)) {
+  if (settings.count || std::filesystem::is_regular_file(settings.output)) {
     Output(std::nullopt).write(text);
   } else {
     fmt::print(stderr, "{}", text);  // standard output may be the result
@@ -156,7 +164,10 @@ void addJoin(CLI::App& program) {
   addThreads(*command, settings->threads);
   addOutput(*command, settings->output);
   command->get_option("--output")->description("Write to FILE, which appears only when complete");
-  command->callback([settings] { runJoin(*settings); });
+  command->callback([settings, command] {
+    settings->hasOutput = command->count("--output") != 0;
+    runJoin(*settings);
+  });
 }
 
 }  // namespace allpairs::app

@@ -6,6 +6,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "allpairs/parallel/TbbExecutor.h"
+#include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Warning.h"
 
@@ -22,6 +23,8 @@ void addJoinArguments(CLI::App& command, JoinArguments& arguments) {
 join::JoinOptions joinOptions(const JoinArguments& arguments) {
   join::JoinOptions options;
   if (!arguments.memory.empty()) options.memory = parseMemory("--memory", arguments.memory);
+  if (!arguments.memory.empty() && options.memory < join::kLeastMemory)
+    throw UsageError("--memory: '" + arguments.memory + "' is less than the least, 64M");
   if (!arguments.distance.empty()) options.distance = parseDistance(arguments.distance);
   options.second = pathsOf(arguments.sets.with);
   if (!arguments.sets.box.empty()) options.region = parseRegion(arguments.sets.box);

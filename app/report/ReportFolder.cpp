@@ -19,6 +19,7 @@
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/SignalCleanup.h"
+#include "cli/Text.h"
 
 namespace allpairs::app {
 

@@ -8,6 +8,7 @@
 #include "allpairs/scene/BoxFrames.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
+#include "cli/Text.h"
 #include "input/MeshSteps.h"
 
 namespace allpairs::app {

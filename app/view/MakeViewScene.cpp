@@ -182,7 +182,7 @@ void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to
     return;
   }
   const DetectionOptions& options = request.detection;
-  to.method = boxMethod(options);
+  to.method = boxMethod(options.distance, options.region);
   to.distance = options.distance.value_or(0.0);
   to.region = options.region;
   addBoxColumns(from.size(), to);

@@ -26,13 +26,6 @@ std::string titleOf(const InputSettings& input) {
   return fmt::format("{} and {} more", names.front(), names.size() - 1);
 }
 
-std::string boxMethod(const DetectionOptions& options) {
-  std::string text =
-      options.distance ? fmt::format("boxes at most {} apart on every axis", *options.distance) : "boxes";
-  if (options.region) text += fmt::format(", in the region {}", boxText(*options.region));
-  return text;
-}
-
 void addBoxColumns(std::size_t count, view::ViewScene& to) {
   to.modelCount = count;
   to.typeNames = {"BoxModel"};

@@ -15,9 +15,6 @@ namespace allpairs::app {
 /// What the user calls the inputs, all together: the names of up to three, or how many.
 [[nodiscard]] std::string titleOf(const InputSettings& input);
 
-/// How boxes are tested, in words.
-[[nodiscard]] std::string boxMethod(const DetectionOptions& options);
-
 /// Gives a scene the columns of that many boxes, which have neither flags nor groups.
 void addBoxColumns(std::size_t count, view::ViewScene& to);
 

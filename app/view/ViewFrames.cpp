@@ -91,7 +91,7 @@ class FrameSearch {
 view::ViewScene emptyScene(const InputSettings& input, const DetectionOptions& options, std::size_t frames) {
   view::ViewScene scene;
   scene.title = titleOf(input);
-  scene.method = fmt::format("{}, {}", boxMethod(options), counted(frames, "frame"));
+  scene.method = fmt::format("{}, {}", boxMethod(options.distance, options.region), counted(frames, "frame"));
   scene.distance = options.distance.value_or(0.0);
   scene.region = options.region;
   return scene;

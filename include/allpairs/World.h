@@ -43,9 +43,10 @@ namespace allpairs {
 /// Memory:    a call that throws, whether std::bad_alloc or an exception of `accept`, leaves all boxes unchanged: a
 ///            batch is applied completely or not at all. After a step() that threw, result() has the pairs of the last
 ///            step that returned, and no changes; the next step reports the changes since that one.
-/// Callbacks: `accept` may use other worlds, and const members of the world that calls it, but not findBetween(),
-///            which calls `accept` again, and so on. All other members throw InvalidArgument, and it must not move or
-///            destroy that world. The same holds for a task of the executor.
+/// Callbacks: `accept` may use other worlds, and const members of the world that calls it. Of these it must not call
+///            findBetween(), which would call `accept` again until the stack is full. All others, those that change
+///            the world, throw InvalidArgument, and it must not move or destroy that world. The same holds for a task
+///            of the executor.
 /// Moving:    a moved-from world is like a new one with default options.
 ///
 /// The lists of a step are valid until the next step. Queries return their own memory.

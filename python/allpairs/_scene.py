@@ -157,6 +157,7 @@ def load(
     sofa: Sofa = "",
     allow_outside: bool = False,
     max_memory: int = 0,
+    recursive: bool = False,
 ) -> Scene:
     """Reads a SOFA scene (.scn, .xml), a mesh file, a folder of mesh files, or boxes (.npy, .csv).
 
@@ -174,6 +175,8 @@ def load(
     max_memory : int
         The most bytes that reading may take; by default, 0, half of the machine's memory and no more than 256 MiB plus
         256 bytes for each byte of the files that are read.
+    recursive : bool
+        Of a folder, read the mesh files of the folders within it as well.
 
     Raises
     ------
@@ -188,7 +191,8 @@ def load(
     version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
     memory = _arguments.whole("max_memory", max_memory)
     flags = _arguments.flag("partial", partial), version, _arguments.flag("allow_outside", allow_outside)
-    return Scene(_reading.load(_arguments.path_of("path", path), roots, *flags, memory))
+    deep = _arguments.flag("recursive", recursive)
+    return Scene(_reading.load(_arguments.path_of("path", path), roots, *flags, memory, deep))
 
 
 def detect(
@@ -199,6 +203,7 @@ def detect(
     sofa: Sofa = "",
     allow_outside: bool = False,
     max_memory: int = 0,
+    recursive: bool = False,
     distance: float | None = None,
     region: npt.ArrayLike | None = None,
     strategy: _arguments.Strategy = "auto",
@@ -229,6 +234,7 @@ def detect(
         sofa=sofa,
         allow_outside=allow_outside,
         max_memory=max_memory,
+        recursive=recursive,
     )
     if not len(scene) and any(remark.is_partial for remark in scene.remarks):
         name = os.fsdecode(path)

@@ -304,7 +304,8 @@ def batches(
 ) -> Iterator[Pairs]:
     """The pairs of `overlaps` in batches; uses memory independent of their number.
 
-    The search runs in its own thread, at most two batches ahead of its reader. Leaving the loop early ends it.
+    The search runs in its own thread, at most two batches ahead of its reader. Leaving the loop early ends it. Nobody,
+    the body of the loop included, may change the arrays meanwhile: pairs can be lost.
 
     Parameters
     ----------

@@ -20,13 +20,15 @@ using Bounds = std::array<double, 6>;
 
 // NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
 std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
-                                  bool partial, const std::string& sofa, bool allowOutside, std::uint64_t maxMemory) {
+                                  bool partial, const std::string& sofa, bool allowOutside, std::uint64_t maxMemory,
+                                  bool recursive) {
   scene::ReadOptions options;
   options.searchRoots = std::move(searchRoots);
   options.partial = partial;
   if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
   options.allowOutside = allowOutside;
   options.maxMemory = maxMemory;
+  options.recursive = recursive;
   CallFlag stop;
   options.stop = &stop.flag();
   return interruptibly(kLong, Runs::Alone, [&](Stopper& stopper) {

@@ -47,13 +47,6 @@ void releaseFreedMemory() {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; }
 
-bool isEmptyFolder(const fs::path& folder) {
-  std::error_code error;
-  const bool isEmpty = scene::folderNames(folder, error).empty();
-  if (error) throw FileError(folder, "cannot be read: " + error.message());
-  return isEmpty;
-}
-
 }  // namespace
 
 DiskJoin::DiskJoin(BoxInput& input, const JoinOptions& options, const Budget& budget, bool isCount)
@@ -101,18 +94,34 @@ void DiskJoin::clearFolder() {
   fs::remove(m_options.work, ignored);  // if it is empty: it may be the user's
 }
 
-/// Takes a folder that is empty, or that a join left.
+/// Takes a folder that is empty, or that a join left. A join that ends removes its folder, the lock last: at any time
+/// another may find one half, or lock a file that is no longer there, and looks again.
 void DiskJoin::openFolder() {
+  constexpr int kMostLooks = 100;  // each is another join that ended meanwhile
+  for (int look = 0; look < kMostLooks; ++look) {
+    if (tryToOpenFolder()) return;
+  }
+  throw FileError(m_options.work, "is in use by other joins, one after the other");
+}
+
+/// Returns whether the folder is locked; it is not where a join ended meanwhile.
+bool DiskJoin::tryToOpenFolder() {
   std::error_code problem;
   fs::create_directories(m_options.work, problem);
   if (problem) throw FileError(m_options.work, "cannot be made: " + problem.message());
-  const bool isOurs = fs::exists(file(kLock), problem);
+  const std::vector<std::string> names = scene::folderNames(m_options.work, problem);
+  if (problem == std::errc::no_such_file_or_directory) return false;
   if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message());
-  if (!isOurs && !isEmptyFolder(m_options.work)) {
+  const bool isOurs = std::find(names.begin(), names.end(), kLock) != names.end();
+  if (!isOurs && !names.empty()) {
+    if (fs::exists(file(kLock), problem) || !fs::exists(m_options.work / names.front(), problem)) return false;
     throw FileError(m_options.work, "is not empty, and not the work folder of a join");
   }
-  m_lock = WorkFile(file(kLock), isOurs ? WorkFile::Mode::Open : WorkFile::Mode::Create);
+  std::optional<WorkFile> lock = WorkFile::unlessFolderIsGone(file(kLock));
+  if (!lock) return false;
+  m_lock = std::move(*lock);
   if (!m_lock.lock()) throw FileError(m_options.work, "is in use by another join");
+  return m_lock.isThere();
 }
 
 void DiskJoin::readManifest() {
@@ -142,7 +151,8 @@ void DiskJoin::dropDamaged() {
     m_spill.reset();
   }
   if (!m_manifest.isCount && !m_manifest.cells.empty()) dropDamagedCells();
-  m_resumed = m_manifest.cells.size();
+  const auto isCell = [this](const auto& cell) { return cell.first < m_cells.size(); };  // and no task of wide boxes
+  m_resumed = static_cast<std::uint64_t>(std::count_if(m_manifest.cells.begin(), m_manifest.cells.end(), isCell));
 }
 
 bool DiskJoin::hasAllBoxes() {

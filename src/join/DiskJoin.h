@@ -31,6 +31,7 @@ class DiskJoin {
 
  private:
   void openFolder();
+  [[nodiscard]] bool tryToOpenFolder();
   void readManifest();
   void clearFolder();
   void requireRoom(const Division& division) const;

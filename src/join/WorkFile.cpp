@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,11 +18,27 @@
 
 namespace allpairs::join {
 
-WorkFile::WorkFile(const std::filesystem::path& path, Mode mode) : m_path(path) {
+namespace {
+
+int opened(const std::filesystem::path& path, WorkFile::Mode mode) {
   constexpr mode_t kPermissions = 0666;  // less what the umask takes away
-  const int flags = mode == Mode::Create ? O_RDWR | O_CREAT | O_TRUNC : O_RDWR;
-  m_descriptor = ::open(path.c_str(), flags | O_CLOEXEC, kPermissions);
+  const int flags = mode == WorkFile::Mode::Create ? O_RDWR | O_CREAT | O_TRUNC : O_RDWR;
+  return ::open(path.c_str(), flags | O_CLOEXEC, kPermissions);
+}
+
+}  // namespace
+
+WorkFile::WorkFile(const std::filesystem::path& path, Mode mode) : m_path(path), m_descriptor(opened(path, mode)) {
   if (m_descriptor < 0) fail("opened");
+}
+
+std::optional<WorkFile> WorkFile::unlessFolderIsGone(const std::filesystem::path& path) {
+  WorkFile file;
+  file.m_path = path;
+  file.m_descriptor = opened(path, Mode::Create);
+  if (file.m_descriptor < 0 && errno == ENOENT) return std::nullopt;
+  if (file.m_descriptor < 0) file.fail("opened");
+  return file;
 }
 
 WorkFile::~WorkFile() {
@@ -71,6 +88,13 @@ bool WorkFile::lock() const {
   if (::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0) return true;
   if (errno == EWOULDBLOCK) return false;
   fail("locked");
+}
+
+bool WorkFile::isThere() const {
+  struct stat own {};
+  struct stat there {};
+  return ::fstat(m_descriptor, &own) == 0 && ::stat(m_path.c_str(), &there) == 0 && own.st_dev == there.st_dev &&
+         own.st_ino == there.st_ino;
 }
 
 void WorkFile::fail(const char* action) const {

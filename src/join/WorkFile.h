@@ -18,6 +18,8 @@ class WorkFile {
 
   WorkFile() = default;
   WorkFile(const std::filesystem::path& path, Mode mode);
+  /// Creates a file, or opens the one that is there; none where its folder has gone.
+  [[nodiscard]] static std::optional<WorkFile> unlessFolderIsGone(const std::filesystem::path& path);
   ~WorkFile();
   WorkFile(WorkFile&& other) noexcept;
   WorkFile& operator=(WorkFile&& other) noexcept;
@@ -36,6 +38,9 @@ class WorkFile {
 
   /// Takes the lock of the file, which ends with it, also where the process is killed; false if another has it.
   [[nodiscard]] bool lock() const;
+
+  /// Whether its path still leads to it: nobody has removed or replaced it.
+  [[nodiscard]] bool isThere() const;
 
  private:
   [[noreturn]] void fail(const char* action) const;

@@ -5,7 +5,12 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/version.h>
+#if __has_include(<dlfcn.h>)
+#include <dlfcn.h>
+#endif
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -43,11 +48,12 @@ class Inside {
 };
 
 /// oneTBB starts no more workers than the machine has cores, and warns on standard error, unless it is told to. Of
-/// several limits it takes the least: the executors share one, the greatest that any of them needs.
+/// several limits it takes the least: the executors share one, the greatest that any of them needs. An arena is made and
+/// ended under the same lock: oneTBB looks at the limit then.
 class WorkerLimit {
  public:
   explicit WorkerLimit(std::size_t threads) : m_threads(threads) {
-    const std::lock_guard lock(shared().mutex);
+    const std::lock_guard lock(mutex());
     const auto place = shared().wanted.insert(threads);
     try {
       renew();
@@ -59,13 +65,15 @@ class WorkerLimit {
   WorkerLimit(const WorkerLimit&) = delete;
   WorkerLimit& operator=(const WorkerLimit&) = delete;
   ~WorkerLimit() {
-    const std::lock_guard lock(shared().mutex);
+    const std::lock_guard lock(mutex());
     shared().wanted.erase(shared().wanted.find(m_threads));
     try {
       renew();
     } catch (const std::bad_alloc&) {  // the limit of before is no less
     }
   }
+
+  [[nodiscard]] static std::mutex& mutex() { return shared().mutex; }
 
  private:
   struct Shared {
@@ -93,12 +101,31 @@ class WorkerLimit {
 
 }  // namespace
 
+/// Threads of oneTBB end some time after their work. A program that unloads us, and with us oneTBB, would have them run
+/// in code that is gone: from the first executor on oneTBB stays loaded.
+void keepLoaded() {
+#if __has_include(<dlfcn.h>)
+  static std::atomic<bool> isKept = false;
+  if (isKept) return;
+  Dl_info library{};
+  // NOLINTNEXTLINE(*-reinterpret-cast): that is how the function takes addresses of functions.
+  if (dladdr(reinterpret_cast<const void*>(&TBB_runtime_interface_version), &library) == 0) return;
+  isKept = dlopen(library.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE) != nullptr;
+#endif
+}
+
 /// An arena for each call that runs at the same time: a thread that comes from outside would wait for a place in one
 /// whose threads all wait, for a lock that it holds.
 class TbbExecutor::Arenas {
  public:
   explicit Arenas(int threads) : m_threads(threads) {
     if (threads > tbb::info::default_concurrency()) m_limit.emplace(static_cast<std::size_t>(threads));
+  }
+  Arenas(const Arenas&) = delete;
+  Arenas& operator=(const Arenas&) = delete;
+  ~Arenas() {
+    const std::lock_guard alone(WorkerLimit::mutex());
+    m_all.clear();
   }
 
   [[nodiscard]] int threads() const noexcept { return m_threads; }
@@ -116,6 +143,8 @@ class TbbExecutor::Arenas {
     if (m_idle.empty()) {
       m_idle.reserve(m_all.size() + 1);  // so that each can be put back
       m_all.push_back(std::make_unique<tbb::task_arena>(m_threads));
+      const std::lock_guard alone(WorkerLimit::mutex());
+      m_all.back()->initialize();
       return m_all.back().get();
     }
     tbb::task_arena* const arena = m_idle.back();
@@ -135,7 +164,9 @@ class TbbExecutor::Arenas {
   std::vector<tbb::task_arena*> m_idle;
 };
 
-TbbExecutor::TbbExecutor(std::size_t threads) : m_arenas(std::make_unique<Arenas>(checkedThreads(threads))) {}
+TbbExecutor::TbbExecutor(std::size_t threads) : m_arenas(std::make_unique<Arenas>(checkedThreads(threads))) {
+  keepLoaded();
+}
 
 TbbExecutor::~TbbExecutor() = default;
 

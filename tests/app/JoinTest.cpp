@@ -197,6 +197,16 @@ TEST_F(JoinCommand, KilledAtAnyMomentItGoesOnToTheSameBytes) {
   expectSameBytesWhenKilled("\"$0\" join many.npy -o join.npy --memory 64M --threads 1", "detect.npy");
 }
 
+TEST_F(JoinCommand, WritesToStandardOutputWhereThatIsAskedFor) {
+  const std::string join = "\"$0\" join '" + few + "' -o ";
+  expectSuccess(runScript(join + "'" + in("file.npy") + "'"));
+  const ProgramRun piped = runScript(join + "- | cat");
+  EXPECT_EQ(piped.status, 0) << piped.err;
+  EXPECT_TRUE(piped.err.starts_with("680 pairs among 400 boxes\n")) << piped.err;
+  EXPECT_TRUE(piped.out == bytes("file.npy"));
+  EXPECT_FALSE(fs::exists(few + ".work"));
+}
+
 TEST_F(JoinCommand, AFullDiskIsAnErrorAndWhatWasDoneStays) {
   writeMany("needles");
   // The shell counts blocks of 512 bytes: the boxes fit, and the pairs do not.
@@ -206,6 +216,9 @@ TEST_F(JoinCommand, AFullDiskIsAnErrorAndWhatWasDoneStays) {
   expectFailure(full, kBadInput, "cannot be written: File too large");
   EXPECT_NE(full.err.find("; what is complete is in w, and --resume goes on"), std::string::npos) << full.err;
   EXPECT_FALSE(fs::exists(in("join.npy")));
+  const ProgramRun missing = runScript(enter + "exec \"$0\" join missing.npy -o join.npy --work w --resume");
+  expectFailure(missing, kBadInput, "missing.npy: no such file");
+  EXPECT_EQ(missing.err.find("--resume"), std::string::npos) << missing.err;
   expectSuccess(runProgram({"join", many, "-o", in("join.npy"), "--memory", "1G", "--work", in("w"), "--resume"}));
   expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));
   EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy"));
@@ -217,7 +230,8 @@ TEST_F(JoinCommand, WrongUsageIsSaid) {
   expectFailure(runProgram({"join", few, "-o", in("x.csv")}), kWrongUsage, ".npy");
   expectFailure(runProgram({"join", few, "-o", in("x.npy"), "--memory", "much"}), kWrongUsage,
                 "--memory: 'much' is not a size");
-  expectFailure(runProgram({"join", few, "-o", in("x.npy"), "--memory", "63M"}), kBadInput, "at least 64 MiB");
+  expectFailure(runProgram({"join", few, "-o", in("x.npy"), "--memory", "63M"}), kWrongUsage,
+                "--memory: '63M' is less than the least, 64M");
   expectFailure(runProgram({"join", in("missing.npy"), "--count"}), kBadInput, "missing.npy: no such file");
   EXPECT_FALSE(fs::exists(in("missing.npy.work")));
 }

@@ -40,6 +40,26 @@ void expectSameModels(const Json& models, const Json& expected, const std::strin
   }
 }
 
+TEST(DetectScene, PartsAreDescribedWithoutTheWordsOfScenes) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "within");
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  folder.write("roof.obj", triangle);
+  folder.write("within/wall.obj", triangle);
+  const ProgramRun top = runProgram({"detect", folder.path()});
+  expectSuccess(top);
+  EXPECT_TRUE(top.out.starts_with("models   1\nmethod   boxes\nignored  1 part of the input")) << top.out;
+  const ProgramRun all = runProgram({"detect", folder.path(), "--recursive", "--distance", "0.5"});
+  expectSuccess(all);
+  EXPECT_TRUE(
+      all.out.starts_with("models   2\nmethod   boxes at most 0.5 apart on every axis\npairs    1\n\n"
+                          "  wall.obj   roof.obj\n"))
+      << all.out;
+  const ProgramRun scene = runProgram({"info", kDemoScene});
+  expectSuccess(scene);
+  EXPECT_NE(scene.out.find(", alarm distance "), std::string::npos) << scene.out;
+}
+
 TEST(DetectScene, TheScenesOfTheDataFolderGiveTheModelsAndPairsBesideThem) {
   const std::filesystem::path folder = dataFolder() / "scenes";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder of data: scenes/expected/*.json are not tried";

@@ -37,12 +37,13 @@ struct Library {
   }
 
   /// Finds the pairs of all boxes, which is none, one or all; returns the first status that is not OK.
-  [[nodiscard]] allpairs_status search(const std::vector<double>& rows, std::size_t& pairs) const {
+  [[nodiscard]] allpairs_status search(const std::vector<double>& rows, std::size_t& pairs,
+                                       const allpairs_options* options = nullptr) const {
     allpairs_set* set = nullptr;
     allpairs_search* made = nullptr;
     allpairs_pairs found{};
     allpairs_status status = makeSet(rows.data(), rows.size() / 6, &set);
-    if (status == ALLPAIRS_OK) status = makeSearch(nullptr, &made);
+    if (status == ALLPAIRS_OK) status = makeSearch(options, &made);
     if (status == ALLPAIRS_OK) status = find(made, set, &found);
     pairs = found.count;
     destroySearch(made);
@@ -108,6 +109,29 @@ TEST(Loaded, AThousandTimesItLeavesNothing) {
 TEST(Loaded, AThousandTimesInAThreadItLeavesNothing) {
   if (allpairs::test::kIsSanitized) GTEST_SKIP() << "a sanitizer holds freed memory";
   EXPECT_LT(growthOverCycles([] { std::thread(useOnce).join(); }), kSlack);
+}
+
+/// Boxes in a row, each of which touches the next: enough of them that each thread gets some.
+std::vector<double> rowOfBoxes(std::size_t count) {
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<double>(i);
+    rows.insert(rows.end(), {x, 0, 0, x + 1, 1, 1});
+  }
+  return rows;
+}
+
+TEST(Loaded, IsUnloadedWhileThreadsOfASearchComeToAnEnd) {
+  const std::vector<double> rows = rowOfBoxes(30000);
+  allpairs_options options = allpairs_default_options();
+  options.threads = 3;
+  for (int cycle = 0; cycle < 50; ++cycle) {
+    const Library library;
+    ASSERT_NE(library.handle, nullptr) << dlerror();
+    std::size_t pairs = 0;
+    ASSERT_EQ(library.search(rows, pairs, &options), ALLPAIRS_OK);
+    ASSERT_EQ(pairs, rows.size() / 6 - 1);
+  }
 }
 
 TEST(Loaded, TheFirstUseInAThreadThatIsOutOfMemoryIsAStatus) {

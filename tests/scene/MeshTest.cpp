@@ -195,7 +195,8 @@ TEST(MeshFolder, WithoutMeshesIsAnError) {
 TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
   const TempFolder folder;
   std::filesystem::create_directory(folder.path() / "wheels");
-  expectFileError([&] { (void)scene::readInput(folder.path()); }, "folders within it are not searched: name them, too");
+  expectFileError([&] { (void)scene::readInput(folder.path()); },
+                  "is a folder without mesh files; --recursive searches those within it, too");
   const auto cad = folder.write("gear.STEP", "ISO-10303-21;");
   expectFileError([&] { (void)scene::readInput(cad); }, "has the exact surfaces of a CAD program, which are not read");
   folder.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -203,6 +204,29 @@ TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
   EXPECT_EQ(scene.models.size(), 1U);
   ASSERT_EQ(scene.remarks.size(), 2U);
   EXPECT_NE(scene.remarks[0].reason.find("CAD program"), std::string::npos) << scene.remarks[0].reason;
+}
+
+TEST(MeshFolder, IsReadWithTheFoldersWithinItOnlyWhereThatIsAskedFor) {
+  const TempFolder folder;
+  for (const char* part : {"left/door", "right/door", "right/empty"}) {
+    std::filesystem::create_directories(folder.path() / part);
+  }
+  folder.write("left/door/handle.stl", kStl);
+  folder.write("right/door/handle.stl", kStl);
+  folder.write("roof.stl", kStl);
+  std::filesystem::create_directory_symlink(folder.path(), folder.path() / "right" / "whole");
+  const scene::Scene all = scene::readInput(folder.path(), {.recursive = true});
+  EXPECT_EQ(namesOf(all),
+            "left/door/handle.stl › two words TTriangleModel 1\nright/door/handle.stl › two words TTriangleModel 1\n"
+            "roof.stl › two words TTriangleModel 1\n");
+  ASSERT_EQ(all.remarks.size(), 1U);
+  EXPECT_EQ(all.remarks[0].subject, "whole");
+  EXPECT_EQ(all.remarks[0].reason, "is a link to a folder, which is not followed");
+  const scene::Scene top = scene::readInput(folder.path());
+  EXPECT_EQ(top.models.size(), 1U);
+  EXPECT_EQ(top.remarks.size(), 2U);
+  expectFileError([&] { (void)scene::readInput(folder.path() / "right" / "empty", {.recursive = true}); },
+                  "empty: is a folder without mesh files");
 }
 
 TEST(MeshFolder, AMeshThatCannotBeReadIsAnErrorUnlessPartial) {

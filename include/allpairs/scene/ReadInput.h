@@ -22,7 +22,8 @@ namespace allpairs::scene {
 /// Bad input: throws FileError; also for a file without geometry.
 [[nodiscard]] Scene readMesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Reads all mesh files of a folder, ordered by name; other files give a remark.
+/// Reads all mesh files of a folder, ordered by name, those of a folder within it at that folder's place if they are
+/// asked for (ReadOptions::recursive); all else gives a remark.
 ///
 /// Bad input: a folder without mesh files throws FileError; so does a mesh file that cannot be read, unless
 ///            options.partial is set.

@@ -36,6 +36,9 @@ struct ReadOptions {
   /// Skip models that cannot be placed, with a remark, instead of throwing.
   bool partial = false;
 
+  /// Of a folder, read the mesh files of the folders within it as well, at any depth. Links to folders are passed over.
+  bool recursive = false;
+
   /// Read files that an input names in any folder. Otherwise only those in its own folder, in the search roots, and
   /// below these, after symbolic links are resolved; any other is an error.
   bool allowOutside = false;

@@ -105,25 +105,53 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   return entries;
 }
 
-/// The mesh files among the entries; the others become remarks.
-std::vector<fs::path> chooseMeshes(std::vector<fs::path> entries, std::vector<Remark>& remarks) {
-  std::vector<fs::path> meshes;
-  for (fs::path& entry : entries) {
+/// Finds the mesh files of a folder; its other entries become remarks.
+class MeshSearch {
+ public:
+  MeshSearch(const ReadOptions& options, std::vector<Remark>& remarks) : m_options(options), m_remarks(remarks) {}
+
+  void look(const fs::path& folder) {
+    checkStop(m_options.stop);
+    for (const fs::path& entry : sortedEntries(folder)) take(entry);
+  }
+
+  [[nodiscard]] const std::vector<fs::path>& meshes() const { return m_meshes; }
+  [[nodiscard]] bool hasPassedOverFolders() const { return m_hasPassedOverFolders; }
+
+ private:
+  void take(const fs::path& entry) {
     std::error_code ignored;
-    const bool isFolder = fs::is_directory(entry, ignored);
-    const bool isSpecial = fs::exists(entry, ignored) && !isFolder && !fs::is_regular_file(entry, ignored);
-    if (!isFolder && !isSpecial && isMeshFile(entry)) {
-      meshes.push_back(std::move(entry));
+    const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
+    if (fs::is_directory(entry, ignored)) {
+      takeFolder(entry);
+    } else if (isSpecial || !isMeshFile(entry)) {
+      remarkOn(entry, isSpecial          ? "is not a regular file"
+                      : isCadFile(entry) ? kIsCad
+                                         : "is no mesh file by its extension");
     } else {
-      const char* reason = isFolder           ? "is a folder; folders within a folder are not searched"
-                           : isSpecial        ? "is not a regular file"
-                           : isCadFile(entry) ? kIsCad
-                                              : "is no mesh file by its extension";
-      remarks.push_back({.file = entry, .subject = entry.filename().string(), .reason = reason});
+      m_meshes.push_back(entry);
     }
   }
-  return meshes;
-}
+
+  /// A link may lead back to a folder above it, or to one that is searched anyway.
+  void takeFolder(const fs::path& folder) {
+    std::error_code ignored;
+    const bool isLink = fs::is_symlink(folder, ignored);
+    if (m_options.recursive && !isLink) return look(folder);
+    m_hasPassedOverFolders = true;
+    remarkOn(folder, m_options.recursive ? "is a link to a folder, which is not followed"
+                                         : "is a folder; folders within a folder are not searched without --recursive");
+  }
+
+  void remarkOn(const fs::path& entry, const char* reason) {
+    m_remarks.push_back({.file = entry, .subject = entry.filename().string(), .reason = reason});
+  }
+
+  const ReadOptions& m_options;
+  std::vector<Remark>& m_remarks;
+  std::vector<fs::path> m_meshes;
+  bool m_hasPassedOverFolders = false;
+};
 
 /// A link in a folder may lead out of it.
 void requireAllowed(const fs::path& path, const ReadScope& scope) {
@@ -168,11 +196,12 @@ Scene readMesh(const fs::path& path, const ReadOptions& options) {
 Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
   Scene scene = emptyScene();
   ReadScope scope(path, options);
-  const std::vector<fs::path> meshes = chooseMeshes(sortedEntries(path), scene.remarks);
+  MeshSearch search(options, scene.remarks);
+  search.look(path);
+  const std::vector<fs::path>& meshes = search.meshes();
   if (meshes.empty()) {
-    const auto folders = std::count_if(scene.remarks.begin(), scene.remarks.end(),
-                                       [](const Remark& remark) { return fs::is_directory(remark.file); });
-    const char* hint = folders == 0 ? "" : "; folders within it are not searched: name them, too";
+    const bool isHint = search.hasPassedOverFolders() && !options.recursive;
+    const char* hint = isHint ? "; --recursive searches those within it, too" : "";
     throw FileError(path, "is a folder without mesh files" + std::string(hint));
   }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
