@@ -11,7 +11,6 @@
 #include "allpairs/parallel/TbbExecutor.h"
 #include "bvh/RadixSort.h"
 #include "kernels/Kernels.h"
-#include "order/BucketSort.h"
 #include "order/PairSort.h"
 
 namespace allpairs::engine {
@@ -38,11 +37,11 @@ void expectSorted(std::size_t size, std::uint32_t keys, Order order, Executor& e
   const std::vector<Pair> given = randomPairs(size, keys);
   std::vector<Pair> pairs = given;
   std::vector<Pair> spare(size % 2 == 0 ? size : 0);
-  PairSort(defaultMemory()).sort(pairs, {keys, keys, order}, spare, executor);
+  PairSort(defaultMemory()).sortList(pairs, {keys, keys, order}, spare, executor);
   ASSERT_TRUE(sortedBy(order, given) == pairs) << size << " pairs of " << keys;
 }
 
-TEST(PairSort, SortsSparseAndDensePairsByEitherIndex) {
+TEST(PairSort, SortsListsOfSparseAndDensePairsByEitherIndex) {
   SerialExecutor serial;
   parallel::TbbExecutor threads(2);
   for (const std::size_t size :
@@ -56,14 +55,14 @@ TEST(PairSort, SortsSparseAndDensePairsByEitherIndex) {
   }
 }
 
-TEST(PairSort, SortsPairsOfWhichOneIndexHasThousands) {
+TEST(PairSort, SortsListsOfWhichOneIndexHasThousands) {
   std::vector<Pair> given = randomPairs(60000, 90000);
   for (std::size_t i = 0; i < given.size(); i += 13) given[i].first = 4711;
   for (std::size_t i = 1; i < given.size(); i += 13) given[i].second = 815;
   SerialExecutor serial;
   for (const Order order : {Order::ByFirst, Order::BySecond}) {
     std::vector<Pair> pairs = given;
-    PairSort(defaultMemory()).sort(pairs, {90000, 90000, order}, {}, serial);
+    PairSort(defaultMemory()).sortList(pairs, {90000, 90000, order}, {}, serial);
     ASSERT_TRUE(sortedBy(order, given) == pairs);
   }
 }
@@ -99,12 +98,12 @@ struct ScratchMemory {
 
 void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order order, std::size_t threads) {
   const std::size_t size = given.size();
-  BucketSort buckets(defaultMemory());
-  buckets.start({sets.firsts, sets.seconds, order, threads}, 2, *findKernels(""));
+  PairSort sort(defaultMemory());
+  sort.start({sets.firsts, sets.seconds, order, threads}, 2, *findKernels(""));
   for (std::size_t i = 0; i < size;) {
     const std::size_t worker = i < size / 2 ? 0 : 1;
     const std::size_t end = std::min(i + 1000, worker == 0 ? size / 2 : size);
-    buckets.ofWorker(worker).add(std::span(given).subspan(i, end - i));
+    sort.ofWorker(worker).add(std::span(given).subspan(i, end - i));
     i = end;
   }
   const std::vector<Pair> expected = sortedBy(order, given);
@@ -114,9 +113,9 @@ void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order 
   std::vector<std::uint32_t> indices(size);
   ScratchMemory memory;
   SerialExecutor executor;
-  ASSERT_EQ(buckets.finish(), size);
-  buckets.sort(pairs, executor, memory);
-  buckets.list({offsets, indices}, executor, memory);
+  ASSERT_EQ(sort.finish(), size);
+  sort.sort(pairs, executor, memory);
+  sort.list({offsets, indices}, executor, memory);
   ASSERT_EQ(offsets.back(), size);
   ASSERT_TRUE(pairs == expected) << size << " pairs of " << sets.firsts << " x " << sets.seconds;
   for (std::size_t i = 0; i < size; ++i) {
@@ -127,7 +126,7 @@ void expectSortedInBuckets(const std::vector<Pair>& given, SetSizes sets, Order 
   }
 }
 
-TEST(BucketSort, SortAndListPairsOfFewBoxesAndOfMany) {
+TEST(PairSort, SortsAndListsPairsOfFewBoxesAndOfMany) {
   for (const SetSizes sets : {SetSizes{1, 1}, SetSizes{1, 4096}, SetSizes{4096, 1}, SetSizes{300, 4096},
                               SetSizes{4096, 4096}, SetSizes{4097, 10}, SetSizes{257, 256}, SetSizes{90000, 5000}}) {
     for (const std::size_t size : {0U, 1U, 127U, 3001U, 40000U, 300000U}) {
@@ -139,7 +138,7 @@ TEST(BucketSort, SortAndListPairsOfFewBoxesAndOfMany) {
   }
 }
 
-TEST(BucketSort, CountPairsOfOneThreadAndOfFewBoxes) {
+TEST(PairSort, CountsPairsOfOneThreadAndOfFewBoxes) {
   EXPECT_TRUE(PairOrder(4096, 4096, Order::ByFirst, 1).isCounted);
   EXPECT_FALSE(PairOrder(4097, 4096, Order::ByFirst, 1).isCounted);
   EXPECT_FALSE(PairOrder(4096, 4097, Order::BySecond, 1).isCounted);

@@ -135,7 +135,6 @@ void Search::shrink() noexcept {
   m_first = BvhBuilder(memory);
   m_second = BvhBuilder(memory);
   m_runner = JoinRunner(memory);
-  m_buckets = BucketSort(memory);
   m_places = std::pmr::vector<std::size_t>(memory);
   m_lists = PairLists(memory);
   if (m_rowsFound.offsets.empty()) m_offsets.release();
@@ -315,7 +314,7 @@ bool Search::findInBuckets(const Sets& sets, Plan& plan) {
   if (plan.order == Order::Unordered) return false;
   if (!fillBuckets(orderOf(sets, plan.order), plan, &PairBuckets::add)) return false;
   m_pairs = roomForPairs();
-  m_buckets.sort(m_pairs, *m_executor, m_runner);
+  m_sort.sort(m_pairs, *m_executor, m_runner);
   return true;
 }
 
@@ -325,15 +324,15 @@ PairOrder Search::orderOf(const Sets& sets, Order order) const {
 
 bool Search::fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
   if (plan.job.units == 0 || !order.packs()) return false;
-  m_buckets.start(order, m_runner.start(plan.sink, *m_executor), *m_kernels);
+  m_sort.start(order, m_runner.start(plan.sink, *m_executor), *m_kernels);
   const auto toBuckets = [&](std::span<Pair> pairs, std::size_t worker) {
-    (m_buckets.ofWorker(worker).*add)(pairs);
+    (m_sort.ofWorker(worker).*add)(pairs);
     return pairs.size();
   };
   plan.sink.emit.emplace(toBuckets);
   plan.sink.likelyPairs = 0;
   run(plan, *m_executor);
-  m_buckets.finish();
+  m_sort.finish();
   return true;
 }
 
@@ -407,7 +406,7 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
 void Search::sortPairs(const Sets& sets, Order order) {
   if (order == Order::Unordered) return;
   // The hierarchy is no longer needed: its memory is the sort's second buffer.
-  m_sort.sort(m_pairs, orderOf(sets, order), m_first.levels().memory<Pair>(), *m_executor);
+  m_sort.sortList(m_pairs, orderOf(sets, order), m_first.levels().memory<Pair>(), *m_executor);
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {

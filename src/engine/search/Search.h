@@ -15,7 +15,6 @@
 #include "input/BoxCull.h"
 #include "input/Options.h"
 #include "input/Readers.h"
-#include "order/BucketSort.h"
 #include "order/PairSort.h"
 #include "search/CallExecutor.h"
 #include "search/JoinRunner.h"
@@ -38,7 +37,6 @@ class Search {
         m_first(memory),
         m_second(memory),
         m_runner(memory),
-        m_buckets(memory),
         m_lists(memory),
         m_joined(memory),
         m_offsets(memory),
@@ -150,7 +148,6 @@ class Search {
   BvhBuilder m_first;
   BvhBuilder m_second;
   JoinRunner m_runner;
-  BucketSort m_buckets;
   PairLists m_lists;
   Buffer<Pair> m_joined;
   const PairRoom* m_room = nullptr;  ///< Where given, what is used instead of m_joined.

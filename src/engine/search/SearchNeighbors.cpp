@@ -100,7 +100,7 @@ bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
     return false;
   }
   m_rowsFound = roomForRows(sets.first.size(), (isFull ? 2 : 1) * m_statistics.pairs);
-  m_buckets.list(m_rowsFound, *m_executor, m_runner);
+  m_sort.list(m_rowsFound, *m_executor, m_runner);
   return true;
 }
 

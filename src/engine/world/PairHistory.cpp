@@ -31,7 +31,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
   }
   const PairOrder order(idBound, idBound, m_options->order, workers);
   m_usesBuckets = looksFor == Joined::All && !m_comeInOrder && order.packs();
-  if (m_usesBuckets) m_buckets.start(order, workers, *m_kernels);
+  if (m_usesBuckets) m_sort.start(order, workers, *m_kernels);
   if (looksFor == Joined::All) return;
   if (!m_rowsAreCurrent) findRows();
   m_seen.requireAmply(m_result.pairs.size() + 1);
@@ -115,7 +115,7 @@ void PairHistory::sortFresh(Buffer<Pair>& to, std::span<Pair> spare, Executor& e
     });
     end += fresh.size;
   }
-  m_sort.sort({to.data(), end}, {m_idBound, m_idBound, m_options->order}, spare, executor);
+  m_sort.sortList({to.data(), end}, {m_idBound, m_idBound, m_options->order}, spare, executor);
 }
 
 /// Allocates everything that the end of a step needs before it changes anything.
@@ -140,14 +140,14 @@ bool PairHistory::takeOrdered() noexcept {
 }
 
 void PairHistory::finishAll(Executor& executor, JoinRunner& memory) {
-  const std::size_t size = m_usesBuckets ? m_buckets.finish() : freshSize();
+  const std::size_t size = m_usesBuckets ? m_sort.finish() : freshSize();
   m_persisted.requireAmply(size + 1);
   m_began.requireAmply(size + 1);
   m_ended.requireAmply(m_result.pairs.size() + 1);
   if (!m_usesBuckets && size != 0) m_comeInOrder = takeOrdered();
   if (!m_comeInOrder) m_next.requireAmply(size + 1);
   if (m_usesBuckets) {
-    m_buckets.sort({m_next.data(), size}, executor, memory);
+    m_sort.sort({m_next.data(), size}, executor, memory);
   } else if (!m_comeInOrder) {
     sortFresh(m_next, {m_persisted.data(), m_persisted.capacity()}, executor);
   }

@@ -12,7 +12,6 @@
 #include "allpairs/WorldTypes.h"
 #include "kernels/Kernels.h"
 #include "memory/Memory.h"
-#include "order/BucketSort.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
 #include "world/RebuildRule.h"
@@ -38,7 +37,6 @@ class PairHistory {
         m_began(memory),
         m_persisted(memory),
         m_ended(memory),
-        m_buckets(memory),
         m_sort(memory) {}
 
   /// Leaves of the result the pairs without changes, until a step completes.
@@ -55,7 +53,7 @@ class PairHistory {
     if (m_looksFor == Joined::Changed) {
       tickOff(found, m_fresh[worker]);
     } else if (m_usesBuckets) {
-      m_buckets.ofWorker(worker).add(found);
+      m_sort.ofWorker(worker).add(found);
     } else {
       gather(found, m_fresh[worker], areInOrder);
     }
@@ -173,7 +171,6 @@ class PairHistory {
   Buffer<Pair> m_ended;
   bool m_comeInOrder = true;   ///< Of all worlds, as those of small ones do: until a step has shown that they do not.
   bool m_usesBuckets = false;  ///< In this step.
-  BucketSort m_buckets;
   PairSort m_sort;
   StepResult m_result;
 };

@@ -360,7 +360,7 @@ std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSea
     joinWith(world, others.everyWorld());
   }
   for (std::size_t world = 0; world <= others.everyWorld(); ++world) joinWith(m_members.everyWorld(), world);
-  PairSort(defaultMemory()).sort(found, {store.idBound(), otherStore.idBound(), m_options.order}, {}, executor);
+  PairSort(defaultMemory()).sortList(found, {store.idBound(), otherStore.idBound(), m_options.order}, {}, executor);
   return found;
 }
 
