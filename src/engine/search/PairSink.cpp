@@ -44,10 +44,10 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   if (doubts) m_hits.doubt = m_hits.partner + kHitStride;
   if (doubts) m_hits.slack = options.test.slack();
   m_hits.capacity = kHitCapacity;
-  m_hits.countOnly = options.countOnly && !isSelective();
+  m_hits.countOnly = options.countOnly && !options.test.needed();
   m_hits.receiver = this;
   m_hits.flush = [](void* self, Hits& hits) { static_cast<PairSink*>(self)->receive(hits); };
-  if (!isSelective() && !options.countOnly && options.side != PairSide::SmallerFirst) {
+  if (!options.test.needed() && !options.countOnly && options.side != PairSide::SmallerFirst) {
     m_hits.rowSecond = options.side == PairSide::RowSecond;
     m_hits.takePairs = [](void* self, std::size_t count) { static_cast<PairSink*>(self)->take(count); };
     m_hits.roomForPairs = [](void* self, Hits& hits, std::size_t most) {
@@ -60,10 +60,6 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   // Then it never grows.
   if (options.emit) m_pairs.grow(kHitCapacity + kVectorSlack);
 }
-
-bool PairSink::isWhole() const noexcept { return m_options->firstRow == 0 && !m_options->ascendingOnly; }
-
-bool PairSink::isSelective() const noexcept { return !isWhole() || m_options->test.needed(); }
 
 void PairSink::makeRoom(std::size_t size) {
   m_pairs.grow(std::max(m_options->likelyPairs, size), [this] { checkStop(m_options->stop); });
@@ -89,9 +85,10 @@ void PairSink::receive(Hits& hits) {
   if (hits.size == 0) return;
   const std::size_t begin = m_size;
   makeRoom(begin + hits.size + kVectorSlack);
-  m_options->kernels->writePairs(hits, m_options->side, m_pairs.data() + begin);
-  m_size += hits.size;
-  if (isSelective()) selectTested(begin, hits);
+  const std::span<Pair> pairs(m_pairs.data() + begin, hits.size);
+  m_options->kernels->writePairs(hits, m_options->side, pairs.data());
+  m_exactTests += m_options->test.exactTestsOf(hits);
+  m_size += m_options->test.select(pairs, hits);
   hits.size = 0;
   hits.doubts = 0;
   m_count += m_size - begin;
@@ -99,20 +96,6 @@ void PairSink::receive(Hits& hits) {
   checkLimit(*m_options, m_count);
   checkStop(m_options->stop);
   if (m_options->emit) emit();
-}
-
-void PairSink::selectTested(std::size_t begin, const Hits& hits) {
-  const PairTest& test = m_options->test;
-  const std::span<Pair> pairs(m_pairs.data() + begin, hits.size);
-  m_exactTests += test.exactTestsOf(hits);
-  if (isWhole()) {
-    m_size = begin + test.select(pairs, hits);
-    return;
-  }
-  m_size = begin + test.select(pairs, hits, [this](Pair& pair) {
-    (m_options->side == PairSide::RowSecond ? pair.second : pair.first) += m_options->firstRow;
-    return !m_options->ascendingOnly || pair.first < pair.second;
-  });
 }
 
 void PairSink::emit() {

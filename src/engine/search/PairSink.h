@@ -49,12 +49,6 @@ struct SinkOptions {
   bool limitIsCallers = true;
   bool countOnly = false;
 
-  /// Rows are numbered from here; more than 0 only where a part of a set is searched.
-  std::uint32_t firstRow = 0;
-
-  /// Keeps only pairs with first < second: for a part of a set against the whole set.
-  bool ascendingOnly = false;
-
   /// If set, runs throw Stopped soon after this is set.
   const StopFlag* stop = nullptr;
 
@@ -100,13 +94,10 @@ class PairSink {
   }
 
  private:
-  [[nodiscard]] bool isWhole() const noexcept;
-  [[nodiscard]] bool isSelective() const noexcept;
   void makeRoom(std::size_t size);
   Pair* roomFor(Hits& hits, std::size_t most);
   void take(std::size_t count);
   void receive(Hits& hits);
-  void selectTested(std::size_t begin, const Hits& hits);
   void emit();
 
   const SinkOptions* m_options = nullptr;

@@ -80,6 +80,9 @@ class PairTest {
     findRows();
   }
 
+  /// From now on it keeps only pairs with first < second: for a part of a set against the whole set.
+  void requireAscending() noexcept { m_ascending = true; }
+
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
 
   /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding.
@@ -104,12 +107,13 @@ class PairTest {
     return test;
   }
 
-  [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered; }
+  [[nodiscard]] bool needed() const noexcept { return m_exact || m_filtered || m_ascending; }
   [[nodiscard]] bool isFiltered() const noexcept { return m_filtered; }
   [[nodiscard]] bool exactTestNeeded() const noexcept { return m_exact; }
 
   /// A pair that is certain to touch needs no exact test.
   [[nodiscard]] bool keeps(Pair pair, bool isDoubtful = true) const {
+    if (m_ascending && pair.first >= pair.second) return false;
     return (!m_exact || !isDoubtful || touches(pair)) && (!m_filtered || allows(pair));
   }
 
@@ -125,21 +129,15 @@ class PairTest {
 
   /// The same for the pairs of some hits, of which only those in doubt need the exact test, if the kernels noted them.
   [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits& hits) const {
-    if (!m_filtered && !m_exact) return pairs.size();
-    if (!m_filtered && hits.doubt != nullptr) return selectInDoubt(pairs, {hits.doubt, hits.doubts});
-    return select(pairs, hits, [](Pair&) { return true; });
-  }
-
-  /// The same; isWanted(pair) may change a pair before it is tested.
-  template <class IsWanted>
-  [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits& hits, const IsWanted& isWanted) const {
+    if (!needed()) return pairs.size();
+    if (!m_filtered && !m_ascending && hits.doubt != nullptr) return selectInDoubt(pairs, {hits.doubt, hits.doubts});
     std::size_t kept = 0;
     std::size_t doubt = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      Pair pair = pairs[i];
+      const Pair pair = pairs[i];
       const bool isDoubtful = hits.doubt == nullptr || (doubt < hits.doubts && hits.doubt[doubt] == i);
       doubt += isDoubtful ? 1U : 0U;
-      if (isWanted(pair) && keeps(pair, isDoubtful)) pairs[kept++] = pair;
+      if (keeps(pair, isDoubtful)) pairs[kept++] = pair;
     }
     return kept;
   }
@@ -254,6 +252,7 @@ class PairTest {
   const PairPredicate* m_accept;
   bool m_exact = false;
   bool m_inAnyOrder = false;
+  bool m_ascending = false;
   float m_slack = kNever;
   std::array<bool, 3> m_isFlat{};
   const double* m_firstRows = nullptr;  ///< Rows of 6, if bounds are all that matters.

@@ -139,6 +139,7 @@ void Search::shrink() noexcept {
   m_lists = PairLists(memory);
   if (m_rowsFound.offsets.empty()) m_offsets.release();
   if (m_rowsFound.indices.empty()) m_indices.release();
+  m_range.release();
   m_sort = PairSort(memory);
 }
 

@@ -42,6 +42,7 @@ class Search {
         m_offsets(memory),
         m_indices(memory),
         m_places(memory),
+        m_range(memory),
         m_sort(memory) {}
 
   std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
@@ -134,8 +135,7 @@ class Search {
 
   void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers,
                       FunctionRef<void(std::span<const Pair>)> give);
-  bool findRange(const Sets& sets, const OverlapOptions& options, const std::array<double, 3>& origin,
-                 std::size_t begin, std::size_t end);
+  bool findRange(const Sets& sets, const OverlapOptions& options, const BoxReader& range);
 
   OverlapStatistics m_statistics;
   const Kernels* m_kernels = nullptr;
@@ -155,8 +155,9 @@ class Search {
   Buffer<std::uint32_t> m_indices;
   const RowRoom* m_rowRoom = nullptr;  ///< Where given, what is used instead of these two.
   std::pmr::vector<std::size_t> m_places;
-  std::span<Pair> m_pairs;      ///< The result: concatenated from several tasks, or in the memory of a single one.
-  NeighborsMemory m_rowsFound;  ///< The result, where it is rows.
+  std::span<Pair> m_pairs;        ///< The result: concatenated from several tasks, or in the memory of a single one.
+  NeighborsMemory m_rowsFound;    ///< The result, where it is rows.
+  Buffer<std::uint32_t> m_range;  ///< Of an ordered stream: the boxes of the range that is searched.
   PairSort m_sort;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Searches that pass pairs to a visitor as they find them, in bounded memory.
 #include <algorithm>
+#include <numeric>
 
 #include "allpairs/Error.h"
 #include "search/Search.h"
@@ -52,14 +53,18 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
 void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers,
                             FunctionRef<void(std::span<const Pair>)> give) {
   const bool bySecond = options.order == Order::BySecond;
-  const BoxView& rows = bySecond ? sets.second : sets.first;
+  const BoxReader& rows = bySecond ? readers.second : readers.first;
   const BoxReader& columns = bySecond ? readers.first : readers.second;
   m_second.build(columns, *m_executor);
   OverlapStatistics total;
   std::size_t length = kFirstRange;
   for (std::size_t begin = 0; begin < rows.size();) {
     const std::size_t end = std::min(rows.size(), begin + length);
-    if (!findRange(sets, options, columns.origin(), begin, end)) {
+    m_range.require(end - begin);
+    std::iota(m_range.data(), m_range.data() + (end - begin), static_cast<std::uint32_t>(begin));
+    BoxReader range = rows;
+    range.restrictTo({m_range.data(), end - begin});
+    if (!findRange(sets, options, range)) {
       length = (end - begin + 1) / 2;
       continue;
     }
@@ -71,21 +76,15 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
   m_statistics = total;
 }
 
-bool Search::findRange(const Sets& sets, const OverlapOptions& options, const std::array<double, 3>& origin,
-                       std::size_t begin, std::size_t end) {
-  const bool bySecond = options.order == Order::BySecond;
-  const BoxView range = (bySecond ? sets.second : sets.first).slice(begin, end);
-  BoxReader reader(range, options, *m_kernels);
-  reader.setOrigin(origin);
-  m_first.build(reader, *m_executor);
+bool Search::findRange(const Sets& sets, const OverlapOptions& options, const BoxReader& range) {
+  m_first.build(range, *m_executor);
   Plan plan{options.order, {PairTest::of(sets, options), m_kernels}};
   joinBoth(false, plan);
-  plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), origin);
-  plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  if (end - begin > 1) plan.sink.maxPairs = kLikelyPairs * kLastRange;
+  plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), range.origin());
+  if (sets.one) plan.sink.test.requireAscending();
+  plan.sink.side = options.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
+  if (range.size() > 1) plan.sink.maxPairs = kLikelyPairs * kLastRange;
   plan.sink.limitIsCallers = false;
-  plan.sink.firstRow = static_cast<std::uint32_t>(begin);
-  plan.sink.ascendingOnly = sets.one;
   plan.sink.stop = options.stop;
   m_statistics = {};
   try {
