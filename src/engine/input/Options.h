@@ -10,9 +10,12 @@ namespace allpairs::engine {
 
 /// The boxes to search: one set against itself, or two against each other.
 struct Sets {
+  explicit Sets(const BoxView& boxes) : first(boxes), second(boxes), one(true) {}
+  Sets(const BoxView& a, const BoxView& b) : first(a), second(b), one(false) {}
+
   const BoxView& first;
   const BoxView& second;
-  bool one = true;
+  bool one;
 };
 
 /// Whether no box has categories, masks or a group.

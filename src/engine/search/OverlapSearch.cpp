@@ -57,66 +57,62 @@ void OverlapSearch::shrink() {
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& boxes) {
-  return state().run([&](auto& search, auto& options) { return search.find({boxes, boxes, true}, options); });
+  return state().run([&](auto& search, auto& options) { return search.find(engine::Sets(boxes), options); });
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
-  return state().run([&](auto& search, auto& options) { return search.find({first, second, false}, options); });
+  return state().run([&](auto& search, auto& options) { return search.find({first, second}, options); });
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& boxes, NeighborRows rows) {
   engine::checkRows(rows);
-  return state().run([&](auto& search, auto& options) {
-    return search.findNeighbors({boxes, boxes, true}, options, rows);
-  });
+  return state().run(
+      [&](auto& search, auto& options) { return search.findNeighbors(engine::Sets(boxes), options, rows); });
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& second) {
   return state().run([&](auto& search, auto& options) {
-    return search.findNeighbors({first, second, false}, options, NeighborRows::Half);
+    return search.findNeighbors({first, second}, options, NeighborRows::Half);
   });
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& boxes, Span<Pair> memory) {
-  return state().run([&](auto& search, auto& options) {
-    return search.findInto({boxes, boxes, true}, options, memory);
-  });
+  return state().run(
+      [&](auto& search, auto& options) { return search.findInto(engine::Sets(boxes), options, memory); });
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, Span<Pair> memory) {
-  return state().run([&](auto& search, auto& options) {
-    return search.findInto({first, second, false}, options, memory);
-  });
+  return state().run([&](auto& search, auto& options) { return search.findInto({first, second}, options, memory); });
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
   engine::checkRows(rows);
   return state().run([&](auto& search, auto& options) {
-    return search.findNeighborsInto({boxes, boxes, true}, options, rows, memory);
+    return search.findNeighborsInto(engine::Sets(boxes), options, rows, memory);
   });
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& first, const BoxView& second,
                                                const NeighborsMemory& memory) {
   return state().run([&](auto& search, auto& options) {
-    return search.findNeighborsInto({first, second, false}, options, NeighborRows::Half, memory);
+    return search.findNeighborsInto({first, second}, options, NeighborRows::Half, memory);
   });
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {
-  return state().run([&](auto& search, auto& options) { return search.count({boxes, boxes, true}, options); });
+  return state().run([&](auto& search, auto& options) { return search.count(engine::Sets(boxes), options); });
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& first, const BoxView& second) {
-  return state().run([&](auto& search, auto& options) { return search.count({first, second, false}, options); });
+  return state().run([&](auto& search, auto& options) { return search.count({first, second}, options); });
 }
 
 void OverlapSearch::stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize) {
-  state().run([&](auto& search, auto& options) { search.stream({boxes, boxes, true}, options, visitor, batchSize); });
+  state().run([&](auto& search, auto& options) { search.stream(engine::Sets(boxes), options, visitor, batchSize); });
 }
 
 void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize) {
-  state().run([&](auto& search, auto& options) { search.stream({first, second, false}, options, visitor, batchSize); });
+  state().run([&](auto& search, auto& options) { search.stream({first, second}, options, visitor, batchSize); });
 }
 
 namespace {
@@ -203,32 +199,32 @@ std::vector<Pair> takeOverlaps(const engine::Sets& sets, const OverlapOptions& o
 }  // namespace
 
 std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
-  return takeOverlaps({boxes, boxes, true}, options);
+  return takeOverlaps(engine::Sets(boxes), options);
 }
 
 std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  return takeOverlaps({first, second, false}, options);
+  return takeOverlaps({first, second}, options);
 }
 
 Neighbors neighbors(const BoxView& boxes, NeighborRows rows, const OverlapOptions& options) {
   engine::checkRows(rows);
-  const engine::Sets sets{boxes, boxes, true};
+  const engine::Sets sets(boxes);
   return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
 }
 
 Neighbors neighbors(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  const engine::Sets sets{first, second, false};
+  const engine::Sets sets(first, second);
   const NeighborRows rows = NeighborRows::Half;
   return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
 }
 
 std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {
-  const engine::Sets sets{boxes, boxes, true};
+  const engine::Sets sets(boxes);
   return searchOnce(sets, options, [&](engine::Search& search) { return search.count(sets, options); });
 }
 
 std::uint64_t countOverlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  const engine::Sets sets{first, second, false};
+  const engine::Sets sets(first, second);
   return searchOnce(sets, options, [&](engine::Search& search) { return search.count(sets, options); });
 }
 

@@ -126,7 +126,7 @@ World::World(WorldOptions options) {
   const BoxView none;
   if (options.order == Order::Unordered)
     throw InvalidArgument("the lists of a world are ordered: by first or by second");
-  engine::checkOptions({none, none, true}, checked);
+  engine::checkOptions(engine::Sets(none), checked);
   m_state = std::make_unique<State>(std::move(options), engine::chooseKernels(checked));
 }
 World::~World() = default;

@@ -65,7 +65,7 @@ OverlapOptions SharedSearcher::optionsForAll(const Worlds& worlds, const Overlap
 }
 
 WorldPairsView SharedSearcher::find(const Worlds& worlds, const BoxView& shared, const OverlapOptions& options) {
-  const std::span<const Pair> found = m_search.find({worlds.boxes(), shared, false}, optionsForAll(worlds, options));
+  const std::span<const Pair> found = m_search.find({worlds.boxes(), shared}, optionsForAll(worlds, options));
   m_pairs.require(found.size());
   Pair* to = m_pairs.data();
   startByWorld(worlds, m_begin);
@@ -84,7 +84,7 @@ std::span<const std::uint64_t> SharedSearcher::count(const Worlds& worlds, const
                                                      const OverlapOptions& options) {
   startByWorld(worlds, m_begin);
   const auto add = [&](std::span<const Pair> pairs) { takeByWorld(pairs, worlds, m_begin, [](Pair) {}); };
-  m_search.stream({worlds.boxes(), shared, false}, optionsForAll(worlds, options), add, kBatchSize);
+  m_search.stream({worlds.boxes(), shared}, optionsForAll(worlds, options), add, kBatchSize);
   m_begin.resize(worlds.size() + 1, m_begin.back());
   return m_begin;
 }

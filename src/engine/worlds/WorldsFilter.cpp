@@ -35,7 +35,7 @@ void checkOthers(const Worlds& worlds, const OverlapOptions& options) {
   others.order = options.order;
   others.strategy = options.strategy;
   others.filter.second = options.filter.second;
-  checkOptions({worlds.boxes(), worlds.boxes(), true}, others);
+  checkOptions(Sets(worlds.boxes()), others);
 }
 
 }  // namespace

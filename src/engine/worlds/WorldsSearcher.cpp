@@ -263,9 +263,9 @@ void WorldsSearcher::searchLarge(std::size_t world, bool takesAllThreads, Worker
     };
   }
   if (sink.countOnly) {
-    sink.size += worker.search.count({boxes, boxes, true}, options);
+    sink.size += worker.search.count(Sets(boxes), options);
   } else {
-    append(worker.search.find({boxes, boxes, true}, options), sink);
+    append(worker.search.find(Sets(boxes), options), sink);
   }
   add(worker.statistics, worker.search.statistics());
 }
