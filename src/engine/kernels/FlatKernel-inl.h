@@ -255,14 +255,13 @@ void listRow(const FlatSearch& search, std::size_t row) {
   PartnerWriter writer{to, 0};
   for (const Range& part : ranges) emitColumns(q, search.columns, part, writer);
   std::size_t size = writer.size;
-  bool tested = lists.tested == NeighborLists::Tested::All;
+  bool areDoubtful = lists.tested == NeighborLists::Tested::All;
   if (lists.tested == NeighborLists::Tested::InDoubt) {
     HitCounter certain;
     for (const Range& part : ranges) emitColumns(inward(q, lists.slack), search.columns, part, certain);
-    tested = certain.size != size;
+    areDoubtful = certain.size != size;
   }
-  if (tested && size != 0) size = lists.selectTouching(lists, id, to, size);
-  if (lists.selectAllowed != nullptr && size != 0) size = lists.selectAllowed(lists, id, to, size);
+  if (size != 0 && (areDoubtful || lists.filtered)) size = lists.select(lists, id, {to, size}, areDoubtful);
   lists.begin[id] = lists.base + lists.size;
   lists.length[id] = static_cast<std::uint32_t>(size);
   lists.size += size;

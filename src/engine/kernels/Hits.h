@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "allpairs/Pair.h"
 #include "kernels/Lanes.h"
@@ -92,13 +93,12 @@ struct NeighborLists {
 
   void* receiver = nullptr;
 
-  /// Moves the partners that touch the row to the front; returns their number.
-  std::size_t (*selectTouching)(NeighborLists& lists, std::uint32_t row, std::uint32_t* partners,
-                                std::size_t size) = nullptr;
+  bool filtered = false;  ///< A filter has to see all hits, after the exact test.
 
-  /// The same for the partners that the filter allows; null without a filter.
-  std::size_t (*selectAllowed)(NeighborLists& lists, std::uint32_t row, std::uint32_t* partners,
-                               std::size_t size) = nullptr;
+  /// Moves the partners that touch the row, if that is in doubt, and that the filter allows to the front; returns their
+  /// number.
+  std::size_t (*select)(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners,
+                        bool areDoubtful) = nullptr;
 
   /// Writes which of some pairs of a row and a partner do not touch; returns their number.
   std::size_t (*findApart)(NeighborLists& lists, const Pair* pairs, std::size_t size, std::uint32_t* apart) = nullptr;

@@ -414,6 +414,7 @@ class JoinRun {
     NeighborLists& lists = *m_task.lists;
     const std::uint32_t* const hitBits = m_task.scratch->hitBits.data();
     const std::uint32_t* const hitIds = m_task.scratch->hitIds.data();
+    const bool areDoubtful = lists.tested == NeighborLists::Tested::All;
     for (std::size_t row = 0; row < leaf.fill; ++row) {
       const std::uint32_t id = leaf.ids[row];
       std::uint32_t* const to = lists.partners + lists.size;
@@ -424,8 +425,7 @@ class JoinRun {
         hn::StoreU(selectedLanes(d, hn::LoadU(d, hitIds + i), mask), d, to + size);
         size += hn::CountTrue(d, mask);
       }
-      if (size != 0 && lists.tested == NeighborLists::Tested::All) size = lists.selectTouching(lists, id, to, size);
-      if (size != 0 && lists.selectAllowed != nullptr) size = lists.selectAllowed(lists, id, to, size);
+      if (size != 0 && (areDoubtful || lists.filtered)) size = lists.select(lists, id, {to, size}, areDoubtful);
       lists.begin[id] = lists.base + lists.size;
       lists.length[id] = static_cast<std::uint32_t>(size);
       lists.size += size;

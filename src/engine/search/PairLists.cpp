@@ -55,14 +55,10 @@ void PairLists::select(Columns kept, PairSide side, const SinkOptions& options) 
       lists.tested = test.leavesDoubts() ? NeighborLists::Tested::InDoubt : NeighborLists::Tested::All;
     }
     lists.receiver = this;
-    lists.selectTouching = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
-      return static_cast<const PairLists*>(of.receiver)->selectTouching(of, row, {partners, size});
+    lists.filtered = test.isFiltered();
+    lists.select = [](NeighborLists& of, std::uint32_t row, std::span<std::uint32_t> partners, bool areDoubtful) {
+      return static_cast<const PairLists*>(of.receiver)->select(of, row, partners, areDoubtful);
     };
-    if (test.isFiltered()) {
-      lists.selectAllowed = [](NeighborLists& of, std::uint32_t row, std::uint32_t* partners, std::size_t size) {
-        return static_cast<const PairLists*>(of.receiver)->selectAllowed(row, {partners, size});
-      };
-    }
     lists.findApart = [](NeighborLists& of, const Pair* pairs, std::size_t size, std::uint32_t* apart) {
       return static_cast<const PairLists*>(of.receiver)->findApart(of, {pairs, size}, apart);
     };
@@ -75,20 +71,20 @@ Pair PairLists::pairOf(std::uint32_t row, std::uint32_t partner) const noexcept 
   return isRowFirst ? Pair{row, partner} : Pair{partner, row};
 }
 
-std::size_t PairLists::selectTouching(NeighborLists& lists, std::uint32_t row,
-                                      std::span<std::uint32_t> partners) const {
+std::size_t PairLists::select(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners,
+                              bool areDoubtful) const {
   checkStop(m_options->stop);
-  lists.exactTests += partners.size();
-  const auto isApart = [&](std::uint32_t partner) { return !m_options->test.touches(pairOf(row, partner)); };
-  const auto end = std::remove_if(partners.begin(), partners.end(), isApart);
-  return static_cast<std::size_t>(end - partners.begin());
-}
-
-std::size_t PairLists::selectAllowed(std::uint32_t row, std::span<std::uint32_t> partners) const {
-  checkStop(m_options->stop);
-  const auto isExcluded = [&](std::uint32_t partner) { return !m_options->test.allows(pairOf(row, partner)); };
-  const auto end = std::remove_if(partners.begin(), partners.end(), isExcluded);
-  return static_cast<std::size_t>(end - partners.begin());
+  const PairTest& test = m_options->test;
+  const auto dropIf = [&](const auto& isDropped) {
+    const auto end = std::remove_if(partners.begin(), partners.end(), isDropped);
+    partners = partners.first(static_cast<std::size_t>(end - partners.begin()));
+  };
+  if (areDoubtful) {
+    lists.exactTests += partners.size();
+    dropIf([&](std::uint32_t partner) { return !test.touches(pairOf(row, partner)); });
+  }
+  if (lists.filtered) dropIf([&](std::uint32_t partner) { return !test.allows(pairOf(row, partner)); });
+  return partners.size();
 }
 
 std::size_t PairLists::findApart(NeighborLists& lists, std::span<const Pair> pairs, std::uint32_t* apart) const {

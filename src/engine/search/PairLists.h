@@ -48,8 +48,8 @@ class PairLists {
  private:
   void grow(NeighborLists& lists, std::size_t more);
   [[nodiscard]] Pair pairOf(std::uint32_t row, std::uint32_t partner) const noexcept;
-  std::size_t selectTouching(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners) const;
-  std::size_t selectAllowed(std::uint32_t row, std::span<std::uint32_t> partners) const;
+  std::size_t select(NeighborLists& lists, std::uint32_t row, std::span<std::uint32_t> partners,
+                     bool areDoubtful) const;
   std::size_t findApart(NeighborLists& lists, std::span<const Pair> pairs, std::uint32_t* apart) const;
   template <class Use>
   void forEachList(Executor& executor, const Use& use);
