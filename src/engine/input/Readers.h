@@ -56,6 +56,28 @@ struct Readers {
     readers.second.setOrigin(readers.first.origin());
     return readers;
   }
+
+  /// The set of the index that pairs are ordered by, whose boxes are rows, and the other one.
+  [[nodiscard]] const BoxReader& rows(Order order) const noexcept { return order == Order::BySecond ? second : first; }
+  [[nodiscard]] const BoxReader& columns(Order order) const noexcept {
+    return order == Order::BySecond ? first : second;
+  }
+
+  /// Reads all boxes for an exhaustive search, into tiles that it has for the columns and, of two sets, for the rows.
+  /// Returns whether the lanes are exactly the boxes.
+  bool readAll(Order order, FlatSearch& search) const {
+    search.columns.size = columns(order).size();
+    bool exact = columns(order).readAll(search.columns);
+    if (one) {
+      search.rows = search.columns;
+      search.tested = order == Order::BySecond ? Columns::Preceding : Columns::Following;
+    } else {
+      search.rows.size = rows(order).size();
+      exact &= rows(order).readAll(search.rows);
+    }
+    search.rowEnd = search.rows.size;
+    return exact;
+  }
 };
 
 }  // namespace allpairs::engine

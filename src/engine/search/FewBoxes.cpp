@@ -153,24 +153,16 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
   checkStop(options.stop);
   const Kernels& kernels = chooseKernels(options);
   PairTest test = PairTest::of(sets, options);
-  const bool bySecond = order == Order::BySecond;
   const Readers readers = Readers::of(sets, options, kernels);
-  const BoxReader& rowSet = bySecond ? readers.second : readers.first;
-  const BoxReader& columnSet = bySecond ? readers.first : readers.second;
   LaneTile columns;
   LaneTile rows;
   FlatSearch search;
-  search.columns = {&columns, columnSet.size()};
-  search.rows = sets.one ? search.columns : LaneList{&rows, rowSet.size()};
-  search.rowEnd = rowSet.size();
-  bool exact = columnSet.readAll(search.columns);
-  if (sets.one) {
-    search.tested = bySecond ? Columns::Preceding : Columns::Following;
-  } else {
-    exact &= rowSet.readAll(search.rows);
-  }
+  search.columns.tiles = &columns;
+  search.rows.tiles = &rows;
+  const bool exact = readers.readAll(order, search);
   test.requireExactTestInDoubt(!exact, readers.first.origin());
-  Receiver receiver(kernels, bySecond ? PairSide::RowSecond : PairSide::RowFirst, test, options, take);
+  const PairSide side = order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
+  Receiver receiver(kernels, side, test, options, take);
   kernels.searchFlat(search, receiver.hits());
   return receiver.finish();
 }

@@ -99,13 +99,6 @@ double shareOfOverlaps(const Kernels& kernels, const FlatSearch& flat) {
   return shareOfOverlaps(kernels, rows, columns, kSample);
 }
 
-/// Reads all boxes of a set, in their order, as lanes; returns whether they are exactly the boxes.
-bool readList(const BoxReader& reader, Buffer<LaneTile>& buffer, LaneList& list) {
-  buffer.require(LaneList::tilesFor(reader.size()));
-  list = {buffer.data(), reader.size()};
-  return reader.readAll(list);
-}
-
 }  // namespace
 
 bool Search::choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const {
@@ -168,21 +161,16 @@ Search::Plan Search::planOf(const Sets& sets, const OverlapOptions& options, Ord
 }
 
 void Search::planFlat(const Readers& readers, Plan& plan) {
-  const bool bySecond = plan.order == Order::BySecond;
-  const BoxReader& rowSet = bySecond ? readers.second : readers.first;
-  const BoxReader& columnSet = bySecond ? readers.first : readers.second;
+  m_columns.require(LaneList::tilesFor(readers.columns(plan.order).size()));
+  if (!readers.one) m_rows.require(LaneList::tilesFor(readers.rows(plan.order).size()));
   FlatSearch& flat = plan.job.flat;
-  bool exact = readList(columnSet, m_columns, flat.columns);
-  if (readers.one) {
-    flat.rows = flat.columns;
-    flat.tested = bySecond ? Columns::Preceding : Columns::Following;
-  } else {
-    exact &= readList(rowSet, m_rows, flat.rows);
-  }
+  flat.columns.tiles = m_columns.data();
+  flat.rows.tiles = m_rows.data();
+  const bool exact = readers.readAll(plan.order, flat);
   plan.sink.test.requireExactTestInDoubt(!exact, readers.first.origin());
-  plan.sink.side = bySecond ? PairSide::RowSecond : PairSide::RowFirst;
+  plan.sink.side = plan.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.job.isFlat = true;
-  plan.job.units = rowSet.size();
+  plan.job.units = flat.rowEnd;
 }
 
 void Search::planJoin(const Readers& readers, Plan& plan) {

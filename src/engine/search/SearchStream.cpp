@@ -52,10 +52,8 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
 /// Searches the boxes that pairs are ordered by, range by range, each range against all boxes of the other side.
 void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers,
                             FunctionRef<void(std::span<const Pair>)> give) {
-  const bool bySecond = options.order == Order::BySecond;
-  const BoxReader& rows = bySecond ? readers.second : readers.first;
-  const BoxReader& columns = bySecond ? readers.first : readers.second;
-  m_second.build(columns, *m_executor);
+  const BoxReader& rows = readers.rows(options.order);
+  m_second.build(readers.columns(options.order), *m_executor);
   OverlapStatistics total;
   std::size_t length = kFirstRange;
   for (std::size_t begin = 0; begin < rows.size();) {
