@@ -104,8 +104,8 @@ std::string formatOf(const std::string& format, const std::string& output, const
                   output, fmt::join(formats.begin() + 1, formats.end(), ", .")));
 }
 
-void addOutput(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "Write to FILE, which appears only when complete; -: standard output")
+CLI::Option* addOutput(CLI::App& command, std::string& path) {
+  return command.add_option("-o,--output", path, "Write to FILE, which appears only when complete; -: standard output")
       ->type_name("FILE")
       ->transform([](const std::string& text) -> std::string {
         if (text.empty()) throw CLI::ValidationError("-o", "the name of a file is needed");

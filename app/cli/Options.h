@@ -64,6 +64,6 @@ void addFormat(CLI::App& command, std::string& format, const std::vector<std::st
                                    const std::vector<std::string>& formats);
 
 /// Declares -o FILE; `path` stays empty where it isn't given, or is "-".
-void addOutput(CLI::App& command, std::string& path);
+CLI::Option* addOutput(CLI::App& command, std::string& path);
 
 }  // namespace allpairs::app

@@ -25,7 +25,8 @@ std::vector<std::string> emptyTexts(const BoxSetArguments& sets, const std::arra
     if (empty[set].count == 0) continue;
     const std::vector<std::string>& paths = set == 0 ? sets.paths : sets.with;
     const std::string others = paths.size() == 1 ? "" : fmt::format(" and {} more", paths.size() - 1);
-    const std::string of = paths.size() == 1 ? "" : " of all of them";
+    const std::string inSet = sets.with.empty() ? "" : fmt::format(", in set {}", set + 1);
+    const std::string of = paths.size() == 1 ? "" : " of all of them" + inSet;
     texts.push_back(
         fmt::format("{}{}: box {}{}: {}", paths.front(), others, empty[set].first, of, emptyReason(empty[set])));
   }

@@ -162,10 +162,9 @@ void addJoin(CLI::App& program) {
   command->add_flag("--resume", settings->resume, "Go on with a join that was stopped");
   command->add_flag("--count", settings->count, "Only count the pairs");
   addThreads(*command, settings->threads);
-  addOutput(*command, settings->output);
-  command->get_option("--output")->description("Write to FILE, which appears only when complete");
-  command->callback([settings, command] {
-    settings->hasOutput = command->count("--output") != 0;
+  const CLI::Option* const output = addOutput(*command, settings->output);
+  command->callback([settings, output] {
+    settings->hasOutput = output->count() != 0;
     runJoin(*settings);
   });
 }

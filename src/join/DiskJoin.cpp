@@ -114,7 +114,9 @@ bool DiskJoin::tryToOpenFolder() {
   if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message());
   const bool isOurs = std::find(names.begin(), names.end(), kLock) != names.end();
   if (!isOurs && !names.empty()) {
-    if (fs::exists(file(kLock), problem) || !fs::exists(m_options.work / names.front(), problem)) return false;
+    const bool isOther = fs::exists(file(kLock), problem) || !fs::exists(m_options.work / names.front(), problem);
+    if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message());
+    if (isOther) return false;  // a join that began meanwhile, or ended
     throw FileError(m_options.work, "is not empty, and not the work folder of a join");
   }
   std::optional<WorkFile> lock = WorkFile::unlessFolderIsGone(file(kLock));

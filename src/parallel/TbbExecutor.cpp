@@ -48,8 +48,8 @@ class Inside {
 };
 
 /// oneTBB starts no more workers than the machine has cores, and warns on standard error, unless it is told to. Of
-/// several limits it takes the least: the executors share one, the greatest that any of them needs. An arena is made and
-/// ended under the same lock: oneTBB looks at the limit then.
+/// several limits it takes the least: the executors share one, the greatest that any of them needs. An arena is made
+/// and ended under the same lock: oneTBB looks at the limit then.
 class WorkerLimit {
  public:
   explicit WorkerLimit(std::size_t threads) : m_threads(threads) {
@@ -99,8 +99,6 @@ class WorkerLimit {
   std::size_t m_threads;
 };
 
-}  // namespace
-
 /// Threads of oneTBB end some time after their work. A program that unloads us, and with us oneTBB, would have them run
 /// in code that is gone: from the first executor on oneTBB stays loaded.
 void keepLoaded() {
@@ -113,6 +111,8 @@ void keepLoaded() {
   isKept = dlopen(library.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE) != nullptr;
 #endif
 }
+
+}  // namespace
 
 /// An arena for each call that runs at the same time: a thread that comes from outside would wait for a place in one
 /// whose threads all wait, for a lock that it holds.
@@ -142,9 +142,11 @@ class TbbExecutor::Arenas {
     const std::lock_guard lock(m_mutex);
     if (m_idle.empty()) {
       m_idle.reserve(m_all.size() + 1);  // so that each can be put back
-      m_all.push_back(std::make_unique<tbb::task_arena>(m_threads));
+      auto arena = std::make_unique<tbb::task_arena>(m_threads);
+      m_all.reserve(m_all.size() + 1);
       const std::lock_guard alone(WorkerLimit::mutex());
-      m_all.back()->initialize();
+      arena->initialize();
+      m_all.push_back(std::move(arena));
       return m_all.back().get();
     }
     tbb::task_arena* const arena = m_idle.back();

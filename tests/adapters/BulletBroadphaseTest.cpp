@@ -172,6 +172,19 @@ TEST(BulletBroadphase, WhatIsNotFiniteHitsNothing) {
   broadphase.destroyProxy(cube, nullptr);
 }
 
+TEST(BulletBroadphase, ABoxThatStaysIsNotMoved) {
+  BulletBroadphase broadphase;
+  auto* const proxy = broadphase.createProxy({0, 0, 0}, {1, 1, 1}, 0, nullptr, 1, -1, nullptr);
+  broadphase.calculateOverlappingPairs(nullptr);
+  broadphase.setAabb(proxy, {0, 0, 0}, {1, 1, 1}, nullptr);
+  broadphase.calculateOverlappingPairs(nullptr);
+  EXPECT_EQ(broadphase.world().statistics().changed, 0U);
+  broadphase.setAabb(proxy, {0, 0, 0}, {1, 1, 2}, nullptr);
+  broadphase.calculateOverlappingPairs(nullptr);
+  EXPECT_EQ(broadphase.world().statistics().changed, 1U);
+  broadphase.destroyProxy(proxy, nullptr);
+}
+
 TEST(BulletBroadphase, AFilterCallbackTakesThePlaceOfGroupsAndMasks) {
   struct Switch : btOverlapFilterCallback {
     bool isOn = true;

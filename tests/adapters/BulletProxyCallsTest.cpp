@@ -303,14 +303,18 @@ struct RefusesCalls : btOverlapFilterCallback {
   int end = 0;
 };
 
-TEST(BulletProxyCalls, APairThatTheFilterRefusesOnlyWhenItIsAddedIsAddedInTheNextStep) {
+/// With a cache of the test's, or with the broad phase's own.
+void expectRefusedPairsInTheNextStep(bool isOwn) {
   int refusedPairs = 0;
   for (int begin = 0; begin < 24; ++begin) {
     for (int end = begin; end <= 24; ++end) {
       RefusesCalls filter;
       filter.begin = begin;
       filter.end = end;
-      BulletBroadphase broadphase;
+      btHashedOverlappingPairCache cache;
+      BulletBroadphaseOptions options;
+      if (!isOwn) options.pairCache = &cache;
+      BulletBroadphase broadphase(options);
       broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
       std::vector<btBroadphaseProxy*> proxies;
       for (const btScalar x : {btScalar(0), btScalar(0.5), btScalar(1.25), btScalar(1.75)}) {
@@ -330,6 +334,11 @@ TEST(BulletProxyCalls, APairThatTheFilterRefusesOnlyWhenItIsAddedIsAddedInTheNex
     }
   }
   EXPECT_GT(refusedPairs, 0);
+}
+
+TEST(BulletProxyCalls, APairThatTheFilterRefusesOnlyWhenItIsAddedIsAddedInTheNextStep) {
+  expectRefusedPairsInTheNextStep(true);
+  expectRefusedPairsInTheNextStep(false);
 }
 
 TEST(BulletProxyCalls, AProxyWhosePairsFailIsNotThere) {

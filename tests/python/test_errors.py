@@ -228,6 +228,7 @@ def test_errors_are_value_errors_and_those_of_files_os_errors():
         ("moving", lambda flags: allpairs.World().overlapping([[0, 0, 0, 1, 1, 1]], moving=flags)),
         ("partial", lambda flags: allpairs.load("missing.obj", partial=flags)),
         ("allow_outside", lambda flags: allpairs.load("missing.obj", allow_outside=flags)),
+        ("recursive", lambda flags: allpairs.load("missing.obj", recursive=flags)),
         ("within", lambda flags: allpairs.MeshCandidates([[0, 1, 2]], 3, within=flags)),
         ("between", lambda flags: allpairs.MeshCandidates([[0, 1, 2]], 3, between=flags)),
     ],

@@ -173,3 +173,12 @@ def test_an_index_of_no_model_is_an_index_error():
             scene[index]
     with pytest.raises(TypeError, match="index is 1.0"):
         scene[1.0]
+
+
+def test_a_folder_is_read_with_those_within_it_where_that_is_asked_for(tmp_path):
+    (tmp_path / "within").mkdir()
+    for name in ("roof.obj", "within/wall.obj"):
+        (tmp_path / name).write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert len(allpairs.load(tmp_path)) == 1
+    assert len(allpairs.load(tmp_path, recursive=True)) == 2
+    assert allpairs.detect(tmp_path, recursive=True).names == [("wall.obj", "roof.obj")]

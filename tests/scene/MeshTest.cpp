@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <set>
@@ -227,6 +228,20 @@ TEST(MeshFolder, IsReadWithTheFoldersWithinItOnlyWhereThatIsAskedFor) {
   EXPECT_EQ(top.remarks.size(), 2U);
   expectFileError([&] { (void)scene::readInput(folder.path() / "right" / "empty", {.recursive = true}); },
                   "empty: is a folder without mesh files");
+}
+
+TEST(MeshFolder, AFolderWithinItThatCannotBeListedIsAnErrorUnlessPartial) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may list all folders";
+  const TempFolder folder;
+  folder.write("roof.stl", kStl);
+  std::filesystem::create_directory(folder.path() / "locked");
+  std::filesystem::permissions(folder.path() / "locked", std::filesystem::perms::none);
+  expectFileError([&] { (void)scene::readInput(folder.path(), {.recursive = true}); }, "locked: cannot be listed");
+  const scene::Scene scene = scene::readInput(folder.path(), {.partial = true, .recursive = true});
+  EXPECT_EQ(scene.models.size(), 1U);
+  ASSERT_EQ(scene.remarks.size(), 1U);
+  EXPECT_TRUE(scene.remarks[0].isPartial);
+  std::filesystem::permissions(folder.path() / "locked", std::filesystem::perms::owner_all);
 }
 
 TEST(MeshFolder, AMeshThatCannotBeReadIsAnErrorUnlessPartial) {

@@ -2,7 +2,7 @@
 // What the tests run: the program, and Debian's Chromium, or for firefox.test.mjs Firefox, on the pages that it writes.
 
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -14,6 +14,7 @@ import { FirefoxPage } from "./firefox-page.mjs";
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const folder = mkdtempSync(join(tmpdir(), "allpairs-page-"));
 export const pages = process.env.ALLPAIRS_PAGES ?? folder;
+if (pages !== folder) process.once("exit", () => rmSync(folder, { recursive: true, force: true })); // else it has the screenshots
 const program = process.env.ALLPAIRS ?? join(root, "build/dev/bin/allpairs");
 const many = { encoding: "utf8", maxBuffer: 1 << 30 };
 

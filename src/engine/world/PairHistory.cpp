@@ -127,6 +127,7 @@ void PairHistory::makeRoomForChanges() {
   m_ended.requireAmply(old + 1);
   m_pairs.grow(old + fresh + 1);
   m_result.pairs = {m_pairs.data(), old};
+  dropChanges();  // What persists are these: what follows may throw.
 }
 
 /// Whether one worker has found all pairs, in order; then they are the next ones.

@@ -137,10 +137,22 @@ class MeshSearch {
   void takeFolder(const fs::path& folder) {
     std::error_code ignored;
     const bool isLink = fs::is_symlink(folder, ignored);
-    if (m_options.recursive && !isLink) return look(folder);
+    if (m_options.recursive && !isLink) return lookWithin(folder);
     m_hasPassedOverFolders = true;
     remarkOn(folder, m_options.recursive ? "is a link to a folder, which is not followed"
                                          : "is a folder; folders within a folder are not searched without --recursive");
+  }
+
+  void lookWithin(const fs::path& folder) {
+    try {
+      look(folder);
+    } catch (const FileError& problem) {
+      if (!m_options.partial) throw;
+      m_remarks.push_back({.file = problem.path(),
+                           .subject = problem.path().filename().string(),
+                           .reason = problem.problem(),
+                           .isPartial = true});
+    }
   }
 
   void remarkOn(const fs::path& entry, const char* reason) {

@@ -15,7 +15,7 @@ class Blocks {
   [[nodiscard]] std::size_t size() const { return m_size; }
   [[nodiscard]] T& operator[](std::size_t i) const { return m_blocks[i / kBlockSize][i % kBlockSize]; }
 
-  /// Adds one that is like a new one.
+  /// Adds a value-initialized element at the end.
   void add() {
     if (m_size == m_blocks.size() * kBlockSize) m_blocks.push_back(std::make_unique<T[]>(kBlockSize));
     ++m_size;

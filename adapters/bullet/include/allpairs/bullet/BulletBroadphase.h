@@ -46,8 +46,9 @@ namespace allpairs {
 ///            pairCache, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject()
 ///            made it has the object in its list already, without a proxy: remove it from the world before the next
 ///            step.
-/// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the proxies; one
-///            over the cache if it is the user's, or was changed from outside. setAabb() with the same box: nothing.
+/// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the proxies;
+///            one over the cache if it is the user's, or was changed from outside. setAabb() with the same box costs
+///            nothing, unless the proxy's pairs are added at once.
 /// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
 ///            too, and must not add, move or remove proxies.
 class BulletBroadphase : public btBroadphaseInterface {
@@ -361,10 +362,10 @@ class BulletBroadphase : public btBroadphaseInterface {
     btBroadphaseProxy* const first = &m_proxies[pair.first];
     btBroadphaseProxy* const second = &m_proxies[pair.second];
     if (m_cache->addOverlappingPair(first, second) != nullptr) return;
-    if (m_cache->needsBroadphaseCollision(first, second)) {
-      m_keepsPairs = m_cache->getNumOverlappingPairs() != 0;
-    } else {
+    if (!m_cache->needsBroadphaseCollision(first, second)) {
       m_world.invalidate(Span<const BoxId>(&pair.first, 1));
+    } else if (m_cache->addOverlappingPair(first, second) == nullptr) {  // nor now that the filter wants it
+      m_keepsPairs = m_cache->getNumOverlappingPairs() != 0;
     }
   }
 

@@ -7,8 +7,8 @@
 
 namespace allpairs {
 
-/// Bullet's hashed pair cache, which counts the calls that add or remove a pair: two equal counts, and no pair was added
-/// or removed between. Its array of pairs is to be read only, as with Bullet's, whose hash table knows nothing of changes.
+/// Bullet's hashed pair cache, which counts the calls that add or remove a pair: between two equal counts no pair was
+/// added or removed. Its array of pairs is to be read only, as Bullet's is: the hash table knows nothing of changes.
 class CountingPairCache : public btHashedOverlappingPairCache {
  public:
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy* first, btBroadphaseProxy* second) override {
