@@ -53,7 +53,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from join' -l work -x -a '(__fis
 complete -c allpairs -n '__fish_seen_subcommand_from join' -l resume -d 'Go on with a join that was stopped'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -l count -d 'Only count the pairs'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -l threads -x -d 'Number of threads; 0: one per core'
-complete -c allpairs -n '__fish_seen_subcommand_from join' -s o -l output -r -F -d 'Write to FILE, which appears only when complete'
+complete -c allpairs -n '__fish_seen_subcommand_from join' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
 complete -c allpairs -n '__fish_seen_subcommand_from join' -F
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -s h -l help -d 'Print this help message and exit'
 complete -c allpairs -n '__fish_seen_subcommand_from plan' -l with -r -F -d 'Files of a second set: pairs of a box of BOXES and a box of these'

@@ -225,7 +225,8 @@ def test_boxes_that_are_empty_by_mistake_are_named(tmp_path):
     np.save(tmp_path / "a.npy", first)
     np.save(tmp_path / "b.npy", second)
     arguments = ["join", tmp_path / "a.npy", "--with", tmp_path / "b.npy", tmp_path / "a.npy", "--count"]
-    expected = "warning: box 9 of set 2: min above max on x (and 2 other boxes): empty, in no pair"
+    reason = "min above max on x (and 2 other boxes): empty, in no pair"
+    expected = f"warning: {tmp_path / 'b.npy'} and 1 more: box 9 of all of them, in set 2: {reason}"
     assert run(PROGRAM, *arguments).stderr == f"allpairs: {expected}\n"
     for ranks in (1, 3) if MPI_PROGRAM else ():
         lines = mpirun(ranks, *arguments).stderr.splitlines()
