@@ -113,4 +113,8 @@ CLI::Option* addOutput(CLI::App& command, std::string& path) {
       });
 }
 
+std::optional<std::filesystem::path> targetOf(const std::string& path) {
+  return path.empty() ? std::nullopt : std::optional<std::filesystem::path>(path);
+}
+
 }  // namespace allpairs::app

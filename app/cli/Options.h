@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,5 +67,8 @@ void addFormat(CLI::App& command, std::string& format, const std::vector<std::st
 
 /// Declares -o FILE; `path` stays empty where it isn't given, or is "-".
 CLI::Option* addOutput(CLI::App& command, std::string& path);
+
+/// The file of such a path, as Output takes it: none for standard output.
+[[nodiscard]] std::optional<std::filesystem::path> targetOf(const std::string& path);
 
 }  // namespace allpairs::app

@@ -181,7 +181,7 @@ void makeScene(Inputs& inputs) {
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
   scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
-  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  Output output(targetOf(settings.output));
   if (settings.format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }

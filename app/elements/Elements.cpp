@@ -160,7 +160,7 @@ void runElements(const ElementSettings& settings) {
   report.distance = parseDistance(settings.distance);
   report.betweenOnly = settings.between;
   const std::size_t threads = parseThreads(settings.threads);
-  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  Output output(targetOf(settings.output));
   const Timer timer;
   const std::vector<MeshStep> steps = readSteps(settings.paths, readOptions(settings.limits));
   report.readSeconds = timer.seconds();

@@ -99,7 +99,7 @@ void checkScene(const GenerateSettings& settings) {
 void runGenerate(const GenerateSettings& settings) {
   checkExtension(settings.output);
   checkScene(settings);
-  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  Output output(targetOf(settings.output));
   if (output.isTerminal()) {
     throw UsageError("boxes are binary and are not written to a terminal: use -o FILE, or redirect the output");
   }

@@ -113,8 +113,6 @@ void runJoin(const JoinSettings& settings) {
   options.work = settings.work;
   if (options.work.empty())
     options.work = (settings.output.empty() ? settings.shared.sets.paths.front() : settings.output) + ".work";
-  const std::optional<std::filesystem::path> target =
-      settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output);
   JoinLine line;
   options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
   join::JoinSummary summary;
@@ -123,7 +121,7 @@ void runJoin(const JoinSettings& settings) {
     if (settings.count) {
       summary = join::countFiles(inputs, options);
     } else {
-      Output output(target);
+      Output output(targetOf(settings.output));
       if (output.isTerminal()) throw UsageError("pairs are binary and not written to a terminal: use -o FILE");
       options.commit = [&output] { output.commit(); };
       summary = join::joinFiles(

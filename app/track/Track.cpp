@@ -141,7 +141,7 @@ void runTrack(const TrackSettings& settings) {
   static_cast<void>(parseThreads(settings.threads));
   const std::string format = formatOf(settings.format, settings.output, kTrackFormats);
   scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
-  Output output(settings.output.empty() ? std::nullopt : std::optional<std::filesystem::path>(settings.output));
+  Output output(targetOf(settings.output));
   if (format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }

@@ -30,13 +30,19 @@ class LargePageMemory final : public std::pmr::memory_resource {
   [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 };
 
+/// Has no state and is never destroyed: objects that use it may outlive all other static objects.
+union DefaultMemory {
+  LargePageMemory memory;
+  constexpr DefaultMemory() : memory() {}
+  DefaultMemory(const DefaultMemory&) = delete;
+  DefaultMemory& operator=(const DefaultMemory&) = delete;
+  ~DefaultMemory() {}  // NOLINT(modernize-use-equals-default): the member's destructor isn't trivial
+};
+
+constinit DefaultMemory theDefault;
+
 }  // namespace
 
-std::pmr::memory_resource* defaultMemory() noexcept {
-  // Never destroyed: objects that use it may outlive all other static objects.
-  alignas(LargePageMemory) static std::array<std::byte, sizeof(LargePageMemory)> place;
-  static LargePageMemory* const memory = new (place.data()) LargePageMemory;
-  return memory;
-}
+std::pmr::memory_resource* defaultMemory() noexcept { return &theDefault.memory; }
 
 }  // namespace allpairs::engine

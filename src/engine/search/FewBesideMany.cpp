@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -13,6 +12,7 @@
 #include "input/Parts.h"
 #include "kernels/Kernels.h"
 #include "search/PairSink.h"
+#include "search/PairsOnStack.h"
 
 namespace allpairs::engine {
 namespace {
@@ -157,9 +157,7 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
   std::array<Row<T>, kMostOthers> few;
   for (std::size_t i = 0; i < run.size; ++i) few[i] = rowOf(run, i);
   std::array<Words, kMostOthers> words;
-  // Bytes: pairs would be set to 0 first, which takes longer than many a search.
-  alignas(64) std::array<std::byte, (kAtOnce * kMostOthers + kVectorSlack) * sizeof(Pair)> memory;
-  auto* const pairs = reinterpret_cast<Pair*>(memory.data());
+  PairsOnStack<kAtOnce * kMostOthers + kVectorSlack> pairs;
   OverlapStatistics statistics;
   const std::size_t together = areByFew(sets, order) ? 1 : run.size;
   // The bounds of two would spare one pass at most.
@@ -175,11 +173,11 @@ OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order or
       TouchedBoxes touched = touchEach<T>(part, near, {few.data() + i, together}, kernels, words.data());
       touched.first = static_cast<std::uint32_t>(begin);
       touched.firstOther = static_cast<std::uint32_t>(i);
-      const std::size_t found = kernels.writeTouching(touched, fewSecond, pairs);
+      const std::size_t found = kernels.writeTouching(touched, fewSecond, pairs.data());
       if (found == 0) continue;
       statistics.pairs += found;
       checkLimit(options.maxPairs, statistics.pairs);
-      take({pairs, found});
+      take({pairs.data(), found});
     }
   }
   return statistics;

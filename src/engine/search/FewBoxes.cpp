@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
@@ -13,6 +12,7 @@
 #include "search/FewBesideMany.h"
 #include "search/PairSink.h"
 #include "search/PairTest.h"
+#include "search/PairsOnStack.h"
 
 namespace allpairs::engine {
 namespace {
@@ -126,9 +126,7 @@ template <class T>
 OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
                             FunctionRef<void(std::span<const Pair>)> take) {
   static_assert(kPartSize >= kMostFew && kPartSize >= kTestedPairs);
-  // Bytes: pairs would be set to 0 first, which takes longer than many a search.
-  alignas(64) std::array<std::byte, (kPartSize + kVectorSlack) * sizeof(Pair)> memory;
-  auto* const pairs = reinterpret_cast<Pair*>(memory.data());
+  PairsOnStack<kPartSize + kVectorSlack> pairs;
   PlainSearch<T> search = plainSearch<T>(sets, order);
   search.room = kPartSize;
   const std::size_t most = pairsOf(sets);
@@ -139,10 +137,10 @@ OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Ord
   statistics.boxTests = most;
   while (most != 0 && search.rowBegin < search.rowCount) {
     checkStop(options.stop);
-    const std::size_t found = searchSome(search, kernels, pairs);
+    const std::size_t found = searchSome(search, kernels, pairs.data());
     statistics.pairs += found;
     checkLimit(options.maxPairs, statistics.pairs);
-    if (found != 0) take({pairs, found});
+    if (found != 0) take({pairs.data(), found});
   }
   return statistics;
 }

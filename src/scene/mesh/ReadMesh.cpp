@@ -105,6 +105,15 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   return entries;
 }
 
+/// What to say of a file or a folder that is left out because it cannot be read.
+Remark remarkOfMissing(const fs::path& path, const FileError& problem) {
+  return {.file = path,
+          .line = problem.line(),
+          .subject = path.filename().string(),
+          .reason = problem.problem(),
+          .isPartial = true};
+}
+
 /// Finds the mesh files of a folder; its other entries become remarks.
 class MeshSearch {
  public:
@@ -148,10 +157,7 @@ class MeshSearch {
       look(folder);
     } catch (const FileError& problem) {
       if (!m_options.partial) throw;
-      m_remarks.push_back({.file = problem.path(),
-                           .subject = problem.path().filename().string(),
-                           .reason = problem.problem(),
-                           .isPartial = true});
+      m_remarks.push_back(remarkOfMissing(folder, problem));
     }
   }
 
@@ -223,11 +229,7 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
       readInto(scene, meshes[i], scope);
     } catch (const FileError& problem) {
       if (!options.partial) throw;
-      scene.remarks.push_back({.file = meshes[i],
-                               .line = problem.line(),
-                               .subject = meshes[i].filename().string(),
-                               .reason = problem.problem(),
-                               .isPartial = true});
+      scene.remarks.push_back(remarkOfMissing(meshes[i], problem));
     }
   }
   scene.inputs = scope.files();

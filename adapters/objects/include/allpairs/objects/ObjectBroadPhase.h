@@ -349,7 +349,7 @@ class ObjectBroadPhase {
     return RowSearch<S>::overlapping(m_rows.rows().subspan(std::size_t{6} * question.begin), row) << question.begin;
   }
 
-  /// Which of the first bound() numbers are no greater than a limit, as bits.
+  /// A bit for each id below bound(): 1 where the square of its distance is at most the limit.
   [[nodiscard]] std::uint64_t within(const std::array<S, RowSearch<S>::kBatch>& squares, S limit) const {
     std::uint64_t found = 0;
     for (BoxId id = 0; id < m_rows.bound(); ++id) found |= std::uint64_t{squares[id] <= limit ? 1U : 0U} << id;
