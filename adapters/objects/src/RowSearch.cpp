@@ -17,9 +17,12 @@ constexpr std::size_t kShareOfChanged = 32;
 /// Up to so many rows, comparing each with each is faster than a search for pairs.
 constexpr std::size_t kFewForPairs = 20;
 
+/// Two searches of which each row of one and each of the other make so many pairs at most are compared by scans.
+constexpr std::size_t kFewForScans = 4096;
+
 /// Queries scan all rows until they have compared so many for each row that a world would have to hear of: then that
-/// costs half of what they have cost. Measured with 1,000 and 10,000 rows.
-constexpr std::size_t kScansPerChange = 8;
+/// costs about what they have cost. Measured with 200 to 1,000 rows that have all moved.
+constexpr std::size_t kScansPerChange = 32;
 
 WorldOptions worldOptions(Executor* executor) {
   WorldOptions options;
@@ -32,14 +35,6 @@ OverlapOptions searchOptions(Executor* executor, bool isOrdered) {
   options.executor = executor;
   options.order = isOrdered ? Order::ByFirst : Order::Unordered;
   return options;
-}
-
-/// Rounding to the nearest never changes which of two numbers is the greater, it only makes them equal: what overlaps
-/// in double does so when rounded.
-void roundRows(std::span<const double> rows, std::vector<float>& results) {
-  static_assert(std::numeric_limits<float>::is_iec559);  // too great a number becomes infinity
-  results.resize(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) results[i] = static_cast<float>(rows[i]);
 }
 
 /// Numbers that follow each other, wherever they are.
@@ -98,6 +93,10 @@ void RowSearch<T>::clear() {
   m_hasPairs = false;
   m_hasWorld = false;
   m_scanned = 0;
+  m_rounded.clear();
+  m_changedBegin = kNoBox;
+  m_changedEnd = 0;
+  m_isRounded = true;
 }
 
 /// What was made for the rows as they were is out of date.
@@ -107,6 +106,25 @@ void RowSearch<T>::beginChange() {
   m_hasPairs = false;
   m_hasWorld = false;
   m_scanned = 0;
+}
+
+template <class T>
+const RoundedBoxes& RowSearch<T>::rounded(Span<const T> rows) const {
+  if (m_isRounded.load(std::memory_order_acquire)) return m_rounded;
+  const std::lock_guard lock(m_making);
+  round(rows);
+  return m_rounded;
+}
+
+/// Brings m_rounded up to date, under the lock.
+template <class T>
+void RowSearch<T>::round(Span<const T> rows) const {
+  if (m_isRounded.load(std::memory_order_relaxed)) return;
+  m_rounded.reserve(m_changedEnd);
+  for (BoxId i = m_changedBegin; i < m_changedEnd; ++i) m_rounded.set(i, &rows[std::size_t{6} * i]);
+  m_changedBegin = kNoBox;
+  m_changedEnd = 0;
+  m_isRounded.store(true, std::memory_order_release);
 }
 
 template <class T>
@@ -140,17 +158,7 @@ const World* RowSearch<T>::worldForMany(Span<const T> rows) const {
 
 template <class T>
 bool RowSearch<T>::isFasterByScans(Span<const T> rows, std::size_t others) const {
-  return !m_hasWorld.load(std::memory_order_acquire) && rows.size() / 6 * others <= kBatch * kBatch;
-}
-
-template <class T>
-std::uint64_t RowSearch<T>::overlapping(Span<const T> rows, const Row& box) {
-  std::uint64_t found = 0;
-  const std::size_t count = std::min(rows.size() / 6, kBatch);
-  for (std::size_t i = 0; i < count; ++i) {
-    found |= std::uint64_t{overlap(&rows[6 * i], box.data())} << i;
-  }
-  return found;
+  return !m_hasWorld.load(std::memory_order_acquire) && rows.size() / 6 * others <= kFewForScans;
 }
 
 /// Few have changed, now as before: the world has to catch up with all that changed in between, which one quiet step is
@@ -188,25 +196,25 @@ Span<const Pair> RowSearch<T>::searchAll(Span<const T> rows) const {
   if constexpr (std::is_same_v<T, float>) {
     return m_search.find(BoxView::fromRows(rows));
   } else {
-    roundRows(rows, m_rounded);
-    selectExact(m_search.find(BoxView::fromRows(std::span<const float>(m_rounded))), rows, m_exact);
+    m_roundedRows.resize(rows.size());
+    std::transform(rows.begin(), rows.end(), m_roundedRows.begin(), [](T bound) { return static_cast<float>(bound); });
+    selectExact(m_search.find(BoxView::fromRows(Span<const float>(m_roundedRows))), rows, m_exact);
     return m_exact;
   }
 }
 
 template <class T>
 Span<const Pair> RowSearch<T>::scanAll(Span<const T> rows) const {
+  round(rows);
   m_exact.clear();
-  const auto count = static_cast<BoxId>(rows.size() / 6);
-  for (BoxId i = 0; i < count; ++i) {
+  for (BoxId i = 0; std::size_t{6} * i < rows.size(); ++i) {
     const T* const row = &rows[std::size_t{6} * i];
     if (row[0] > row[3]) continue;  // empty
-    Row box;
-    std::copy_n(row, 6, box.begin());
-    std::uint64_t found = overlapping(rows.subspan(std::size_t{6} * (i + 1)), box);
+    std::uint64_t found = m_rounded.mayOverlap(0, RoundedBoxes::rounded(row)) >> i >> 1U;
     for (; found != 0; found &= found - 1) {
       const BoxId other = i + 1 + static_cast<BoxId>(std::countr_zero(found));
-      if (rows[std::size_t{6} * other] <= rows[std::size_t{6} * other + 3]) m_exact.push_back({i, other});
+      const T* const second = &rows[std::size_t{6} * other];
+      if (second[0] <= second[3] && overlap(row, second)) m_exact.push_back({i, other});
     }
   }
   return m_exact;

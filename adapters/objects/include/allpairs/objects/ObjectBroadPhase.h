@@ -15,6 +15,7 @@
 #include "allpairs/World.h"
 #include "allpairs/objects/NearPairs.h"
 #include "allpairs/objects/ObjectRows.h"
+#include "allpairs/objects/RoundedBoxes.h"
 #include "allpairs/objects/RowSearch.h"
 
 namespace allpairs {
@@ -177,7 +178,7 @@ class ObjectBroadPhase {
     }
   };
 
-  /// Up to so many objects, comparing batches of them costs more than it saves.
+  /// Up to so many objects, comparing several at once costs more than it saves.
   static constexpr BoxId kOneByOne = 8;
 
   static Box toBox(const Bounds& bounds) {
@@ -188,6 +189,11 @@ class ObjectBroadPhase {
       box.max[a] = static_cast<double>(bounds.max_[axis]);
     }
     return box;
+  }
+
+  static RoundedBoxes::Row toRounded(const Box& box) {
+    return RoundedBoxes::rounded(
+        std::array{box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]}.data());
   }
 
   /// So many times as few boxes are searched for one by one: two hierarchies cost by the larger one (robot_benchmark).
@@ -247,34 +253,21 @@ class ObjectBroadPhase {
   template <class Visit>
   bool eachOverlapping(const Bounds& bounds, const Visit& visit) const {
     if (!isBox(bounds) || !m_rows.mayOverlap(bounds)) return false;
-    const World* const world = m_search.worldForQuery(m_rows.rows());
-    if (world == nullptr) return scan(bounds, visit);
-    const std::vector<BoxId> found = world->findOverlapping(toBox(bounds));
-    return std::any_of(found.begin(), found.end(), visit);
+    return m_rows.bound() <= kOneByOne ? scanFew(bounds, visit) : scanMany(bounds, visit);
   }
 
   template <class Visit>
-  bool scan(const Bounds& bounds, const Visit& visit) const {
-    if (m_rows.bound() <= kOneByOne) return scanOneByOne(bounds, visit);
-    constexpr std::size_t kBatch = RowSearch<S>::kBatch;
-    const typename RowSearch<S>::Row row{bounds.min_[0], bounds.min_[1], bounds.min_[2],
-                                         bounds.max_[0], bounds.max_[1], bounds.max_[2]};
-    for (std::size_t begin = 0; begin < m_rows.bound(); begin += kBatch) {
-      auto found = RowSearch<S>::overlapping(m_rows.rows().subspan(6 * begin), row);
-      for (; found != 0; found &= found - 1) {
-        const BoxId id = static_cast<BoxId>(begin) + lowestBit(found);
-        if (m_rows.hasBox(id) && visit(id)) return true;
-      }
-    }
-    return false;
-  }
-
-  template <class Visit>
-  bool scanOneByOne(const Bounds& bounds, const Visit& visit) const {
+  bool scanFew(const Bounds& bounds, const Visit& visit) const {
     for (BoxId id = 0; id < m_rows.bound(); ++id) {
       if (m_rows.overlaps(id, bounds) && visit(id)) return true;
     }
     return false;
+  }
+
+  template <class Visit>
+  bool scanMany(const Bounds& bounds, const Visit& visit) const {
+    return eachWithin(toBox(bounds), m_search.worldForQuery(m_rows.rows()), 0,
+                      [&](BoxId id) { return m_rows.overlaps(id, bounds) && visit(id); });
   }
 
   template <class Ask>
@@ -309,121 +302,94 @@ class ObjectBroadPhase {
 
   template <class AnyQuestion>
   bool askNear(const AnyQuestion& question, S& least) const {
-    if (RowSearch<S>::areFew(m_rows.rows())) return askFew(question, least);
-    const World* const world = m_search.worldForQuery(m_rows.rows());
-    return world != nullptr ? askByWorld(*world, question, least) : askByScan(question, least);
+    return m_rows.bound() <= kOneByOne ? askFew(question, least) : askMany(question, least);
   }
 
-  /// Asks about objects from the nearest on, as long as they are near enough.
   template <class AnyQuestion>
   bool askFew(const AnyQuestion& question, S& least) const {
-    std::array<S, RowSearch<S>::kBatch> squares{};
-    std::uint64_t left = 0;
-    for (std::uint64_t near = nearRows(question, least); near != 0; near &= near - 1) {
-      const BoxId id = lowestBit(near);
-      if (!m_rows.hasBox(id) || !question.isWanted(id)) continue;
-      squares[id] = m_rows.squaredDistance(id, question.bounds);
-      left |= std::uint64_t{1} << id;
+    std::array<Candidate, kOneByOne> left;
+    auto end = left.begin();
+    for (BoxId id = question.begin; id < m_rows.bound(); ++id) {
+      if (isCandidate(question, id, least, *end)) ++end;
     }
-    while (left != 0) {
-      const BoxId id = nearestOf(squares, left);
-      if (squares[id] > squaredLimit(least)) return false;
-      if (question.ask(id)) return true;
-      left &= within(squares, squaredLimit(least)) & ~(std::uint64_t{1} << id);
-    }
-    return false;
-  }
-
-  /// Which of up to kBatch rows, as bits, may be asked about and near enough.
-  template <class AnyQuestion>
-  [[nodiscard]] std::uint64_t nearRows(const AnyQuestion& question, S least) const {
-    if (question.begin >= m_rows.bound()) return 0;
-    if (least == std::numeric_limits<S>::max())
-      return ~std::uint64_t{0} >> (63U - (m_rows.bound() - 1)) >> question.begin << question.begin;
-    const Box box = widened(question.bounds, limitOf(least));
-    typename RowSearch<S>::Row row{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      row[axis] = static_cast<S>(box.min[axis]);
-      row[3 + axis] = static_cast<S>(box.max[axis]);
-    }
-    return RowSearch<S>::overlapping(m_rows.rows().subspan(std::size_t{6} * question.begin), row) << question.begin;
-  }
-
-  /// A bit for each id below bound(): 1 where the square of its distance is at most the limit.
-  [[nodiscard]] std::uint64_t within(const std::array<S, RowSearch<S>::kBatch>& squares, S limit) const {
-    std::uint64_t found = 0;
-    for (BoxId id = 0; id < m_rows.bound(); ++id) found |= std::uint64_t{squares[id] <= limit ? 1U : 0U} << id;
-    return found;
-  }
-
-  /// The index of the lowest bit that is set, of which there is one; std::countr_zero is of C++20.
-  static BoxId lowestBit(std::uint64_t bits) {
-#ifdef __GNUC__
-    return static_cast<BoxId>(__builtin_ctzll(bits));
-#else
-    BoxId index = 0;
-    for (; (bits & 1U) == 0; bits >>= 1U) ++index;
-    return index;
-#endif
-  }
-
-  static BoxId nearestOf(const std::array<S, RowSearch<S>::kBatch>& squares, std::uint64_t left) {
-    BoxId nearest = lowestBit(left);
-    for (left &= left - 1; left != 0; left &= left - 1) {
-      const BoxId id = lowestBit(left);
-      if (squares[id] < squares[nearest]) nearest = id;
-    }
-    return nearest;
-  }
-
-  /// The square of the distance up to which objects are asked about, and more than squares are off by rounding.
-  static S squaredLimit(S least) {
-    const S limit = limitOf(least);
-    return limit * limit * (1 + 16 * std::numeric_limits<S>::epsilon());
-  }
-
-  /// The same for more objects.
-  template <class AnyQuestion>
-  bool askByScan(const AnyQuestion& question, S& least) const {
-    const auto isFarther = [](const Candidate& a, const Candidate& b) { return b < a; };
-    std::vector<Candidate> left;
-    for (BoxId id = 0; id < m_rows.bound(); ++id) {
-      if (m_rows.hasBox(id) && question.isWanted(id)) addCandidate(question.bounds, id, least, left);
-    }
-    std::make_heap(left.begin(), left.end(), isFarther);
-    while (!left.empty() && left.front().distance <= limitOf(least)) {
-      if (question.ask(left.front().id)) return true;
-      std::pop_heap(left.begin(), left.end(), isFarther);
-      left.pop_back();
-    }
-    return false;
+    return askInTurn(left.begin(), end, question, least);
   }
 
   /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
   template <class AnyQuestion>
-  bool askByWorld(const World& world, const AnyQuestion& question, S& least) const {
+  bool askMany(const AnyQuestion& question, S& least) const {
+    const World* const world = m_search.worldForNear(m_rows.rows());
     const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question) : kNoBox;
     if (first != kNoBox && question.ask(first)) return true;
-    std::vector<Candidate> found;
-    for (const BoxId id : world.findOverlapping(widened(question.bounds, limitOf(least)))) {
-      if (id != first && question.isWanted(id)) addCandidate(question.bounds, id, least, found);
+    std::vector<Candidate> left;
+    Candidate candidate;
+    eachWithin(widened(question.bounds, limitOf(least)), world, question.begin, [&](BoxId id) {
+      if (id != first && isCandidate(question, id, least, candidate)) left.push_back(candidate);
+      return false;
+    });
+    return askInTurn(left.begin(), left.end(), question, least);
+  }
+
+  /// Calls visit(id) for the objects whose boxes overlap a box, and for some others, until it returns true, and says
+  /// whether it did. Those before a first one may be left out.
+  template <class Visit>
+  bool eachWithin(const Box& box, const World* world, BoxId begin, const Visit& visit) const {
+    if (world != nullptr) {
+      const std::vector<BoxId> found = world->findOverlapping(box);
+      return std::any_of(found.begin(), found.end(), visit);
     }
-    std::sort(found.begin(), found.end());
-    for (const Candidate& candidate : found) {
-      if (candidate.distance > limitOf(least)) return false;
-      if (question.ask(candidate.id)) return true;
+    const RoundedBoxes& rounded = m_search.rounded(m_rows.rows());
+    const RoundedBoxes::Row row = toRounded(box);
+    for (std::size_t block = begin / RoundedBoxes::kBlock; block < rounded.blocks(); ++block) {
+      for (std::uint64_t bits = rounded.mayOverlap(block, row); bits != 0; bits &= bits - 1) {
+        if (visit(idOf(block, bits))) return true;
+      }
     }
     return false;
   }
 
-  void addCandidate(const Bounds& bounds, BoxId id, S least, std::vector<Candidate>& candidates) const {
-    const S distance = bounds.distance(m_rows.bounds(id));
-    if (distance <= limitOf(least)) candidates.push_back({distance, id});
+  /// Whether a question is about an object, which then is the candidate.
+  template <class AnyQuestion>
+  bool isCandidate(const AnyQuestion& question, BoxId id, S least, Candidate& candidate) const {
+    if (!m_rows.hasBox(id) || !question.isWanted(id)) return false;
+    candidate = {question.bounds.distance(m_rows.bounds(id)), id};
+    return candidate.distance <= limitOf(least);
   }
 
-  /// A wanted object near the middle of a box; kNoBox if there is none, or if the box has no middle.
+  /// Asks about the nearest first, as long as they are near enough.
+  template <class Iterator, class AnyQuestion>
+  static bool askInTurn(Iterator begin, Iterator end, const AnyQuestion& question, const S& least) {
+    const auto isFarther = [](const Candidate& a, const Candidate& b) { return b < a; };
+    for (std::make_heap(begin, end, isFarther); begin != end && begin->distance <= limitOf(least); --end) {
+      if (question.ask(begin->id)) return true;
+      std::pop_heap(begin, end, isFarther);
+    }
+    return false;
+  }
+
+  /// The number of the box of the lowest bit of a block that is set, of which there is one; std::countr_zero is of
+  /// C++20.
+  static BoxId idOf(std::size_t block, std::uint64_t bits) {
+    auto id = static_cast<BoxId>(block * RoundedBoxes::kBlock);
+#ifdef __GNUC__
+    return id + static_cast<BoxId>(__builtin_ctzll(bits));
+#else
+    for (; (bits & 1U) == 0; bits >>= 1U) ++id;
+    return id;
+#endif
+  }
+
+  /// A wanted object near a box; kNoBox if there is none, or none was found.
   template <class AnyQuestion>
-  [[nodiscard]] static BoxId nearest(const World& world, const AnyQuestion& question) {
+  [[nodiscard]] BoxId nearest(const World* world, const AnyQuestion& question) const {
+    if (world != nullptr) return nearestIn(*world, question);
+    const BoxId id = m_search.rounded(m_rows.rows()).nearest(toRounded(toBox(question.bounds)));
+    return id != kNoBox && m_rows.hasBox(id) && question.isWanted(id) ? id : kNoBox;
+  }
+
+  /// The same, near the middle of a box, if it has one.
+  template <class AnyQuestion>
+  [[nodiscard]] static BoxId nearestIn(const World& world, const AnyQuestion& question) {
     std::array<double, 3> middle{};
     const Box box = toBox(question.bounds);
     for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = (box.min[axis] + box.max[axis]) / 2.0;

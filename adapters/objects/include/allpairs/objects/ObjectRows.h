@@ -146,17 +146,6 @@ class ObjectRows {
     return most;
   }
 
-  /// The square of the distance of an object's box from another box.
-  [[nodiscard]] S squaredDistance(BoxId number, const Bounds& other) const {
-    const S* const row = m_rows.data() + std::size_t{6} * number;
-    S square = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const S gap = std::max({S(0), row[axis] - other.max_[axis], other.min_[axis] - row[3 + axis]});
-      square += gap * gap;
-    }
-    return square;
-  }
-
   /// All boxes by number: minx miny minz maxx maxy maxz. Where an object has left it is an empty one.
   [[nodiscard]] Span<const S> rows() const { return m_rows; }
 

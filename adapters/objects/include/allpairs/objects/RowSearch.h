@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "allpairs/Pair.h"
 #include "allpairs/Span.h"
 #include "allpairs/World.h"
+#include "allpairs/objects/RoundedBoxes.h"
 
 namespace allpairs {
 
@@ -26,24 +27,16 @@ namespace allpairs {
 template <class T>
 class RowSearch {
  public:
-  /// minx miny minz maxx maxy maxz
-  using Row = std::array<T, 6>;
-
-  /// So many rows are compared at once.
-  static constexpr std::size_t kBatch = 64;
-
-  /// Whether a scan of all rows is always as fast as a query of a world.
-  [[nodiscard]] static bool areFew(Span<const T> rows) { return rows.size() <= 6 * kBatch; }
-
   /// Pairs come ordered by (first, second) if that is asked for, else in an order that is the same each time.
   explicit RowSearch(Executor* executor, bool isOrdered);
 
   /// Removes all boxes.
   void clear();
 
-  /// Makes room for marks of so many rows: note() of these needs no memory.
+  /// Makes room for so many rows: note() of these needs no memory.
   void reserve(std::size_t rows) {
     if (m_isPending.size() < rows) m_isPending.resize(rows, 0);
+    m_rounded.reserve(rows);
   }
 
   /// Marks a row as new or changed; for an unmarked row, its previous contents may be used.
@@ -54,6 +47,9 @@ class RowSearch {
     if (m_isPending[row] == 0) m_pending.store(m_pending.load(kRelaxed) + 1, kRelaxed);
     m_isPending[row] = 1;
     ++m_changes;
+    m_isRounded.store(false, kRelaxed);
+    m_changedBegin = std::min(m_changedBegin, row);
+    m_changedEnd = std::max(m_changedEnd, row + 1);
   }
 
   /// All pairs, in which the first is the smaller number; valid until the next note() or clear().
@@ -65,18 +61,29 @@ class RowSearch {
   /// The same for one query, or null where a scan of all rows is the faster: few of them, or few queries since many
   /// have changed.
   [[nodiscard]] const World* worldForQuery(Span<const T> rows) const {
-    return areFew(rows) ? nullptr : worldForMany(rows);
+    return rows.size() <= 6 * kFewForQueries ? nullptr : worldForMany(rows);
   }
+
+  /// The same for a search of near objects, of which a world makes two.
+  [[nodiscard]] const World* worldForNear(Span<const T> rows) const {
+    return rows.size() <= 6 * kFewForNear ? nullptr : worldForMany(rows);
+  }
+
+  /// All rows, to be compared with a box.
+  [[nodiscard]] const RoundedBoxes& rounded(Span<const T> rows) const;
 
   /// Whether a comparison of each row with each of another search is faster than their worlds.
   [[nodiscard]] bool isFasterByScans(Span<const T> rows, std::size_t others) const;
 
-  /// Which of the first kBatch rows, as bits, overlap a box. Empty ones do where the box is infinite on all sides.
-  [[nodiscard]] static std::uint64_t overlapping(Span<const T> rows, const Row& box);
-
  private:
+  /// Up to so many rows, a scan of all is always as fast as a query of a world: measured with boxes that overlap 1 or 2
+  /// of 100 to 400 others.
+  static constexpr std::size_t kFewForQueries = 128;
+  static constexpr std::size_t kFewForNear = 256;
+
   [[nodiscard]] const World* worldForMany(Span<const T> rows) const;
   void beginChange();
+  void round(Span<const T> rows) const;
   void find(Span<const T> rows) const;
   void step(Span<const T> rows) const;
   [[nodiscard]] Span<const Pair> searchAll(Span<const T> rows) const;
@@ -86,10 +93,11 @@ class RowSearch {
 
   Executor* m_executor;
 
-  // Const members make what they need under the lock, once after each change, and publish it by the two marks.
+  // Const members make what they need under the lock, once after each change, and publish it by the three marks.
   mutable std::mutex m_making;
   mutable std::atomic<bool> m_hasPairs = false;    ///< m_pairs are those of the rows as they are.
   mutable std::atomic<bool> m_hasWorld = false;    ///< The world has heard of all rows as they are.
+  mutable std::atomic<bool> m_isRounded = true;    ///< m_rounded are the rows as they are.
   mutable std::atomic<std::size_t> m_scanned = 0;  ///< Rows that queries have compared since the last change.
 
   mutable OverlapSearch m_search;
@@ -100,7 +108,10 @@ class RowSearch {
   mutable bool m_isCalm = false;                   ///< Whether there were few before that.
   bool m_wantsPairs = false;                       ///< Whether anybody asked for pairs before the last change.
 
-  mutable std::vector<float> m_rounded;
+  mutable RoundedBoxes m_rounded;
+  mutable BoxId m_changedBegin = kNoBox;  ///< No row outside of these differs from m_rounded.
+  mutable BoxId m_changedEnd = 0;
+  mutable std::vector<float> m_roundedRows;
   mutable std::vector<BoxId> m_ids;
   mutable std::vector<T> m_moved;
   mutable std::vector<Pair> m_exact;
