@@ -195,7 +195,7 @@ ALLPAIRS_C_API allpairs_status allpairs_find_between(allpairs_search* search, co
                                                      const allpairs_set* second, allpairs_pairs* pairs);
 
 /// Memory of the caller for pairs. The library writes `count`, which is the number of pairs also if there is no room
-/// for them.
+/// for them, and 0 if the search has failed otherwise, such as at max_pairs.
 typedef struct allpairs_pair_memory {
   allpairs_pair* data;
   size_t capacity;
@@ -235,7 +235,8 @@ ALLPAIRS_C_API allpairs_status allpairs_find_neighbors_between(allpairs_search* 
                                                                const allpairs_set* second, allpairs_rows* rows);
 
 /// Memory of the caller for rows: `offsets` for one more than there are boxes, `indices` for the pairs, twice in full
-/// rows. The library writes `count`, which is the number of indices also if there is no room for them.
+/// rows. The library writes `count`, which is the number of indices also if there is no room for them, and 0 if the
+/// search has failed otherwise, such as at max_pairs.
 typedef struct allpairs_rows_memory {
   uint64_t* offsets;
   uint32_t* indices;

@@ -85,8 +85,8 @@ class BoxView {
   /// Whether the bounds are stored as float64; otherwise they are float32.
   [[nodiscard]] bool isFloat64() const noexcept { return m_isFloat64; }
 
-  /// Whether any box has a margin other than 0.
-  [[nodiscard]] bool hasMargins() const noexcept { return m_margin != 0.0 || !m_margins.empty(); }
+  /// Whether any box has a margin other than 0; of a slice, any of the view that it is part of.
+  [[nodiscard]] bool hasMargins() const noexcept { return m_leastMargin != 0.0 || m_greatestMargin != 0.0; }
 
   /// Box i in double, which holds float32 exactly, without its margin.
   [[nodiscard]] Box operator[](std::size_t i) const noexcept {
@@ -109,7 +109,7 @@ class BoxView {
     /// Whether the boxes lie as rows of 6, one after the other.
     [[nodiscard]] bool isPacked() const noexcept {
       return min.boxStride == 6 && max.boxStride == 6 && min.axisStride == 1 && max.axisStride == 1 &&
-             max.data == min.data + 3;
+             min.data != nullptr && max.data == min.data + 3;
     }
   };
   [[nodiscard]] const Corners<float>& float32() const noexcept { return m_float32; }

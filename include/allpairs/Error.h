@@ -73,15 +73,21 @@ class InvalidBox : public Error {
   std::size_t m_index;
 };
 
-/// More pairs than the caller allowed; `count()` is the number found when the limit was exceeded.
+/// More pairs than the caller allowed, or has memory for.
 class LimitExceeded : public Error {
  public:
-  LimitExceeded(std::uint64_t count, const std::string& message) : Error(message), m_count(count) {}
+  explicit LimitExceeded(std::uint64_t count, const std::string& message, bool isTotal = false)
+      : Error(message), m_count(count), m_isTotal(isTotal) {}
 
+  /// How many had been found; of memory for rows, the number of their indices.
   [[nodiscard]] std::uint64_t count() const noexcept { return m_count; }
+
+  /// Whether these are all that there are: only the memory was too small. A limit ends the search.
+  [[nodiscard]] bool isTotal() const noexcept { return m_isTotal; }
 
  private:
   std::uint64_t m_count;
+  bool m_isTotal;
 };
 
 /// A search that its options' `stop` has ended before it was complete.

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core
-from ._errors import InvalidArgument
+from ._errors import InvalidArgument, InvalidBox
 from ._search import Pairs
 
 #: Which elements are candidates.
@@ -21,6 +21,21 @@ _KINDS = {
     "edge-edge": _core.CandidateKind.edge_edge,
     "face-face": _core.CandidateKind.face_face,
 }
+
+
+def _each(name: str, value: Any) -> list[Any]:
+    """One thing for each mesh."""
+    try:
+        return list(value)
+    except TypeError:
+        raise TypeError(f"{name} is of type {type(value).__name__}; it takes one for each mesh") from None
+
+
+def _triangles(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    try:
+        return _arguments.index_rows(name, value, 3)
+    except InvalidBox as problem:  # a vertex, no box
+        raise InvalidArgument(str(problem)) from None
 
 
 class MeshCandidates:
@@ -86,11 +101,11 @@ class MeshCandidates:
         settings.order = _arguments.order_of(order)
         settings.threads = _arguments.threads_of(threads)
         single = isinstance(vertex_count, (int, float, np.number)) or getattr(vertex_count, "ndim", 1) == 0
-        meshes: list[Any] = [triangles] if single else list(cast(Any, triangles))
-        counts: list[Any] = [vertex_count] if single else list(cast(Any, vertex_count))
+        meshes: list[Any] = [triangles] if single else _each("triangles", triangles)
+        counts: list[Any] = [vertex_count] if single else _each("vertex_count", vertex_count)
         if len(meshes) != len(counts):
             raise InvalidArgument(f"triangles of {len(meshes)} meshes and vertex_count of {len(counts)}")
-        arrays = [_arguments.index_rows(f"triangles of mesh {i}", mesh, 3) for i, mesh in enumerate(meshes)]
+        arrays = [_triangles(f"triangles of mesh {i}", mesh) for i, mesh in enumerate(meshes)]
         numbers = [_arguments.whole("vertex_count", count, most=_core.NO_BOX) for count in counts]
         self._core = _core.MeshCandidates(arrays, numbers, settings)
         self._without = [mesh for mesh, count in enumerate(numbers) if count != 0]  # positions

@@ -68,6 +68,7 @@ struct allpairs_search {
   allpairs_filter first{};
   allpairs_filter second{};
   std::optional<allpairs::WorldsSearch> worlds{};  ///< From the first search of worlds on.
+  std::atomic<bool> isCalled = false;
 };
 
 struct allpairs_world {
@@ -134,8 +135,28 @@ template <class T>
 /// What a filter's arrays are about: C says nothing of their length, which is that of a set.
 [[nodiscard]] FilterBits bitsOf(const allpairs_filter& filter, std::size_t boxes);
 
-/// Throws InvalidArgument if the search is running: it is called by its own callback.
-void checkIdle(allpairs_search& search);
+/// A call of a search, the only one as long as it lasts: callbacks of the caller's, which may run on several threads,
+/// must not change what it works on.
+///
+/// Bad input: no search, or one that is called, throws InvalidArgument.
+class SearchCall {
+ public:
+  explicit SearchCall(allpairs_search* search) : m_search(required(search, "search")) {
+    if (m_search.isCalled.exchange(true, std::memory_order_acquire)) {
+      throw InvalidArgument("the search is called by its own filter or visitor");
+    }
+  }
+  ~SearchCall() { m_search.isCalled.store(false, std::memory_order_release); }
+  SearchCall(const SearchCall&) = delete;
+  SearchCall& operator=(const SearchCall&) = delete;
+  SearchCall(SearchCall&&) = delete;
+  SearchCall& operator=(SearchCall&&) = delete;
+
+  [[nodiscard]] allpairs_search& handle() const noexcept { return m_search; }
+
+ private:
+  allpairs_search& m_search;
+};
 
 /// Threads to run on, or null for the calling one.
 [[nodiscard]] std::unique_ptr<Executor> executorFor(std::size_t threads);

@@ -34,10 +34,10 @@ OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
 
 void setOptions(allpairs_search& search, const allpairs_options* options) {
   const allpairs_options given = known(options);
-  if (given.memory.allocate != nullptr && (search.memory == nullptr || !search.memory->is(given.memory))) {
+  const bool hasMemory = given.memory.allocate != nullptr || given.memory.deallocate != nullptr;
+  if (hasMemory && (search.memory == nullptr || !search.memory->is(given.memory))) {
     throw InvalidArgument("a search keeps the memory that it was made with; make another one");
   }
-  checkIdle(search);
   std::unique_ptr<Executor> executor = executorFor(given.threads);
   search.overlaps.setOptions(optionsOf(given, executor.get()));
   search.executor = std::move(executor);
@@ -63,7 +63,7 @@ void findInto(T* data, std::size_t capacity, std::size_t& count, const Find& fin
   try {
     count = find(memory);
   } catch (const LimitExceeded& error) {
-    count = static_cast<std::size_t>(error.count());
+    if (error.isTotal()) count = static_cast<std::size_t>(error.count());
     throw;
   }
 }
@@ -78,16 +78,22 @@ std::span<std::uint64_t> offsetsIn(const allpairs_rows_memory& memory, const all
 
 allpairs_rows toC(const NeighborsView& found) { return {found.offsets.data(), found.indices.data(), found.size()}; }
 
-/// The search, with its filters as long as the sets that it is about to look at.
-OverlapSearch& prepared(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) {
-  allpairs_search& handle = required(search, "search");
-  checkIdle(handle);
-  OverlapOptions options = handle.overlaps.options();
-  options.filter.first = bitsOf(handle.first, required(first, "set").boxes.size());
-  options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes.size());
-  handle.overlaps.setOptions(std::move(options));
-  return handle.overlaps;
-}
+/// A call of the search, with its filters as long as the sets that it is about to look at.
+class PreparedCall {
+ public:
+  PreparedCall(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) : m_call(search) {
+    const allpairs_search& handle = m_call.handle();
+    OverlapOptions options = handle.overlaps.options();
+    options.filter.first = bitsOf(handle.first, required(first, "set").boxes.size());
+    options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes.size());
+    m_call.handle().overlaps.setOptions(std::move(options));
+  }
+
+  OverlapSearch* operator->() const noexcept { return &m_call.handle().overlaps; }
+
+ private:
+  SearchCall m_call;
+};
 
 }  // namespace
 
@@ -96,10 +102,6 @@ FilterBits bitsOf(const allpairs_filter& filter, std::size_t boxes) {
     return std::span<const std::uint32_t>(data, data == nullptr ? 0 : boxes);
   };
   return {labelsOf(filter.categories), labelsOf(filter.masks), labelsOf(filter.groups)};
-}
-
-void checkIdle(allpairs_search& search) {
-  if (search.worlds) search.worlds->setOptions(search.worlds->options());
 }
 
 }  // namespace allpairs::c
@@ -113,15 +115,19 @@ allpairs_status allpairs_search_create(const allpairs_options* options, allpairs
     allpairs::OverlapOptions memoryOnly;
     std::unique_ptr<CallerMemory> memory = memoryOf(known(options).memory);
     memoryOnly.memory = memory.get();
-    auto handle = std::make_unique<allpairs_search>(
-        allpairs_search{std::move(memory), nullptr, allpairs::OverlapSearch(std::move(memoryOnly)), {}, {}, {}});
+    // An atomic does not move: made where it stays.
+    std::unique_ptr<allpairs_search> handle(
+        new allpairs_search{std::move(memory), nullptr, allpairs::OverlapSearch(std::move(memoryOnly))});
     setOptions(*handle, options);
     result = handle.release();
   });
 }
 
 allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options) {
-  return guarded([&] { setOptions(required(search, "search"), options); });
+  return guarded([&] {
+    const SearchCall call(search);
+    setOptions(call.handle(), options);
+  });
 }
 
 void allpairs_search_destroy(allpairs_search* search) {
@@ -130,17 +136,16 @@ void allpairs_search_destroy(allpairs_search* search) {
 
 allpairs_status allpairs_search_shrink(allpairs_search* search) {
   return guarded([&] {
-    allpairs_search& handle = required(search, "search");
-    checkIdle(handle);
-    handle.overlaps.shrink();
-    handle.worlds.reset();
+    const SearchCall call(search);
+    call.handle().overlaps.shrink();
+    call.handle().worlds.reset();
   });
 }
 
 allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs) {
   return guarded([&] {
     allpairs_pairs& to = required(pairs, "pairs");
-    to = toC(prepared(search, set, nullptr).find(set->boxes));
+    to = toC(PreparedCall(search, set, nullptr)->find(set->boxes));
   });
 }
 
@@ -149,7 +154,7 @@ allpairs_status allpairs_find_between(allpairs_search* search, const allpairs_se
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
     allpairs_pairs& to = required(pairs, "pairs");
-    to = toC(prepared(search, first, second).find(first->boxes, others));
+    to = toC(PreparedCall(search, first, second)->find(first->boxes, others));
   });
 }
 
@@ -157,7 +162,7 @@ allpairs_status allpairs_find_into(allpairs_search* search, const allpairs_set* 
   return guarded([&] {
     allpairs_pair_memory& to = required(memory, "memory");
     findInto(to.data, to.capacity, to.count, [&](std::span<allpairs_pair> room) {
-      return prepared(search, set, nullptr).findInto(set->boxes, pairsIn(room)).size();
+      return PreparedCall(search, set, nullptr)->findInto(set->boxes, pairsIn(room)).size();
     });
   });
 }
@@ -168,7 +173,7 @@ allpairs_status allpairs_find_between_into(allpairs_search* search, const allpai
     allpairs_pair_memory& to = required(memory, "memory");
     const allpairs::BoxView& others = required(second, "second").boxes;
     findInto(to.data, to.capacity, to.count, [&](std::span<allpairs_pair> room) {
-      return prepared(search, first, second).findInto(first->boxes, others, pairsIn(room)).size();
+      return PreparedCall(search, first, second)->findInto(first->boxes, others, pairsIn(room)).size();
     });
   });
 }
@@ -179,8 +184,8 @@ allpairs_status allpairs_find_neighbors_into(allpairs_search* search, const allp
     allpairs_rows_memory& to = required(memory, "memory");
     const allpairs::NeighborRows known = rowsOf(numberIn(kind));
     findInto(to.indices, to.capacity, to.count, [&](std::span<std::uint32_t> room) {
-      allpairs::OverlapSearch& overlaps = prepared(search, set, nullptr);
-      return overlaps.findNeighborsInto(set->boxes, known, {offsetsIn(to, set), room}).indices.size();
+      const PreparedCall overlaps(search, set, nullptr);
+      return overlaps->findNeighborsInto(set->boxes, known, {offsetsIn(to, set), room}).indices.size();
     });
   });
 }
@@ -191,8 +196,8 @@ allpairs_status allpairs_find_neighbors_between_into(allpairs_search* search, co
     allpairs_rows_memory& to = required(memory, "memory");
     const allpairs::BoxView& others = required(second, "second").boxes;
     findInto(to.indices, to.capacity, to.count, [&](std::span<std::uint32_t> room) {
-      allpairs::OverlapSearch& overlaps = prepared(search, first, second);
-      return overlaps.findNeighborsInto(first->boxes, others, {offsetsIn(to, first), room}).indices.size();
+      const PreparedCall overlaps(search, first, second);
+      return overlaps->findNeighborsInto(first->boxes, others, {offsetsIn(to, first), room}).indices.size();
     });
   });
 }
@@ -202,7 +207,7 @@ allpairs_status allpairs_find_neighbors(allpairs_search* search, const allpairs_
   return guarded([&] {
     const allpairs::NeighborRows known = rowsOf(numberIn(kind));
     allpairs_rows& to = required(rows, "rows");
-    to = toC(prepared(search, set, nullptr).findNeighbors(set->boxes, known));
+    to = toC(PreparedCall(search, set, nullptr)->findNeighbors(set->boxes, known));
   });
 }
 
@@ -211,14 +216,14 @@ allpairs_status allpairs_find_neighbors_between(allpairs_search* search, const a
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
     allpairs_rows& to = required(rows, "rows");
-    to = toC(prepared(search, first, second).findNeighbors(first->boxes, others));
+    to = toC(PreparedCall(search, first, second)->findNeighbors(first->boxes, others));
   });
 }
 
 allpairs_status allpairs_count(allpairs_search* search, const allpairs_set* set, uint64_t* count) {
   return guarded([&] {
     std::uint64_t& to = required(count, "count");
-    to = prepared(search, set, nullptr).count(set->boxes);
+    to = PreparedCall(search, set, nullptr)->count(set->boxes);
   });
 }
 
@@ -227,14 +232,14 @@ allpairs_status allpairs_count_between(allpairs_search* search, const allpairs_s
   return guarded([&] {
     const allpairs::BoxView& others = required(second, "second").boxes;
     std::uint64_t& to = required(count, "count");
-    to = prepared(search, first, second).count(first->boxes, others);
+    to = PreparedCall(search, first, second)->count(first->boxes, others);
   });
 }
 
 allpairs_status allpairs_stream(allpairs_search* search, const allpairs_set* set, allpairs_visitor visitor) {
   return guarded([&] {
     Visitor asking(visitor);
-    prepared(search, set, nullptr).stream(set->boxes, asking, asking.batchSize());
+    PreparedCall(search, set, nullptr)->stream(set->boxes, asking, asking.batchSize());
   });
 }
 
@@ -243,7 +248,7 @@ allpairs_status allpairs_stream_between(allpairs_search* search, const allpairs_
   return guarded([&] {
     Visitor asking(visitor);
     const allpairs::BoxView& others = required(second, "second").boxes;
-    prepared(search, first, second).stream(first->boxes, others, asking, asking.batchSize());
+    PreparedCall(search, first, second)->stream(first->boxes, others, asking, asking.batchSize());
   });
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,11 +38,16 @@ struct Found {
   std::size_t size = 0;
 };
 
-/// Room for the pairs of the first search. Memory that isn't touched costs nothing, and growing costs much.
-std::size_t firstCapacity(const ElementCounts& counts) {
+/// Room for the pairs of the first search. Growing costs much, and default memory that isn't touched nothing.
+std::size_t firstCapacity(const ElementCounts& counts, const std::pmr::memory_resource* memory) {
   constexpr std::size_t kPairsPerElement = 128;
   constexpr std::size_t kMost = std::size_t{1} << 24;
+  if (engine::memoryOr(nullptr) != memory) return kBatch;
   return std::min(kMost, kPairsPerElement * (counts.edges + counts.triangles + 1));
+}
+
+[[noreturn]] void throwNoKind(CandidateKind kind) {
+  throw InvalidArgument("no kind of candidate " + std::to_string(static_cast<int>(kind)));
 }
 
 /// Adds the pairs that pass to what was found, many at once.
@@ -146,6 +153,7 @@ void ElementCandidates::State::visitAs(Elements elements, ElementKind first, Ele
 
 template <class Use>
 void ElementCandidates::State::visit(CandidateKind kind, Use use) {
+  if (kind > CandidateKind::FaceFace) throwNoKind(kind);
   if (wantsNothing()) return;
   switch (kind) {
     case CandidateKind::VertexFace:
@@ -212,9 +220,12 @@ void ElementCandidates::setPositions(std::size_t mesh, Span<const double> start,
 Span<const Pair> ElementCandidates::find(CandidateKind kind) {
   State& state = this->state();
   const auto mark = state.inUse.mark();
+  if (static_cast<std::size_t>(kind) >= state.found.size()) throwNoKind(kind);
   Found& found = state.found[static_cast<std::size_t>(kind)];
   found.size = 0;
-  if (found.pairs.capacity() == 0) found.pairs.require(firstCapacity(state.topology.counts()));
+  if (found.pairs.capacity() == 0) {
+    found.pairs.require(firstCapacity(state.topology.counts(), engine::memoryOr(state.options.memory)));
+  }
   state.search.setOptions(state.engineOptions(state.options.order));
   state.visit(kind, [&](const auto& check, const Sets& sets) {
     if (state.options.order == Order::Unordered && state.options.executor == nullptr) {

@@ -71,6 +71,19 @@ void sortFew(Place begin, Place end) {
   }
 }
 
+/// Sorts each of the parts of a list, which end at places, and returns how many different numbers they have in all.
+std::size_t sortEach(std::vector<std::uint32_t>& numbers, std::span<const std::uint64_t> ends) {
+  std::size_t different = 0;
+  Place begin = numbers.begin();
+  for (const std::uint64_t place : ends) {
+    const Place end = numbers.begin() + static_cast<std::ptrdiff_t>(place);
+    sortFew(begin, end);
+    for (Place next = begin; next != end; ++next) different += next == begin || *next != *(next - 1) ? 1U : 0U;
+    begin = end;
+  }
+  return different;
+}
+
 }  // namespace
 
 MeshTopology::MeshTopology(const MeshView& mesh) : MeshTopology(std::span(&mesh, 1)) {}
@@ -130,17 +143,16 @@ void MeshTopology::add(const MeshView& mesh) {
 void MeshTopology::extractEdges() {
   std::vector<std::uint64_t> places = placesBySmallerVertex(m_triangles, counts().vertices);
   std::vector<std::uint32_t> larger = scatterLargerVertices(m_triangles, places);
-  m_edges.reserve(larger.size() / 2 + 1);
-  auto begin = larger.begin();
+  m_edges.reserve(sortEach(larger, places));
+  std::size_t next = 0;
   std::size_t mesh = 0;
   for (std::size_t vertex = 0; vertex < counts().vertices; ++vertex) {
     while (vertex == m_before[mesh + 1].vertices) m_before[++mesh].edges = m_edges.size();
-    const auto end = larger.begin() + static_cast<std::ptrdiff_t>(places[vertex]);
-    sortFew(begin, end);
-    for (auto next = begin; next != end; ++next) {
-      if (next == begin || *next != *(next - 1)) m_edges.push_back({static_cast<std::uint32_t>(vertex), *next});
+    for (const std::size_t begin = next; next != places[vertex]; ++next) {
+      if (next == begin || larger[next] != larger[next - 1]) {
+        m_edges.push_back({static_cast<std::uint32_t>(vertex), larger[next]});
+      }
     }
-    begin = end;
   }
   while (++mesh < m_before.size()) m_before[mesh].edges = m_edges.size();
   if (m_edges.size() > kMostElements) throw InvalidArgument("the meshes have more than 2^32 - 1 edges");

@@ -186,6 +186,7 @@ static void resultsGoToMemoryOfTheCaller(allpairs_set* set) {
   allpairs_rows_memory place = {offsets, indices, kPairs, 0};
   allpairs_search* search = NULL;
   allpairs_rows found;
+  allpairs_options few = allpairs_default_options();
   ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_find_into(search, set, &memory) == ALLPAIRS_OK && memory.count == count);
   ALLPAIRS_CHECK(memcmp(pairs, expected, count * sizeof(allpairs_pair)) == 0);
@@ -205,6 +206,12 @@ static void resultsGoToMemoryOfTheCaller(allpairs_set* set) {
   place.capacity = place.count - 1;
   ALLPAIRS_CHECK(allpairs_find_neighbors_between_into(search, set, set, &place) == ALLPAIRS_LIMIT_EXCEEDED);
   ALLPAIRS_CHECK(place.count == memory.count);
+  place.capacity = kPairs;
+  few.max_pairs = 3;
+  ALLPAIRS_CHECK(allpairs_search_set_options(search, &few) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find_into(search, set, &memory) == ALLPAIRS_LIMIT_EXCEEDED && memory.count == 0);
+  ALLPAIRS_CHECK(allpairs_find_neighbors_into(search, set, ALLPAIRS_FULL_ROWS, &place) == ALLPAIRS_LIMIT_EXCEEDED);
+  ALLPAIRS_CHECK(place.count == 0);
   place.offsets = NULL;
   ALLPAIRS_CHECK(allpairs_find_neighbors_into(search, set, ALLPAIRS_FULL_ROWS, &place) == ALLPAIRS_INVALID_ARGUMENT);
   memory.data = NULL;

@@ -150,6 +150,41 @@ static void mistakesAreNamed(const allpairs_set* boxes) {
   allpairs_search_destroy(search);
 }
 
+/// Searches of worlds are made when they are first asked for: callbacks of either kind of search ask for the other.
+static bool searchWorlds(void* context, uint32_t first, uint32_t second) {
+  const struct Caller* caller = context;
+  allpairs_worlds worlds = {0};
+  allpairs_world_pairs found;
+  allpairs_pairs pairs;
+  worlds.struct_size = sizeof worlds;
+  worlds.boxes = caller->boxes;
+  worlds.count = 2;
+  for (int i = 0; i < 20; ++i) {
+    ALLPAIRS_CHECK(allpairs_find_in_worlds(caller->search, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_find(caller->search, caller->boxes, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
+  }
+  return first < second;
+}
+
+static void callbacksInSeveralThreadsAreRefused(const allpairs_set* boxes) {
+  struct Caller caller = {NULL, boxes};
+  allpairs_options options = allpairs_default_options();
+  allpairs_worlds worlds = {0};
+  allpairs_world_pairs found;
+  allpairs_pairs pairs;
+  options.accept = searchWorlds;
+  options.accept_context = &caller;
+  options.threads = 4;
+  worlds.struct_size = sizeof worlds;
+  worlds.boxes = boxes;
+  worlds.count = 2;
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &caller.search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(caller.search, boxes, &pairs) == ALLPAIRS_OK && pairs.count > 0);
+  ALLPAIRS_CHECK(allpairs_find_in_worlds(caller.search, &worlds, &found) == ALLPAIRS_OK && found.pairs.count > 0);
+  ALLPAIRS_CHECK(allpairs_find(caller.search, boxes, &pairs) == ALLPAIRS_OK && pairs.count > 0);
+  allpairs_search_destroy(caller.search);
+}
+
 int main(void) {
   allpairs_set* boxes = NULL;
   checkFill(rows, kAll, 5);
@@ -158,6 +193,7 @@ int main(void) {
   pairsAreThoseOfEachWorld(boxes);
   sharedBoxesAreInEveryWorld(boxes);
   mistakesAreNamed(boxes);
+  callbacksInSeveralThreadsAreRefused(boxes);
   aFilterOfOneWorldHoldsForAll(boxes);
   allpairs_set_destroy(boxes);
   return EXIT_SUCCESS;

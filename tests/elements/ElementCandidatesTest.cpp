@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
 #include <random>
 #include <string>
 
@@ -244,6 +246,30 @@ TEST(ElementCandidates, RefuseBatchesOfNone) {
                      CandidateKind::FaceFace, [](Span<const Pair>) {}, 0),
                  InvalidArgument);
   }
+}
+
+TEST(ElementCandidates, OfNoKindAreRefused) {
+  ElementCandidates candidates = candidatesOf({kTriangle, kTriangle});
+  const auto none = static_cast<CandidateKind>(3);
+  EXPECT_THROW(static_cast<void>(candidates.find(none)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(candidates.count(none)), InvalidArgument);
+  EXPECT_THROW(candidates.stream(none, [](Span<const Pair>) {}), InvalidArgument);
+  EXPECT_EQ(candidates.find(CandidateKind::FaceFace).size(), 1U);
+}
+
+TEST(ElementCandidates, TakeOfMemoryOfTheCallersWhatTheyUse) {
+  MovingMesh apart;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const MovingMesh triangle = shifted(kTriangle, 3.0 * i, 0, 0);
+    apart.start.insert(apart.start.end(), triangle.start.begin(), triangle.start.end());
+    apart.end.insert(apart.end.end(), triangle.end.begin(), triangle.end.end());
+    apart.triangles.insert(apart.triangles.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  std::vector<std::byte> bytes(std::size_t{8} << 20);
+  std::pmr::monotonic_buffer_resource memory(bytes.data(), bytes.size(), std::pmr::null_memory_resource());
+  ElementCandidates candidates = candidatesOf({apart}, {.memory = &memory});
+  EXPECT_EQ(candidates.find(CandidateKind::FaceFace).size(), 0U);
+  EXPECT_EQ(candidates.find(CandidateKind::EdgeEdge).size(), 0U);
 }
 
 }  // namespace

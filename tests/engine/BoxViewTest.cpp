@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "allpairs/Error.h"
+#include "allpairs/World.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 
@@ -65,6 +66,21 @@ TEST(BoxView, KnowsTheBoundsOfItsMargins) {
   set.setMargins(margins);
   set.setMargins({});
   expectMargins(0.5, 0.5, 0.5, 0.5);
+}
+
+TEST(BoxView, HasMarginsWhereOneIsNotZero) {
+  const std::vector<BoxF> boxes(2, BoxF{{0, 0, 0}, {1, 1, 1}});
+  BoxView set(boxes);
+  EXPECT_FALSE(set.hasMargins());
+  const std::vector<double> none{0.0, -0.0};
+  set.setMargins(none);
+  EXPECT_FALSE(set.hasMargins());
+  World world;
+  EXPECT_EQ(world.add(set).size(), 2U);
+  const std::vector<double> one{0.0, -1e-300};
+  set.setMargins(one);
+  EXPECT_TRUE(set.hasMargins());
+  EXPECT_THROW(world.add(set), InvalidArgument);
 }
 
 TEST(BoxView, ReadsBackwardWithNegativeStrides) {

@@ -75,6 +75,7 @@ class FindInto : public ::testing::TestWithParam<IntoCase> {
         FAIL() << "memory for " << room << " was enough";
       } catch (const LimitExceeded& error) {
         ASSERT_EQ(error.count(), wanted.size());
+        ASSERT_TRUE(error.isTotal());
         ASSERT_EQ(error.what(),
                   "memory for " + std::to_string(room) + " pairs, but there are " + std::to_string(wanted.size()));
       }
@@ -86,6 +87,20 @@ class FindInto : public ::testing::TestWithParam<IntoCase> {
     }
   }
 };
+
+TEST(FindIntoMemory, OfTooManyPairsIsNotToldThatTheLimitCountedAll) {
+  const std::vector<BoxF> boxes(300, BoxF{{0, 0, 0}, {1, 1, 1}});
+  OverlapOptions options;
+  options.maxPairs = 1000;
+  OverlapSearch search(options);
+  std::vector<Pair> memory(50000);
+  try {
+    static_cast<void>(search.findInto(boxes, memory));
+    FAIL() << "44,850 pairs are not more than 1,000";
+  } catch (const LimitExceeded& error) {
+    EXPECT_FALSE(error.isTotal());
+  }
+}
 
 INSTANTIATE_TEST_SUITE_P(OfEachKind, FindInto, ::testing::ValuesIn(cases()));
 

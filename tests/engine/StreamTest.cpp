@@ -166,5 +166,17 @@ TEST_P(Stream, EndsWithWhatTheVisitorThrows) {
   EXPECT_EQ(search.count(boxes), countOverlaps(boxes, options()));
 }
 
+std::size_t pairsSeen = 0;
+void see(Span<const Pair> pairs) { pairsSeen += pairs.size(); }
+
+TEST(StreamTo, AFunctionIsAVisitorLikeAPointerToItAndALambda) {
+  const std::vector<BoxF> boxes = test::randomBoxes(300, 27);
+  const std::size_t expected = countOverlaps(boxes);
+  streamOverlaps(boxes, see);
+  EXPECT_EQ(pairsSeen, expected);
+  streamOverlaps(boxes, &see);
+  EXPECT_EQ(pairsSeen, 2 * expected);
+}
+
 }  // namespace
 }  // namespace allpairs

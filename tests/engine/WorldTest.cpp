@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -345,6 +346,17 @@ TEST(World, QueriesSeeWhatHasChangedSinceTheLastStep) {
   world.remove(a);
   EXPECT_THAT(world.findNearest({0, 0, 0}, 5), ElementsAre(Neighbor{b, 4.0}));
   EXPECT_EQ(world.findFirst(Ray{{-1, 0.5, 0.5}, {0, 1, 0}}), SweepHit{});
+}
+
+TEST(World, PairsBetweenTwoWorldsAreAtTheMeanOfTheLeastDistances) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  WorldOptions options;
+  options.distance = kLeast;
+  World first(options);
+  World second(options);
+  first.add(Box{{0, 0, 0}, {0, 1, 1}});
+  second.add(Box{{kLeast, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(first.findBetween(second).size(), 1U);
 }
 
 TEST(World, PairsBetweenTwoWorldsAreThoseOfTwoSets) {

@@ -88,3 +88,12 @@ def test_meshes_without_positions_are_named():
             search("face-face")
     meshes.set_positions(np.eye(3), mesh=1)
     assert meshes.count("face-face") == 1
+
+
+def test_what_is_no_list_of_meshes_is_named():
+    with pytest.raises(TypeError, match="^vertex_count is of type NoneType; it takes one for each mesh$"):
+        allpairs.MeshCandidates([[0, 1, 2]], None)
+    with pytest.raises(TypeError, match="^triangles is of type int; it takes one for each mesh$"):
+        allpairs.MeshCandidates(5, [3])
+    with pytest.raises(allpairs.InvalidArgument, match=r"^triangles of mesh 0\[0, 2\] is -1; it takes 0 to 4294967295$"):
+        allpairs.MeshCandidates([[0, 1, -1]], 4)

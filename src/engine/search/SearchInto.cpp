@@ -13,8 +13,8 @@ namespace {
 /// Throws unless there is room for what was found.
 void checkRoom(std::uint64_t found, std::size_t room, const char* what) {
   if (found <= room) return;
-  throw LimitExceeded(found,
-                      "memory for " + std::to_string(room) + ' ' + what + ", but there are " + std::to_string(found));
+  throw LimitExceeded(
+      found, "memory for " + std::to_string(room) + ' ' + what + ", but there are " + std::to_string(found), true);
 }
 
 }  // namespace

@@ -329,7 +329,7 @@ void WorldSearch::noteTotals() {
 std::vector<Pair> WorldSearch::findBetween(const BoxStore& store, const WorldSearch& other,
                                            const BoxStore& otherStore) const {
   // Half of each: the lanes of the two worlds have been enlarged by that, unless it is negative.
-  const double distance = 0.5 * m_options.distance + 0.5 * other.m_options.distance;
+  const double distance = std::midpoint(m_options.distance, other.m_options.distance);
   const bool exact = m_forest.exact() && other.m_forest.exact() && distance == 0.0;
   PairTest test(store.tested(), otherStore.tested(), distance, m_options.accept);
   test.requireExactTest(!exact);
