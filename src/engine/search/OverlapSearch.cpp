@@ -23,11 +23,11 @@ struct OverlapSearch::State {
   engine::Search search;
   engine::InUse inUse;
 
-  /// Calls use(search, options), marked as running.
-  template <class Use>
-  auto run(const Use& use) {
+  /// Calls a method of the search with these sets and the options, marked as running.
+  template <class Method, class... Arguments>
+  auto run(Method method, const engine::Sets& sets, Arguments... arguments) {
     const auto mark = inUse.mark();
-    return use(search, std::as_const(options));
+    return (search.*method)(sets, options, arguments...);
   }
 };
 
@@ -57,62 +57,54 @@ void OverlapSearch::shrink() {
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& boxes) {
-  return state().run([&](auto& search, auto& options) { return search.find(engine::Sets(boxes), options); });
+  return state().run(&engine::Search::find, engine::Sets(boxes));
 }
 
 Span<const Pair> OverlapSearch::find(const BoxView& first, const BoxView& second) {
-  return state().run([&](auto& search, auto& options) { return search.find({first, second}, options); });
+  return state().run(&engine::Search::find, {first, second});
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& boxes, NeighborRows rows) {
   engine::checkRows(rows);
-  return state().run(
-      [&](auto& search, auto& options) { return search.findNeighbors(engine::Sets(boxes), options, rows); });
+  return state().run(&engine::Search::findNeighbors, engine::Sets(boxes), rows, nullptr);
 }
 
 NeighborsView OverlapSearch::findNeighbors(const BoxView& first, const BoxView& second) {
-  return state().run([&](auto& search, auto& options) {
-    return search.findNeighbors({first, second}, options, NeighborRows::Half);
-  });
+  return state().run(&engine::Search::findNeighbors, {first, second}, NeighborRows::Half, nullptr);
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& boxes, Span<Pair> memory) {
-  return state().run(
-      [&](auto& search, auto& options) { return search.findInto(engine::Sets(boxes), options, memory); });
+  return state().run(&engine::Search::findInto, engine::Sets(boxes), memory);
 }
 
 Span<Pair> OverlapSearch::findInto(const BoxView& first, const BoxView& second, Span<Pair> memory) {
-  return state().run([&](auto& search, auto& options) { return search.findInto({first, second}, options, memory); });
+  return state().run(&engine::Search::findInto, {first, second}, memory);
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& boxes, NeighborRows rows, const NeighborsMemory& memory) {
   engine::checkRows(rows);
-  return state().run([&](auto& search, auto& options) {
-    return search.findNeighborsInto(engine::Sets(boxes), options, rows, memory);
-  });
+  return state().run(&engine::Search::findNeighborsInto, engine::Sets(boxes), rows, memory);
 }
 
 NeighborsView OverlapSearch::findNeighborsInto(const BoxView& first, const BoxView& second,
                                                const NeighborsMemory& memory) {
-  return state().run([&](auto& search, auto& options) {
-    return search.findNeighborsInto({first, second}, options, NeighborRows::Half, memory);
-  });
+  return state().run(&engine::Search::findNeighborsInto, {first, second}, NeighborRows::Half, memory);
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& boxes) {
-  return state().run([&](auto& search, auto& options) { return search.count(engine::Sets(boxes), options); });
+  return state().run(&engine::Search::count, engine::Sets(boxes));
 }
 
 std::uint64_t OverlapSearch::count(const BoxView& first, const BoxView& second) {
-  return state().run([&](auto& search, auto& options) { return search.count({first, second}, options); });
+  return state().run(&engine::Search::count, {first, second});
 }
 
 void OverlapSearch::stream(const BoxView& boxes, PairVisitor visitor, std::size_t batchSize) {
-  state().run([&](auto& search, auto& options) { search.stream(engine::Sets(boxes), options, visitor, batchSize); });
+  state().run(&engine::Search::stream, engine::Sets(boxes), visitor, batchSize);
 }
 
 void OverlapSearch::stream(const BoxView& first, const BoxView& second, PairVisitor visitor, std::size_t batchSize) {
-  state().run([&](auto& search, auto& options) { search.stream({first, second}, options, visitor, batchSize); });
+  state().run(&engine::Search::stream, {first, second}, visitor, batchSize);
 }
 
 namespace {

@@ -55,8 +55,7 @@ class Search {
   std::span<Pair> findInto(const Sets& sets, const OverlapOptions& options, std::span<Pair> memory);
 
   /// The partners of each box of the first set, whatever the options' order; of two sets the rows are Half ones.
-  NeighborsView findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
-                              const RowRoom* room = nullptr);
+  NeighborsView findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind, const RowRoom* room);
   [[nodiscard]] Neighbors takeNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind);
   NeighborsView findNeighborsInto(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
                                   const NeighborsMemory& memory);
