@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <memory_resource>
 
 #include "allpairs/StopFlag.h"
 #include "input/BoxRuns.h"
@@ -21,59 +23,8 @@ namespace {
 /// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
-/// Hits that are buffered: more than those of one box.
+/// Hits that are buffered: more than those of one box, and so few that the stack has room for them.
 constexpr std::size_t kHits = 2 * LaneTile::kCapacity;
-
-/// Turns hits into pairs, and passes on those that the test keeps.
-class Receiver {
- public:
-  Receiver(const Kernels& kernels, PairSide side, const PairTest& test, const OverlapOptions& options,
-           FunctionRef<void(std::span<const Pair>)> take)
-      : m_kernels(kernels), m_side(side), m_test(test), m_options(options), m_take(take) {
-    m_hits.row = m_rows.data();
-    m_hits.partner = m_partners.data();
-    if (test.leavesDoubts()) m_hits.doubt = m_doubts.data();
-    m_hits.slack = test.slack();
-    m_hits.capacity = kHits;
-    m_hits.receiver = this;
-    m_hits.flush = [](void* self, Hits&) { static_cast<Receiver*>(self)->flush(); };
-  }
-
-  [[nodiscard]] Hits& hits() noexcept { return m_hits; }
-
-  OverlapStatistics finish() {
-    flush();
-    m_statistics.boxTests = m_hits.boxTests;
-    return m_statistics;
-  }
-
- private:
-  void flush() {
-    if (m_hits.size == 0) return;
-    checkStop(m_options.stop);
-    m_kernels.writePairs(m_hits, m_side, m_pairs.data());
-    const std::span<Pair> pairs(m_pairs.data(), m_hits.size);
-    m_statistics.exactTests += m_test.exactTestsOf(m_hits);
-    const std::size_t kept = m_test.select(pairs, m_hits);
-    m_hits.size = 0;
-    m_hits.doubts = 0;
-    m_statistics.pairs += kept;
-    checkLimit(m_options.maxPairs, m_statistics.pairs);
-    m_take({m_pairs.data(), kept});
-  }
-
-  const Kernels& m_kernels;
-  PairSide m_side;
-  const PairTest& m_test;
-  const OverlapOptions& m_options;
-  FunctionRef<void(std::span<const Pair>)> m_take;
-  OverlapStatistics m_statistics;
-  Hits m_hits;
-  alignas(64) std::array<std::uint32_t, kHits + kVectorSlack> m_rows;
-  alignas(64) std::array<std::uint32_t, kHits + kVectorSlack> m_partners;
-  std::array<std::uint32_t, kHits + kVectorSlack> m_doubts;
-  alignas(64) std::array<Pair, kHits + kVectorSlack> m_pairs;
-};
 
 /// All pairs, by row; returns their number.
 template <class T>
@@ -159,10 +110,24 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
   search.rows.tiles = &rows;
   const bool exact = readers.readAll(order, search);
   test.requireExactTestInDoubt(!exact, readers.first.origin());
-  const PairSide side = order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  Receiver receiver(kernels, side, test, options, take);
-  kernels.searchFlat(search, receiver.hits());
-  return receiver.finish();
+  const auto emit = [&](std::span<const Pair> pairs, std::size_t) {
+    take(pairs);
+    return pairs.size();
+  };
+  SinkOptions sinkOptions{test, &kernels, order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst};
+  sinkOptions.hitCapacity = kHits;
+  sinkOptions.hitStride = kHits + kVectorSlack;
+  sinkOptions.maxPairs = options.maxPairs;
+  sinkOptions.stop = options.stop;
+  sinkOptions.emit.emplace(emit);
+  alignas(64) std::array<std::byte, 26 << 10> bytes;
+  std::pmr::monotonic_buffer_resource memory(bytes.data(), bytes.size(), std::pmr::null_memory_resource());
+  PairSink sink(&memory);
+  sink.start(sinkOptions, 0);
+  sink.hits().roomForPairs = nullptr;  // Rows are too short to be written one by one.
+  kernels.searchFlat(search, sink.hits());
+  sink.finish();
+  return sink.statistics();
 }
 
 }  // namespace

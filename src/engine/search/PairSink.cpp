@@ -10,15 +10,9 @@
 namespace allpairs::engine {
 namespace {
 
-/// Two arrays of this many ids stay in the first-level cache beside what the kernels read (allpairs bench uniform -n
-/// 100000).
-constexpr std::size_t kHitCapacity = 2048;
-
-/// Their offset within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that loads
-/// from the offset in another page at which it has just stored waits for the store (4K aliasing; few_benchmark).
+/// The offset of hits within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that
+/// loads from the offset in another page at which it has just stored waits for the store (4K aliasing; few_benchmark).
 constexpr std::size_t kHitOffset = 640;
-constexpr std::size_t kHitStride = 3072;
-static_assert(kHitStride >= kHitCapacity + kVectorSlack);
 
 }  // namespace
 
@@ -37,13 +31,13 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_options = &options;
   m_worker = worker;
   const bool doubts = options.test.leavesDoubts();
-  m_memory.require(kHitOffset + (doubts ? 3 : 2) * kHitStride);
+  m_memory.require(kHitOffset + (doubts ? 3 : 2) * options.hitStride);
   m_hits = {};
   m_hits.row = m_memory.data() + kHitOffset;
-  m_hits.partner = m_hits.row + kHitStride;
-  if (doubts) m_hits.doubt = m_hits.partner + kHitStride;
+  m_hits.partner = m_hits.row + options.hitStride;
+  if (doubts) m_hits.doubt = m_hits.partner + options.hitStride;
   if (doubts) m_hits.slack = options.test.slack();
-  m_hits.capacity = kHitCapacity;
+  m_hits.capacity = options.hitCapacity;
   m_hits.countOnly = options.countOnly && !options.test.needed();
   m_hits.receiver = this;
   m_hits.flush = [](void* self, Hits& hits) { static_cast<PairSink*>(self)->receive(hits); };
@@ -58,7 +52,7 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_count = 0;
   m_exactTests = 0;
   // Then it never grows.
-  if (options.emit) m_pairs.grow(kHitCapacity + kVectorSlack);
+  if (options.emit) m_pairs.grow(options.hitCapacity + kVectorSlack);
 }
 
 void PairSink::makeRoom(std::size_t size) {

@@ -40,6 +40,12 @@ struct SinkOptions {
   PairTest test;
   const Kernels* kernels = nullptr;
   PairSide side = PairSide::RowFirst;
+
+  /// Hits that are buffered, and how far apart their arrays are, in ids. Two arrays of so many stay in the first-level
+  /// cache beside what the kernels read (allpairs bench uniform -n 100000).
+  std::size_t hitCapacity = 2048;
+  std::size_t hitStride = 3072;
+
   std::uint64_t maxPairs = std::numeric_limits<std::uint64_t>::max();
 
   /// Space for this many pairs is reserved initially: address space, of which only the used part takes memory.
