@@ -36,19 +36,9 @@ using FewColumns = std::array<std::array<T, kMostFew>, 6>;
 template <class T>
 HWY_INLINE void readColumns(const T* rows, FewColumns<T>& columns, std::size_t at) {
   const hn::CappedTag<T, kFanOut> d;
-#if HWY_TARGET == HWY_SCALAR
-  for (std::size_t bound = 0; bound < 6; ++bound) hn::StoreU(hn::LoadU(d, rows + bound), d, &columns[bound][at]);
-#else
-  // Corners alternate between minimum and maximum.
-  hn::Vec<decltype(d)> first[3];
-  hn::Vec<decltype(d)> last[3];
-  hn::LoadInterleaved3(d, rows, first[0], first[1], first[2]);
-  hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d), last[0], last[1], last[2]);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::StoreU(hn::ConcatEven(d, last[axis], first[axis]), d, &columns[axis][at]);
-    hn::StoreU(hn::ConcatOdd(d, last[axis], first[axis]), d, &columns[axis + 3][at]);
-  }
-#endif
+  hn::Vec<decltype(d)> bound[6];
+  loadRows(d, rows, bound);
+  for (std::size_t k = 0; k < 6; ++k) hn::StoreU(bound[k], d, &columns[k][at]);
 }
 
 /// The same of any number of boxes; what follows the last one is unspecified.

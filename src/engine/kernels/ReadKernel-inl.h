@@ -44,39 +44,14 @@ HWY_INLINE void storeFinite(const FloatVector (&bound)[6], LaneBlock& block, std
   for (std::size_t k = 0; k < 6; ++k) hn::StoreU(finite(bound[k], result.exact), d, &block.bound[k][at]);
 }
 
-#if HWY_TARGET == HWY_SCALAR
-
-/// One box from its row of six.
-HWY_INLINE void readRows(const float* rows, LaneBlock& block, std::size_t at, BlockRead& result) {
-  FloatVector bound[6];
-  for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::LoadU(FloatTag(), rows + k);
-  storeFinite(bound, block, at, result);
-}
-
-#else
-
-/// As many boxes as a vector has lanes, from rows of six that follow each other.
-HWY_INLINE void readRows(const float* rows, LaneBlock& block, std::size_t at, BlockRead& result) {
-  const FloatTag d;
-  // Three values make a corner; corners alternate between minimum and maximum.
-  FloatVector corners[2][3];
-  for (std::size_t half = 0; half < 2; ++half) {
-    hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d) * half, corners[half][0], corners[half][1], corners[half][2]);
-  }
-  FloatVector bound[6];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    bound[axis] = hn::ConcatEven(d, corners[1][axis], corners[0][axis]);
-    bound[axis + 3] = hn::ConcatOdd(d, corners[1][axis], corners[0][axis]);
-  }
-  storeFinite(bound, block, at, result);
-}
-
-#endif
-
 /// Sixteen boxes from rows that follow each other.
 BlockRead readRun32(const float* rows, LaneBlock& block) {
   BlockRead result;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) readRows(rows + 6 * i, block, i, result);
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) {
+    FloatVector bound[6];
+    loadRows(FloatTag(), rows + 6 * i, bound);
+    storeFinite(bound, block, i, result);
+  }
   return result;
 }
 
