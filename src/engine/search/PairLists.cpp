@@ -99,7 +99,7 @@ std::size_t PairLists::findApart(NeighborLists& lists, std::span<const Pair> pai
 
 /// Provides more memory for the lists of a worker; keeps what is there.
 void PairLists::grow(NeighborLists& lists, std::size_t more) {
-  checkLimit(*m_options, lists.size / m_timesListed);
+  checkLimit(m_options->maxPairs, lists.size / m_timesListed);
   const auto look = [this] { checkStop(m_options->stop); };
   look();
   Buffer<std::uint32_t>& partners = m_partners[lists.base >> kPlaceBits];

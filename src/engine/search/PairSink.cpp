@@ -22,11 +22,6 @@ void checkLimit(std::uint64_t maxPairs, std::uint64_t count) {
                                  ", the limit that was set; " + std::to_string(count) + " had been found");
 }
 
-void checkLimit(const SinkOptions& options, std::uint64_t count) {
-  if (count > options.maxPairs && !options.limitIsCallers) throw Overfull();
-  checkLimit(options.maxPairs, count);
-}
-
 void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_options = &options;
   m_worker = worker;
@@ -70,7 +65,7 @@ Pair* PairSink::roomFor(Hits& hits, std::size_t most) {
 void PairSink::take(std::size_t count) {
   m_size += count;
   m_count += count;
-  checkLimit(*m_options, m_count);
+  checkLimit(m_options->maxPairs, m_count);
   checkStop(m_options->stop);
   if (m_options->emit) emit();
 }
@@ -87,13 +82,14 @@ void PairSink::receive(Hits& hits) {
   hits.doubts = 0;
   m_count += m_size - begin;
   if (m_options->countOnly) m_size = begin;
-  checkLimit(*m_options, m_count);
+  checkLimit(m_options->maxPairs, m_count);
   checkStop(m_options->stop);
   if (m_options->emit) emit();
 }
 
 void PairSink::emit() {
   const std::size_t taken = (*m_options->emit)({m_pairs.data(), m_size}, m_worker);
+  if (taken == 0) return;
   std::copy(m_pairs.data() + taken, m_pairs.data() + m_size, m_pairs.data());
   m_size -= taken;
 }

@@ -20,9 +20,6 @@
 
 namespace allpairs::engine {
 
-/// More pairs than the search's own limit. Not an error: the search catches it.
-struct Overfull {};
-
 inline void add(OverlapStatistics& sum, const OverlapStatistics& part) noexcept {
   sum.pairs += part.pairs;
   sum.boxTests += part.boxTests;
@@ -51,8 +48,6 @@ struct SinkOptions {
   /// Space for this many pairs is reserved initially: address space, of which only the used part takes memory.
   std::size_t likelyPairs = 0;
 
-  /// Whether exceeding it is an error for the caller; otherwise it throws Overfull, for the search itself.
-  bool limitIsCallers = true;
   bool countOnly = false;
 
   /// If set, runs throw Stopped soon after this is set.
@@ -65,9 +60,6 @@ struct SinkOptions {
 
 /// Throws LimitExceeded if there are more pairs than the caller allows.
 void checkLimit(std::uint64_t maxPairs, std::uint64_t count);
-
-/// The same, or throws Overfull.
-void checkLimit(const SinkOptions& options, std::uint64_t count);
 
 /// Receives the hits of a worker, converts them to pairs, applies the exact test and the filters, and keeps, counts or
 /// emits them.

@@ -201,7 +201,7 @@ void Search::run(const Plan& plan, Executor& executor) {
   m_runner.run(plan.job, executor);
   m_statistics = m_runner.totals();
   // Each worker has checked only its own pairs.
-  checkLimit(plan.sink, m_statistics.pairs);
+  checkLimit(plan.sink.maxPairs, m_statistics.pairs);
 }
 
 /// Where the pairs of all tasks are concatenated.
@@ -388,7 +388,7 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
   m_statistics = m_runner.totals();
   m_statistics.pairs = m_lists.pairs();
   for (const NeighborLists& lists : m_lists.ofWorkers()) m_statistics.exactTests += lists.exactTests;
-  checkLimit(plan.sink, m_statistics.pairs);
+  checkLimit(plan.sink.maxPairs, m_statistics.pairs);
   return true;
 }
 

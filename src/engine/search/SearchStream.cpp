@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Searches that pass pairs to a visitor as they find them, in bounded memory.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "allpairs/Error.h"
@@ -13,6 +14,9 @@ namespace {
 /// is bounded. A range of several boxes holds at most kLikelyPairs * kLastRange pairs, 32 MiB.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
+
+/// A range has more pairs than memory is bounded by.
+struct Overfull {};
 
 }  // namespace
 
@@ -81,14 +85,19 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const Bo
   plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), range.origin());
   if (sets.one) plan.sink.test.requireAscending();
   plan.sink.side = options.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  if (range.size() > 1) plan.sink.maxPairs = kLikelyPairs * kLastRange;
-  plan.sink.limitIsCallers = false;
   plan.sink.stop = options.stop;
+  const std::size_t most = range.size() > 1 ? kLikelyPairs * kLastRange : std::numeric_limits<std::size_t>::max();
+  const auto keep = [most](std::span<Pair> pairs, std::size_t) {
+    if (pairs.size() > most) throw Overfull();
+    return std::size_t{0};
+  };
+  plan.sink.emit.emplace(keep);
   m_statistics = {};
   try {
     run(plan, *m_executor);
+    if (m_statistics.pairs > most) return false;  // Each worker has checked only its own.
   } catch (const Overfull&) {
-    return false;  // More pairs than the buffer may hold: the caller halves the range.
+    return false;  // The caller halves the range.
   }
   concatenate();
   sortPairs(sets, options.order);
