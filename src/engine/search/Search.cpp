@@ -143,12 +143,11 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
   m_statistics = {};
   m_pairs = {};
   m_rowsFound = {};
-  m_room = nullptr;
 }
 
 Search::Plan Search::planOf(const Sets& sets, const OverlapOptions& options, Order order) {
   begin(sets, options);
-  Plan plan{order, {PairTest::of(sets, options), m_kernels}};
+  Plan plan{sets, order, {PairTest::of(sets, options), m_kernels}};
   plan.sink.maxPairs = options.maxPairs;
   plan.sink.stop = options.stop;
   Readers readers = Readers::of(sets, options, *m_kernels);
@@ -205,20 +204,20 @@ void Search::run(const Plan& plan, Executor& executor) {
 }
 
 /// Where the pairs of all tasks are concatenated.
-std::span<Pair> Search::roomForPairs() {
-  if (m_room != nullptr) return (*m_room)(m_statistics.pairs);
+std::span<Pair> Search::roomForPairs(const PairRoom* room) {
+  if (room != nullptr) return (*room)(m_statistics.pairs);
   m_joined.require(m_statistics.pairs);
   return {m_joined.data(), m_statistics.pairs};
 }
 
 /// Concatenates the pairs of the tasks.
-void Search::concatenate() {
+void Search::concatenate(const PairRoom* room) {
   const std::span<const JoinRunner::Segment> segments = m_runner.segments();
   if (segments.size() == 1) {
     m_pairs = {m_runner.sink(segments[0].worker).pairs().data(), m_statistics.pairs};
     return;
   }
-  m_pairs = roomForPairs();
+  m_pairs = roomForPairs(room);
   m_places.resize(segments.size());
   std::size_t place = 0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -235,17 +234,16 @@ void Search::concatenate() {
 std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& options) {
   if (areFew(sets, options)) return findAmongFew(sets, options, options.order);
   Plan plan = planOf(sets, options, options.order);
-  return findPlanned(sets, plan, nullptr);
+  return findPlanned(plan, nullptr);
 }
 
-std::span<const Pair> Search::findPlanned(const Sets& sets, Plan& plan, const PairRoom* room) {
-  m_room = room;
-  if (!plan.job.isFlat && (findInLists(sets, plan) || findInBuckets(sets, plan))) return m_pairs;
-  expectPairs(sets, plan);
-  expectAmply(sets, plan);
+std::span<const Pair> Search::findPlanned(Plan& plan, const PairRoom* room) {
+  if (!plan.job.isFlat && (findInLists(plan, room) || findInBuckets(plan, room))) return m_pairs;
+  expectPairs(plan);
+  expectAmply(plan);
   run(plan, *m_executor);
-  concatenate();
-  if (!plan.job.isFlat) sortPairs(sets, plan.order);
+  concatenate(room);
+  if (!plan.job.isFlat) sortPairs(plan);
   return m_pairs;
 }
 
@@ -268,7 +266,7 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
   Plan plan = planOf(sets, options, options.order);
   std::vector<Pair> taken;
   if (comeInOrder(plan)) {
-    expectPairs(sets, plan);
+    expectPairs(plan);
     reserve(taken, plan.sink.likelyPairs);
     runInto(plan, [&](std::span<const Pair> pairs) { append(taken, pairs); });
     if (taken.size() < taken.capacity() / 2) taken.shrink_to_fit();
@@ -280,7 +278,7 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
     return taken;
   };
   const PairRoom room(resized);
-  const std::span<const Pair> pairs = findPlanned(sets, plan, &room);
+  const std::span<const Pair> pairs = findPlanned(plan, &room);
   if (pairs.data() != taken.data()) taken.assign(pairs.begin(), pairs.end());
   return taken;
 }
@@ -299,19 +297,19 @@ void Search::runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take) 
   run(plan, *m_executor);
 }
 
-bool Search::findInBuckets(const Sets& sets, Plan& plan) {
-  if (plan.order == Order::Unordered) return false;
-  if (!fillBuckets(orderOf(sets, plan.order), plan, &PairBuckets::add)) return false;
-  m_pairs = roomForPairs();
+bool Search::findInBuckets(Plan& plan, const PairRoom* room) {
+  if (plan.order == Order::Unordered || !fillBuckets(plan, &PairBuckets::add)) return false;
+  m_pairs = roomForPairs(room);
   m_sort.sort(m_pairs, *m_executor, m_runner);
   return true;
 }
 
-PairOrder Search::orderOf(const Sets& sets, Order order) const {
-  return {sets.first.size(), sets.second.size(), order, m_executor->concurrency()};
+PairOrder Search::orderOf(const Plan& plan) const {
+  return {plan.sets.first.size(), plan.sets.second.size(), plan.order, m_executor->concurrency()};
 }
 
-bool Search::fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
+bool Search::fillBuckets(Plan& plan, void (PairBuckets::*add)(std::span<const Pair>)) {
+  const PairOrder order = orderOf(plan);
   if (plan.job.units == 0 || !order.packs()) return false;
   m_sort.start(order, m_runner.start(plan.sink, *m_executor), *m_kernels);
   const auto toBuckets = [&](std::span<Pair> pairs, std::size_t worker) {
@@ -325,11 +323,11 @@ bool Search::fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::
   return true;
 }
 
-bool Search::findInLists(const Sets& sets, Plan& plan) {
+bool Search::findInLists(Plan& plan, const PairRoom* room) {
   const bool bySecond = plan.order == Order::BySecond;
-  const Columns kept = !sets.one ? Columns::All : bySecond ? Columns::Preceding : Columns::Following;
-  if (plan.order == Order::Unordered || !listPartners(sets, plan, kept)) return false;
-  m_pairs = roomForPairs();
+  const Columns kept = !plan.sets.one ? Columns::All : bySecond ? Columns::Preceding : Columns::Following;
+  if (plan.order == Order::Unordered || !listPartners(plan, kept)) return false;
+  m_pairs = roomForPairs(room);
   m_lists.expand(m_pairs, bySecond, *m_executor);
   return true;
 }
@@ -353,23 +351,25 @@ std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows,
   return likelyOf((keepsAll ? 1.0 : 0.5) * partners * static_cast<double>(rows));
 }
 
-void Search::expectPairs(const Sets& sets, Plan& plan) {
+void Search::expectPairs(Plan& plan) {
   if (plan.job.isFlat || plan.job.units < kFanOut) return;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   if (m_runner.sink(0).pairs().capacity() >= plan.sink.likelyPairs) return;
   const double partners = m_runner.partnersPerBox(plan.job).first * static_cast<double>(plan.job.units * kFanOut);
-  const std::size_t likely = likelyOf(sets.one ? 0.5 * partners : partners) / workers;
+  const std::size_t likely = likelyOf(plan.sets.one ? 0.5 * partners : partners) / workers;
   plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, likely), plan.sink.maxPairs);
 }
 
-void Search::expectAmply(const Sets& sets, Plan& plan) {
+void Search::expectAmply(Plan& plan) {
+  const Sets& sets = plan.sets;
   const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
   if (!isAmple(m_runner.memory(), boxes)) return;
   const std::size_t ample = 5 * kLikelyPairs * boxes / m_executor->concurrency();
   plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, ample), plan.sink.maxPairs);
 }
 
-bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
+bool Search::listPartners(Plan& plan, Columns kept) {
+  const Sets& sets = plan.sets;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   const bool bySecond = plan.order == Order::BySecond;
   const std::size_t rows = (bySecond ? sets.second : sets.first).size();
@@ -378,7 +378,7 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
-  const std::size_t likely = likelyPartners(job, rows, kept, orderOf(sets, plan.order).isCounted);
+  const std::size_t likely = likelyPartners(job, rows, kept, orderOf(plan).isCounted);
   if (likely == 0) return false;
   job.flat.tested = kept;
   m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers, likely);
@@ -392,10 +392,10 @@ bool Search::listPartners(const Sets& sets, Plan& plan, Columns kept) {
   return true;
 }
 
-void Search::sortPairs(const Sets& sets, Order order) {
-  if (order == Order::Unordered) return;
+void Search::sortPairs(const Plan& plan) {
+  if (plan.order == Order::Unordered) return;
   // The hierarchy is no longer needed: its memory is the sort's second buffer.
-  m_sort.sortList(m_pairs, orderOf(sets, order), m_first.levels().memory<Pair>(), *m_executor);
+  m_sort.sortList(m_pairs, orderOf(plan), m_first.levels().memory<Pair>(), *m_executor);
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {

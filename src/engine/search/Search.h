@@ -71,8 +71,9 @@ class Search {
   [[nodiscard]] const OverlapStatistics& statistics() const noexcept { return m_statistics; }
 
  private:
-  /// One search over all rows, or part of them, ready to run.
+  /// One search of some sets over all rows, or part of them, ready to run.
   struct Plan {
+    const Sets& sets;
     Order order;
     SinkOptions sink;
     JoinRunner::Job job = {};
@@ -84,53 +85,52 @@ class Search {
   /// Checks the options, forgets the last result, and prepares a search.
   Plan planOf(const Sets& sets, const OverlapOptions& options, Order order);
 
-  /// With a room, pairs that have to be put together or in order are put there.
-  std::span<const Pair> findPlanned(const Sets& sets, Plan& plan, const PairRoom* room);
+  /// With a room, pairs that have to be put together or in order are put there, and not in memory of this object.
+  std::span<const Pair> findPlanned(Plan& plan, const PairRoom* room);
   std::span<const Pair> findAmongFew(const Sets& sets, const OverlapOptions& options, Order order);
   void begin(const Sets& sets, const OverlapOptions& options);
   void planFlat(const Readers& readers, Plan& plan);
   void planJoin(const Readers& readers, Plan& plan);
-
   void joinBoth(bool one, Plan& plan);
 
   /// Reserves memory for the pairs of a join that this object has none for: where it grows as they come, most of it is
   /// touched for the first time twice.
-  void expectPairs(const Sets& sets, Plan& plan);
+  void expectPairs(Plan& plan);
 
   /// Reserves as much more as makes the pairs' block the largest one, where isAmple().
-  void expectAmply(const Sets& sets, Plan& plan);
+  void expectAmply(Plan& plan);
   void run(const Plan& plan, Executor& executor);
   /// Whether pairs come in the order of the options, on one thread: then they are taken from the nearest cache.
   [[nodiscard]] bool comeInOrder(const Plan& plan) const;
   void runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take);
   std::span<Pair> copyInto(Plan& plan, std::span<Pair> memory);
-  std::span<Pair> roomForPairs();
-  void concatenate();
-  void sortPairs(const Sets& sets, Order order);
+  std::span<Pair> roomForPairs(const PairRoom* room);
+  void concatenate(const PairRoom* room);
+  void sortPairs(const Plan& plan);
 
   /// Finds pairs and orders them by buckets if that pays off; else does nothing and returns false.
-  bool findInBuckets(const Sets& sets, Plan& plan);
-  [[nodiscard]] PairOrder orderOf(const Sets& sets, Order order) const;
+  bool findInBuckets(Plan& plan, const PairRoom* room);
+  [[nodiscard]] PairOrder orderOf(const Plan& plan) const;
 
   /// Finds pairs and adds them to buckets. Does nothing and returns false where a bucket cannot hold the pairs of this
   /// order.
-  bool fillBuckets(const PairOrder& order, Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
+  bool fillBuckets(Plan& plan, void (PairBuckets::*add)(std::span<const Pair>));
 
   /// Finds pairs in order by lists of the partners of each box if that pays off; else does nothing and returns false.
-  bool findInLists(const Sets& sets, Plan& plan);
+  bool findInLists(Plan& plan, const PairRoom* room);
 
   /// Lists those partners of each box that are kept, in order, if that pays off; else does nothing and returns false.
-  bool listPartners(const Sets& sets, Plan& plan, Columns kept);
+  bool listPartners(Plan& plan, Columns kept);
 
   /// How many partners the lists of a job are likely to have, or 0 if buckets are better.
   [[nodiscard]] std::size_t likelyPartners(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted);
 
-  NeighborsMemory roomForRows(std::size_t rows, std::size_t indices);
-  void writePairsAsRows(const Sets& sets, NeighborRows kind);
+  NeighborsMemory roomForRows(std::size_t rows, std::size_t indices, const RowRoom* room);
+  void writePairsAsRows(const Sets& sets, NeighborRows kind, const RowRoom* room);
 
   /// The two ways to find rows without pairs; where one does not pay off, it does nothing and returns false.
-  bool listRows(const Sets& sets, NeighborRows kind, Plan& plan);
-  bool bucketRows(const Sets& sets, NeighborRows kind, Plan& plan);
+  bool listRows(Plan& plan, NeighborRows kind, const RowRoom* room);
+  bool bucketRows(Plan& plan, NeighborRows kind, const RowRoom* room);
 
   void streamInRanges(const Sets& sets, const OverlapOptions& options, const Readers& readers,
                       FunctionRef<void(std::span<const Pair>)> give);
@@ -149,10 +149,8 @@ class Search {
   JoinRunner m_runner;
   PairLists m_lists;
   Buffer<Pair> m_joined;
-  const PairRoom* m_room = nullptr;  ///< Where given, what is used instead of m_joined.
   Buffer<std::uint64_t> m_offsets;
   Buffer<std::uint32_t> m_indices;
-  const RowRoom* m_rowRoom = nullptr;  ///< Where given, what is used instead of these two.
   std::pmr::vector<std::size_t> m_places;
   std::span<Pair> m_pairs;        ///< The result: concatenated from several tasks, or in the memory of a single one.
   NeighborsMemory m_rowsFound;    ///< The result, where it is rows.

@@ -31,7 +31,7 @@ std::span<Pair> Search::findInto(const Sets& sets, const OverlapOptions& options
       return memory.first(pairs);
     };
     const PairRoom room(checked);
-    found = findPlanned(sets, plan, &room);
+    found = findPlanned(plan, &room);
   }
   checkRoom(found.size(), memory.size(), "pairs");
   if (found.data() != memory.data()) std::copy(found.begin(), found.end(), memory.begin());

@@ -43,18 +43,17 @@ void writeFullRows(std::span<const Pair> pairs, const NeighborsMemory& place) no
 
 NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& options, NeighborRows kind,
                                     const RowRoom* room) {
-  m_rowRoom = room;
   if (areFew(sets, options)) {
     findAmongFew(sets, options, Order::ByFirst);
-    writePairsAsRows(sets, kind);
+    writePairsAsRows(sets, kind, room);
     return {m_rowsFound.offsets, m_rowsFound.indices};
   }
   Plan plan = planOf(sets, options, Order::ByFirst);
-  if (!listRows(sets, kind, plan) && (plan.job.isFlat || !bucketRows(sets, kind, plan))) {
+  if (!listRows(plan, kind, room) && (plan.job.isFlat || !bucketRows(plan, kind, room))) {
     run(plan, *m_executor);
-    concatenate();
-    if (!plan.job.isFlat) sortPairs(sets, plan.order);
-    writePairsAsRows(sets, kind);
+    concatenate(nullptr);
+    if (!plan.job.isFlat) sortPairs(plan);
+    writePairsAsRows(sets, kind, room);
   }
   return {m_rowsFound.offsets, m_rowsFound.indices};
 }
@@ -73,33 +72,31 @@ Neighbors Search::takeNeighbors(const Sets& sets, const OverlapOptions& options,
   return taken;
 }
 
-NeighborsMemory Search::roomForRows(std::size_t rows, std::size_t indices) {
-  if (m_rowRoom != nullptr) return (*m_rowRoom)(rows, indices);
+NeighborsMemory Search::roomForRows(std::size_t rows, std::size_t indices, const RowRoom* room) {
+  if (room != nullptr) return (*room)(rows, indices);
   m_offsets.require(rows + 1);
   m_indices.require(indices);
   return {{m_offsets.data(), rows + 1}, {m_indices.data(), indices}};
 }
 
-void Search::writePairsAsRows(const Sets& sets, NeighborRows kind) {
-  m_rowsFound = roomForRows(sets.first.size(), (kind == NeighborRows::Full ? 2 : 1) * m_pairs.size());
+void Search::writePairsAsRows(const Sets& sets, NeighborRows kind, const RowRoom* room) {
+  m_rowsFound = roomForRows(sets.first.size(), (kind == NeighborRows::Full ? 2 : 1) * m_pairs.size(), room);
   kind == NeighborRows::Full ? writeFullRows(m_pairs, m_rowsFound) : writeHalfRows(m_pairs, m_rowsFound);
   m_pairs = {};
 }
 
-bool Search::listRows(const Sets& sets, NeighborRows kind, Plan& plan) {
+bool Search::listRows(Plan& plan, NeighborRows kind, const RowRoom* room) {
   const Columns inOneSet = kind == NeighborRows::Full ? Columns::Others : Columns::Following;
-  if (!listPartners(sets, plan, sets.one ? inOneSet : Columns::All)) return false;
-  m_rowsFound = roomForRows(sets.first.size(), m_lists.size());
+  if (!listPartners(plan, plan.sets.one ? inOneSet : Columns::All)) return false;
+  m_rowsFound = roomForRows(plan.sets.first.size(), m_lists.size(), room);
   m_lists.gather(m_rowsFound, *m_executor);
   return true;
 }
 
-bool Search::bucketRows(const Sets& sets, NeighborRows kind, Plan& plan) {
+bool Search::bucketRows(Plan& plan, NeighborRows kind, const RowRoom* room) {
   const bool isFull = kind == NeighborRows::Full;
-  if (!fillBuckets(orderOf(sets, Order::ByFirst), plan, isFull ? &PairBuckets::addBothWays : &PairBuckets::add)) {
-    return false;
-  }
-  m_rowsFound = roomForRows(sets.first.size(), (isFull ? 2 : 1) * m_statistics.pairs);
+  if (!fillBuckets(plan, isFull ? &PairBuckets::addBothWays : &PairBuckets::add)) return false;
+  m_rowsFound = roomForRows(plan.sets.first.size(), (isFull ? 2 : 1) * m_statistics.pairs, room);
   m_sort.list(m_rowsFound, *m_executor, m_runner);
   return true;
 }

@@ -80,7 +80,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
 
 bool Search::findRange(const Sets& sets, const OverlapOptions& options, const BoxReader& range) {
   m_first.build(range, *m_executor);
-  Plan plan{options.order, {PairTest::of(sets, options), m_kernels}};
+  Plan plan{sets, options.order, {PairTest::of(sets, options), m_kernels}};
   joinBoth(false, plan);
   plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), range.origin());
   if (sets.one) plan.sink.test.requireAscending();
@@ -99,8 +99,8 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const Bo
   } catch (const Overfull&) {
     return false;  // The caller halves the range.
   }
-  concatenate();
-  sortPairs(sets, options.order);
+  concatenate(nullptr);
+  sortPairs(plan);
   return true;
 }
 
