@@ -77,7 +77,6 @@ class JoinRunner {
     m_workers.withOne([&](std::size_t, Worker& worker) { use(worker.sink.idleMemory(size)); });
   }
 
-  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_workers.memory(); }
   [[nodiscard]] std::size_t workers() const noexcept { return m_workers.size(); }
   [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker].sink; }
   [[nodiscard]] std::span<const Segment> segments() const noexcept { return m_segments; }

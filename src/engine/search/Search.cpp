@@ -116,7 +116,6 @@ bool Search::choosesFlat(const Readers& readers, const OverlapOptions& options, 
 }
 
 void Search::shrink() noexcept {
-  std::pmr::memory_resource* const memory = m_runner.memory();
   if (m_joined.data() != m_pairs.data()) m_joined.release();
   for (std::size_t i = 0; i < m_runner.workers(); ++i) {
     Buffer<Pair>& pairs = m_runner.sink(i).pairs();
@@ -124,16 +123,16 @@ void Search::shrink() noexcept {
   }
   m_rows.release();
   m_columns.release();
-  m_cull = BoxCull(memory);
-  m_first = BvhBuilder(memory);
-  m_second = BvhBuilder(memory);
-  m_runner = JoinRunner(memory);
-  m_places = std::pmr::vector<std::size_t>(memory);
-  m_lists = PairLists(memory);
+  m_cull = BoxCull(m_memory);
+  m_first = BvhBuilder(m_memory);
+  m_second = BvhBuilder(m_memory);
+  m_runner = JoinRunner(m_memory);
+  m_places = std::pmr::vector<std::size_t>(m_memory);
+  m_lists = PairLists(m_memory);
   if (m_rowsFound.offsets.empty()) m_offsets.release();
   if (m_rowsFound.indices.empty()) m_indices.release();
   m_range.release();
-  m_sort = PairSort(memory);
+  m_sort = PairSort(m_memory);
 }
 
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
@@ -363,7 +362,7 @@ void Search::expectPairs(Plan& plan) {
 void Search::expectAmply(Plan& plan) {
   const Sets& sets = plan.sets;
   const std::size_t boxes = sets.first.size() + (sets.one ? 0 : sets.second.size());
-  if (!isAmple(m_runner.memory(), boxes)) return;
+  if (!isAmple(m_memory, boxes)) return;
   const std::size_t ample = 5 * kLikelyPairs * boxes / m_executor->concurrency();
   plan.sink.likelyPairs = std::min<std::uint64_t>(std::max(plan.sink.likelyPairs, ample), plan.sink.maxPairs);
 }

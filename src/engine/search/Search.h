@@ -30,20 +30,7 @@ using RowRoom = FunctionRef<NeighborsMemory(std::size_t rows, std::uint64_t indi
 /// The state of a search, and the memory that it keeps for the next one.
 class Search {
  public:
-  explicit Search(std::pmr::memory_resource* memory)
-      : m_rows(memory),
-        m_columns(memory),
-        m_cull(memory),
-        m_first(memory),
-        m_second(memory),
-        m_runner(memory),
-        m_lists(memory),
-        m_joined(memory),
-        m_offsets(memory),
-        m_indices(memory),
-        m_places(memory),
-        m_range(memory),
-        m_sort(memory) {}
+  explicit Search(std::pmr::memory_resource* memory) : m_memory(memory) {}
 
   std::span<const Pair> find(const Sets& sets, const OverlapOptions& options);
 
@@ -136,26 +123,27 @@ class Search {
                       FunctionRef<void(std::span<const Pair>)> give);
   bool findRange(const Sets& sets, const OverlapOptions& options, const BoxReader& range);
 
+  std::pmr::memory_resource* m_memory;
   OverlapStatistics m_statistics;
   const Kernels* m_kernels = nullptr;
   CallExecutor m_callExecutor;
   Executor* m_executor = nullptr;
 
-  Buffer<LaneTile> m_rows;
-  Buffer<LaneTile> m_columns;
-  BoxCull m_cull;
-  BvhBuilder m_first;
-  BvhBuilder m_second;
-  JoinRunner m_runner;
-  PairLists m_lists;
-  Buffer<Pair> m_joined;
-  Buffer<std::uint64_t> m_offsets;
-  Buffer<std::uint32_t> m_indices;
-  std::pmr::vector<std::size_t> m_places;
-  std::span<Pair> m_pairs;        ///< The result: concatenated from several tasks, or in the memory of a single one.
-  NeighborsMemory m_rowsFound;    ///< The result, where it is rows.
-  Buffer<std::uint32_t> m_range;  ///< Of an ordered stream: the boxes of the range that is searched.
-  PairSort m_sort;
+  Buffer<LaneTile> m_rows{m_memory};
+  Buffer<LaneTile> m_columns{m_memory};
+  BoxCull m_cull{m_memory};
+  BvhBuilder m_first{m_memory};
+  BvhBuilder m_second{m_memory};
+  JoinRunner m_runner{m_memory};
+  PairLists m_lists{m_memory};
+  Buffer<Pair> m_joined{m_memory};
+  Buffer<std::uint64_t> m_offsets{m_memory};
+  Buffer<std::uint32_t> m_indices{m_memory};
+  std::pmr::vector<std::size_t> m_places{m_memory};
+  std::span<Pair> m_pairs;      ///< The result: concatenated from several tasks, or in the memory of a single one.
+  NeighborsMemory m_rowsFound;  ///< The result, where it is rows.
+  Buffer<std::uint32_t> m_range{m_memory};  ///< Of an ordered stream: the boxes of the range that is searched.
+  PairSort m_sort{m_memory};
 };
 
 }  // namespace allpairs::engine

@@ -41,19 +41,7 @@ class BoxStore {
     Resettled = 64  ///< Of the hierarchies: may belong to another one than before.
   };
 
-  explicit BoxStore(std::pmr::memory_resource* memory)
-      : m_rows32(memory),
-        m_rows64(memory),
-        m_margins(memory),
-        m_worlds(memory),
-        m_filters(memory),
-        m_flags(memory),
-        m_marks(memory),
-        m_free(memory),
-        m_removed(memory),
-        m_touched(memory),
-        m_stale(memory),
-        m_resettled(memory) {}
+  explicit BoxStore(std::pmr::memory_resource* memory) : m_memory(memory) {}
 
   void reserve(std::size_t boxes);
 
@@ -162,23 +150,25 @@ class BoxStore {
   void assign(BoxId id, const BoxProperties& properties);
   void removeOne(BoxId id);
 
+  std::pmr::memory_resource* m_memory;
   std::size_t m_size = 0;
   std::size_t m_staticCount = 0;
   bool m_isFloat64 = false;
   bool m_filtered = false;
   bool m_setIsCurrent = false;
-  std::pmr::vector<float> m_rows32;
-  std::pmr::vector<double> m_rows64;
-  std::pmr::vector<double> m_margins;        ///< Empty while all are 0.
-  std::pmr::vector<std::uint32_t> m_worlds;  ///< Empty while all are 0.
-  std::pmr::vector<FilterRow> m_filters;
-  std::pmr::vector<std::uint8_t> m_flags;
-  std::pmr::vector<std::uint8_t> m_marks;  ///< Stale and Resettled.
-  std::pmr::vector<BoxId> m_free;
-  std::pmr::vector<BoxId> m_removed;  ///< Since the last step: not yet free.
-  std::pmr::vector<BoxId> m_touched;  ///< One more than there are ids: written before it is known whether it counts.
-  std::pmr::vector<BoxId> m_stale;
-  std::pmr::vector<BoxId> m_resettled;
+  std::pmr::vector<float> m_rows32{m_memory};
+  std::pmr::vector<double> m_rows64{m_memory};
+  std::pmr::vector<double> m_margins{m_memory};        ///< Empty while all are 0.
+  std::pmr::vector<std::uint32_t> m_worlds{m_memory};  ///< Empty while all are 0.
+  std::pmr::vector<FilterRow> m_filters{m_memory};
+  std::pmr::vector<std::uint8_t> m_flags{m_memory};
+  std::pmr::vector<std::uint8_t> m_marks{m_memory};  ///< Stale and Resettled.
+  std::pmr::vector<BoxId> m_free{m_memory};
+  std::pmr::vector<BoxId> m_removed{m_memory};  ///< Since the last step: not yet free.
+  /// One more than there are ids: written before it is known whether it counts.
+  std::pmr::vector<BoxId> m_touched{m_memory};
+  std::pmr::vector<BoxId> m_stale{m_memory};
+  std::pmr::vector<BoxId> m_resettled{m_memory};
   std::size_t m_touchedCount = 0;
   std::size_t m_staleCount = 0;
   std::uint64_t m_membership = 0;

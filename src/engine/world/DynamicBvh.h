@@ -32,14 +32,7 @@ struct BoxHome {
 /// to be built again.
 class DynamicBvh {
  public:
-  explicit DynamicBvh(std::pmr::memory_resource* memory)
-      : m_levels(memory),
-        m_used(memory),
-        m_dirty(memory),
-        m_blockList(memory),
-        m_fresh(memory),
-        m_order(memory),
-        m_spare(memory) {}
+  explicit DynamicBvh(std::pmr::memory_resource* memory) : m_memory(memory) {}
 
   /// Forgets all boxes and keeps the memory.
   void clear() noexcept;
@@ -81,19 +74,20 @@ class DynamicBvh {
   bool read(std::size_t block, const BoxReader& reader);
   [[nodiscard]] double spread() const noexcept;
 
+  std::pmr::memory_resource* m_memory;
   bool m_isExact = true;
   bool m_isOrdered = false;  ///< Whether the boxes are in curve order.
   double m_spread = 0.0;     ///< How wide the blocks were when they were put in order.
-  BvhLevels m_levels;
+  BvhLevels m_levels{m_memory};
   RebuildRule m_rule;
-  std::size_t m_size = 0;                   ///< Boxes that have a place.
-  std::pmr::vector<std::uint16_t> m_used;   ///< By block: a bit for each place that holds a box.
-  std::pmr::vector<std::uint64_t> m_dirty;  ///< A bit for each block whose boxes changed.
+  std::size_t m_size = 0;                             ///< Boxes that have a place.
+  std::pmr::vector<std::uint16_t> m_used{m_memory};   ///< By block: a bit for each place that holds a box.
+  std::pmr::vector<std::uint64_t> m_dirty{m_memory};  ///< A bit for each block whose boxes changed.
   std::size_t m_dirtyBoxes = 0;
-  std::pmr::vector<std::uint32_t> m_blockList;
-  std::pmr::vector<BoxId> m_fresh;  ///< Boxes without a place.
-  HilbertSort m_order;
-  Buffer<CurveKey> m_spare;
+  std::pmr::vector<std::uint32_t> m_blockList{m_memory};
+  std::pmr::vector<BoxId> m_fresh{m_memory};  ///< Boxes without a place.
+  HilbertSort m_order{m_memory};
+  Buffer<CurveKey> m_spare{m_memory};
 };
 
 }  // namespace allpairs::engine

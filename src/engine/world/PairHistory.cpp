@@ -24,7 +24,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
   dropChanges();
   m_rowsAreCurrent = m_rowsAreCurrent && idBound == m_idBound;
   m_idBound = idBound;
-  while (m_fresh.size() < workers) m_fresh.emplace_back(m_fresh.get_allocator().resource());
+  while (m_fresh.size() < workers) m_fresh.emplace_back(m_memory);
   for (Fresh& fresh : m_fresh) {
     fresh.size = 0;
     fresh.isInOrder = true;
@@ -39,7 +39,7 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
 }
 
 void PairHistory::shrink() noexcept {
-  PairHistory rest(m_fresh.get_allocator().resource(), *m_options, *m_kernels);
+  PairHistory rest(m_memory, *m_options, *m_kernels);
   rest.m_pairs = std::move(m_pairs);
   rest.m_began = std::move(m_began);
   rest.m_persisted = std::move(m_persisted);

@@ -27,17 +27,7 @@ namespace allpairs::engine {
 class PairHistory {
  public:
   PairHistory(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
-      : m_options(&options),
-        m_kernels(&kernels),
-        m_fresh(memory),
-        m_rowBegin(memory),
-        m_seen(memory),
-        m_pairs(memory),
-        m_next(memory),
-        m_began(memory),
-        m_persisted(memory),
-        m_ended(memory),
-        m_sort(memory) {}
+      : m_memory(memory), m_options(&options), m_kernels(&kernels) {}
 
   /// Leaves of the result the pairs without changes, until a step completes.
   void dropChanges() noexcept { m_result = {m_result.pairs, {}, m_result.pairs, {}}; }
@@ -156,22 +146,24 @@ class PairHistory {
   /// Compares pairs in the order of the options.
   [[nodiscard]] std::uint64_t keyOf(Pair pair) const noexcept { return engine::keyOf(pair, m_options->order); }
 
+  std::pmr::memory_resource* m_memory;
   const WorldOptions* m_options;
   const Kernels* m_kernels;
   Joined m_looksFor = Joined::All;
   std::size_t m_idBound = 0;
-  std::pmr::vector<Fresh> m_fresh;           ///< By worker.
-  std::pmr::vector<std::size_t> m_rowBegin;  ///< By id: where the pairs of its row begin; one more at the end.
+  std::pmr::vector<Fresh> m_fresh{m_memory};  ///< By worker.
+  /// By id: where the pairs of its row begin; one more at the end.
+  std::pmr::vector<std::size_t> m_rowBegin{m_memory};
   bool m_rowsAreCurrent = false;
-  Buffer<std::uint8_t> m_seen;  ///< By old pair: whether it was found again.
-  Buffer<Pair> m_pairs;
-  Buffer<Pair> m_next;  ///< The pairs of a step that has searched for all, until they become the old ones.
-  Buffer<Pair> m_began;
-  Buffer<Pair> m_persisted;
-  Buffer<Pair> m_ended;
+  Buffer<std::uint8_t> m_seen{m_memory};  ///< By old pair: whether it was found again.
+  Buffer<Pair> m_pairs{m_memory};
+  Buffer<Pair> m_next{m_memory};  ///< The pairs of a step that has searched for all, until they become the old ones.
+  Buffer<Pair> m_began{m_memory};
+  Buffer<Pair> m_persisted{m_memory};
+  Buffer<Pair> m_ended{m_memory};
   bool m_comeInOrder = true;   ///< Of all worlds, as those of small ones do: until a step has shown that they do not.
   bool m_usesBuckets = false;  ///< In this step.
-  PairSort m_sort;
+  PairSort m_sort{m_memory};
   StepResult m_result;
 };
 

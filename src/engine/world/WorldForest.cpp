@@ -127,7 +127,7 @@ void WorldForest::enter(BoxId id, const BoxStore& store, const WorldMembers& mem
 std::uint32_t WorldForest::takeUnused() {
   if (m_unused.empty()) {
     m_unused.push_back(static_cast<std::uint32_t>(m_trees.size()));
-    m_trees.emplace_back(m_homes.get_allocator().resource());
+    m_trees.emplace_back(m_memory);
     m_keys.push_back(0);
     m_isDirty.push_back(0);
   }

@@ -19,16 +19,7 @@ namespace allpairs::engine {
 /// They are kept between steps; an update passes the changes of the store on to those whose boxes they concern.
 class WorldForest {
  public:
-  explicit WorldForest(std::pmr::memory_resource* memory)
-      : m_none(memory),
-        m_trees(memory),
-        m_keys(memory),
-        m_unused(memory),
-        m_treeOf(memory),
-        m_homes(memory),
-        m_isDirty(memory),
-        m_dirty(memory),
-        m_runs(memory) {}
+  explicit WorldForest(std::pmr::memory_resource* memory) : m_memory(memory) {}
 
   /// Applies the changes of the store since the last call. Returns how many hierarchies were built.
   ///
@@ -36,7 +27,7 @@ class WorldForest {
   std::uint64_t update(const BoxStore& store, const WorldMembers& members, const BoxReader& reader, Executor& executor);
 
   /// Releases all memory. Until the next update nothing else may be called.
-  void release() noexcept { *this = WorldForest(m_homes.get_allocator().resource()); }
+  void release() noexcept { *this = WorldForest(m_memory); }
 
   /// Whether the last update completed, and no memory was released since.
   [[nodiscard]] bool isWhole() const noexcept { return m_isWhole; }
@@ -62,18 +53,20 @@ class WorldForest {
   void markDirty(std::uint32_t tree);
   void list(std::uint32_t tree, const BoxStore& store, const WorldMembers& members);
 
+  std::pmr::memory_resource* m_memory;
   bool m_isWhole = false;
   std::uint64_t m_membership = 0;  ///< That of the store in the last update.
-  DynamicBvh m_none;               ///< That of no boxes.
-  std::pmr::vector<DynamicBvh> m_trees;
-  std::pmr::vector<std::uint64_t> m_keys;    ///< By tree: twice the number of its world, and 1 more if it is static.
-  std::pmr::vector<std::uint32_t> m_unused;  ///< Trees without boxes, which keep their memory for others.
-  std::pmr::vector<std::uint32_t> m_treeOf;  ///< By world, first the dynamic and then the static one.
-  std::pmr::vector<BoxHome> m_homes;         ///< By id.
-  std::pmr::vector<std::uint8_t> m_isDirty;  ///< By tree: whether it is among those
-  std::pmr::vector<std::uint32_t> m_dirty;   ///< whose boxes have changed.
-  std::ptrdiff_t m_inexactTrees = 0;         ///< Those of which the lanes of some box are not exactly the box.
-  std::pmr::vector<std::size_t> m_runs;
+  DynamicBvh m_none{m_memory};     ///< That of no boxes.
+  std::pmr::vector<DynamicBvh> m_trees{m_memory};
+  /// By tree: twice the number of its world, and 1 more if it is static.
+  std::pmr::vector<std::uint64_t> m_keys{m_memory};
+  std::pmr::vector<std::uint32_t> m_unused{m_memory};  ///< Trees without boxes, which keep their memory for others.
+  std::pmr::vector<std::uint32_t> m_treeOf{m_memory};  ///< By world, first the dynamic and then the static one.
+  std::pmr::vector<BoxHome> m_homes{m_memory};         ///< By id.
+  std::pmr::vector<std::uint8_t> m_isDirty{m_memory};  ///< By tree: whether it is among those
+  std::pmr::vector<std::uint32_t> m_dirty{m_memory};   ///< whose boxes have changed.
+  std::ptrdiff_t m_inexactTrees = 0;  ///< Those of which the lanes of some box are not exactly the box.
+  std::pmr::vector<std::size_t> m_runs{m_memory};
 };
 
 }  // namespace allpairs::engine

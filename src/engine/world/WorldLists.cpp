@@ -23,12 +23,11 @@ void WorldLists::noteStep(const BoxStore& store) noexcept {
 }
 
 void WorldLists::shrink() noexcept {
-  std::pmr::memory_resource* const from = m_now.get_allocator().resource();
-  m_keyed = Buffer<std::uint64_t>(from);
-  m_spare = Buffer<std::uint64_t>(from);
-  if (m_isSame) m_before = Numbers(from);
+  m_keyed = Buffer<std::uint64_t>(m_memory);
+  m_spare = Buffer<std::uint64_t>(m_memory);
+  if (m_isSame) m_before = Numbers(m_memory);
   for (Grouped* list : {&m_pairs, &m_began, &m_persisted, &m_ended}) {
-    if (list->pairs.data() != list->own.data()) list->own = Buffer<Pair>(from);
+    if (list->pairs.data() != list->own.data()) list->own = Buffer<Pair>(m_memory);
     if (list->kept.empty()) list->kept.shrink_to_fit();
   }
 }

@@ -21,16 +21,7 @@ namespace allpairs::engine {
 /// the other one is of every world, has ended there and begun here.
 class WorldLists {
  public:
-  WorldLists(std::pmr::memory_resource* memory, Order order)
-      : m_order(order),
-        m_now(memory),
-        m_before(memory),
-        m_pairs(memory),
-        m_began(memory),
-        m_persisted(memory),
-        m_ended(memory),
-        m_keyed(memory),
-        m_spare(memory) {}
+  WorldLists(std::pmr::memory_resource* memory, Order order) : m_memory(memory), m_order(order) {}
 
   /// Allocates what noteStep() needs.
   void prepareStep(const BoxStore& store);
@@ -64,17 +55,18 @@ class WorldLists {
   void groupOne(Grouped& list, std::span<const Pair> pairs, const Numbers& numbers);
   [[nodiscard]] static std::span<const Pair> part(const Grouped& list, std::uint32_t world) noexcept;
 
+  std::pmr::memory_resource* m_memory;
   Order m_order;
   std::uint64_t m_membership = 0;
-  bool m_isSame = true;  ///< All boxes of the step before the last one had the worlds that they have now.
-  Numbers m_now;         ///< By id, in the last step; 0 beyond the end.
-  Numbers m_before;      ///< In the one before, if they were others.
-  Grouped m_pairs;
-  Grouped m_began;
-  Grouped m_persisted;
-  Grouped m_ended;
-  Buffer<std::uint64_t> m_keyed;
-  Buffer<std::uint64_t> m_spare;
+  bool m_isSame = true;        ///< All boxes of the step before the last one had the worlds that they have now.
+  Numbers m_now{m_memory};     ///< By id, in the last step; 0 beyond the end.
+  Numbers m_before{m_memory};  ///< In the one before, if they were others.
+  Grouped m_pairs{m_memory};
+  Grouped m_began{m_memory};
+  Grouped m_persisted{m_memory};
+  Grouped m_ended{m_memory};
+  Buffer<std::uint64_t> m_keyed{m_memory};
+  Buffer<std::uint64_t> m_spare{m_memory};
 };
 
 }  // namespace allpairs::engine

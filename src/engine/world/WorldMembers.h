@@ -23,24 +23,14 @@ inline constexpr std::size_t kMostAlone = 128;
 /// lists if it is larger than small worlds are.
 class WorldMembers {
  public:
-  explicit WorldMembers(std::pmr::memory_resource* memory)
-      : m_numbers(memory),
-        m_begin(memory),
-        m_boxes(memory),
-        m_worldOf(memory),
-        m_nextNumbers(memory),
-        m_nextBegin(memory),
-        m_nextBoxes(memory),
-        m_keyed(memory),
-        m_spare(memory),
-        m_radix(memory) {}
+  explicit WorldMembers(std::pmr::memory_resource* memory) : m_memory(memory) {}
 
   /// Brings it up to date with the store. Must be called before each step of the store ends. If few boxes were added or
   /// removed, the lists are copied with these changes; if many, all boxes are listed again.
   void update(const BoxStore& store, Executor& executor);
 
   /// Releases all memory, until the next update.
-  void release() noexcept { *this = WorldMembers(m_boxes.get_allocator().resource()); }
+  void release() noexcept { *this = WorldMembers(m_memory); }
 
   /// The world of the boxes that are in every one: there are so many others.
   [[nodiscard]] std::size_t everyWorld() const noexcept { return m_numbers.size(); }
@@ -82,17 +72,18 @@ class WorldMembers {
   bool follow(const BoxStore& store);
   void copyWorlds(std::span<const std::uint64_t> gone, std::span<const std::uint64_t> come);
 
+  std::pmr::memory_resource* m_memory;
   std::size_t m_unlisted = 0;  ///< The number of boxes of a store without lists.
-  std::pmr::vector<std::uint32_t> m_numbers;
-  std::pmr::vector<std::size_t> m_begin;
-  std::pmr::vector<BoxId> m_boxes;
-  std::pmr::vector<std::uint32_t> m_worldOf;      ///< By id.
-  std::pmr::vector<std::uint32_t> m_nextNumbers;  ///< What the lists are copied to.
-  std::pmr::vector<std::size_t> m_nextBegin;
-  std::pmr::vector<BoxId> m_nextBoxes;
-  Buffer<std::uint64_t> m_keyed;  ///< World numbers above ids.
-  Buffer<std::uint64_t> m_spare;
-  RadixSort m_radix;
+  std::pmr::vector<std::uint32_t> m_numbers{m_memory};
+  std::pmr::vector<std::size_t> m_begin{m_memory};
+  std::pmr::vector<BoxId> m_boxes{m_memory};
+  std::pmr::vector<std::uint32_t> m_worldOf{m_memory};      ///< By id.
+  std::pmr::vector<std::uint32_t> m_nextNumbers{m_memory};  ///< What the lists are copied to.
+  std::pmr::vector<std::size_t> m_nextBegin{m_memory};
+  std::pmr::vector<BoxId> m_nextBoxes{m_memory};
+  Buffer<std::uint64_t> m_keyed{m_memory};  ///< World numbers above ids.
+  Buffer<std::uint64_t> m_spare{m_memory};
+  RadixSort m_radix{m_memory};
   bool m_isWhole = false;
   std::uint64_t m_membership = 0;
 };

@@ -47,13 +47,12 @@ void WorldSearch::update(BoxStore& store) {
 }
 
 void WorldSearch::shrink() noexcept {
-  std::pmr::memory_resource* const from = memory();
   m_members.release();
   m_forest.release();
   m_small.release();
-  m_changedDynamic = ChangedBoxes(from, m_kernels);
-  m_changedStatic = ChangedBoxes(from, m_kernels);
-  m_runner = JoinRunner(from);
+  m_changedDynamic = ChangedBoxes(m_memory, m_kernels);
+  m_changedStatic = ChangedBoxes(m_memory, m_kernels);
+  m_runner = JoinRunner(m_memory);
   m_history.shrink();
   m_lists.shrink();
   const auto release = [](auto&... lists) { ((lists.clear(), lists.shrink_to_fit()), ...); };

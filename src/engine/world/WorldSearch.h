@@ -30,23 +30,7 @@ inline constexpr std::size_t kShareOfChanged = 4;
 class WorldSearch {
  public:
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
-      : m_options(options),
-        m_kernels(kernels),
-        m_members(memory),
-        m_forest(memory),
-        m_changedDynamic(memory, kernels),
-        m_changedStatic(memory, kernels),
-        m_small(memory, options, kernels, m_members),
-        m_isChosen(memory),
-        m_chosen(memory),
-        m_large(memory),
-        m_partly(memory),
-        m_touchedIn(memory),
-        m_touched(memory),
-        m_runs(memory),
-        m_runner(memory),
-        m_history(memory, options, kernels),
-        m_lists(memory, options.order) {}
+      : m_memory(memory), m_options(options), m_kernels(kernels) {}
 
   /// Updates the hierarchies from the store.
   void update(BoxStore& store);
@@ -79,7 +63,7 @@ class WorldSearch {
   }
 
   [[nodiscard]] const WorldStatistics& statistics() const noexcept { return m_statistics; }
-  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_runner.memory(); }
+  [[nodiscard]] std::pmr::memory_resource* memory() const noexcept { return m_memory; }
   /// Begins a call on the executor of the options.
   [[nodiscard]] Executor& begin(CallExecutor& call) const noexcept {
     return call.over(m_options.executor, m_options.stop);
@@ -104,24 +88,27 @@ class WorldSearch {
   std::uint64_t run(const JoinRunner::Job& job);
   void noteTotals();
 
+  std::pmr::memory_resource* m_memory;
   const WorldOptions& m_options;
   const Kernels& m_kernels;
   CallExecutor m_stepExecutor;  ///< Of a step; calls that are const have one of their own.
-  WorldMembers m_members;
-  WorldForest m_forest;
-  ChangedBoxes m_changedDynamic;
-  ChangedBoxes m_changedStatic;
-  SmallWorlds m_small;
-  std::pmr::vector<std::uint8_t> m_isChosen;  ///< By world: whether this step searches it.
-  std::pmr::vector<std::uint32_t> m_chosen;   ///< Those worlds, by ascending number,
-  std::pmr::vector<std::uint32_t> m_large;   ///< and those of them that have moved here, to be searched in hierarchies.
-  std::pmr::vector<std::uint32_t> m_partly;  ///< Large worlds in which only the changed boxes are joined with all.
-  std::pmr::vector<std::uint32_t> m_touchedIn;  ///< By world: its boxes that have changed.
-  std::pmr::vector<BoxId> m_touched;            ///< Those of the worlds in m_partly, one after the other.
-  std::pmr::vector<std::size_t> m_runs;
-  JoinRunner m_runner;
-  PairHistory m_history;
-  WorldLists m_lists;
+  WorldMembers m_members{m_memory};
+  WorldForest m_forest{m_memory};
+  ChangedBoxes m_changedDynamic{m_memory, m_kernels};
+  ChangedBoxes m_changedStatic{m_memory, m_kernels};
+  SmallWorlds m_small{m_memory, m_options, m_kernels, m_members};
+  std::pmr::vector<std::uint8_t> m_isChosen{m_memory};  ///< By world: whether this step searches it.
+  std::pmr::vector<std::uint32_t> m_chosen{m_memory};   ///< Those worlds, by ascending number.
+  /// Those of them that have moved here, to be searched in hierarchies.
+  std::pmr::vector<std::uint32_t> m_large{m_memory};
+  /// Large worlds in which only the changed boxes are joined with all.
+  std::pmr::vector<std::uint32_t> m_partly{m_memory};
+  std::pmr::vector<std::uint32_t> m_touchedIn{m_memory};  ///< By world: its boxes that have changed.
+  std::pmr::vector<BoxId> m_touched{m_memory};            ///< Those of the worlds in m_partly, one after the other.
+  std::pmr::vector<std::size_t> m_runs{m_memory};
+  JoinRunner m_runner{m_memory};
+  PairHistory m_history{m_memory, m_options, m_kernels};
+  WorldLists m_lists{m_memory, m_options.order};
   WorldStatistics m_statistics;
   std::uint64_t m_rebuilds = 0;  ///< Also by queries since the last step, while others may read the statistics.
 };
