@@ -67,7 +67,7 @@ void JoinRunner::run(const Job& job, Executor& executor) {
       worker.lists = job.lists.empty() ? nullptr : &job.lists[index];
       runInStretches(job, beginOf(task), beginOf(task + 1), worker);
       worker.sink.finish();
-      m_segments[task] = {index, begin, worker.sink.size()};
+      m_segments[task] = {index, begin, worker.sink.size() - begin};
     });
   });
 }

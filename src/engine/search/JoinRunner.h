@@ -41,11 +41,12 @@ class JoinRunner {
     static Job ofSelfJoin(const BvhView& bvh);
   };
 
-  /// Where the pairs of a task are.
+  /// Where the pairs of a task are, and where they go.
   struct Segment {
     std::size_t worker = 0;
     std::size_t begin = 0;
-    std::size_t end = 0;
+    std::size_t size = 0;
+    std::size_t place = 0;
   };
 
   /// Resets, with one worker per thread of the executor; returns their number. The options must outlive the runs.
@@ -79,7 +80,7 @@ class JoinRunner {
 
   [[nodiscard]] std::size_t workers() const noexcept { return m_workers.size(); }
   [[nodiscard]] PairSink& sink(std::size_t worker) const noexcept { return m_workers[worker].sink; }
-  [[nodiscard]] std::span<const Segment> segments() const noexcept { return m_segments; }
+  [[nodiscard]] std::span<Segment> segments() noexcept { return m_segments; }
 
   /// The statistics of all workers since start().
   [[nodiscard]] OverlapStatistics totals() const noexcept;

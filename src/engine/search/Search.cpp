@@ -127,7 +127,6 @@ void Search::shrink() noexcept {
   m_first = BvhBuilder(m_memory);
   m_second = BvhBuilder(m_memory);
   m_runner = JoinRunner(m_memory);
-  m_places = std::pmr::vector<std::size_t>(m_memory);
   m_lists = PairLists(m_memory);
   if (m_rowsFound.offsets.empty()) m_offsets.release();
   if (m_rowsFound.indices.empty()) m_indices.release();
@@ -211,22 +210,21 @@ std::span<Pair> Search::roomForPairs(const PairRoom* room) {
 
 /// Concatenates the pairs of the tasks.
 void Search::concatenate(const PairRoom* room) {
-  const std::span<const JoinRunner::Segment> segments = m_runner.segments();
+  const std::span<JoinRunner::Segment> segments = m_runner.segments();
   if (segments.size() == 1) {
     m_pairs = {m_runner.sink(segments[0].worker).pairs().data(), m_statistics.pairs};
     return;
   }
   m_pairs = roomForPairs(room);
-  m_places.resize(segments.size());
   std::size_t place = 0;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    m_places[i] = place;
-    place += segments[i].end - segments[i].begin;
+  for (JoinRunner::Segment& segment : segments) {
+    segment.place = place;
+    place += segment.size;
   }
   m_executor->run(segments.size(), [&](std::size_t i) {
     const JoinRunner::Segment& segment = segments[i];
-    const Pair* const from = m_runner.sink(segment.worker).pairs().data();
-    std::copy(from + segment.begin, from + segment.end, m_pairs.data() + m_places[i]);
+    const Pair* const from = m_runner.sink(segment.worker).pairs().data() + segment.begin;
+    std::copy_n(from, segment.size, m_pairs.data() + segment.place);
   });
 }
 

@@ -139,7 +139,6 @@ class Search {
   Buffer<Pair> m_joined{m_memory};
   Buffer<std::uint64_t> m_offsets{m_memory};
   Buffer<std::uint32_t> m_indices{m_memory};
-  std::pmr::vector<std::size_t> m_places{m_memory};
   std::span<Pair> m_pairs;      ///< The result: concatenated from several tasks, or in the memory of a single one.
   NeighborsMemory m_rowsFound;  ///< The result, where it is rows.
   Buffer<std::uint32_t> m_range{m_memory};  ///< Of an ordered stream: the boxes of the range that is searched.
