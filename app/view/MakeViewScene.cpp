@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "ClashPicture.h"
@@ -60,8 +61,19 @@ class ModelProbe : public collision::BruteForceBroadPhase {
     if (model.getSelfCollision()) flags |= flag::kSelfCollision;
     if (model.getLast()->empty()) return flags | flag::kNoElements;
     if (getBox() && !intersectWithBoxModel(&model)) flags |= flag::kOutside;
-    if (doesSelfCollide(&model)) flags |= flag::kTouchesItself;
+    if (doesSelfCollide(&model) || isOnlyTooThin(model)) flags |= flag::kTouchesItself;
     return flags;
+  }
+
+ private:
+  /// Whether a model that does not touch itself would at another distance, which the page may be asked for.
+  bool isOnlyTooThin(CollisionModel& model) {
+    const collision::CollisionElement root{model.getFirst(), 0};
+    collision::Intersection& method = *getIntersectionMethod();
+    bool swap = false;
+    return method.findIntersector(root.model, root.model, swap) != nullptr &&
+           root.cone().halfAngle >= std::numbers::pi / 2.0 &&
+           !overlap(root.box(), root.box(), method.distanceBetween(*root.model, *root.model));
   }
 };
 

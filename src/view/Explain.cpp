@@ -20,14 +20,13 @@ const int* commonGroup(const std::vector<int>& a, const std::vector<int>& b) {
   return nullptr;
 }
 
-Explanation explainSelf(const ViewFrame& frame, std::uint32_t model) {
+Explanation explainSelf(const ViewFrame& frame, std::uint32_t model, double distance) {
   const std::uint8_t flags = frame.flags[model];
   if ((flags & flag::kSimulated) == 0) return {.verdict = Verdict::NotSimulated};
   if ((flags & flag::kSelfCollision) == 0) return {.verdict = Verdict::NoSelf};
-  if ((flags & flag::kTouchesItself) == 0) {
-    return {.verdict = isEmpty(frame.boxes[model]) ? Verdict::Apart : Verdict::Flat};
-  }
-  return {};
+  const Box& box = frame.boxes[model];
+  if ((flags & flag::kTouchesItself) != 0 && overlap(box, box, distance)) return {};
+  return {.verdict = isEmpty(box) ? Verdict::Apart : Verdict::Flat};
 }
 
 Explanation explainBoxes(const Box& newer, const Box& older, double distance) {
@@ -90,7 +89,7 @@ double distanceOf(const ViewScene& scene, std::uint32_t newer, std::uint32_t old
 Explanation explain(const ViewScene& scene, const ViewFrame& frame, std::uint32_t newer, std::uint32_t older) {
   const Verdict verdict = alone(frame.flags[newer], frame.flags[older]);
   if (verdict != Verdict::Pair) return {.verdict = verdict};
-  if (newer == older) return explainSelf(frame, newer);
+  if (newer == older) return explainSelf(frame, newer, distanceOf(scene, newer, newer));
   const Explanation byFlags = explainFlags(scene, frame, newer, older);
   if (byFlags.verdict != Verdict::Pair) return byFlags;
   if (!scene.corners.empty() && shareVertex(scene, newer, older)) return {.verdict = Verdict::SharesVertex};

@@ -22,7 +22,7 @@ inline constexpr std::uint8_t kMoving = 4;
 inline constexpr std::uint8_t kSelfCollision = 8;
 inline constexpr std::uint8_t kOutside = 16;  ///< Does not touch the region.
 inline constexpr std::uint8_t kNoElements = 32;
-inline constexpr std::uint8_t kTouchesItself = 64;  ///< The method's answer for the model's root with itself.
+inline constexpr std::uint8_t kTouchesItself = 64;  ///< The model's root with itself, if its box is near itself.
 }  // namespace flag
 
 /// The shapes of all models in one block. Model i has the entries from ends[i - 1] (0 for the first) to ends[i].

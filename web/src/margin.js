@@ -17,8 +17,8 @@ function sweep(scene, boxes, distance, visit) {
   order.sort((a, b) => boxes[6 * a] - boxes[6 * b]);
   for (let p = 0; p < order.length; ++p) {
     const a = order[p];
-    const end = boxes[6 * a + 3] + reach + 1e-12 * Math.abs(boxes[6 * a + 3]);
-    for (let q = p + 1; q < order.length && boxes[6 * order[q]] <= end; ++q) visit(Math.max(a, order[q]), Math.min(a, order[q]));
+    const end = boxes[6 * a + 3] + reach + 1e-12 * Math.abs(boxes[6 * a + 3]); // NaN of what is infinite: near to all
+    for (let q = p + 1; q < order.length && !(boxes[6 * order[q]] > end); ++q) visit(Math.max(a, order[q]), Math.min(a, order[q]));
   }
 }
 

@@ -36,11 +36,11 @@ export function distanceOf(scene, newer, older) {
   return scene.distance + scene.contactDistances[newer] + scene.contactDistances[older];
 }
 
-function explainSelf(frame, model) {
+function explainSelf(scene, frame, model) {
   const flags = frame.flags[model];
   if (!(flags & flag.simulated)) return { verdict: "not-simulated" };
   if (!(flags & flag.selfCollision)) return { verdict: "no-self" };
-  if (flags & flag.touchesItself) return { verdict: "pair" };
+  if (flags & flag.touchesItself && areNear(frame.boxes, model, model, distanceOf(scene, model, model))) return { verdict: "pair" };
   return { verdict: isEmpty(frame.boxes, model) ? "apart" : "flat", axis: -1, gap: 0 };
 }
 
@@ -69,7 +69,7 @@ export function explain(scene, frame, newer, older) {
   if (!(a & b & flag.active)) return { verdict: "inactive" };
   if ((a | b) & flag.noElements) return { verdict: "no-elements" };
   if ((a | b) & flag.outside) return { verdict: "outside" };
-  if (newer === older) return explainSelf(frame, newer);
+  if (newer === older) return explainSelf(scene, frame, newer);
   const byFlags = explainFlags(scene, frame, newer, older);
   if (byFlags.verdict === "pair" && scene.sequence?.shareVertex(newer, older)) return { verdict: "shares-vertex" };
   return byFlags.verdict === "pair" ? explainBoxes(scene, frame, newer, older) : byFlags;

@@ -125,9 +125,10 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
   const scene = write("bodies.scn", `<Node name="root"><CollisionPipeline/><MinProximityIntersection alarmDistance="0.25"/>
 <Node name="A"><MechanicalObject position="0 0 0 1 0 0"/><SphereCollisionModel name="s" radius="0.5"/><PointCollisionModel name="p"/></Node>
 <Node name="B"><MechanicalObject position="2.5 0 0"/><SphereCollisionModel name="s" radius="0.5" group="1"/></Node>
-<Node name="C"><MechanicalObject position="4 0 0"/><SphereCollisionModel name="s" radius="0.5" group="1" contactDistance="0.25"/></Node></Node>`);
-  for (const [name, input] of [["grid", boxes], ["margins", scene]]) {
-    const page = await view(name, [input]);
+<Node name="C"><MechanicalObject position="4 0 0"/><SphereCollisionModel name="s" radius="0.5" group="1" contactDistance="0.25" selfCollision="1"/></Node></Node>`);
+  const infinite = write("infinite.csv", "a,-inf,0,0,-inf,1,1\nb,-inf,0,0,5,1,1\nc,6,0,0,inf,1,1\nd,5.2,0,0,5.3,1,1\n");
+  for (const [name, input, ...options] of [["grid", boxes], ["margins", scene], ["thin", scene, "--distance", "-2"], ["infinite", infinite]]) {
+    const page = await view(name, [input, ...options]);
     page.setDefaultTimeout(30_000);
     await page.click("#tab-pairs"); // without a pair, models are shown first
     const before = await number(page, "#fact-pairs");
