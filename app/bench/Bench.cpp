@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +23,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
+#include "cli/Text.h"
 #include "detect/Detection.h"
 #include "generate/SceneArguments.h"
 
@@ -169,11 +175,15 @@ BenchRecord measureBoxes(const Boxes& boxes, const BenchSettings& settings, Exec
 }
 
 void runBench(const BenchSettings& settings) {
-  if (settings.threads == 0) throw UsageError("--threads: at least 1");
+  constexpr std::size_t kMostThreads = 9999;
+  if (settings.threads == 0 || settings.threads > kMostThreads)
+    throw UsageError(
+        fmt::format("--threads: {} is not a number of threads from 1 to {}", settings.threads, kMostThreads));
   const auto sets = instructionSets();
   const std::string& wanted = settings.instructionSet;
   if (!wanted.empty() && std::find(sets.begin(), sets.end(), wanted) == sets.end()) {
-    throw UsageError("--instruction-set: '" + wanted + "' is not available on this processor");
+    throw UsageError(fmt::format("--instruction-set: '{}' is not available on this processor, which has {}", wanted,
+                                 fmt::join(sets, ", ")));
   }
   const Boxes boxes = load(settings);
   std::optional<parallel::TbbExecutor> executor;
@@ -198,10 +208,14 @@ void addSearchOptions(CLI::App& command, BenchSettings& settings) {
 
 /// A file has the boxes that it has.
 void checkSceneOptions(const CLI::App& command, const BenchSettings& settings) {
-  if (isSceneName(settings.scene.scene)) return;
+  const std::string& name = settings.scene.scene;
+  if (isSceneName(name)) return;
+  std::error_code ignored;
+  if (lowerExtension(name).empty() && !std::filesystem::exists(name, ignored))
+    throw UsageError("'" + name + "' is neither a file nor the name of a scene");
   for (const char* const option : {"--boxes", "--seed", "--sorted"}) {
     if (command.count(option) == 0) continue;
-    throw UsageError(std::string(option) + " is for a scene that is made up, not for '" + settings.scene.scene + "'");
+    throw UsageError(std::string(option) + " is for a scene that is made up, not for '" + name + "'");
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <string_view>
 
+#include "cli/Text.h"
+
 namespace allpairs::app {
 namespace {
 
@@ -30,8 +32,9 @@ std::string timesJson(std::string_view prefix, const measure::Summary& times) {
 }
 
 std::string timesLine(std::string_view name, const measure::Summary& times) {
-  return fmt::format("{:<12}{:.4f} ms median, {:.4f} ms processor time, {:.4f} to {:.4f} ms in {} repetitions\n", name,
-                     times.medianMs, times.medianCpuMs, times.minMs, times.maxMs, times.repetitions);
+  return fmt::format("{:<12}{:.4f} ms median, {:.4f} ms processor time, {:.4f} to {:.4f} ms in {}\n", name,
+                     times.medianMs, times.medianCpuMs, times.minMs, times.maxMs,
+                     counted(times.repetitions, "repetition"));
 }
 
 std::string provenanceJson(const measure::Provenance& p) {
@@ -46,8 +49,8 @@ std::string benchTable(const BenchRecord& r) {
   std::string text = fmt::format("{:<12}{}\n{:<12}{}\n{:<12}{}\n", "input", r.input, "n", r.boxes, "pairs", r.pairs);
   if (!r.hash.empty()) text += fmt::format("{:<12}{}\n", "hash", r.hash);
   text += timesLine("one-shot", r.oneShot) + timesLine("warm", r.warm);
-  text += fmt::format("{:<12}{}, strategy {}, {} thread{}, {}\n", "search", r.order, r.strategy, r.threads,
-                      r.threads == 1 ? "" : "s", r.instructionSet);
+  text += fmt::format("{:<12}{}, strategy {}, {}, {}\n", "search", r.order, r.strategy, counted(r.threads, "thread"),
+                      r.instructionSet);
   text += fmt::format("{:<12}{} of boxes, {} of groups\n", "tests", r.work.boxTests, r.work.groupTests);
   return text + fmt::format("{:<12}{}, {}, {}, commit {}, {}\n", "machine", r.provenance.processor,
                             r.provenance.compiler, r.provenance.buildType, r.provenance.commit, r.provenance.date);

@@ -30,8 +30,8 @@ struct InputSettings {
   bool recursive = false;
   std::string sofa{};  ///< The word of --sofa; empty for the default.
   ReadLimits limits{};
-  std::string output{};  ///< The file that is written, which may be none that is read; empty where there is none.
-  const SpooledInputs* spooled = nullptr;  ///< Knows what paths that are temporary files stand for.
+  std::vector<std::filesystem::path> outputs{};  ///< Files that are written, which may be none that is read.
+  const SpooledInputs* spooled = nullptr;        ///< Knows what paths that are temporary files stand for.
 };
 
 /// Declares --allow-outside, --max-memory SIZE and --input-format EXT.

@@ -36,6 +36,12 @@ std::optional<int> ownDescriptor(const fs::path& path) {
   return descriptor;
 }
 
+/// Where a temporary name begins: with that of the file, unless what follows would make it too long.
+fs::path besideOf(const fs::path& place) {
+  constexpr std::size_t kMost = 200;  // of 255
+  return place.parent_path() / place.filename().string().substr(0, kMost);
+}
+
 /// A file without a name in the folder of `place`; below 0 where the system has no such files, or couldn't name them.
 int openNameless([[maybe_unused]] const fs::path& place) {
 #ifdef O_TMPFILE
@@ -86,7 +92,7 @@ void Output::openBeside() {
 }
 
 void Output::openNamed(const fs::path& place) {
-  std::string name = place.string() + ".XXXXXX";
+  std::string name = besideOf(place).string() + ".XXXXXX";
   m_descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (m_descriptor < 0) fail("created");
   m_temporary = std::move(name);
@@ -96,7 +102,7 @@ void Output::openNamed(const fs::path& place) {
 /// A link cannot replace a file, and a rename can: the complete file gets a name beside its place first.
 void Output::giveName() {
   const std::string source = descriptorPath(m_descriptor);
-  const std::string base = scene::resolvedTarget(m_target).string() + '.' + std::to_string(::getpid());
+  const std::string base = besideOf(scene::resolvedTarget(m_target)).string() + '.' + std::to_string(::getpid());
   for (int attempt = 0; m_temporary.empty(); ++attempt) {
     std::string name = base + '-' + std::to_string(attempt);
     if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {

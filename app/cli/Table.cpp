@@ -43,7 +43,7 @@ std::string testLines(const scene::DetectionStatistics& statistics) {
   std::string text = fmt::format("tests    {} of boxes", grouped(statistics.testsMade));
   if (statistics.candidates != 0) text += fmt::format(", {} of flags and groups", grouped(statistics.candidates));
   text += fmt::format("; the double loop makes {}\n", grouped(statistics.testsOfAllPairs));
-  if (statistics.verified) text += "verify   the exhaustive strategy gives the same pairs in the same order\n";
+  if (statistics.verified) text += kVerifiedLine;
   return text;
 }
 
@@ -55,9 +55,8 @@ std::string moreLine(std::size_t left) {
 }
 
 std::size_t mostOfName(const TableNotes& notes, std::size_t others) {
-  constexpr std::size_t kLeastLength = 12;  // less says nothing, and a line that wraps is better
   if (!notes.width) return std::numeric_limits<std::size_t>::max();
-  return std::max(kLeastLength, (*notes.width - std::min(*notes.width, others)) / 2);
+  return std::max(kLeastName, (*notes.width - std::min(*notes.width, others)) / 2);
 }
 
 std::string tableHead(const scene::ResultView& result, const TableNotes& notes) {

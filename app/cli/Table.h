@@ -20,7 +20,12 @@ struct TableNotes {
 };
 
 inline constexpr std::size_t kPairsShown = 50;  ///< A screenful.
+inline constexpr std::size_t kLeastName = 12;   ///< Less says nothing, and a line that wraps is better.
 inline constexpr std::size_t kNameWidth = 48;   ///< Wider names push what follows aside rather than every line.
+
+/// The line of a table that says that an exhaustive search agrees.
+inline constexpr const char* kVerifiedLine =
+    "verify   the exhaustive strategy gives the same pairs in the same order\n";
 
 /// The line that says how many pairs a table leaves out; empty for none.
 [[nodiscard]] std::string moreLine(std::size_t left);

@@ -2,6 +2,7 @@
 #include "cli/Warning.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 
@@ -10,6 +11,7 @@
 namespace allpairs::app {
 
 void warn(const std::string& text, const char* program) {
+  if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\033[K", stderr);  // a line that shows progress
   fmt::print(stderr, "{}: warning: {}\n", program, printable(text));
 }
 

@@ -185,15 +185,16 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   if (settings.format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }
+  if (settings.search.clearance && !settings.exact)
+    throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
-    detectWorlds({settings.input, settings.format, options}, output);
+    const std::size_t pairs = detectWorlds({settings.input, settings.format, options}, output);
     output.commit();
+    if (!settings.output.empty()) sayWritten(counted(pairs, "pair"), settings.output);
     return;
   }
   if (settings.exact) requireExact();
-  if (settings.search.clearance && !settings.exact)
-    throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
   const Timer timer;
   Inputs inputs = readInputs(settings.input);
   if (settings.exact) makeScene(inputs);
@@ -238,7 +239,7 @@ void addDetect(CLI::App& program) {
       ->description("Colours in the table; auto: on a terminal, unless NO_COLOR is set");
   command->callback([settings] {
     settings->format = formatOf(settings->format, settings->output, kDetectFormats);
-    settings->input.output = settings->output;
+    settings->input.outputs = {settings->output};
     withInputs(settings->input, [settings] { runDetect(*settings, detectionOptions(*settings)); });
   });
 }

@@ -20,6 +20,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/NpyOutput.h"
 #include "cli/Progress.h"
+#include "cli/Table.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "input/Inputs.h"
@@ -45,21 +46,21 @@ WorldBoxes readWorlds(const InputSettings& input) {
   if (input.paths.size() != 1) throw UsageError("--worlds takes one input: a .npy file of shape (worlds, boxes, 6)");
   const std::string& path = input.paths.front();
   if (lowerExtension(path) != ".npy") throw UsageError("--worlds takes a .npy file of shape (worlds, boxes, 6)");
-  scene::BoxFrames file(path);
-  const scene::ReadOptions options = readOptions(input.limits);
+  refuseSceneOptions(input, "--worlds");
+  scene::BoxFrames file(path, "world");
   WorldBoxes result{file.frameCount(), file.boxCount()};
   scene::EmptyBoxes empty;
-  if (options.maxMemory != 0 && 6 * sizeof(float) * result.worlds * result.each > options.maxMemory) {
-    throw FileError(path, "needs more memory than --max-memory allows");
-  }
+  requireMemory(input, result.worlds * file.frameBytes());
   std::optional<ProgressClock> clock(std::in_place, "reading " + printable(path));
   for (std::size_t k = 0; k < result.worlds; ++k) {
     const BoxView boxes = file.next();
     empty.look(boxes, k * result.each);
     const std::size_t numbers = 6 * boxes.size();
     if (boxes.isFloat64()) {
+      result.float64.reserve(result.worlds * numbers);
       result.float64.insert(result.float64.end(), boxes.float64().min.data, boxes.float64().min.data + numbers);
     } else if (numbers != 0) {
+      result.float32.reserve(result.worlds * numbers);
       result.float32.insert(result.float32.end(), boxes.float32().min.data, boxes.float32().min.data + numbers);
     }
   }
@@ -104,6 +105,12 @@ class TextParts {
   std::string m_text;
 };
 
+/// How the search went.
+struct WorldsRun {
+  double seconds = 0.0;
+  bool isVerified = false;
+};
+
 template <class Use>
 void forEachPair(const WorldPairsView& found, const Use& use) {
   for (std::size_t k = 0; k + 1 < found.begin.size(); ++k) {
@@ -131,7 +138,7 @@ void writeCsv(const WorldPairsView& found, Output& output) {
   text.flush();
 }
 
-void writeJson(const WorldPairsView& found, const WorldBoxes& boxes, double seconds, Output& output) {
+void writeJson(const WorldPairsView& found, const WorldBoxes& boxes, const WorldsRun& run, Output& output) {
   TextParts text(output);
   text.add("{{\"worlds\": {}, \"boxes\": {}, \"pairs\": [", boxes.worlds, boxes.each);
   const char* separator = "";
@@ -139,11 +146,12 @@ void writeJson(const WorldPairsView& found, const WorldBoxes& boxes, double seco
     text.add("{}[{}, {}, {}]", separator, world, pair.first, pair.second);
     separator = ", ";
   });
-  text.add("], \"statistics\": {{\"pairs\": {}, \"detectSeconds\": {}}}}}\n", found.pairs.size(), seconds);
+  text.add("], \"statistics\": {{\"pairs\": {}, \"verified\": {}, \"detectSeconds\": {}}}}}\n", found.pairs.size(),
+           run.isVerified, run.seconds);
   text.flush();
 }
 
-void writeTable(const WorldPairsView& found, const WorldBoxes& boxes, double seconds, Output& output) {
+void writeTable(const WorldPairsView& found, const WorldBoxes& boxes, const WorldsRun& run, Output& output) {
   std::size_t most = 0;
   std::size_t without = 0;
   for (std::size_t k = 0; k < boxes.worlds; ++k) {
@@ -156,14 +164,16 @@ void writeTable(const WorldPairsView& found, const WorldBoxes& boxes, double sec
     text +=
         fmt::format("; most in world {}, {}; none in {}", most, grouped(found[most].size()), counted(without, "world"));
   }
-  text += fmt::format("\ntime     {:.3f} ms\n\n--format csv, json or npy, or -o FILE, lists the pairs of each world.\n",
-                      1000.0 * seconds);
+  text += '\n';
+  if (run.isVerified) text += kVerifiedLine;
+  text += fmt::format("time     {:.3f} ms\n\n--format csv, json or npy, or -o FILE, lists the pairs of each world.\n",
+                      1000.0 * run.seconds);
   output.write(text);
 }
 
 }  // namespace
 
-void detectWorlds(const WorldsRequest& request, Output& output) {
+std::size_t detectWorlds(const WorldsRequest& request, Output& output) {
   const WorldBoxes boxes = readWorlds(request.input);
   const Worlds worlds = boxes.view();
   const std::unique_ptr<Executor> executor = makeExecutor(request.detection.threads, worlds.boxes().size());
@@ -175,17 +185,18 @@ void detectWorlds(const WorldsRequest& request, Output& output) {
   WorldsSearch search(options);
   const Timer timer;
   const WorldPairsView found = search.find(worlds);
-  const double seconds = timer.seconds();
-  if (request.detection.verify) verify(worlds, found, options);
+  const WorldsRun run{timer.seconds(), request.detection.verify};
+  if (run.isVerified) verify(worlds, found, options);
   if (request.format == "npy") {
     writeNpy(found, output);
   } else if (request.format == "csv") {
     writeCsv(found, output);
   } else if (request.format == "json") {
-    writeJson(found, boxes, seconds, output);
+    writeJson(found, boxes, run, output);
   } else {
-    writeTable(found, boxes, seconds, output);
+    writeTable(found, boxes, run, output);
   }
+  return found.pairs.size();
 }
 
 }  // namespace allpairs::app

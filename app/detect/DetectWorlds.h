@@ -17,10 +17,10 @@ struct WorldsRequest {
 };
 
 /// Reads a .npy file of shape (w, n, 6), w worlds of n boxes, and writes the pairs of each world: boxes of different
-/// worlds are never pairs.
+/// worlds are never pairs. Returns how many there are.
 ///
 /// Bad input: more than one input, or another file, throws UsageError or FileError; with options.verify, strategies
 ///            that disagree throw collision::VerificationError.
-void detectWorlds(const WorldsRequest& request, Output& output);
+std::size_t detectWorlds(const WorldsRequest& request, Output& output);
 
 }  // namespace allpairs::app

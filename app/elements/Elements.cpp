@@ -7,38 +7,38 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "Commands.h"
-#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/NpyOutput.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
+#include "cli/Warning.h"
 #include "detect/Detection.h"
 #include "elements/ElementReport.h"
 #include "input/Inputs.h"
 #include "input/MeshSteps.h"
-#include "input/SpooledInputs.h"
 
 namespace allpairs::app {
 namespace {
 
 struct ElementSettings {
-  std::vector<std::string> paths;
+  InputSettings input;
   std::string distance = "0";
   std::string threads = "0";
   std::string format;
   std::string output;
   bool between = false;
-  ReadLimits limits;
 };
 
 constexpr const char* kElementsExamples =
@@ -56,13 +56,14 @@ Examples:
   allpairs elements cloth_92.ply cloth_93.ply --distance 0.001 -o cloth.json
   allpairs elements cloth_92.ply cloth_93.ply ball.ply ball.ply --between)";
 
-std::vector<MeshStep> readSteps(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+std::vector<MeshStep> readSteps(const InputSettings& input) {
+  const std::vector<std::string>& paths = input.paths;
   if (paths.size() % 2 != 0) throw UsageError("START and END come in pairs: '" + paths.back() + "' has no END");
   ProgressLine line;
   std::vector<MeshStep> steps;
   for (std::size_t i = 0; i < paths.size(); i += 2) {
     line.show("reading: " + std::filesystem::path(paths[i]).filename().string());
-    for (MeshStep& step : readMeshSteps(paths[i], paths[i + 1], options)) steps.push_back(std::move(step));
+    for (MeshStep& step : readMeshSteps(input, i)) steps.push_back(std::move(step));
   }
   return steps;
 }
@@ -82,13 +83,12 @@ std::string besideOutput(const std::string& output, std::string_view key) {
   return base + '.' + std::string(key) + ".npy";
 }
 
-/// Neither the report nor a list may take the place of an input.
-void checkOutputs(const std::string& output, const std::vector<std::string>& inputs) {
-  if (output.empty()) return;
-  const std::vector<std::filesystem::path> paths = pathsOf(inputs);
-  scene::checkIsNoInput(output, paths);
-  for (const auto& kind : kKindNames) scene::checkIsNoInput(besideOutput(output, kind.key), paths);
-  for (const char* const key : {"edges", "faces"}) scene::checkIsNoInput(besideOutput(output, key), paths);
+/// The report and the lists.
+std::vector<std::filesystem::path> outputsOf(const std::string& output) {
+  if (output.empty()) return {};
+  std::vector<std::filesystem::path> outputs{output, besideOutput(output, "edges"), besideOutput(output, "faces")};
+  for (const auto& kind : kKindNames) outputs.emplace_back(besideOutput(output, kind.key));
+  return outputs;
 }
 
 /// Writes rows of numbers beside the output, and notes the file; complete when the report is.
@@ -155,18 +155,19 @@ void checkElementsExtension(const std::string& path) {
 
 void runElements(const ElementSettings& settings) {
   checkElementsExtension(settings.output);
-  checkOutputs(settings.output, settings.paths);
+  checkOutputs(settings.input, pathsOf(settings.input.paths));
   ElementReport report;
   report.distance = parseDistance(settings.distance);
   report.betweenOnly = settings.between;
   const std::size_t threads = parseThreads(settings.threads);
   Output output(targetOf(settings.output));
   const Timer timer;
-  const std::vector<MeshStep> steps = readSteps(settings.paths, readOptions(settings.limits));
+  const std::vector<MeshStep> steps = readSteps(settings.input);
   report.readSeconds = timer.seconds();
 
   elements::MeshTopology topology = topologyOf(steps);
   describeMeshes(topology, steps, report);
+  if (settings.between && steps.size() == 1) warn("--between: there is one mesh, which has no other");
   const std::unique_ptr<Executor> executor = makeExecutor(threads, topology.counts().edges);
   const bool wantsLists = output.isFile();
   if (executor && wantsLists) report.threads = executor->concurrency();  // counting runs on one
@@ -182,6 +183,9 @@ void runElements(const ElementSettings& settings) {
                                                                                      : tableOf(report));
   files.commit();
   output.commit();
+  if (settings.output.empty()) return;
+  const std::uint64_t found = std::accumulate(report.candidates.begin(), report.candidates.end(), std::uint64_t{0});
+  sayWritten(counted(found, "candidate"), settings.output);
 }
 
 }  // namespace
@@ -191,18 +195,18 @@ void addElements(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("elements", "Find candidate vertex, edge and face pairs of deforming meshes");
   command->footer(kElementsExamples);
-  command->add_option("START END", settings->paths, "Mesh files at the start and the end of a step, alternating")
+  command->add_option("START END", settings->input.paths, "Mesh files at the start and the end of a step, alternating")
       ->required()
       ->type_name("");
   addDistance(*command, settings->distance, "Report candidates up to D apart on every axis");
   command->add_flag("--between", settings->between, "Only candidates between two meshes");
   addThreads(*command, settings->threads);
   addFormat(*command, settings->format, kElementFormats);
-  addReadLimits(*command, settings->limits);
+  addReadLimits(*command, settings->input.limits);
   addOutput(*command, settings->output);
   command->callback([settings] {
-    withSpooledInputs(settings->paths, settings->limits.inputFormat,
-                      [settings](const SpooledInputs&) { runElements(*settings); });
+    settings->input.outputs = outputsOf(settings->output);
+    withInputs(settings->input, [settings] { runElements(*settings); });
   });
 }
 

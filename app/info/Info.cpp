@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -8,6 +9,8 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +18,8 @@
 #include "Commands.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
+#include "cli/Table.h"
+#include "cli/Terminal.h"
 #include "cli/Text.h"
 #include "input/Inputs.h"
 
@@ -50,21 +55,37 @@ Row rowOf(std::size_t index, const scene::ModelRecord& model) {
           boxText(model.box)};
 }
 
+std::array<std::size_t, 7> widthsOf(const std::vector<Row>& rows) {
+  std::array<std::size_t, 7> widths{};
+  for (const Row& row : rows) {
+    for (std::size_t column = 0; column < row.size(); ++column) {
+      widths[column] = std::max(widths[column], columnsOf(row[column]));
+    }
+  }
+  return widths;
+}
+
+/// Shortens names so that rows stay within the terminal, if standard output is one.
+void fit(std::vector<Row>& rows) {
+  constexpr std::size_t kName = 1;
+  const std::optional<std::size_t> width = terminalWidth(STDOUT_FILENO);
+  if (!width) return;
+  const std::array<std::size_t, 7> widths = widthsOf(rows);
+  const std::size_t others = std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1)) - widths[kName];
+  for (Row& row : rows) row[kName] = elided(row[kName], std::max(kLeastName, *width - std::min(*width, others)));
+}
+
 std::string tableOf(std::size_t count, const std::function<scene::ModelRecord(std::size_t)>& model) {
   std::vector<Row> rows{{"#", "name", "type", "elements", "flags", "groups", "box"}};
   for (std::size_t i = 0; i < count; ++i) rows.push_back(rowOf(i, model(i)));
-  std::array<std::size_t, 7> widths{};
-  for (const Row& row : rows) {
-    for (std::size_t column = 0; column + 1 < row.size(); ++column) {
-      widths[column] = std::max(widths[column], row[column].size());
-    }
-  }
+  fit(rows);
+  const std::array<std::size_t, 7> widths = widthsOf(rows);
   std::string text;
   for (const Row& row : rows) {
     for (std::size_t column = 0; column + 1 < row.size(); ++column) {
       const bool isNumber = column == 0 || column == 3;
-      text += isNumber ? fmt::format("{:>{}}  ", row[column], widths[column])
-                       : fmt::format("{:<{}}  ", row[column], widths[column]);
+      text +=
+          isNumber ? fmt::format("{:>{}}  ", row[column], widths[column]) : padded(row[column], widths[column]) + "  ";
     }
     text += row.back() + '\n';
   }
@@ -75,7 +96,8 @@ std::string remarkText(const scene::Remark& remark) {
   std::string place = remark.file.string();
   if (remark.line != 0) place += fmt::format(":{}", remark.line);
   if (!place.empty()) place += ": ";
-  const bool repeats = remark.subject == remark.file.filename();  // a file that was left out as a whole
+  // A file that was left out as a whole is named already.
+  const bool repeats = remark.subject.empty() || remark.subject == remark.file.filename();
   const std::string subject = repeats ? "" : remark.subject + ": ";
   return fmt::format("  {}\n", printable(place + subject + remark.reason));
 }

@@ -2,10 +2,13 @@
 #include "input/Inputs.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +17,7 @@
 #include "allpairs/scene/ReadInput.h"
 #include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
+#include "cli/ExitStatus.h"
 #include "cli/Progress.h"
 #include "cli/Text.h"
 #include "cli/Warning.h"
@@ -127,13 +131,11 @@ std::string pipelineText(const scene::ScenePipeline& pipeline) {
   return text;
 }
 
-void warnOf(const std::vector<scene::Remark>& warnings, ProgressLine& line) {
-  line.clear();
-  for (const scene::Remark& warning : warnings) {
-    const std::string place = warning.line == 0 ? "" : fmt::format(":{}", warning.line);
-    const std::string subject = warning.subject.empty() ? "" : warning.subject + ": ";
-    warn(fmt::format("{}{}: {}{}", warning.file.string(), place, subject, warning.reason));
-  }
+/// Which file a path names, by whatever name; nothing where there is none.
+std::optional<std::pair<dev_t, ino_t>> identityOf(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return std::pair(status.st_dev, status.st_ino);
 }
 
 }  // namespace
@@ -160,13 +162,53 @@ Inputs readInputs(const InputSettings& settings) {
                                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
   if (areBoxes) {
     BoxInput input = readBoxArrays(settings, options);
-    warnOf(input.warnings, line);
+    warnOf(settings, input.warnings);
     return input;
   }
   scene::Scene scene = readScenes(settings, options);
-  warnOf(scene.warnings, line);
-  scene::checkIsNoInput(settings.output, scene.inputs);
+  warnOf(settings, scene.warnings);
+  checkOutputs(settings, scene.inputs);
   return scene;
+}
+
+void checkOutputs(const InputSettings& settings, const std::vector<std::filesystem::path>& inputs) {
+  std::map<std::pair<dev_t, ino_t>, std::filesystem::path> outputs;
+  for (const std::filesystem::path& output : settings.outputs) {
+    if (const auto identity = identityOf(output)) outputs.emplace(*identity, output);
+  }
+  for (const std::filesystem::path& input : inputs) {
+    const auto identity = outputs.empty() ? std::nullopt : identityOf(input);
+    if (!identity) continue;
+    if (const auto same = outputs.find(*identity); same != outputs.end())
+      scene::checkIsNoInput(same->second, {&input, 1});
+  }
+}
+
+void refuseSceneOptions(const InputSettings& settings, const std::string& to) {
+  const std::initializer_list<std::pair<const char*, bool>> options{{"--recursive", settings.recursive},
+                                                                    {"--partial", settings.partial},
+                                                                    {"--data", !settings.searchRoots.empty()},
+                                                                    {"--sofa", !settings.sofa.empty()}};
+  for (const auto& [name, isGiven] : options) {
+    if (isGiven) throw UsageError(fmt::format("{} does not apply to {}", name, to));
+  }
+}
+
+void requireMemory(const InputSettings& settings, std::uint64_t bytes) {
+  const std::uint64_t allowed = readOptions(settings.limits).maxMemory;
+  if (bytes <= (allowed == 0 ? scene::halfOfMemory() : allowed)) return;
+  throw FileError(settings.paths.front(), allowed == 0
+                                              ? "needs more than half of the machine's memory; --max-memory allows more"
+                                              : "needs more memory than --max-memory allows");
+}
+
+void warnOf(const InputSettings& settings, const std::vector<scene::Remark>& warnings) {
+  for (const scene::Remark& warning : warnings) {
+    const std::string place = warning.line == 0 ? "" : fmt::format(":{}", warning.line);
+    const std::string subject = warning.subject.empty() ? "" : warning.subject + ": ";
+    warn(
+        fmt::format("{}{}: {}{}", shownPath(settings, warning.file.string()).string(), place, subject, warning.reason));
+  }
 }
 
 void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part) {

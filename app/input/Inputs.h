@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -34,6 +35,20 @@ void withInputs(InputSettings& settings, const std::function<void()>& work);
 
 /// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
+
+/// Makes sure that what is written takes the place of none of these files.
+///
+/// Bad input: throws FileError.
+void checkOutputs(const InputSettings& settings, const std::vector<std::filesystem::path>& inputs);
+
+/// Throws UsageError where an option was given that only scenes and folders know; `to` is what it does not apply to.
+void refuseSceneOptions(const InputSettings& settings, const std::string& to);
+
+/// Throws FileError, which names the only input, where its boxes take more memory than may be taken.
+void requireMemory(const InputSettings& settings, std::uint64_t bytes);
+
+/// Warns of what readers remarked.
+void warnOf(const InputSettings& settings, const std::vector<scene::Remark>& warnings);
 
 /// Warns of the boxes of the only input that are empty, if there are any: `each` of them in every frame or world, of
 /// which `part` is the word, and which are numbered through.

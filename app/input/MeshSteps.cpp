@@ -10,6 +10,7 @@
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "cli/Text.h"
+#include "input/Inputs.h"
 
 namespace allpairs::app {
 namespace {
@@ -50,8 +51,11 @@ void checkSameMesh(const TriangleMesh& earlier, const std::string& earlierName, 
 
 }  // namespace
 
-std::vector<TriangleMesh> readTriangleMeshes(const std::filesystem::path& path, const scene::ReadOptions& options) {
-  const scene::Scene scene = scene::readInput(path, options);
+std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input) {
+  const std::string& path = settings.paths[input];
+  const scene::Scene scene = scene::readInput(path, readOptions(settings.limits));
+  checkOutputs(settings, scene.inputs);
+  warnOf(settings, scene.warnings);
   std::vector<TriangleMesh> meshes;
   for (std::size_t i = 0; i < scene.models.size(); ++i) {
     const auto* triangles = dynamic_cast<const collision::TriangleModel*>(scene.models[i].get());
@@ -62,6 +66,8 @@ std::vector<TriangleMesh> readTriangleMeshes(const std::filesystem::path& path, 
     mesh.isNamed = mesh.name.find(file) == std::string::npos;
   }
   if (meshes.empty()) throw FileError(path, "holds no triangles");
+  if (const std::size_t left = scene.models.size() - meshes.size(); left != 0)
+    warnOf(settings, {{.file = path, .subject = {}, .reason = counted(left, "model") + " left out: no triangle mesh"}});
   return meshes;
 }
 
@@ -82,11 +88,12 @@ void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesy
   }
 }
 
-std::vector<MeshStep> readMeshSteps(const std::filesystem::path& start, const std::filesystem::path& end,
-                                    const scene::ReadOptions& options) {
-  std::vector<TriangleMesh> first = readTriangleMeshes(start, options);
-  std::vector<TriangleMesh> last = readTriangleMeshes(end, options);
-  checkSameMeshes(first, start, last, end);
+std::vector<MeshStep> readMeshSteps(const InputSettings& settings, std::size_t start) {
+  const std::string& before = settings.paths[start];
+  const std::string& after = settings.paths[start + 1];
+  std::vector<TriangleMesh> first = readTriangleMeshes(settings, start);
+  std::vector<TriangleMesh> last = before == after ? first : readTriangleMeshes(settings, start + 1);
+  checkSameMeshes(first, before, last, after);
   std::vector<MeshStep> steps(first.size());
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = {std::move(first[i]), std::move(last[i].positions)};
   return steps;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "allpairs/scene/ReadOptions.h"
+#include "cli/Options.h"
 
 namespace allpairs::app {
 
@@ -24,21 +24,20 @@ struct MeshStep {
   std::vector<double> endPositions;
 };
 
-/// The triangle meshes of a mesh file, or of the mesh files of a folder.
+/// The triangle meshes of one of the inputs: a mesh file, or the mesh files of a folder. Warns of what its readers
+/// remarked, and of models that are no triangle meshes.
 ///
-/// Bad input: throws FileError; a file without triangles too.
-[[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const std::filesystem::path& path,
-                                                           const scene::ReadOptions& options);
+/// Bad input: throws FileError; a file without triangles too, and one that would be written.
+[[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input);
 
 /// Throws FileError that names both files, the mesh and the element unless the meshes of `later` are those of `earlier`
 /// moved: as many, with as many vertices and the same triangles.
 void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesystem::path& earlierPath,
                      const std::vector<TriangleMesh>& later, const std::filesystem::path& laterPath);
 
-/// The meshes of two files that hold the start and the end of a step.
+/// The meshes of two inputs, `start` and the one after it, that hold the start and the end of a step.
 ///
 /// Bad input: as of the two functions above.
-[[nodiscard]] std::vector<MeshStep> readMeshSteps(const std::filesystem::path& start, const std::filesystem::path& end,
-                                                  const scene::ReadOptions& options);
+[[nodiscard]] std::vector<MeshStep> readMeshSteps(const InputSettings& settings, std::size_t start);
 
 }  // namespace allpairs::app

@@ -137,7 +137,7 @@ void runJoin(const JoinSettings& settings) {
                     problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }
   line.clear();
-  warnOfEmpty(settings.shared, summary);
+  warnOfEmpty(settings.shared, summary.empty);
   const std::string text = summaryText(summary, settings.output, !options.second.empty());
   if (settings.count || std::filesystem::is_regular_file(settings.output)) {
     Output(std::nullopt).write(text);

@@ -33,8 +33,8 @@ join::JoinOptions joinOptions(const JoinArguments& arguments) {
   return options;
 }
 
-void warnOfEmpty(const JoinArguments& arguments, const join::JoinSummary& summary) {
-  for (const std::string& text : emptyTexts(arguments.sets, summary.empty)) warn(text);
+void warnOfEmpty(const JoinArguments& arguments, const std::array<scene::EmptyBoxes, 2>& empty) {
+  for (const std::string& text : emptyTexts(arguments.sets, empty)) warn(text);
 }
 
 std::unique_ptr<Executor> executorOf(const std::string& threads) {

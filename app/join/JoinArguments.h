@@ -34,6 +34,6 @@ void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 [[nodiscard]] std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments);
 
 /// Warns of boxes that are empty, if there are any.
-void warnOfEmpty(const JoinArguments& arguments, const join::JoinSummary& summary);
+void warnOfEmpty(const JoinArguments& arguments, const std::array<scene::EmptyBoxes, 2>& empty);
 
 }  // namespace allpairs::app

@@ -80,12 +80,13 @@ void runPlan(const PlanSettings& settings) {
   if (settings.ranks != 0) {
     const join::RanksPlan plan = join::planRanks(inputsOf(settings.shared), settings.ranks, options);
     clock.reset();
+    warnOfEmpty(settings.shared, plan.empty);
     Output(std::nullopt).write(ranksText(plan, settings));
     return;
   }
   const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
   clock.reset();
-  warnOfEmpty(settings.shared, plan);
+  warnOfEmpty(settings.shared, plan.empty);
   // What is known is said before what may fail, as where the disk is too small.
   Output(std::nullopt).write(planText(plan, settings.shared));
   clock.emplace("measuring the time of a join");

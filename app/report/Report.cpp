@@ -8,6 +8,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -20,6 +21,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "Base64.h"
@@ -31,7 +33,9 @@
 #include "Since.h"
 #include "WritePage.h"
 #include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/scene/BoxFrames.h"
 #include "allpairs/scene/FileError.h"
+#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Progress.h"
@@ -40,6 +44,7 @@
 #include "report/ReportFolder.h"
 #include "view/MakeViewScene.h"
 #include "view/OpenFile.h"
+#include "view/ViewFrames.h"
 #include "view/ViewRequest.h"
 
 namespace allpairs::app {
@@ -81,9 +86,14 @@ struct Earlier {
 std::string dateText() {
   std::time_t moment = std::time(nullptr);
   if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr long long kYear0 = -62167219200;
+    constexpr long long kYear10000 = 253402300800;
     char* end = nullptr;
     const long long seconds = std::strtoll(fixed, &end, 10);
-    if (end != fixed && *end == '\0') moment = static_cast<std::time_t>(seconds);
+    const bool isNumber = end != fixed && *end == '\0';
+    if (isNumber && (seconds < kYear0 || seconds >= kYear10000))
+      throw UsageError("SOURCE_DATE_EPOCH: '" + std::string(fixed) + "' is no moment before the year 10000");
+    if (isNumber) moment = static_cast<std::time_t>(seconds);
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
 }
@@ -187,7 +197,8 @@ void writeBcfScript(const std::string& bcf, scene::ByteSink sink) {
 }
 
 /// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind.
-void writeReport(const view::ViewScene& scene, const ReportSettings& settings, const std::optional<Earlier>& earlier) {
+void writeReport(const view::ViewScene& scene, const ReportSettings& settings, const std::string& date,
+                 const std::optional<Earlier>& earlier) {
   std::vector<view::Clash> clashes = view::clashesOf(scene);
   std::optional<view::Since> since;
   if (earlier) since = view::compareWith(earlier->rows, earlier->name, clashes);
@@ -197,11 +208,11 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings, c
   options.version = settings.bcf == "3.0" ? view::BcfVersion::V30 : view::BcfVersion::V21;
   options.metresPerUnit = settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0));
   if (since) options.resolved = since->resolved;
-  options.date = dateText();
+  options.date = date;
   const std::string bcf = bcfOf(scene, pictured, pictures, options);
   const ScenePage page = pageOf(scene);
   const view::Report report{
-      scene, clashes, pictured.size(), since ? &*since : nullptr, factsOf(settings, scene, options.date), page.problem};
+      scene, clashes, pictured.size(), since ? &*since : nullptr, factsOf(settings, scene, date), page.problem};
   ReportFolder folder(settings.folder);
   for (const view::Clash& clash : pictured) folder.write(view::pictureName(clash.number), pictures[clash.number - 1]);
   folder.write("clashes.bcf", bcf);
@@ -222,7 +233,10 @@ std::optional<Earlier> readEarlier(const std::string& path) {
   const bool isFolder = std::filesystem::is_directory(path, ignored);
   const std::filesystem::path table =
       isFolder ? std::filesystem::path(path) / "clashes.csv" : std::filesystem::path(path);
+  if (std::filesystem::is_directory(table, ignored)) throw FileError(table, "is a folder, not a file");
   std::ifstream stream(table, std::ios::binary);
+  if (const int reason = errno; !stream && reason != ENOENT)
+    throw FileError(table, "cannot be opened: " + std::generic_category().message(reason));
   if (!stream) throw FileError(path, "holds no report to compare with: there is no clashes.csv");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   try {
@@ -232,17 +246,25 @@ std::optional<Earlier> readEarlier(const std::string& path) {
   }
 }
 
+/// Before the work, too.
+void checkIsOneFrame(const std::vector<std::string>& paths) {
+  if (paths.size() != 1 || !isAnyBoxFrames(paths) || scene::BoxFrames(paths.front()).frameCount() < 2) return;
+  throw UsageError("a report shows one frame, and the input has several: 'allpairs view' shows them");
+}
+
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
   if (settings.folder == "-") throw UsageError("-o: a report is a folder, for which '-' is no name");
   if (const double length = settings.metresPerUnit.value_or(1.0); !(length > 0.0) || length > kMostMetres) {
     throw UsageError("--metres-per-unit must be above 0 and at most 1e18");
   }
+  checkOutputs(settings.input, pathsOf(settings.input.paths));
   checkReportFolder(settings.folder, settings.force);
+  const std::string date = dateText();
   const std::optional<Earlier> earlier = readEarlier(settings.since);
+  checkIsOneFrame(settings.input.paths);
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
-  if (scene.frames.size() > 1) throw UsageError("a report shows one frame: the input has several");
-  writeReport(scene, settings, earlier);
+  writeReport(scene, settings, date, earlier);
   if (settings.open) openInBrowser(std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html"));
 }
 
@@ -276,7 +298,10 @@ void addReport(CLI::App& program) {
       ->add_option("--metres-per-unit", settings->metresPerUnit,
                    "Length of a unit of the input, for BCF's cameras; by default as the format says, else 1")
       ->type_name("M");
-  command->callback([settings] { withInputs(settings->input, [settings] { runReport(*settings); }); });
+  command->callback([settings] {
+    settings->input.outputs = filesOfReport(settings->folder);
+    withInputs(settings->input, [settings] { runReport(*settings); });
+  });
 }
 
 }  // namespace allpairs::app

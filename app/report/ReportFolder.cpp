@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "Report.h"
+#include "Since.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/FolderNames.h"
 #include "cli/ExitStatus.h"
@@ -27,10 +30,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string textOf(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return {};
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
 /// Whether it has the files of a report of ours.
 bool holdsReport(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / "index.html", ignored) && fs::exists(folder / "clashes.csv", ignored);
+  return view::isReportCsv(textOf(folder / "clashes.csv")) &&
+         textOf(folder / "index.html").find("allpairs") != std::string::npos;
 }
 
 /// Whether it is a folder that is not empty, as far as it can be read.
@@ -46,6 +58,17 @@ bool looksLikeFile(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<fs::path> filesOfReport(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* const name : {"index.html", "view.html", "clashes.csv", "clashes.bcf", "clashes.bcf.js"})
+    files.push_back(folder / name);
+  std::error_code ignored;
+  for (const std::string& name : scene::folderNames(folder / "pictures", ignored)) {
+    if (lowerExtension(name) == ".png") files.push_back(folder / "pictures" / name);
+  }
+  return files;
+}
 
 void checkReportFolder(const fs::path& folder, bool force) {
   std::error_code ignored;
@@ -66,7 +89,7 @@ void checkReportFolder(const fs::path& folder, bool force) {
 ReportFolder::ReportFolder(const fs::path& folder) : ReportFolder() {
   m_folder = folder;
   m_stage = folder / (".report-" + std::to_string(::getpid()));
-  m_hadReport = fs::exists(m_folder / "clashes.csv");
+  m_hadReport = holdsReport(m_folder);
   makeFolder(m_stage / "pictures");
 }
 

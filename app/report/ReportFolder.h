@@ -16,6 +16,9 @@ namespace allpairs::app {
 /// Bad input: throws FileError; a new folder that is called like a file of a report, UsageError.
 void checkReportFolder(const std::filesystem::path& folder, bool force);
 
+/// The files there that a report would replace or take away.
+[[nodiscard]] std::vector<std::filesystem::path> filesOfReport(const std::filesystem::path& folder);
+
 /// The files of a report. They are written into a folder beside their places, and commit() puts all of them there; until
 /// then an earlier report is whole. Without it nothing is left behind, nor where a signal ends the program.
 ///

@@ -9,6 +9,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Text.h"
+#include "input/Inputs.h"
 #include "input/MeshSteps.h"
 
 namespace allpairs::app {
@@ -16,9 +17,12 @@ namespace {
 
 class NpyFrames final : public FrameSource {
  public:
-  explicit NpyFrames(const std::string& path) : m_frames(path) {}
+  explicit NpyFrames(const InputSettings& input) : m_frames(input.paths.front()) {
+    requireMemory(input, m_frames.frameBytes());
+  }
 
   [[nodiscard]] std::size_t frameCount() const override { return m_frames.frameCount(); }
+  [[nodiscard]] std::size_t boxCount() const override { return m_frames.boxCount(); }
   [[nodiscard]] BoxView next() override { return m_frames.next(); }
 
  private:
@@ -27,15 +31,14 @@ class NpyFrames final : public FrameSource {
 
 class MeshFrames final : public FrameSource {
  public:
-  MeshFrames(std::vector<std::string> paths, scene::ReadOptions options)
-      : m_paths(std::move(paths)), m_options(std::move(options)) {}
+  explicit MeshFrames(const InputSettings& input) : m_input(input) {}
 
-  [[nodiscard]] std::size_t frameCount() const override { return m_paths.size(); }
+  [[nodiscard]] std::size_t frameCount() const override { return m_input.paths.size(); }
 
   [[nodiscard]] BoxView next() override {
-    std::vector<TriangleMesh> meshes = readTriangleMeshes(m_paths[m_frame], m_options);
+    std::vector<TriangleMesh> meshes = readTriangleMeshes(m_input, m_frame);
     if (m_frame == 0) m_first = meshes;
-    checkSameMeshes(m_first, m_paths.front(), meshes, m_paths[m_frame]);
+    checkSameMeshes(m_first, m_input.paths.front(), meshes, m_input.paths[m_frame]);
     ++m_frame;
     m_boxes.clear();
     for (const TriangleMesh& mesh : meshes) addBoxes(mesh);
@@ -72,8 +75,7 @@ class MeshFrames final : public FrameSource {
     }
   }
 
-  std::vector<std::string> m_paths;
-  scene::ReadOptions m_options;
+  const InputSettings& m_input;
   std::size_t m_frame = 0;
   std::vector<TriangleMesh> m_first;
   std::vector<Box> m_boxes;
@@ -81,10 +83,11 @@ class MeshFrames final : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> openFrames(const std::vector<std::string>& paths, const scene::ReadOptions& options) {
+std::unique_ptr<FrameSource> openFrames(const InputSettings& input) {
+  const std::vector<std::string>& paths = input.paths;
   const auto isNpy = [](const std::string& path) { return lowerExtension(path) == ".npy"; };
-  if (std::none_of(paths.begin(), paths.end(), isNpy)) return std::make_unique<MeshFrames>(paths, options);
-  if (paths.size() == 1) return std::make_unique<NpyFrames>(paths.front());
+  if (std::none_of(paths.begin(), paths.end(), isNpy)) return std::make_unique<MeshFrames>(input);
+  if (paths.size() == 1) return std::make_unique<NpyFrames>(input);
   throw UsageError("give one .npy file with all frames, or one mesh file per frame");
 }
 

@@ -30,6 +30,9 @@ class FrameSource {
   /// Bad input: throws FileError.
   [[nodiscard]] virtual BoxView next() = 0;
 
+  /// How many boxes each frame has, where that is known before the first.
+  [[nodiscard]] virtual std::size_t boxCount() const { return 0; }
+
   /// Which overlapping boxes are a pair; empty where all are. To be asked for after the first frame.
   [[nodiscard]] virtual PairPredicate accept() const { return {}; }
 };
@@ -38,7 +41,6 @@ class FrameSource {
 /// a vertex in common are never paired.
 ///
 /// Bad input: throws FileError; more than one .npy file, or one among meshes, throws UsageError.
-[[nodiscard]] std::unique_ptr<FrameSource> openFrames(const std::vector<std::string>& paths,
-                                                      const scene::ReadOptions& options);
+[[nodiscard]] std::unique_ptr<FrameSource> openFrames(const InputSettings& input);
 
 }  // namespace allpairs::app

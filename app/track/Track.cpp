@@ -44,7 +44,8 @@ struct TrackSettings {
 constexpr const char* kTrackExamples =
     R"(FRAMES is a NumPy array (t, n, 6), float32 or float64: t frames of n boxes, minx miny
 minz maxx maxy maxz; or one mesh file per frame, whose boxes are those of the triangles.
-Triangles that share a vertex are never paired.
+A folder is one frame: all mesh files in it. Triangles that share a vertex are never
+paired.
 
 For each frame it counts the pairs, those that began and those that ended since the
 previous frame, and measures the time to move all boxes and find the pairs.
@@ -87,6 +88,7 @@ class Tracker {
  public:
   Tracker(const TrackSettings& settings, FrameSource& source) : m_settings(settings), m_source(source) {
     m_report.distance = parseDistance(settings.distance);
+    m_report.boxes = source.boxCount();
   }
 
   TrackReport run() {
@@ -145,7 +147,7 @@ void runTrack(const TrackSettings& settings) {
   if (format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
   }
-  const std::unique_ptr<FrameSource> source = openFrames(settings.input.paths, readOptions(settings.input.limits));
+  const std::unique_ptr<FrameSource> source = openFrames(settings.input);
   const TrackReport report = Tracker(settings, *source).run();
   writeTrack(report, format, output);
   output.commit();
@@ -168,7 +170,10 @@ void addTrack(CLI::App& program) {
   addFormat(*command, settings->format, kTrackFormats);
   addReadLimits(*command, settings->input.limits);
   addOutput(*command, settings->output);
-  command->callback([settings] { withInputs(settings->input, [settings] { runTrack(*settings); }); });
+  command->callback([settings] {
+    settings->input.outputs = {settings->output};
+    withInputs(settings->input, [settings] { runTrack(*settings); });
+  });
 }
 
 }  // namespace allpairs::app

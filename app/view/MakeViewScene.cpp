@@ -209,12 +209,7 @@ void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to
 }  // namespace
 
 view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& request) {
-  if (isAnyBoxFrames(input.paths)) {
-    if (request.shapes == ShapeTest::Always) throw UsageError("shapes are tested at one moment: the input has several");
-    view::ViewScene frames = makeViewFrames(input, request.detection);
-    frames.up = request.up.value_or(frames.up);
-    return frames;
-  }
+  if (isAnyBoxFrames(input.paths)) return makeViewFrames(input, request);
   view::ViewScene result;
   result.title = titleOf(input);
   const Timer timer;

@@ -56,9 +56,7 @@ Examples:
   allpairs view --sequence cloth_*.ply -o cloth.html
   allpairs view boxes.npy --serve)";
 
-void writeFile(const view::ViewScene& scene, const std::optional<std::filesystem::path>& path) {
-  Output output(path);
-  if (output.isTerminal()) throw UsageError("a page is not written to a terminal: use -o FILE, --open or --serve");
+void writeFile(const view::ViewScene& scene, Output& output) {
   view::writePage(scene, [&output](std::string_view bytes) { output.write(bytes); });
   output.commit();
 }
@@ -85,8 +83,7 @@ void serve(const view::ViewScene& scene, const ViewSettings& settings) {
   std::string page;
   view::writePage(scene, [&page](std::string_view bytes) { page += bytes; });
   servePage(page, settings.port, [&settings](const std::string& address) {
-    fmt::print("{} (end with Ctrl+C)\n", address);
-    std::fflush(stdout);
+    Output(std::nullopt).write(address + " (end with Ctrl+C)\n");
     if (settings.open) tryToOpen(address);
   });
 }
@@ -97,20 +94,19 @@ std::string whatIsIn(const view::ViewScene& scene) {
 
 view::ViewScene sceneOf(const ViewSettings& settings) {
   const ViewRequest request = viewRequest(settings.view);
-  if (!settings.sequence) return makeViewScene(settings.input, request);
-  if (request.shapes == ShapeTest::Always) throw UsageError("--exact and --clearance do not apply to --sequence");
-  view::ViewScene scene = makeViewFrames(settings.input, request.detection);
-  scene.up = request.up.value_or(scene.up);
-  return scene;
+  return settings.sequence ? makeViewFrames(settings.input, request) : makeViewScene(settings.input, request);
 }
 
 void runView(const ViewSettings& settings) {
   scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
+  std::optional<std::filesystem::path> path = targetOf(settings.output);
+  std::optional<Output> output;
+  if (path || (!settings.serve && !settings.open)) output.emplace(path);
+  if (output && output->isTerminal())
+    throw UsageError("a page is not written to a terminal: use -o FILE, --open or --serve");
   const view::ViewScene scene = sceneOf(settings);
-  std::optional<std::filesystem::path> path;
-  if (!settings.output.empty()) path = settings.output;
-  if (!path && settings.open && !settings.serve) path = temporaryFile();
-  if (path || !settings.serve) writeFile(scene, path);
+  if (!output && !settings.serve) output.emplace(path = temporaryFile());
+  if (output) writeFile(scene, *output);
   if (path) sayWritten(whatIsIn(scene), *path);
   if (settings.serve) return serve(scene, settings);
   if (settings.open) openInBrowser(std::filesystem::absolute(*path));
@@ -128,16 +124,18 @@ void addView(CLI::App& program) {
                     "Each INPUT is one frame of the same meshes: show pairs of triangles, frame by frame");
   addOutput(*command, settings->output);
   command->add_flag("--open", settings->open, "Open the page in the browser");
-  command->add_flag("--serve", settings->serve, "Serve the page to this machine until the program is stopped");
+  CLI::Option* const serve =
+      command->add_flag("--serve", settings->serve, "Serve the page to this machine until the program is stopped");
   command->add_option("--port", settings->port, "Port to serve on; 0, the default: any free port")
       ->type_name("P")
-      ->check(CLI::Range(0, 65535));
+      ->check(CLI::Range(0, 65535))
+      ->needs(serve);
   command->callback([settings] {
     const std::string extension = lowerExtension(settings->output);
     if (!extension.empty() && extension != ".html" && extension != ".htm") {
       throw UsageError("-o: '" + settings->output + "': a page is written as .html");
     }
-    settings->input.output = settings->output;
+    settings->input.outputs = {settings->output};
     withInputs(settings->input, [settings] { runView(*settings); });
   });
 }

@@ -55,7 +55,7 @@ class FrameSearch {
     m_scene.statistics.testsMade += m_search.statistics().boxTests + m_search.statistics().groupTests;
     m_scene.statistics.detectSeconds += timer.seconds();
     m_pairs += frame.pairs.size();
-    view::checkPageSize(m_scene, m_frames * view::bytesOf(frame, 0) + m_pairs * sizeof(Pair));
+    view::checkPageSize(m_scene, m_frames, m_frames * view::bytesOf(frame, 0) + m_pairs * sizeof(Pair));
     m_scene.frames.push_back(std::move(frame));
   }
 
@@ -101,6 +101,8 @@ view::ViewScene makeBoxFrames(const InputSettings& input, const DetectionOptions
   const Timer timer;
   scene::BoxFrames frames(input.paths.front());
   if (frames.frameCount() == 0) throw FileError(input.paths.front(), "holds no frames: there is nothing to show");
+  const std::uint64_t kept = std::uint64_t{frames.frameCount()} * frames.boxCount() * sizeof(Box);
+  requireMemory(input, frames.frameBytes() + kept);
   view::ViewScene scene = emptyScene(input, options, frames.frameCount());
   addBoxColumns(frames.boxCount(), scene);
   FrameSearch search(scene, options, frames.frameCount());
@@ -157,16 +159,15 @@ std::vector<Box> triangleBoxes(const std::vector<std::uint32_t>& corners, const 
 view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOptions& options) {
   const Timer timer;
   const std::vector<std::string>& paths = input.paths;
-  const scene::ReadOptions limits = readOptions(input.limits);
   view::ViewScene scene = emptyScene(input, options, paths.size());
-  const std::vector<TriangleMesh> first = readTriangleMeshes(paths.front(), limits);
+  const std::vector<TriangleMesh> first = readTriangleMeshes(input, 0);
   addTriangles(first, scene);
   FrameSearch search(scene, options, paths.size());
   ProgressLine line;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string name = printable(std::filesystem::path(paths[i]).filename().string());
     line.show(i, paths.size(), fmt::format("frame {} of {}: {}", i + 1, paths.size(), name));
-    const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(paths[i], limits);
+    const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(input, i);
     checkSameMeshes(first, paths.front(), meshes, paths[i]);
     std::vector<double> positions = positionsOf(meshes);
     const std::vector<Box> boxes = triangleBoxes(scene.corners, positions);
@@ -182,13 +183,16 @@ bool isAnyBoxFrames(const std::vector<std::string>& paths) {
   return std::any_of(paths.begin(), paths.end(), [](const std::string& path) { return scene::isBoxFramesFile(path); });
 }
 
-view::ViewScene makeViewFrames(const InputSettings& input, const DetectionOptions& options) {
-  if (isAnyBoxFrames(input.paths)) {
-    if (input.paths.size() > 1) throw UsageError("an array of frames must be the only input");
-    return makeBoxFrames(input, options);
-  }
-  if (input.partial || !input.searchRoots.empty()) throw UsageError("--partial and --data do not apply to --sequence");
-  return makeMeshFrames(input, options);
+view::ViewScene makeViewFrames(const InputSettings& input, const ViewRequest& request) {
+  const bool isArray = isAnyBoxFrames(input.paths);
+  if (isArray && input.paths.size() > 1) throw UsageError("an array of frames must be the only input");
+  const std::string to = isArray ? "an array of frames" : "--sequence";
+  refuseSceneOptions(input, to);
+  if (request.grouping != Grouping::Body) throw UsageError("--group does not apply to " + to);
+  if (request.shapes == ShapeTest::Always) throw UsageError("--exact and --clearance do not apply to " + to);
+  view::ViewScene scene = isArray ? makeBoxFrames(input, request.detection) : makeMeshFrames(input, request.detection);
+  scene.up = request.up.value_or(scene.up);
+  return scene;
 }
 
 }  // namespace allpairs::app

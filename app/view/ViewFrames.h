@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "ViewScene.h"
-#include "detect/Detection.h"
 #include "input/Inputs.h"
+#include "view/ViewRequest.h"
 
 namespace allpairs::app {
 
@@ -21,6 +21,6 @@ namespace allpairs::app {
 ///
 /// Bad input: an array among others, or options that only scenes know, throws UsageError; meshes that are not the first
 /// ones moved throw FileError; more than a page holds throws Error as soon as that is known.
-[[nodiscard]] view::ViewScene makeViewFrames(const InputSettings& input, const DetectionOptions& options);
+[[nodiscard]] view::ViewScene makeViewFrames(const InputSettings& input, const ViewRequest& request);
 
 }  // namespace allpairs::app

@@ -168,7 +168,8 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
           .wideBoxes = wide,
           .boxBytes = leaving((division.records() - wide) * recordSize) + (ranks - 1) * wide * recordSize,
           .pairBytes = leaving(division.pairs * pairSizeFor(input.largestSize())),
-          .secondBoxes = input.size(1)};
+          .secondBoxes = input.size(1),
+          .empty = division.empty};
 }
 
 }  // namespace allpairs::join

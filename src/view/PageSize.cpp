@@ -26,9 +26,9 @@ std::size_t bytesOf(const ViewFrame& frame, std::size_t pairs) {
   return shape + frame.flags.size() + pairs * sizeof(Pair);
 }
 
-void checkPageSize(const ViewScene& scene, std::size_t bytes) {
+void checkPageSize(const ViewScene& scene, std::size_t frames, std::size_t bytes) {
   if (bytes <= kMostBytes) return;
-  const bool isSequence = scene.frames.size() > 1 || !scene.corners.empty();
+  const bool isSequence = frames > 1 || !scene.corners.empty();
   throw Error(fmt::format(
       "{} models and their pairs are too much for one page, which holds {} MiB: {}", scene.modelCount,
       kMostBytes >> 20U,

@@ -14,7 +14,7 @@ namespace allpairs::view {
 /// Whether float32 holds all numbers exactly: of a sequence of meshes, positions are then kept so.
 [[nodiscard]] bool areFloats(const std::vector<double>& numbers);
 
-/// Throws Error, with what to do about it, where a scene takes more bytes than a page can hold.
-void checkPageSize(const ViewScene& scene, std::size_t bytes);
+/// Throws Error, with what to do about it, where a scene of so many frames takes more bytes than a page can hold.
+void checkPageSize(const ViewScene& scene, std::size_t frames, std::size_t bytes);
 
 }  // namespace allpairs::view

@@ -310,7 +310,7 @@ SceneData::SceneData(const ViewScene& scene) {
   json.endObject();
   m_json = scriptSafe(json.text());
   m_bytes = arrays.bytes();
-  checkPageSize(scene, m_json.size() + m_bytes.size());
+  checkPageSize(scene, scene.frames.size(), m_json.size() + m_bytes.size());
 }
 
 void SceneData::writeBase64(scene::ByteSink sink) const { view::writeBase64(m_bytes, sink); }

@@ -37,6 +37,8 @@ std::vector<std::string> takeRecord(std::string_view& text) {
       if (!isDouble) isQuoted = !isQuoted;
     } else if (c == ',' && !isQuoted) {
       fields.emplace_back();
+    } else if (c == '\r' && !isQuoted && text.starts_with('\n')) {
+      continue;  // as spreadsheets end lines
     } else if (c == '\n' && !isQuoted) {
       break;
     } else {
@@ -52,15 +54,25 @@ std::string nameOf(std::string cell) {
   return isMarked ? cell.substr(1) : cell;
 }
 
-}  // namespace
-
-std::vector<EarlierClash> readReportCsv(std::string_view text) {
+/// The names of a report's columns, which are taken off the text; none where it is no report's.
+std::vector<std::string> takeHead(std::string_view& text) {
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
   if (text.starts_with(kUtf8Mark)) text.remove_prefix(kUtf8Mark.size());
-  const std::vector<std::string> head = takeRecord(text);
+  std::vector<std::string> head = takeRecord(text);
+  const bool isReport = head.size() > 3 && head[0] == "number" && head[1] == "first" && head[2] == "second" &&
+                        std::find(head.begin(), head.end(), "guid") != head.end();
+  if (!isReport) head.clear();
+  return head;
+}
+
+}  // namespace
+
+bool isReportCsv(std::string_view text) { return !takeHead(text).empty(); }
+
+std::vector<EarlierClash> readReportCsv(std::string_view text) {
+  const std::vector<std::string> head = takeHead(text);
+  if (head.empty()) throw Error("is no table of a report: its first line is another");
   const auto guid = static_cast<std::size_t>(std::find(head.begin(), head.end(), "guid") - head.begin());
-  const bool isReport = head.size() > 3 && head[0] == "number" && head[1] == "first" && guid < head.size();
-  if (!isReport) throw Error("is no table of a report: its first line is another");
   std::vector<EarlierClash> rows;
   std::set<std::string> known;
   while (!text.empty()) {

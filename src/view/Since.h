@@ -25,6 +25,9 @@ struct Since {
   std::vector<EarlierClash> resolved{};  ///< Those that are none any more.
 };
 
+/// Whether a text begins as a report's clashes.csv does.
+[[nodiscard]] bool isReportCsv(std::string_view text);
+
 /// The rows of a report's clashes.csv, each once.
 ///
 /// Bad input: a text that no report has written throws Error.

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "Expect.h"
@@ -102,16 +104,49 @@ TEST_F(DetectWorlds, AreCountedInATable) {
 
 TEST_F(DetectWorlds, OfWrongShapesOrOptionsAreRefused) {
   write("<f4", "(300, 6)");
-  expectFailure(runProgram({"detect", path, "--worlds"}), kBadInput, "frames of boxes are (t, n, 6)");
+  expectFailure(runProgram({"detect", path, "--worlds"}), kBadInput, "worlds of boxes are (w, n, 6)");
   const std::string none = folder.write(
       "none.npy", npyHeaderBytes("{'descr': '<f4', 'fortran_order': False, 'shape': (100000000, 0, 6), }"));
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect", none, "--worlds"}, {"track", none}})
-    expectFailure(runProgram(words), kBadInput, "claims 100000000 frames without boxes; at most 1000000 are taken");
+  const std::string claims = "without boxes; at most 1000000 are taken";
+  expectFailure(runProgram({"detect", none, "--worlds"}), kBadInput, "claims 100000000 worlds " + claims);
+  expectFailure(runProgram({"track", none}), kBadInput, "claims 100000000 frames " + claims);
   write();
   expectFailure(runProgram({"detect", path, path, "--worlds"}), kWrongUsage, "one input");
   expectFailure(runProgram({"detect", path, "--worlds", "--exact"}), kWrongUsage, "--exact");
   expectFailure(runProgram({"detect", "boxes.csv", "--worlds"}), kWrongUsage, ".npy");
   expectFailure(runProgram({"detect", path, "--worlds", "--max-memory", "100"}), kBadInput, "--max-memory");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--recursive"}, {"--partial"}, {"--data", folder.path()}, {"--sofa", "20.06"}}) {
+    std::vector<std::string> all{"detect", path, "--worlds"};
+    all.insert(all.end(), words.begin(), words.end());
+    expectFailure(runProgram(all), kWrongUsage, words.front() + " does not apply to --worlds");
+  }
+  expectFailure(runProgram({"detect", path, "--worlds", "--clearance", "1"}), kWrongUsage, "--clearance is measured");
+  std::vector<Box> boxes = someWorlds();
+  boxes[2 * kEach + 5].min[1] = std::numeric_limits<double>::quiet_NaN();
+  const std::string nan = folder.write("nan.npy", npyBytes(boxes, {.descr = "<f4", .shape = "(12, 25, 6)"}));
+  expectFailure(runProgram({"detect", nan, "--worlds"}), kBadInput, "nan.npy: world 2: box 5");
+}
+
+TEST_F(DetectWorlds, TakeTheMemoryThatTheirNumbersTake) {
+  for (const auto& [type, size] : {std::pair{"<f4", 7200}, {"<f8", 14400}}) {
+    write(type);
+    const std::string less = std::to_string(size - 1);
+    expectFailure(runProgram({"detect", path, "--worlds", "--max-memory", less}), kBadInput,
+                  "worlds.npy: needs more memory than --max-memory allows");
+    expectSuccess(runProgram({"detect", path, "--worlds", "--max-memory", std::to_string(size)}));
+  }
+}
+
+TEST_F(DetectWorlds, ThatAreVerifiedSaySo) {
+  write();
+  EXPECT_NE(runProgram({"detect", path, "--worlds", "--verify"}).out.find("\nverify   the exhaustive strategy gives"),
+            std::string::npos);
+  for (const bool isVerified : {false, true}) {
+    std::vector<std::string> words{"detect", path, "--worlds", "--format", "json"};
+    if (isVerified) words.emplace_back("--verify");
+    EXPECT_EQ(nlohmann::json::parse(runProgram(words).out)["statistics"]["verified"], isVerified);
+  }
 }
 
 TEST_F(DetectWorlds, ThatAreNoneHaveNoPairs) {

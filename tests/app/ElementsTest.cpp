@@ -98,6 +98,8 @@ TEST(Elements, OfSeveralMeshesMayBeBetweenThemOnly) {
   EXPECT_EQ(json["face_face"], 1);
   EXPECT_EQ(json["vertex_face"], 3);
   EXPECT_EQ(json["meshes"].size(), 2U);
+  EXPECT_EQ(runProgram({"elements", start, end, "--between"}).err,
+            "allpairs: warning: --between: there is one mesh, which has no other\n");
 }
 
 TEST(Elements, OfFramesThatDoNotFitNameTheFileAndTheElement) {

@@ -89,6 +89,7 @@ TEST(BoxWithMinAboveMax, IsNamedByJoinAndPlan) {
   EXPECT_EQ(runProgram({"join", whole, "--with", wrong, "--count"}).err,
             "allpairs: warning: " + wrong + ": box 1" + reason);
   EXPECT_EQ(runProgram({"join", whole, "--with", whole, wrong, "--count"}).err, ofBoth + ", in set 2" + reason);
+  EXPECT_EQ(runProgram({"plan", wrong, "--ranks", "2"}).err, "allpairs: warning: " + wrong + ": box 1" + reason);
   EXPECT_EQ(runProgram({"plan", wrong, "--work", folder.path().string()}).err,
             "allpairs: warning: " + wrong + ": box 1" + reason);
 }

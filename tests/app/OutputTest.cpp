@@ -69,6 +69,10 @@ TEST(OutputFile, IsNoInput) {
       {"detect", table, "-o", table},
       {"detect", boxes, "-o", link},
       {"track", other, boxes, "-o", boxes},
+      {"track", folder.path() / "parts", "--format", "csv", "-o", part},
+      {"elements", folder.path() / "parts", scene, "--format", "json", "-o", part},
+      {"elements", scene, scene, "--format", "json", "-o", cloth},
+      {"view", "--sequence", folder.path() / "parts", "-o", page},
       {"elements", cloth, "--format", "json", "-o", cloth},
       {"join", boxes, "-o", boxes},
       {"join", other, "-o", link, "--with", boxes},
@@ -82,6 +86,13 @@ TEST(OutputFile, IsNoInput) {
   EXPECT_TRUE(readBytes(cloth) == clothBefore);
   EXPECT_TRUE(readBytes(part) == clothBefore);
   EXPECT_EQ(readBytes(margins), "not read yet");
+}
+
+TEST(OutputFile, MayHaveANameAsLongAsAnyFile) {
+  const TempFolder folder;
+  const std::string name = folder.path() / (std::string(251, 'a') + ".csv");
+  expectSuccess(runProgram({"detect", twoBoxes(folder), "-o", name}));
+  EXPECT_EQ(readBytes(name), "first,second\n1,0\n");
 }
 
 TEST(OutputFile, ThatIsALinkToItselfIsAnError) {

@@ -108,6 +108,13 @@ TEST_F(Terminal, TablesAndOptionsStayWithinItsWidth) {
   EXPECT_NE(runProgram({"detect", "--help"}).out.find("Ignore models outside of this region\n"), std::string::npos);
 }
 
+TEST_F(Terminal, NamesOfModelsStayWithinItsWidth) {
+  const std::string table = shown("info parts", {}, "90");
+  const std::size_t row = table.find("0  the first");
+  ASSERT_NE(row, std::string::npos) << table;
+  EXPECT_LE(app::columnsOf(table.substr(row, table.find('\n', row) - row)), 90U) << table;
+}
+
 TEST_F(Terminal, HelpStaysWithinItsWidth) {
   for (const char* command : {"", "detect", "join", "plan", "info", "elements", "track", "view", "report", "generate",
                               "bench", "completion"}) {
@@ -123,6 +130,9 @@ TEST_F(Terminal, HelpStaysWithinItsWidth) {
 TEST_F(Terminal, LastLineSaysWhatWasWritten) {
   EXPECT_TRUE(shown("detect parts -o pairs.csv").ends_with("1 pair → pairs.csv\n"));
   EXPECT_TRUE(shown("generate uniform -n 30 -o b.npy").ends_with("30 boxes → b.npy\n"));
+  EXPECT_TRUE(shown("generate brownian -n 3 --frames 2 -o w.npy").ends_with("3 boxes → w.npy\n"));
+  EXPECT_TRUE(shown("detect w.npy --worlds --distance inf -o p.csv").ends_with("6 pairs → p.csv\n"));
+  EXPECT_TRUE(shown("elements parts parts -o e.json").ends_with(" candidates → e.json\n"));
   EXPECT_TRUE(shown("report parts --boxes -o r").ends_with("1 pair of boxes → r/index.html\n"));
   EXPECT_TRUE(shown("view parts --boxes -o v.html").ends_with("1 pair of boxes → v.html\n"));
 }

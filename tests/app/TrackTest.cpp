@@ -111,6 +111,10 @@ TEST(Track, FollowsTheTrianglesOfMeshesThatShareNoVertex) {
   const auto json = nlohmann::json::parse(run.out, nullptr, false);
   EXPECT_EQ(json["boxes"], 3);
   EXPECT_EQ(json["pairs"], (std::vector<int>{0, 2}));
+  const std::string points = folder.write("points.obj", mesh + "o corner\nv 9 9 9\np 5\n");
+  const ProgramRun left = runProgram({"track", points, "--format", "csv"});
+  EXPECT_EQ(left.status, 0);
+  EXPECT_EQ(left.err, "allpairs: warning: " + points + ": 1 model left out: no triangle mesh\n");
   const std::string fewer = folder.write("2.obj", mesh);
   expectFailure(runProgram({"track", apart, fewer}), 3, "2.obj: mesh '2.obj' has 4 vertices where");
 }
@@ -129,6 +133,14 @@ TEST(Track, OfBadFramesNamesFileFrameAndBox) {
   expectFailure(runProgram({"track", folder.write("huge.npy", huge)}), 3, "huge.npy: holds 0 bytes");
 }
 
+TEST(Track, TakesTheMemoryOfAFrame) {
+  const TempFolder folder;
+  const std::string file = folder.write("frames.npy", framesBytes(passing()));
+  expectFailure(runProgram({"track", file, "--max-memory", "143"}), 3,
+                "frames.npy: needs more memory than --max-memory");
+  expectSuccess(runProgram({"track", file, "--max-memory", "144"}));
+}
+
 TEST(Track, OfSeveralArraysIsWrongUsage) {
   const TempFolder folder;
   const std::string file = folder.write("frames.npy", framesBytes(passing()));
@@ -141,6 +153,8 @@ TEST(Track, OfNoFramesOrNoBoxesCountsNothing) {
     const ProgramRun run = runProgram({"track", folder.write("frames.npy", npyBytes({}, {.shape = shape}))});
     expectSuccess(run);
     EXPECT_NE(run.out.find("began    0\n"), std::string::npos) << run.out;
+    const std::string boxes = shape[1] == '0' ? "frames   0 of 5 boxes\n" : "frames   3 of 0 boxes\n";
+    EXPECT_NE(run.out.find(boxes), std::string::npos) << run.out;
   }
 }
 

@@ -109,9 +109,9 @@ TEST(Explain, GivesThePairsOfEachFrameOfAMeshAndSaysWhichTrianglesShareAVertex) 
     const std::string name = std::to_string(input.paths.size()) + ".obj";
     input.paths.push_back(folder.write(name, foldedStrip(angle)));
   }
-  app::DetectionOptions options;
-  options.distance = 0.25;
-  const ViewScene scene = makeViewFrames(input, options);
+  app::ViewRequest request;
+  request.detection.distance = 0.25;
+  const ViewScene scene = makeViewFrames(input, request);
   ASSERT_EQ(scene.frames.size(), 3U);
   for (const view::ViewFrame& frame : scene.frames) EXPECT_EQ(pairsByVerdict(scene, frame), frame.pairs);
   EXPECT_EQ(explain(scene, scene.frames[0], 1, 0).verdict, Verdict::SharesVertex);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "Base64.h"
 #include "PageSize.h"
@@ -12,12 +13,14 @@
 #include "allpairs/Error.h"
 #include "app/Expect.h"
 #include "support/Npy.h"
+#include "support/Numbers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
 namespace {
 
 using Json = nlohmann::json;
+using Words = std::vector<std::string>;
 
 std::string base64(const std::string& bytes) {
   std::string text;
@@ -91,7 +94,17 @@ TEST(View, BoxesOverTimeGiveFramesAndStandAlone) {
   expectSuccess(run);
   EXPECT_EQ(Json::parse(scriptOf(run.out, "allpairs-scene"))["frames"], 2);
   expectFailure(runProgram({"view", input, input}), 2, "an array of frames must be the only input");
-  expectFailure(runProgram({"report", input, "-o", folder.path() / "r"}), 2, "a report shows one frame");
+  const std::string late =
+      folder.write("late.npy", npyBytes({boxes[0], {{kNan, 0, 0}, {1, 1, 1}}}, {.shape = "(2, 1, 6)"}));
+  expectFailure(runProgram({"report", late, "-o", folder.path() / "r"}), 2, "a report shows one frame");
+  for (const Words& words : {Words{"--partial"}, {"--recursive"}, {"--data", folder.path()}, {"--group", "none"}}) {
+    Words all{"view", input};
+    all.insert(all.end(), words.begin(), words.end());
+    expectFailure(runProgram(all), 2, words.front() + " does not apply to an array of frames");
+  }
+  expectFailure(runProgram({"view", input, "--port", "80"}), 2, "--port requires --serve");
+  expectFailure(runProgram({"view", input, "--max-memory", "100"}), 3, "f.npy: needs more memory than --max-memory");
+  expectFailure(runProgram({"view", late, "-o", folder.path() / "none/a.html"}), 3, "a.html: cannot be created");
 }
 
 constexpr const char* kTwoTriangles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {}\nv 1 0 {}\nv 0 1 {}\nf 1 2 3\nf 4 5 6\n";
@@ -133,24 +146,26 @@ TEST(View, SaysWhatIsWrongWithMeshesOverTime) {
   const std::string two = folder.write("two.obj", twoTriangles("1"));
   const std::string one = folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   expectFailure(runProgram({"view", "--sequence", two, one}), 3, "one.obj");
-  expectFailure(runProgram({"view", "--sequence", two, "--partial"}), 2, "--partial and --data do not apply to");
+  expectFailure(runProgram({"view", "--sequence", two, "--partial"}), 2, "--partial does not apply to --sequence");
+  expectFailure(runProgram({"view", "--sequence", two, "--recursive"}), 2, "--recursive does not apply to --sequence");
+  expectFailure(runProgram({"view", "--sequence", two, "--sofa", "20.06"}), 2, "--sofa does not apply to --sequence");
+  expectFailure(runProgram({"view", "--sequence", two, "--group", "file"}), 2, "--group does not apply to --sequence");
 }
 
 TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {
   view::ViewScene scene;
   scene.modelCount = 7;
-  view::checkPageSize(scene, 1U << 20U);
-  const auto complaint = [&scene] {
+  view::checkPageSize(scene, 1, 1U << 20U);
+  const auto complaint = [&scene](std::size_t frames) {
     try {
-      view::checkPageSize(scene, std::size_t{1} << 30U);
+      view::checkPageSize(scene, frames, std::size_t{1} << 30U);
       return std::string();
     } catch (const Error& error) {
       return std::string(error.what());
     }
   };
-  EXPECT_NE(complaint().find("a smaller distance, or fewer inputs"), std::string::npos) << complaint();
-  scene.frames.resize(2);
-  EXPECT_NE(complaint().find("fewer frames, or a smaller distance"), std::string::npos) << complaint();
+  EXPECT_NE(complaint(1).find("a smaller distance, or fewer inputs"), std::string::npos) << complaint(1);
+  EXPECT_NE(complaint(2).find("fewer frames, or a smaller distance"), std::string::npos) << complaint(2);
 }
 
 TEST(PageSize, CountsPositionsAsFloatsWhereTheyAreAndBoxesWhereThereAreNone) {

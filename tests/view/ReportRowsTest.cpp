@@ -212,8 +212,13 @@ TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
   // The same again: nothing is new, and what was resolved before is not resolved again.
   expectSuccess(
       runProgram({"report", parts, "--boxes", "-o", folder.path() / "again", "--since", out / "clashes.csv"}));
-  EXPECT_NE(readBytes(folder.path() / "again/index.html").find(": 0 new, 2 persisting, 0 resolved.</p>"),
-            std::string::npos);
+  const std::string nothingNew = ": 0 new, 2 persisting, 0 resolved.</p>";
+  EXPECT_NE(readBytes(folder.path() / "again/index.html").find(nothingNew), std::string::npos);
+  // A spreadsheet ends lines in another way.
+  const std::string table = std::regex_replace(readBytes(out / "clashes.csv"), std::regex("\n"), "\r\n");
+  const std::string saved = folder.write("saved.csv", table);
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", folder.path() / "again", "--since", saved}));
+  EXPECT_NE(readBytes(folder.path() / "again/index.html").find(nothingNew), std::string::npos);
 }
 
 TEST(ReportSince, FilesOfOneNameAreKnownByTheirFolders) {
@@ -249,6 +254,15 @@ TEST(ReportSince, SaysWhatIsNoReport) {
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path()}), 3,
                 "holds no report to compare with");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", ""}), 2, "--since: the name is empty");
+  fs::create_directories(folder.path() / "odd/clashes.csv");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path() / "odd"}), 3,
+                "odd/clashes.csv: is a folder, not a file");
+  if (::geteuid() != 0) {
+    const std::string locked = folder.write("locked.csv", "");
+    fs::permissions(locked, fs::perms::none);
+    expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", locked}), 3,
+                  "locked.csv: cannot be opened: Permission denied");
+  }
   const std::string table = folder.write("other.csv", "a,b\n1,2\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", table}), 3,
                 "other.csv: is no table of a report");
@@ -258,6 +272,30 @@ TEST(ReportSince, SaysWhatIsNoReport) {
   const std::string cut = folder.write("cut.csv", "number,first,second,guid\n1,a\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", cut}), 3, "a line has other columns");
   EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Report, OfNoMomentIsRefused) {
+  const TempFolder folder;
+  for (const char* moment : {"99999999999999", "99999999999999999999"})
+    expectFailure(runScript("SOURCE_DATE_EPOCH=" + std::string(moment) + " \"$0\" report '" + kDemoScene + "' -o '" +
+                            folder.path().string() + "/o'"),
+                  2, "SOURCE_DATE_EPOCH: '" + std::string(moment) + "' is no moment before the year 10000");
+}
+
+TEST(Report, TakesThePlaceOfNoInput) {
+  const TempFolder folder;
+  const std::string boxes = folder.write("r/clashes.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n");
+  folder.write("r/index.html", "my own page");
+  const std::string named = "is an input; the output needs another name";
+  expectFailure(runProgram({"report", boxes, "-o", folder.path() / "r"}), 3, named);
+  expectFailure(runProgram({"report", boxes, "-o", folder.path() / "r", "--force"}), 3, named);
+  expectFailure(runProgram({"report", kDemoScene, "-o", folder.path() / "r"}), 3, "holds no report");
+  folder.write("parts/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+  fs::create_directories(folder.path() / "out/pictures");
+  fs::create_hard_link(folder.path() / "parts/a.obj", folder.path() / "out/pictures/0001.png");
+  expectFailure(runProgram({"report", folder.path() / "parts", "-o", folder.path() / "out", "--force"}), 3, named);
+  EXPECT_FALSE(fs::exists(folder.path() / "r/clashes.bcf"));
+  EXPECT_EQ(readBytes(boxes), "0,0,0,2,2,2\n1,1,1,3,3,3\n");
 }
 
 TEST(ReportOfBodies, OfTheSameNameAreToldApart) {

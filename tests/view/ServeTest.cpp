@@ -110,6 +110,11 @@ TEST(Serve, GivesThePageAtTheAddressThatItPrintsAndNothingElse) {
   EXPECT_EQ(answer(served, "/etc/passwd").status, 404);
 }
 
+TEST(Serve, EndsWhereItsAddressCannotBeWritten) {
+  expectFailure(runProgram({"view", kBoxes, "--serve"}, StandardOutput::FullDevice), 3,
+                "standard output: cannot be written");
+}
+
 TEST(Serve, RefusesOtherNamesForThisMachine) {
   const Served served;
   const std::string port = std::to_string(served.port());

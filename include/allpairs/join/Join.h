@@ -127,7 +127,8 @@ struct RanksPlan {
   std::uint64_t wideBoxes = 0;  ///< Boxes in too many cells: each is sent to all ranks.
   std::uint64_t boxBytes = 0;   ///< Sent between ranks, by all of them together, where boxes lie in no order of space.
   std::uint64_t pairBytes = 0;  ///< Likewise.
-  std::uint64_t secondBoxes = 0;  ///< How many of the boxes are those of the second set.
+  std::uint64_t secondBoxes = 0;             ///< How many of the boxes are those of the second set.
+  std::array<scene::EmptyBoxes, 2> empty{};  ///< Of each set, in no pair.
 };
 
 /// Cuts space for `ranks` ranks, and counts. Reads the inputs as planFiles() does; one rank sends nothing.

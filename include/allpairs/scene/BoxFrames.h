@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "allpairs/BoxView.h"
 
@@ -21,13 +23,17 @@ namespace allpairs::scene {
 /// Cost:      one read of each frame; the memory of one.
 class BoxFrames {
  public:
-  explicit BoxFrames(const std::filesystem::path& path);
+  /// `part` is what messages call a frame.
+  explicit BoxFrames(const std::filesystem::path& path, const std::string& part = "frame");
   ~BoxFrames();
   BoxFrames(BoxFrames&&) noexcept;
   BoxFrames& operator=(BoxFrames&&) noexcept;
 
   [[nodiscard]] std::size_t frameCount() const noexcept;
   [[nodiscard]] std::size_t boxCount() const noexcept;
+
+  /// The memory of a frame, in bytes.
+  [[nodiscard]] std::uint64_t frameBytes() const noexcept;
 
   /// The boxes of the next frame; valid until the next call.
   ///

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "allpairs/Error.h"
@@ -20,13 +21,14 @@ using Path = std::filesystem::path;
 /// Frames without boxes take no byte of a file, and memory all the same.
 constexpr std::uint64_t kMostEmptyFrames = 1'000'000;
 
-void checkFrames(const NpyHeader& header, const Path& path) {
+void checkFrames(const NpyHeader& header, const Path& path, const std::string& part) {
   if (header.shape.size() != 3 || header.shape[2] != 6) {
-    throw FileError(path, "has shape " + shapeText(header.shape) + "; frames of boxes are (t, n, 6)");
+    throw FileError(path, "has shape " + shapeText(header.shape) + "; " + part + "s of boxes are (" +
+                              (part == "frame" ? "t" : part.substr(0, 1)) + ", n, 6)");
   }
   if (header.fortranOrder) throw FileError(path, "is in Fortran order, in which frames are not one after the other");
   if (header.shape[1] == 0 && header.shape[0] > kMostEmptyFrames) {
-    throw FileError(path, "claims " + std::to_string(header.shape[0]) + " frames without boxes; at most " +
+    throw FileError(path, "claims " + std::to_string(header.shape[0]) + " " + part + "s without boxes; at most " +
                               std::to_string(kMostEmptyFrames) + " are taken");
   }
   if (header.shape[1] > std::numeric_limits<std::uint32_t>::max()) {
@@ -53,7 +55,10 @@ bool isBoxFramesFile(const Path& path) {
 }
 
 struct BoxFrames::State {
-  explicit State(const Path& filePath) : path(filePath), file(filePath), header(readNpyHeader(file, filePath)) {}
+  State(const Path& filePath, std::string partName)
+      : path(filePath), part(std::move(partName)), file(filePath), header(readNpyHeader(file, filePath)) {}
+
+  [[nodiscard]] std::uint64_t itemSize() const { return isFloat32 ? sizeof(float) : sizeof(double); }
 
   template <class T>
   BoxView read(std::vector<T>& rows) {
@@ -64,6 +69,7 @@ struct BoxFrames::State {
   }
 
   Path path;
+  std::string part;
   InputFile file;
   NpyHeader header;
   bool isFloat32 = false;
@@ -72,10 +78,10 @@ struct BoxFrames::State {
   std::vector<double> float64;
 };
 
-BoxFrames::BoxFrames(const Path& path) : m_state(std::make_unique<State>(path)) {
+BoxFrames::BoxFrames(const Path& path, const std::string& part) : m_state(std::make_unique<State>(path, part)) {
   m_state->isFloat32 = holdsFloat32(m_state->header, path);
-  checkFrames(m_state->header, path);
-  checkLength(m_state->header, m_state->isFloat32 ? sizeof(float) : sizeof(double), m_state->file, path);
+  checkFrames(m_state->header, path, part);
+  checkLength(m_state->header, m_state->itemSize(), m_state->file, path);
 }
 
 BoxFrames::~BoxFrames() = default;
@@ -84,6 +90,7 @@ BoxFrames& BoxFrames::operator=(BoxFrames&&) noexcept = default;
 
 std::size_t BoxFrames::frameCount() const noexcept { return static_cast<std::size_t>(m_state->header.shape[0]); }
 std::size_t BoxFrames::boxCount() const noexcept { return static_cast<std::size_t>(m_state->header.shape[1]); }
+std::uint64_t BoxFrames::frameBytes() const noexcept { return m_state->header.shape[1] * 6 * m_state->itemSize(); }
 
 BoxView BoxFrames::next() {
   State& state = *m_state;
@@ -92,7 +99,7 @@ BoxView BoxFrames::next() {
   try {
     return state.isFloat32 ? state.read(state.float32) : state.read(state.float64);
   } catch (const InvalidBox& problem) {
-    throw FileError(state.path, "frame " + std::to_string(frame) + ": " + problem.what());
+    throw FileError(state.path, state.part + " " + std::to_string(frame) + ": " + problem.what());
   }
 }
 

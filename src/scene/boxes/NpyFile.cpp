@@ -16,7 +16,10 @@ using Path = std::filesystem::path;
 
 void checkShape(const NpyHeader& header, const Path& path) {
   if (header.shape.size() != 2 || header.shape[1] != 6) {
-    throw FileError(path, "has shape " + shapeText(header.shape) + "; boxes are (n, 6)");
+    const bool isOfSeveral = header.shape.size() == 3 && header.shape[2] == 6;
+    const std::string hint =
+        isOfSeveral ? "; of several worlds or frames it is for 'allpairs detect --worlds', 'track' or 'view'" : "";
+    throw FileError(path, "has shape " + shapeText(header.shape) + "; boxes are (n, 6)" + hint);
   }
   if (header.shape[0] > std::numeric_limits<std::uint32_t>::max()) {
     throw FileError(path, "claims " + std::to_string(header.shape[0]) + " boxes; at most 4294967295 can be numbered");

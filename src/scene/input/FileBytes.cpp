@@ -27,6 +27,7 @@ void requireFile(const std::filesystem::path& path) {
     const bool isLink = std::filesystem::is_symlink(std::filesystem::symlink_status(path, problem));
     throw FileError(path, isLink ? "is a link that leads nowhere" : "no such file or folder");
   }
+  if (problem == std::errc::too_many_symbolic_link_levels) throw FileError(path, "is a link that leads nowhere");
   if (problem) throw FileError(path, problem.message());
   if (std::filesystem::is_directory(status)) throw FileError(path, "is a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) throw FileError(path, "is not a regular file");  // a pipe would wait

@@ -38,7 +38,7 @@ std::string bytesText(std::uint64_t bytes) {
   static constexpr std::array<const char*, 5> kUnits{" bytes", " KiB", " MiB", " GiB", " TiB"};
   std::size_t unit = 0;
   for (; bytes >= std::uint64_t{10} * 1024 && unit + 1 < kUnits.size(); ++unit) bytes /= 1024;
-  return std::to_string(bytes) + kUnits[unit];
+  return std::to_string(bytes) + (bytes == 1 && unit == 0 ? " byte" : kUnits[unit]);
 }
 
 }  // namespace

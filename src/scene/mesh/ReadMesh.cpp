@@ -173,6 +173,9 @@ class MeshSearch {
 
 /// A link in a folder may lead out of it.
 void requireAllowed(const fs::path& path, const ReadScope& scope) {
+  std::error_code problem;
+  (void)fs::status(path, problem);
+  if (problem == std::errc::too_many_symbolic_link_levels) throw FileError(path, "is a link that leads nowhere");
   if (scope.allows(path)) return;
   throw FileError(
       path, "is a link to a file outside of the folder and of those given with --data; --allow-outside allows it");
