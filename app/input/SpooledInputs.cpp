@@ -31,6 +31,11 @@ bool isStandardInput(const std::string& path) {
   return path == "-" || path == "/dev/stdin" || path == "/dev/fd/0" || path == "/proc/self/fd/0";
 }
 
+/// Of a shell's <(...), which has another number each time.
+bool isDescriptor(const fs::path& path) {
+  return path.parent_path() == "/dev/fd" || path.parent_path() == "/proc/self/fd";
+}
+
 bool isReadOnce(const std::string& path) {
   std::error_code ignored;
   return isStandardInput(path) || fs::is_fifo(path, ignored);
@@ -112,10 +117,12 @@ std::string SpooledInputs::shownIn(std::string text) const {
 void SpooledInputs::spool(std::string& path, const std::string& format) {
   const bool isStandard = isStandardInput(path);
   const std::string extension = format.empty() ? fs::path(path).extension().string() : '.' + format;
-  const std::string shown = isStandard ? kStandardInput : path;
+  const std::string number = m_files.empty() ? "" : ' ' + std::to_string(m_files.size() + 1);
+  const std::string pipe = isDescriptor(path) ? "pipe" + number : path;
+  const std::string shown = isStandard ? kStandardInput : pipe;
   if (extension.empty()) throw UsageError(shown + ": --input-format must say what it is: npy, csv, obj, stl, scn, ...");
   if (m_folder.empty()) makeFolder();
-  const std::string stem = isStandard ? "stdin" : fs::path(path).stem().string();
+  const std::string stem = isStandard ? "stdin" : fs::path(pipe).stem().string();
   const fs::path folder = m_folder / std::to_string(m_files.size());  // so that pipes of any names have their own
   const fs::path file = folder / (stem + extension);
   m_files.push_back({folder, file, shown});

@@ -25,7 +25,8 @@ class SpooledInputs {
   SpooledInputs(SpooledInputs&&) = delete;
   SpooledInputs& operator=(SpooledInputs&&) = delete;
 
-  /// What the user calls a file: "standard input", the pipe, or the file itself.
+  /// What the user calls a file: "standard input", the pipe, of which one without a name is "pipe" or "pipe 2" by its
+  /// place among such inputs, or the file itself.
   [[nodiscard]] std::filesystem::path shown(const std::filesystem::path& file) const;
   /// A text with what the user calls the files in it.
   [[nodiscard]] std::string shownIn(std::string text) const;

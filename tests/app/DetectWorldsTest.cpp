@@ -111,6 +111,9 @@ TEST_F(DetectWorlds, OfWrongShapesOrOptionsAreRefused) {
   expectFailure(runProgram({"detect", none, "--worlds"}), kBadInput, "claims 100000000 worlds " + claims);
   expectFailure(runProgram({"track", none}), kBadInput, "claims 100000000 frames " + claims);
   write();
+  expectFailure(
+      runProgram({"detect", path}), kBadInput,
+      "has shape (12, 25, 6); boxes are (n, 6); of several worlds or frames it is for 'allpairs detect --worlds'");
   expectFailure(runProgram({"detect", path, path, "--worlds"}), kWrongUsage, "one input");
   expectFailure(runProgram({"detect", path, "--worlds", "--exact"}), kWrongUsage, "--exact");
   expectFailure(runProgram({"detect", "boxes.csv", "--worlds"}), kWrongUsage, ".npy");

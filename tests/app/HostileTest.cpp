@@ -25,6 +25,15 @@ TEST(HostileInput, NamesFilesOutsideOnlyWhereTheUserAllowsIt) {
   }
 }
 
+TEST(HostileInput, ThatIsALinkToItselfLeadsNowhere) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "in");
+  const std::string link = folder.path() / "in/loop.obj";
+  std::filesystem::create_symlink("loop.obj", link);
+  for (const std::string& input : {link, (folder.path() / "in").string()})
+    expectFailure(runProgram({"detect", input}), kBadInput, "loop.obj: is a link that leads nowhere");
+}
+
 TEST(HostileInput, TakesNoMoreMemoryThanTheUserAllows) {
   const TempFolder folder;
   const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -33,6 +42,7 @@ TEST(HostileInput, TakesNoMoreMemoryThanTheUserAllows) {
     expectFailure(runProgram({command, mesh, "--max-memory", "100"}), kBadInput, "takes more than 100 bytes");
   }
   expectFailure(runProgram({"elements", mesh, mesh, "--max-memory", "100"}), kBadInput, "takes more than 100 bytes");
+  expectFailure(runProgram({"info", mesh, "--max-memory", "1"}), kBadInput, "takes more than 1 byte of memory");
   for (const char* size : {"0", "-1", "1.5G", "10X", "99999999999T", "M"}) {
     expectFailure(runProgram({"info", mesh, std::string("--max-memory=") + size}), kWrongUsage, "--max-memory");
   }

@@ -62,6 +62,10 @@ TEST_F(StandardInput, IsWhatPagesAndReportsOfItAreCalled) {
   EXPECT_EQ(run("grep -o '\"title\":\"[^\"]*' page.html").out, "\"title\":\"standard input\n");
   expectSuccess(run("mkfifo pipe.npy && { cat boxes.npy > pipe.npy & \"$0\" view boxes.csv pipe.npy -o both.html; }"));
   EXPECT_EQ(run("grep -o '\"title\":\"[^\"]*' both.html").out, "\"title\":\"boxes.csv, pipe.npy\n");
+  expectSuccess(
+      run("cat boxes.csv | { exec 7<&0; cat boxes.csv | { exec 8<&0; \"$0\" view /dev/fd/7 boxes.csv /dev/fd/8 "
+          "--input-format csv -o pipes.html; }; }"));
+  EXPECT_EQ(run("grep -o '\"title\":\"[^\"]*' pipes.html").out, "\"title\":\"pipe, boxes.csv, pipe 2\n");
   expectSuccess(run("\"$0\" report /dev/stdin --input-format csv -o report < boxes.csv"));
   EXPECT_EQ(run("grep -o '<title>[^<]*' report/index.html").out, "<title>standard input – clashes\n");
 }

@@ -196,8 +196,9 @@ TEST(MeshFolder, WithoutMeshesIsAnError) {
 TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
   const TempFolder folder;
   std::filesystem::create_directory(folder.path() / "wheels");
-  expectFileError([&] { (void)scene::readInput(folder.path()); },
-                  "is a folder without mesh files; --recursive searches those within it, too");
+  expectFileError(
+      [&] { (void)scene::readInput(folder.path()); },
+      "is a folder without mesh files; --recursive of detect, info, view and report searches those within it, too");
   const auto cad = folder.write("gear.STEP", "ISO-10303-21;");
   expectFileError([&] { (void)scene::readInput(cad); }, "has the exact surfaces of a CAD program, which are not read");
   folder.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

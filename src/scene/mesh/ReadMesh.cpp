@@ -222,7 +222,7 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
   const std::vector<fs::path>& meshes = search.meshes();
   if (meshes.empty()) {
     const bool isHint = search.hasPassedOverFolders() && !options.recursive;
-    const char* hint = isHint ? "; --recursive searches those within it, too" : "";
+    const char* hint = isHint ? "; --recursive of detect, info, view and report searches those within it, too" : "";
     throw FileError(path, "is a folder without mesh files" + std::string(hint));
   }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
