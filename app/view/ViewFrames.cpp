@@ -188,7 +188,8 @@ view::ViewScene makeViewFrames(const InputSettings& input, const ViewRequest& re
   if (isArray && input.paths.size() > 1) throw UsageError("an array of frames must be the only input");
   const std::string to = isArray ? "an array of frames" : "--sequence";
   refuseSceneOptions(input, to);
-  if (request.grouping != Grouping::Body) throw UsageError("--group does not apply to " + to);
+  const bool isGrouped = request.grouping == Grouping::Assembly || request.grouping == Grouping::File;
+  if (isGrouped) throw UsageError("--group does not apply to " + to);
   if (request.shapes == ShapeTest::Always) throw UsageError("--exact and --clearance do not apply to " + to);
   view::ViewScene scene = isArray ? makeBoxFrames(input, request.detection) : makeMeshFrames(input, request.detection);
   scene.up = request.up.value_or(scene.up);
