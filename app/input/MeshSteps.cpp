@@ -55,7 +55,7 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
   const std::string& path = settings.paths[input];
   const scene::Scene scene = scene::readInput(path, readOptions(settings.limits));
   checkOutputs(settings, scene.inputs);
-  warnOf(settings, scene.warnings);
+  if (input == 0) warnOf(settings, scene.warnings);  // the same meshes follow, and are to be remarked once
   std::vector<TriangleMesh> meshes;
   for (std::size_t i = 0; i < scene.models.size(); ++i) {
     const auto* triangles = dynamic_cast<const collision::TriangleModel*>(scene.models[i].get());
@@ -66,7 +66,7 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
     mesh.isNamed = mesh.name.find(file) == std::string::npos;
   }
   if (meshes.empty()) throw FileError(path, "holds no triangles");
-  if (const std::size_t left = scene.models.size() - meshes.size(); left != 0)
+  if (const std::size_t left = scene.models.size() - meshes.size(); left != 0 && input == 0)
     warnOf(settings, {{.file = path, .subject = {}, .reason = counted(left, "model") + " left out: no triangle mesh"}});
   return meshes;
 }

@@ -92,7 +92,7 @@ std::string dateText() {
     const long long seconds = std::strtoll(fixed, &end, 10);
     const bool isNumber = end != fixed && *end == '\0';
     if (isNumber && (seconds < kYear0 || seconds >= kYear10000))
-      throw UsageError("SOURCE_DATE_EPOCH: '" + std::string(fixed) + "' is no moment before the year 10000");
+      throw UsageError("SOURCE_DATE_EPOCH: '" + std::string(fixed) + "' is no moment of the years 0 to 9999");
     if (isNumber) moment = static_cast<std::time_t>(seconds);
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));

@@ -39,10 +39,11 @@ std::string textOf(const fs::path& file) {
   return text.str();
 }
 
-/// Whether it has the files of a report of ours.
+/// Whether it has the table of a report of ours, if not more, as where the writing was interrupted.
+bool holdsTable(const fs::path& folder) { return view::isReportCsv(textOf(folder / "clashes.csv")); }
+
 bool holdsReport(const fs::path& folder) {
-  return view::isReportCsv(textOf(folder / "clashes.csv")) &&
-         textOf(folder / "index.html").find("allpairs") != std::string::npos;
+  return holdsTable(folder) && textOf(folder / "index.html").find("allpairs") != std::string::npos;
 }
 
 /// Whether it is a folder that is not empty, as far as it can be read.
@@ -89,7 +90,7 @@ void checkReportFolder(const fs::path& folder, bool force) {
 ReportFolder::ReportFolder(const fs::path& folder) : ReportFolder() {
   m_folder = folder;
   m_stage = folder / (".report-" + std::to_string(::getpid()));
-  m_hadReport = holdsReport(m_folder);
+  m_hadReport = holdsTable(m_folder);
   makeFolder(m_stage / "pictures");
 }
 

@@ -79,14 +79,16 @@ struct allpairs_world {
   std::uint32_t queried = allpairs::kEveryWorld;  ///< The world whose boxes queries consider.
   std::atomic<int> callingBack = 0;               ///< Calls that run and may ask the caller's accept().
 
-  // What the last query of each kind gave.
-  std::vector<allpairs::BoxId> ids{};
-  std::vector<allpairs::SweepHit> hits{};
-  std::vector<allpairs::Neighbor> neighbors{};
-  std::vector<allpairs::Pair> between{};
-  allpairs::ResultLists<allpairs::BoxId> idLists{};
-  allpairs::ResultLists<allpairs::SweepHit> hitLists{};
-  allpairs::ResultLists<allpairs::Neighbor> neighborLists{};
+  /// What the last query of each kind gave. As a whole, so that its memory can be released by assigning another.
+  struct Found {
+    std::vector<allpairs::BoxId> ids;
+    std::vector<allpairs::SweepHit> hits;
+    std::vector<allpairs::Neighbor> neighbors;
+    std::vector<allpairs::Pair> between;
+    allpairs::ResultLists<allpairs::BoxId> idLists;
+    allpairs::ResultLists<allpairs::SweepHit> hitLists;
+    allpairs::ResultLists<allpairs::Neighbor> neighborLists;
+  } found{};
 };
 
 // NOLINTEND(readability-identifier-naming)

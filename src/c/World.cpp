@@ -56,13 +56,7 @@ void allpairs_world_destroy(allpairs_world* world) {
 allpairs_status allpairs_world_shrink(allpairs_world* world) {
   return guarded([&] {
     worldOf(world).shrink();
-    world->ids = {};
-    world->hits = {};
-    world->neighbors = {};
-    world->between = {};
-    world->idLists = {};
-    world->hitLists = {};
-    world->neighborLists = {};
+    world->found = {};
   });
 }
 

@@ -79,7 +79,7 @@ allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const dou
                                                 const allpairs_query_filter* filter, allpairs_ids* ids) {
   return guarded([&] {
     allpairs_ids& result = required(ids, "ids");
-    auto& found = required(world, "world").ids;
+    auto& found = required(world, "world").found.ids;
     found = worldOf(world).findOverlapping(boxOf(&required(box, "box")), filterOf(world, filter));
     result = {found.data(), found.size()};
   });
@@ -97,7 +97,7 @@ allpairs_status allpairs_world_find_all(allpairs_world* world, const allpairs_ra
                                         const allpairs_query_filter* filter, allpairs_hits* hits) {
   return guarded([&] {
     allpairs_hits& result = required(hits, "hits");
-    auto& found = required(world, "world").hits;
+    auto& found = required(world, "world").found.hits;
     found = worldOf(world).findAll(rayOf(required(ray, "ray")), filterOf(world, filter));
     result = toC(found);
   });
@@ -115,7 +115,7 @@ allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_s
                                          const allpairs_query_filter* filter, allpairs_hits* hits) {
   return guarded([&] {
     allpairs_hits& result = required(hits, "hits");
-    auto& found = required(world, "world").hits;
+    auto& found = required(world, "world").found.hits;
     found = worldOf(world).findAll(sweepOf(required(sweep, "sweep")), filterOf(world, filter));
     result = toC(found);
   });
@@ -126,7 +126,7 @@ allpairs_status allpairs_world_find_nearest(allpairs_world* world, const allpair
   return guarded([&] {
     allpairs_neighbors& result = required(neighbors, "neighbors");
     const allpairs_nearest& wanted = required(nearest, "nearest");
-    auto& found = required(world, "world").neighbors;
+    auto& found = required(world, "world").found.neighbors;
     found = worldOf(world).findNearest(vectorOf(wanted.point), wanted.count, filterOf(world, filter));
     result = toC(found);
   });
@@ -136,7 +136,7 @@ allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, cons
                                                      const allpairs_query_filter* filter, allpairs_id_lists* lists) {
   return guarded([&] {
     allpairs_id_lists& result = required(lists, "lists");
-    auto& found = required(world, "world").idLists;
+    auto& found = required(world, "world").found.idLists;
     found = worldOf(world).findOverlapping(required(boxes, "boxes").boxes, filterOf(world, filter));
     result = toC<allpairs_id_lists>(found);
   });
@@ -151,7 +151,7 @@ allpairs_status allpairs_world_find_all_many(allpairs_world* world, allpairs_ray
                                              const allpairs_query_filter* filter, allpairs_hit_lists* lists) {
   return guarded([&] {
     allpairs_hit_lists& result = required(lists, "lists");
-    auto& found = required(world, "world").hitLists;
+    auto& found = required(world, "world").found.hitLists;
     found = worldOf(world).findAll(raysOf(rays), filterOf(world, filter));
     result = toC<allpairs_hit_lists>(found);
   });
@@ -167,7 +167,7 @@ allpairs_status allpairs_world_sweep_all_many(allpairs_world* world, allpairs_sw
                                               const allpairs_query_filter* filter, allpairs_hit_lists* lists) {
   return guarded([&] {
     allpairs_hit_lists& result = required(lists, "lists");
-    auto& found = required(world, "world").hitLists;
+    auto& found = required(world, "world").found.hitLists;
     found = worldOf(world).findAll(sweepsOf(sweeps), filterOf(world, filter));
     result = toC<allpairs_hit_lists>(found);
   });
@@ -179,7 +179,7 @@ allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const al
     allpairs_neighbor_lists& result = required(lists, "lists");
     const allpairs_nearest_many& wanted = required(nearest, "nearest");
     const auto points = sameAs<std::array<double, 3>>(wanted.points, wanted.point_count, "nearest.points");
-    auto& found = required(world, "world").neighborLists;
+    auto& found = required(world, "world").found.neighborLists;
     found = worldOf(world).findNearest(points, wanted.count, filterOf(world, filter));
     result = toC<allpairs_neighbor_lists>(found);
   });
@@ -191,8 +191,8 @@ allpairs_status allpairs_world_find_between(allpairs_world* world, allpairs_worl
     const CallingBack call(world);
     std::optional<CallingBack> otherCall;
     if (other != world) otherCall.emplace(other, "other");
-    world->between = call.world().findBetween(otherCall ? otherCall->world() : call.world());
-    result = toC(std::span<const allpairs::Pair>(world->between));
+    world->found.between = call.world().findBetween(otherCall ? otherCall->world() : call.world());
+    result = toC(std::span<const allpairs::Pair>(world->found.between));
   });
 }
 

@@ -125,6 +125,45 @@ static void nonsenseIsRefused(allpairs_world* world) {
   ALLPAIRS_CHECK(allpairs_world_find_between(world, NULL, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
 }
 
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#include <malloc.h>
+
+/// In bytes, what the process has from its allocator.
+static size_t allocated(void) {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+/// A query of many boxes whose result is larger than all else that there is.
+static void shrinkingReleasesResults(void) {
+  enum { kMany = 200000 };
+  const double everything[6] = {-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY};
+  static const double corner[3] = {0, 0, 0};
+  const allpairs_corner_f64 same = {corner, 0, 1};
+  const allpairs_nearest all = {{0, 0, 0}, kMany};
+  uint32_t* ids = malloc(kMany * sizeof *ids);
+  allpairs_world* world = NULL;
+  allpairs_set* set = NULL;
+  allpairs_ids found;
+  allpairs_neighbors neighbors;
+  ALLPAIRS_CHECK(ids != NULL && allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_create_strided_f64(kMany, same, same, &set) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(world, set, NULL, ids) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_shrink(world) == ALLPAIRS_OK);
+  const size_t before = allocated();
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, everything, NULL, &found) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(found.count == kMany);
+  ALLPAIRS_CHECK(allpairs_world_find_nearest(world, &all, NULL, &neighbors) == ALLPAIRS_OK && neighbors.count == kMany);
+  ALLPAIRS_CHECK(allpairs_world_shrink(world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allocated() < before + kMany);
+  allpairs_world_destroy(world);
+  allpairs_set_destroy(set);
+  free(ids);
+}
+#else
+static void shrinkingReleasesResults(void) {}
+#endif
+
 int main(void) {
   checkFill(rows, kBoxes, 3);
   checkFill(others, kBoxes, 4);
@@ -136,5 +175,6 @@ int main(void) {
   nonsenseIsRefused(world);
   allpairs_world_destroy(world);
   allpairs_world_destroy(other);
+  shrinkingReleasesResults();
   return EXIT_SUCCESS;
 }

@@ -80,7 +80,7 @@ TEST(BoxView, HasMarginsWhereOneIsNotZero) {
   const std::vector<double> one{0.0, -1e-300};
   set.setMargins(one);
   EXPECT_TRUE(set.hasMargins());
-  EXPECT_THROW(world.add(set), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(world.add(set)), InvalidArgument);
 }
 
 TEST(BoxView, ReadsBackwardWithNegativeStrides) {

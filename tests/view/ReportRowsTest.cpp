@@ -279,7 +279,7 @@ TEST(Report, OfNoMomentIsRefused) {
   for (const char* moment : {"99999999999999", "99999999999999999999"})
     expectFailure(runScript("SOURCE_DATE_EPOCH=" + std::string(moment) + " \"$0\" report '" + kDemoScene + "' -o '" +
                             folder.path().string() + "/o'"),
-                  2, "SOURCE_DATE_EPOCH: '" + std::string(moment) + "' is no moment before the year 10000");
+                  2, "SOURCE_DATE_EPOCH: '" + std::string(moment) + "' is no moment of the years 0 to 9999");
 }
 
 TEST(Report, TakesThePlaceOfNoInput) {
@@ -416,6 +416,27 @@ TEST(ReportOfBodies, MayBeOfAssemblies) {
   EXPECT_NE(page.find("<p class=\"headline\">2 pairs of bodies, 3 pairs of boxes</p>"), std::string::npos);
   EXPECT_NE(page.find("<span class=\"first\">gear</span><br><span class=\"second\">motor</span>"), std::string::npos);
   EXPECT_NE(page.find("<dt>Rows</dt><dd>pairs of assemblies</dd>"), std::string::npos);
+}
+
+TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
+  const TempFolder folder;
+  const std::filesystem::path out = folder.path() / "out";
+  std::filesystem::create_directory(out);
+  expectSuccess(runProgram({"report", kDemoScene, "-o", out, "--pictures", "0"}));  // an empty one is taken
+  expectSuccess(runProgram({"report", kDemoScene, "-o", out, "--pictures", "1"}));  // and one of a report
+  EXPECT_TRUE(std::filesystem::exists(out / "pictures/0001.png"));
+  std::filesystem::remove(out / "index.html");  // as where a report was interrupted
+  expectSuccess(runProgram({"report", kDemoScene, "-o", out, "--pictures", "0", "--force"}));
+  EXPECT_FALSE(std::filesystem::exists(out / "pictures/0001.png"));
+  const std::filesystem::path work = folder.path() / "work";
+  std::filesystem::create_directory(work);
+  folder.write("work/notes.txt", "mine");
+  expectFailure(runProgram({"report", kDemoScene, "-o", work}), 3, "work: is not empty and holds no report; --force");
+  EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(work / "index.html"));
+  expectSuccess(runProgram({"report", kDemoScene, "-o", work, "--pictures", "0", "--force"}));
+  EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
+  EXPECT_TRUE(std::filesystem::exists(work / "index.html"));
 }
 
 }  // namespace

@@ -368,23 +368,6 @@ TEST(Report, OfNoFramesIsRefusedAndSoIsAView) {
   EXPECT_EQ(filesIn(folder.path()), Names{"frames.npy"});
 }
 
-TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
-  const TempFolder folder;
-  const fs::path out = folder.path() / "out";
-  fs::create_directory(out);
-  expectSuccess(runProgram({"report", kDemo, "-o", out, "--pictures", "0"}));  // an empty one is taken
-  expectSuccess(runProgram({"report", kDemo, "-o", out, "--pictures", "0"}));  // and one of a report
-  const fs::path work = folder.path() / "work";
-  fs::create_directory(work);
-  folder.write("work/notes.txt", "mine");
-  expectFailure(runProgram({"report", kDemo, "-o", work}), 3, "work: is not empty and holds no report; --force");
-  EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
-  EXPECT_FALSE(fs::exists(work / "index.html"));
-  expectSuccess(runProgram({"report", kDemo, "-o", work, "--pictures", "0", "--force"}));
-  EXPECT_EQ(readBytes(work / "notes.txt"), "mine");
-  EXPECT_TRUE(fs::exists(work / "index.html"));
-}
-
 #ifdef ALLPAIRS_HAS_FCL
 
 /// A cuboid as a closed mesh.

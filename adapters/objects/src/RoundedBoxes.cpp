@@ -73,8 +73,9 @@ std::uint64_t RoundedBoxes::mayOverlap(std::size_t block, const Row& box) const 
 BoxId RoundedBoxes::nearest(const Row& box) const {
   // Numbers that are not negative are in the order of their bits: with its number in place of its last bits the square
   // of a distance needs one comparison, and no branch.
+  if (m_size > kMostForNearest) return kNoBox;
   std::int32_t numbers = 1;
-  while (static_cast<std::size_t>(numbers) < m_size) numbers = 2 * numbers + 1;
+  while (static_cast<std::size_t>(numbers) + 1 < m_size) numbers = 2 * numbers + 1;
   FourBits number{0, 1, 2, 3};
   Four least = all(kInfinity);
   for (std::size_t at = 0; at < m_size; at += kLanes, number += static_cast<std::int32_t>(kLanes)) {

@@ -26,6 +26,11 @@ constexpr std::size_t kTestedPairs = 24;
 /// Hits that are buffered: more than those of one box, and so few that the stack has room for them.
 constexpr std::size_t kHits = 2 * LaneTile::kCapacity;
 
+/// What a sink of them allocates: three arrays of hits, and the pairs.
+constexpr std::size_t kHitStride = kHits + kVectorSlack;
+constexpr std::size_t kSinkBytes =
+    sizeof(std::uint32_t) * (SinkOptions::kHitOffset + 3 * kHitStride) + sizeof(Pair) * kHitStride;
+
 /// All pairs, by row; returns their number.
 template <class T>
 std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
@@ -116,11 +121,11 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
   };
   SinkOptions sinkOptions{test, &kernels, order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst};
   sinkOptions.hitCapacity = kHits;
-  sinkOptions.hitStride = kHits + kVectorSlack;
+  sinkOptions.hitStride = kHitStride;
   sinkOptions.maxPairs = options.maxPairs;
   sinkOptions.stop = options.stop;
   sinkOptions.emit.emplace(emit);
-  alignas(64) std::array<std::byte, 26 << 10> bytes;
+  alignas(64) std::array<std::byte, kSinkBytes + 64> bytes;
   std::pmr::monotonic_buffer_resource memory(bytes.data(), bytes.size(), std::pmr::null_memory_resource());
   PairSink sink(&memory);
   sink.start(sinkOptions, 0);

@@ -8,13 +8,6 @@
 #include "search/CallExecutor.h"
 
 namespace allpairs::engine {
-namespace {
-
-/// The offset of hits within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that
-/// loads from the offset in another page at which it has just stored waits for the store (4K aliasing; few_benchmark).
-constexpr std::size_t kHitOffset = 640;
-
-}  // namespace
 
 void checkLimit(std::uint64_t maxPairs, std::uint64_t count) {
   if (count <= maxPairs) return;
@@ -26,9 +19,9 @@ void PairSink::start(const SinkOptions& options, std::size_t worker) {
   m_options = &options;
   m_worker = worker;
   const bool doubts = options.test.leavesDoubts();
-  m_memory.require(kHitOffset + (doubts ? 3 : 2) * options.hitStride);
+  m_memory.require(SinkOptions::kHitOffset + (doubts ? 3 : 2) * options.hitStride);
   m_hits = {};
-  m_hits.row = m_memory.data() + kHitOffset;
+  m_hits.row = m_memory.data() + SinkOptions::kHitOffset;
   m_hits.partner = m_hits.row + options.hitStride;
   if (doubts) m_hits.doubt = m_hits.partner + options.hitStride;
   if (doubts) m_hits.slack = options.test.slack();

@@ -38,8 +38,12 @@ struct SinkOptions {
   const Kernels* kernels = nullptr;
   PairSide side = PairSide::RowFirst;
 
-  /// Hits that are buffered, and how far apart their arrays are, in ids. Two arrays of so many stay in the first-level
-  /// cache beside what the kernels read (allpairs bench uniform -n 100000).
+  /// The offset of hits within a page, in ids: beyond the offset of the bounds of some hundred boxes. A processor that
+  /// loads from the offset in another page at which it has just stored waits for the store (4K aliasing; few_benchmark).
+  static constexpr std::size_t kHitOffset = 640;
+
+  /// Hits that are buffered, and how far apart their arrays are, in ids, which is at least kVectorSlack more. Two arrays
+  /// of so many stay in the first-level cache beside what the kernels read (allpairs bench uniform -n 100000).
   std::size_t hitCapacity = 2048;
   std::size_t hitStride = 3072;
 

@@ -370,19 +370,14 @@ class ObjectBroadPhase {
   /// The number of the box of the lowest bit of a block that is set, of which there is one; std::countr_zero is of
   /// C++20.
   static BoxId idOf(std::size_t block, std::uint64_t bits) {
-    auto id = static_cast<BoxId>(block * RoundedBoxes::kBlock);
-#ifdef __GNUC__
-    return id + static_cast<BoxId>(__builtin_ctzll(bits));
-#else
-    for (; (bits & 1U) == 0; bits >>= 1U) ++id;
-    return id;
-#endif
+    return static_cast<BoxId>(block * RoundedBoxes::kBlock) + static_cast<BoxId>(__builtin_ctzll(bits));
   }
 
   /// A wanted object near a box; kNoBox if there is none, or none was found.
   template <class AnyQuestion>
   [[nodiscard]] BoxId nearest(const World* world, const AnyQuestion& question) const {
     if (world != nullptr) return nearestIn(*world, question);
+    if (question.begin != 0) return kNoBox;  // the question is about an object here, which is the nearest
     const BoxId id = m_search.rounded(m_rows.rows()).nearest(toRounded(toBox(question.bounds)));
     return id != kNoBox && m_rows.hasBox(id) && question.isWanted(id) ? id : kNoBox;
   }
@@ -413,8 +408,8 @@ class ObjectBroadPhase {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double most = std::max({magnitude(box.min[axis]), magnitude(box.max[axis]), magnitude(by)});
       const double slack = 8.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;
-      box.min[axis] -= by + slack;
-      box.max[axis] += by + slack;
+      if (std::isfinite(box.min[axis])) box.min[axis] -= by + slack;
+      if (std::isfinite(box.max[axis])) box.max[axis] += by + slack;
     }
     return box;
   }

@@ -14,7 +14,7 @@ namespace allpairs {
 /// to the nearest never changes which of two numbers is the greater, it only makes them equal: boxes that overlap do so
 /// when they are rounded, and few others do.
 ///
-/// Geometry:  boxes are closed. An empty box has all minima at infinity and all maxima at -infinity; it may overlap what
+/// Geometry:  boxes are closed. An empty box, whose minima are greater than any number or the greatest, may overlap what
 ///            is infinite on all sides.
 /// Threads:   const members may be called concurrently while no other member runs.
 class RoundedBoxes {
@@ -26,6 +26,8 @@ class RoundedBoxes {
   static constexpr std::size_t kBlock = 64;
 
   /// Numbers too great for float32 become infinity.
+  static constexpr std::size_t kMostForNearest = std::size_t{1} << 20;
+
   template <class T>
   [[nodiscard]] static Row rounded(const T* row) {
     Row result{};
@@ -51,11 +53,11 @@ class RoundedBoxes {
 
   void clear() { *this = {}; }
 
-  /// Which of the kBlock boxes of a block, as bits, may overlap another.
+  /// Which of the kBlock boxes of one of the blocks(), as bits, may overlap another.
   [[nodiscard]] std::uint64_t mayOverlap(std::size_t block, const Row& box) const;
 
-  /// The number of the box that is nearest to another, but for the rounding; kNoBox if there is none at a finite
-  /// distance.
+  /// The number of a box that is near to another: none of them is at half its distance, of up to a million. kNoBox if
+  /// there is none at a finite distance, or if there are more than kMostForNearest.
   [[nodiscard]] BoxId nearest(const Row& box) const;
 
  private:

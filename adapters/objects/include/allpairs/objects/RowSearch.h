@@ -69,7 +69,7 @@ class RowSearch {
     return rows.size() <= 6 * kFewForNear ? nullptr : worldForMany(rows);
   }
 
-  /// All rows, to be compared with a box.
+  /// All rows that have been noted, to be compared with a box; those behind them are empty.
   [[nodiscard]] const RoundedBoxes& rounded(Span<const T> rows) const;
 
   /// Whether a comparison of each row with each of another search is faster than their worlds.
