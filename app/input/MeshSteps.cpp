@@ -51,11 +51,11 @@ void checkSameMesh(const TriangleMesh& earlier, const std::string& earlierName, 
 
 }  // namespace
 
-std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input) {
+std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input, bool isFirst) {
   const std::string& path = settings.paths[input];
   const scene::Scene scene = scene::readInput(path, readOptions(settings.limits));
   checkOutputs(settings, scene.inputs);
-  if (input == 0) warnOf(settings, scene.warnings);  // the same meshes follow, and are to be remarked once
+  if (isFirst) warnOf(settings, scene.warnings);
   std::vector<TriangleMesh> meshes;
   for (std::size_t i = 0; i < scene.models.size(); ++i) {
     const auto* triangles = dynamic_cast<const collision::TriangleModel*>(scene.models[i].get());
@@ -66,7 +66,7 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
     mesh.isNamed = mesh.name.find(file) == std::string::npos;
   }
   if (meshes.empty()) throw FileError(path, "holds no triangles");
-  if (const std::size_t left = scene.models.size() - meshes.size(); left != 0 && input == 0)
+  if (const std::size_t left = scene.models.size() - meshes.size(); left != 0 && isFirst)
     warnOf(settings, {{.file = path, .subject = {}, .reason = counted(left, "model") + " left out: no triangle mesh"}});
   return meshes;
 }
@@ -91,8 +91,8 @@ void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesy
 std::vector<MeshStep> readMeshSteps(const InputSettings& settings, std::size_t start) {
   const std::string& before = settings.paths[start];
   const std::string& after = settings.paths[start + 1];
-  std::vector<TriangleMesh> first = readTriangleMeshes(settings, start);
-  std::vector<TriangleMesh> last = before == after ? first : readTriangleMeshes(settings, start + 1);
+  std::vector<TriangleMesh> first = readTriangleMeshes(settings, start, true);
+  std::vector<TriangleMesh> last = before == after ? first : readTriangleMeshes(settings, start + 1, false);
   checkSameMeshes(first, before, last, after);
   std::vector<MeshStep> steps(first.size());
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = {std::move(first[i]), std::move(last[i].positions)};

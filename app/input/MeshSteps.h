@@ -24,11 +24,12 @@ struct MeshStep {
   std::vector<double> endPositions;
 };
 
-/// The triangle meshes of one of the inputs: a mesh file, or the mesh files of a folder. Warns of what its readers
-/// remarked, and of models that are no triangle meshes.
+/// The triangle meshes of one of the inputs: a mesh file, or the mesh files of a folder. Of the first of several in which
+/// they move, it warns of what readers remarked, and of models that are no triangle meshes.
 ///
 /// Bad input: throws FileError; a file without triangles too, and one that would be written.
-[[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input);
+[[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input,
+                                                           bool isFirst);
 
 /// Throws FileError that names both files, the mesh and the element unless the meshes of `later` are those of `earlier`
 /// moved: as many, with as many vertices and the same triangles.

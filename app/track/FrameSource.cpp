@@ -36,7 +36,7 @@ class MeshFrames final : public FrameSource {
   [[nodiscard]] std::size_t frameCount() const override { return m_input.paths.size(); }
 
   [[nodiscard]] BoxView next() override {
-    std::vector<TriangleMesh> meshes = readTriangleMeshes(m_input, m_frame);
+    std::vector<TriangleMesh> meshes = readTriangleMeshes(m_input, m_frame, m_frame == 0);
     if (m_frame == 0) m_first = meshes;
     checkSameMeshes(m_first, m_input.paths.front(), meshes, m_input.paths[m_frame]);
     ++m_frame;

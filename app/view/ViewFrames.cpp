@@ -160,14 +160,14 @@ view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOption
   const Timer timer;
   const std::vector<std::string>& paths = input.paths;
   view::ViewScene scene = emptyScene(input, options, paths.size());
-  const std::vector<TriangleMesh> first = readTriangleMeshes(input, 0);
+  const std::vector<TriangleMesh> first = readTriangleMeshes(input, 0, true);
   addTriangles(first, scene);
   FrameSearch search(scene, options, paths.size());
   ProgressLine line;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string name = printable(std::filesystem::path(paths[i]).filename().string());
     line.show(i, paths.size(), fmt::format("frame {} of {}: {}", i + 1, paths.size(), name));
-    const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(input, i);
+    const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(input, i, false);
     checkSameMeshes(first, paths.front(), meshes, paths[i]);
     std::vector<double> positions = positionsOf(meshes);
     const std::vector<Box> boxes = triangleBoxes(scene.corners, positions);

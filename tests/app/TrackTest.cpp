@@ -112,9 +112,13 @@ TEST(Track, FollowsTheTrianglesOfMeshesThatShareNoVertex) {
   EXPECT_EQ(json["boxes"], 3);
   EXPECT_EQ(json["pairs"], (std::vector<int>{0, 2}));
   const std::string points = folder.write("points.obj", mesh + "o corner\nv 9 9 9\np 5\n");
-  const ProgramRun left = runProgram({"track", points, "--format", "csv"});
-  EXPECT_EQ(left.status, 0);
-  EXPECT_EQ(left.err, "allpairs: warning: " + points + ": 1 model left out: no triangle mesh\n");
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"track", points, "--format", "csv"},
+                                                  {"track", points, points, points, "--format", "csv"},
+                                                  {"elements", apart, apart, points, points, "--format", "json"}}) {
+    const ProgramRun left = runProgram(command);
+    EXPECT_EQ(left.status, 0);
+    EXPECT_EQ(left.err, "allpairs: warning: " + points + ": 1 model left out: no triangle mesh\n");
+  }
   const std::string fewer = folder.write("2.obj", mesh);
   expectFailure(runProgram({"track", apart, fewer}), 3, "2.obj: mesh '2.obj' has 4 vertices where");
 }
