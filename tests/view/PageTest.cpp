@@ -97,7 +97,7 @@ TEST(View, BoxesOverTimeGiveFramesAndStandAlone) {
   const std::string late =
       folder.write("late.npy", npyBytes({boxes[0], {{kNan, 0, 0}, {1, 1, 1}}}, {.shape = "(2, 1, 6)"}));
   expectFailure(runProgram({"report", late, "-o", folder.path() / "r"}), 2, "a report shows one frame");
-  for (const Words& words : {Words{"--partial"}, {"--recursive"}, {"--data", folder.path()}, {"--group", "none"}}) {
+  for (const Words& words : {Words{"--partial"}, {"--recursive"}, {"--data", folder.path()}, {"--group", "file"}}) {
     Words all{"view", input};
     all.insert(all.end(), words.begin(), words.end());
     expectFailure(runProgram(all), 2, words.front() + " does not apply to an array of frames");
