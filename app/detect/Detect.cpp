@@ -13,7 +13,6 @@
 #include "Commands.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
-#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
@@ -180,7 +179,7 @@ void makeScene(Inputs& inputs) {
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
-  scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
+  checkOutputs(settings.input);
   Output output(targetOf(settings.output));
   if (settings.format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");

@@ -155,7 +155,7 @@ void checkElementsExtension(const std::string& path) {
 
 void runElements(const ElementSettings& settings) {
   checkElementsExtension(settings.output);
-  checkOutputs(settings.input, pathsOf(settings.input.paths));
+  checkOutputs(settings.input);
   ElementReport report;
   report.distance = parseDistance(settings.distance);
   report.betweenOnly = settings.between;

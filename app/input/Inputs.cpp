@@ -171,6 +171,8 @@ Inputs readInputs(const InputSettings& settings) {
   return scene;
 }
 
+void checkOutputs(const InputSettings& settings) { checkOutputs(settings, pathsOf(settings.paths)); }
+
 void checkOutputs(const InputSettings& settings, const std::vector<std::filesystem::path>& inputs) {
   std::map<std::pair<dev_t, ino_t>, std::filesystem::path> outputs;
   for (const std::filesystem::path& output : settings.outputs) {

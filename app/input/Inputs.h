@@ -36,9 +36,10 @@ void withInputs(InputSettings& settings, const std::function<void()>& work);
 /// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
 
-/// Makes sure that what is written takes the place of none of these files.
+/// Makes sure that what is written takes the place of none of the inputs, or of none of these files that they name.
 ///
 /// Bad input: throws FileError.
+void checkOutputs(const InputSettings& settings);
 void checkOutputs(const InputSettings& settings, const std::vector<std::filesystem::path>& inputs);
 
 /// Throws UsageError where an option was given that only scenes and folders know; `to` is what it does not apply to.

@@ -24,8 +24,8 @@ struct MeshStep {
   std::vector<double> endPositions;
 };
 
-/// The triangle meshes of one of the inputs: a mesh file, or the mesh files of a folder. Of the first of several in which
-/// they move, it warns of what readers remarked, and of models that are no triangle meshes.
+/// The triangle meshes of one of the inputs: a mesh file, or the mesh files of a folder. If `isFirst`,
+/// it prints the warnings of the readers, and how many models are not triangle meshes: later steps would repeat them.
 ///
 /// Bad input: throws FileError; a file without triangles too, and one that would be written.
 [[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input,

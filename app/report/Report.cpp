@@ -35,7 +35,6 @@
 #include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/BoxFrames.h"
 #include "allpairs/scene/FileError.h"
-#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Progress.h"
@@ -258,7 +257,7 @@ void runReport(const ReportSettings& settings) {
   if (const double length = settings.metresPerUnit.value_or(1.0); !(length > 0.0) || length > kMostMetres) {
     throw UsageError("--metres-per-unit must be above 0 and at most 1e18");
   }
-  checkOutputs(settings.input, pathsOf(settings.input.paths));
+  checkOutputs(settings.input);
   checkReportFolder(settings.folder, settings.force);
   const std::string date = dateText();
   const std::optional<Earlier> earlier = readEarlier(settings.since);

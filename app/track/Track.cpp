@@ -15,7 +15,6 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
-#include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
@@ -142,7 +141,7 @@ const std::vector<std::string> kTrackFormats = {"table", "csv", "json", "npy"};
 void runTrack(const TrackSettings& settings) {
   static_cast<void>(parseThreads(settings.threads));
   const std::string format = formatOf(settings.format, settings.output, kTrackFormats);
-  scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
+  checkOutputs(settings.input);
   Output output(targetOf(settings.output));
   if (format == "npy" && output.isTerminal()) {
     throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");

@@ -18,8 +18,6 @@
 #include "WritePage.h"
 #include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
-#include "allpairs/scene/TargetFile.h"
-#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
@@ -98,7 +96,7 @@ view::ViewScene sceneOf(const ViewSettings& settings) {
 }
 
 void runView(const ViewSettings& settings) {
-  scene::checkIsNoInput(settings.output, pathsOf(settings.input.paths));
+  checkOutputs(settings.input);
   std::optional<std::filesystem::path> path = targetOf(settings.output);
   std::optional<Output> output;
   if (path || (!settings.serve && !settings.open)) output.emplace(path);

@@ -76,7 +76,7 @@ class InvalidBox : public Error {
 /// More pairs than the caller allowed, or has memory for.
 class LimitExceeded : public Error {
  public:
-  explicit LimitExceeded(std::uint64_t count, const std::string& message, bool isTotal = false)
+  LimitExceeded(std::uint64_t count, const std::string& message, bool isTotal = false)
       : Error(message), m_count(count), m_isTotal(isTotal) {}
 
   /// How many had been found; of memory for rows, the number of their indices.

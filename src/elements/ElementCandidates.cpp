@@ -42,11 +42,13 @@ struct Found {
 std::size_t firstCapacity(const ElementCounts& counts, const std::pmr::memory_resource* memory) {
   constexpr std::size_t kPairsPerElement = 128;
   constexpr std::size_t kMost = std::size_t{1} << 24;
-  if (engine::memoryOr(nullptr) != memory) return kBatch;
+  if (memory != engine::defaultMemory()) return kBatch;
   return std::min(kMost, kPairsPerElement * (counts.edges + counts.triangles + 1));
 }
 
-[[noreturn]] void throwNoKind(CandidateKind kind) {
+/// A number that is no kind may come from a cast.
+void checkKind(CandidateKind kind) {
+  if (kind <= CandidateKind::FaceFace) return;
   throw InvalidArgument("no kind of candidate " + std::to_string(static_cast<int>(kind)));
 }
 
@@ -153,7 +155,6 @@ void ElementCandidates::State::visitAs(Elements elements, ElementKind first, Ele
 
 template <class Use>
 void ElementCandidates::State::visit(CandidateKind kind, Use use) {
-  if (kind > CandidateKind::FaceFace) throwNoKind(kind);
   if (wantsNothing()) return;
   switch (kind) {
     case CandidateKind::VertexFace:
@@ -169,6 +170,7 @@ void ElementCandidates::State::visit(CandidateKind kind, Use use) {
 }
 
 void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVisitor visitor, std::size_t batchSize) {
+  checkKind(kind);
   search.setOptions(engineOptions(order));
   visit(kind, [&](const auto& check, const Sets& sets) {
     const auto select = [&](std::span<const Pair> pairs) {
@@ -220,7 +222,7 @@ void ElementCandidates::setPositions(std::size_t mesh, Span<const double> start,
 Span<const Pair> ElementCandidates::find(CandidateKind kind) {
   State& state = this->state();
   const auto mark = state.inUse.mark();
-  if (static_cast<std::size_t>(kind) >= state.found.size()) throwNoKind(kind);
+  checkKind(kind);
   Found& found = state.found[static_cast<std::size_t>(kind)];
   found.size = 0;
   if (found.pairs.capacity() == 0) {

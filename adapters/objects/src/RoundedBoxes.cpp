@@ -88,7 +88,7 @@ BoxId RoundedBoxes::nearest(const Row& box) const {
       square += gap * gap;
     }
     const auto key = as<Four>((as<FourBits>(square) & ~numbers) | number);
-    least = key < least ? key : least;  // never infinity, which is no number with other last bits
+    least = key < least ? key : least;  // with other last bits, infinity is a NaN, which is never less
   }
   const auto keys = as<FourBits>(least);
   const std::int32_t key = std::min(std::min(keys[0], keys[1]), std::min(keys[2], keys[3]));

@@ -50,9 +50,10 @@ struct CandidateOptions {
 ///            start and end, and hence the element during the whole step. Boxes are closed and compared exactly, in
 ///            double. Two elements that share a vertex are never candidates.
 /// Bad input: positions that are not finite or of the wrong number, a mesh out of range, and a distance that is NaN
-///            or -infinity throw InvalidArgument, which names mesh and vertex. No kind of candidate throws it, too.
-/// Cost:      that of a search as in OverlapSearch, plus for the boxes of an element 48 bytes, or about 110 where
-///            positions are no float32 numbers. Default memory is asked for so amply that few pages of it are ever used.
+///            or -infinity throw InvalidArgument, which names mesh and vertex. So does a CandidateKind that is
+///            none, cast from a number.
+/// Cost:      that of a search as in OverlapSearch, plus 48 bytes for the boxes of an element, or about 110 where
+///            float32 cannot represent its positions. Most of what is reserved of default memory is never touched.
 /// Threads:   one call at a time per object; parallel inside if the options have an executor.
 /// Memory:    a call that throws, whether std::bad_alloc or an exception of a visitor, leaves all positions unchanged;
 ///            the next search behaves like that of a new object.

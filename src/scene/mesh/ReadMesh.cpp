@@ -13,6 +13,7 @@
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/FolderNames.h"
 #include "allpairs/scene/ReadInput.h"
+#include "allpairs/scene/TargetFile.h"
 #include "input/FileBytes.h"
 #include "input/ModelNames.h"
 #include "input/SceneFrame.h"
@@ -105,7 +106,7 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   return entries;
 }
 
-/// What to say of a file or a folder that is left out because it cannot be read.
+/// The remark on a file or folder that is left out because it cannot be read.
 Remark remarkOfMissing(const fs::path& path, const FileError& problem) {
   return {.file = path,
           .line = problem.line(),
@@ -173,9 +174,7 @@ class MeshSearch {
 
 /// A link in a folder may lead out of it.
 void requireAllowed(const fs::path& path, const ReadScope& scope) {
-  std::error_code problem;
-  (void)fs::status(path, problem);
-  if (problem == std::errc::too_many_symbolic_link_levels) throw FileError(path, "is a link that leads nowhere");
+  static_cast<void>(resolvedTarget(path));  // refuses a link to itself
   if (scope.allows(path)) return;
   throw FileError(
       path, "is a link to a file outside of the folder and of those given with --data; --allow-outside allows it");
