@@ -181,11 +181,12 @@ TEST_F(SofaModel, PartialReadingLeavesOutWhatCannotBePlacedAndSaysWhy) {
     <Node name="N"><MechanicalObject/><MagicMapping name="m"/><PointModel name="bad"/><SphereModel name="too"/></Node>)",
                             true);
   EXPECT_THAT(pathsOf(scene), ElementsAre("/good"));
-  ASSERT_EQ(scene.ignored.size(), 2U);
-  EXPECT_EQ(scene.ignored[0].subject, "/N/bad");
-  EXPECT_EQ(scene.ignored[1].subject, "/N/too");
-  EXPECT_EQ(scene.ignored[0].line, 3U);
-  EXPECT_THAT(scene.ignored[0].reason, HasSubstr("MagicMapping 'm' (/N/m): this kind of mapping is not known"));
+  ASSERT_EQ(scene.remarks.size(), 2U);
+  EXPECT_EQ(scene.remarks[0].subject, "/N/bad");
+  EXPECT_EQ(scene.remarks[1].subject, "/N/too");
+  EXPECT_EQ(scene.remarks[0].line, 3U);
+  EXPECT_TRUE(scene.remarks[0].isPartial);
+  EXPECT_THAT(scene.remarks[0].reason, HasSubstr("MagicMapping 'm' (/N/m): this kind of mapping is not known"));
 }
 
 TEST_F(SofaModel, WhatNobodyDependsOnIsSkippedWithoutAWord) {
@@ -194,7 +195,7 @@ TEST_F(SofaModel, WhatNobodyDependsOnIsSkippedWithoutAWord) {
     <MeshObjLoader filename="missing.obj"/>
     <MechanicalObject position="1 1 1 2 2 2"/><PointModel/>)");
   EXPECT_EQ(scene.models.size(), 1U);
-  EXPECT_THAT(scene.ignored, IsEmpty());
+  EXPECT_THAT(scene.remarks, IsEmpty());
 }
 
 TEST_F(SofaModel, UnknownCollisionModelsAreNamed) {

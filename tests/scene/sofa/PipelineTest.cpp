@@ -32,8 +32,9 @@ TEST_F(Pipelines, OfDifferentNodesTakeTheModelsBelowThem) {
   EXPECT_EQ(scene.pipelines[0].method.alarmDistance, 2);
   EXPECT_THAT(scene.pipelines[1].models, ElementsAre(2));
   EXPECT_THAT(scene.pipelines[1].method.name, IsEmpty());
-  ASSERT_EQ(scene.outside.size(), 1U);
-  EXPECT_EQ(scene.outside[0].subject, "/C/s");
+  ASSERT_EQ(scene.remarks.size(), 1U);
+  EXPECT_EQ(scene.remarks[0].subject, "/C/s");
+  EXPECT_FALSE(scene.remarks[0].isPartial);
 }
 
 TEST_F(Pipelines, OfANodeInsideAnotherShareModels) {
@@ -53,7 +54,7 @@ TEST_F(Pipelines, OfInactiveNodesAndAllButTheLastOfANodeDoNotRun) {
   ASSERT_EQ(scene.pipelines.size(), 1U);
   EXPECT_EQ(scene.pipelines[0].path, "/last");
   EXPECT_THAT(pathsOf(scene), ElementsAre("/B/s"));
-  EXPECT_THAT(scene.outside, IsEmpty());
+  EXPECT_THAT(scene.remarks, IsEmpty());
 }
 
 TEST_F(Pipelines, OfACompositeTakeWhatTheyLink) {
@@ -70,8 +71,8 @@ TEST_F(Pipelines, OfACompositeTakeWhatTheyLink) {
   EXPECT_THAT(scene.pipelines[1].models, ElementsAre(1, 0));
   EXPECT_EQ(scene.pipelines[1].method.alarmDistance, 3);
   EXPECT_TRUE(scene.pipelines[1].region);
-  ASSERT_EQ(scene.outside.size(), 1U);
-  EXPECT_EQ(scene.outside[0].subject, "/C/s");
+  ASSERT_EQ(scene.remarks.size(), 1U);
+  EXPECT_EQ(scene.remarks[0].subject, "/C/s");
   EXPECT_THAT(scene.warnings, IsEmpty());
 }
 

@@ -130,7 +130,7 @@ TEST_F(SofaGrid, IsEmptyInNewerSofaIfItNamesAFileThatIsNotThere) {
   EXPECT_EQ(scene.models.at(0).lines.size(), 0U);
   EXPECT_EQ(scene.models.at(0).positions.size(), 0U);
   std::vector<std::string> reasons;
-  for (const Ignored& warning : scene.warnings) reasons.push_back(warning.reason);
+  for (const Remark& warning : scene.warnings) reasons.push_back(warning.reason);
   EXPECT_THAT(reasons, testing::Contains(testing::HasSubstr("it names a file that is not there")));
   EXPECT_THAT(reasons, testing::Contains("it has no elements, and is in no pair"));
   write("there.obj", "v 0 0 0\n");

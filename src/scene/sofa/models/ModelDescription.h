@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "allpairs/Box.h"
 #include "allpairs/scene/ReadOptions.h"
+#include "allpairs/scene/Scene.h"
 #include "sofa/mesh/Math.h"
 #include "sofa/mesh/Mesh.h"
 
@@ -47,14 +49,6 @@ struct ModelDescription {
   [[nodiscard]] std::size_t elementCount() const;
 };
 
-/// A collision model that was left out, and why.
-struct Ignored {
-  std::filesystem::path file;
-  std::size_t line = 0;
-  std::string subject;
-  std::string reason;
-};
-
 /// How the models are to be tested.
 struct MethodDescription {
   std::string name;        ///< As the scene calls it; empty where it names none.
@@ -63,17 +57,12 @@ struct MethodDescription {
   double contactDistance = 0;
 };
 
-struct RegionDescription {
-  Vec3 min{};
-  Vec3 max{};
-};
-
 /// One collision pipeline of a scene: it tests its own models against one another, in its own way.
 struct PipelineDescription {
   std::string path;                 ///< "/Node/Name"; empty where the scene has none.
   std::vector<std::size_t> models;  ///< Indices, in the order in which the pipeline takes its models.
   MethodDescription method;
-  std::optional<RegionDescription> region;
+  std::optional<Box> region;
 };
 
 /// What a scene holds for collision detection.
@@ -81,9 +70,8 @@ struct SceneDescription {
   std::vector<ModelDescription> models;        ///< In the order in which the pipelines take them.
   std::vector<std::string> owners;             ///< The paths of the nodes that models belong to.
   std::vector<PipelineDescription> pipelines;  ///< In the order in which SOFA runs them; at least one.
-  std::vector<Ignored> ignored;                ///< Models that are missing.
-  std::vector<Ignored> outside;                ///< Models that no pipeline takes.
-  std::vector<Ignored> warnings;               ///< Where the result may not be what is expected; nothing is missing.
+  std::vector<Remark> remarks;                 ///< Models that are missing, then those that no pipeline takes.
+  std::vector<Remark> warnings;                ///< Where the result may not be what is expected; nothing is missing.
   std::vector<std::filesystem::path> inputs;   ///< All files that were read.
   int up = 2;                                  ///< Against the root's gravity, which pulls along -y by default.
 };
@@ -93,7 +81,7 @@ struct SceneDescription {
 /// Bad input: a scene that is malformed, refers to missing files, or holds a model whose place depends on something
 /// that
 ///            this reader does not know throws FileError with file, line, component and reason; with `partial` such
-///            models are listed in `ignored`, and only a scene that cannot be read at all throws.
+///            models are listed in `remarks`, and only a scene that cannot be read at all throws.
 /// Reference: SEMANTICS, section 8.
 [[nodiscard]] SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options);
 

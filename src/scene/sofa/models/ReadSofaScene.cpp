@@ -180,24 +180,14 @@ std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescriptio
   return result;
 }
 
-std::optional<Box> regionOf(const sofa::PipelineDescription& pipeline) {
-  if (!pipeline.region) return std::nullopt;
-  return Box{pipeline.region->min, pipeline.region->max};
-}
-
 ScenePipeline makePipeline(sofa::PipelineDescription& description, const Kept& kept) {
   ScenePipeline pipeline{.name = std::move(description.path),
                          .intersection = makeMethod(description.method),
                          .intersectionName = description.method.name,
-                         .region = regionOf(description)};
+                         .region = description.region};
   for (const std::size_t model : description.models)
     if (kept[model]) pipeline.models.push_back(*kept[model]);
   return pipeline;
-}
-
-void moveRemarks(std::vector<sofa::Ignored>& from, bool isPartial, std::vector<Remark>& to) {
-  for (auto& remark : from)
-    to.push_back({std::move(remark.file), remark.line, std::move(remark.subject), std::move(remark.reason), isPartial});
 }
 
 }  // namespace
@@ -208,12 +198,11 @@ Scene readSofaScene(const std::filesystem::path& path, const ReadOptions& option
   Scene scene;
   scene.intersection = makeMethod(first.method);
   scene.intersectionName = first.method.name;
-  scene.region = regionOf(first);
+  scene.region = first.region;
   scene.up = description.up;
   for (auto& owner : description.owners) scene.owners.push_back(std::make_unique<Owner>(Owner{std::move(owner)}));
-  moveRemarks(description.ignored, true, scene.remarks);
-  moveRemarks(description.outside, false, scene.remarks);
-  moveRemarks(description.warnings, false, scene.warnings);
+  scene.remarks = std::move(description.remarks);
+  scene.warnings = std::move(description.warnings);
   const Kept kept = addModels(description, options.partial, scene);
   noteSources(scene, path);
   scene.inputs = std::move(description.inputs);

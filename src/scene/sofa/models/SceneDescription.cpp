@@ -41,7 +41,7 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
   return result;
 }
 
-std::optional<RegionDescription> describeRegion(Evaluation& evaluation, const Component* broadPhase) {
+std::optional<Box> describeRegion(Evaluation& evaluation, const Component* broadPhase) {
   if (broadPhase == nullptr || !broadPhase->attributes.has("box")) return std::nullopt;
   const auto corners = evaluation.points(*broadPhase, {"box"});
   if (corners.empty()) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<RegionDescription> describeRegion(Evaluation& evaluation, const Co
                       fmt::format("a region's min must be less than its max on every axis; in {} they are {} and {}",
                                   "xyz"[axis], min, max));
   }
-  return RegionDescription{corners[0], corners[1]};
+  return Box{corners[0], corners[1]};
 }
 
 /// Describes each model once, however many pipelines take it.
@@ -93,7 +93,11 @@ class ModelList {
 
   void leaveOut(const Component& component, const FileError& problem, const std::string& reason) {
     if (!m_partial) throw FileError(problem.path(), reason, problem.line(), problem.column());
-    m_scene.ignored.push_back({problem.path(), problem.line(), component.path(), oneLine(reason)});
+    m_scene.remarks.push_back({.file = problem.path(),
+                               .line = problem.line(),
+                               .subject = component.path(),
+                               .reason = oneLine(reason),
+                               .isPartial = true});
   }
 
   std::size_t ownerOf(const Component& component) {
@@ -109,16 +113,21 @@ class ModelList {
   std::map<const Node*, std::size_t> m_owners;
 };
 
-Ignored remarkOn(const Component& component, std::string reason) {
-  return {*component.place.file, component.place.line, component.path(), std::move(reason)};
+Remark remarkOn(const Component& component, std::string reason) {
+  return {.file = *component.place.file,
+          .line = component.place.line,
+          .subject = component.path(),
+          .reason = std::move(reason)};
 }
 
 /// Says where SOFA would detect nothing at all.
 void warnOf(const PipelineParts& parts, const Node& root, SceneDescription& scene) {
   if (parts.component == nullptr && !parts.models.empty())
-    scene.warnings.push_back({*root.place.file, root.place.line, root.path(),
-                              "the scene has no collision pipeline: SOFA detects nothing in it; all its models are "
-                              "tested against one another here"});
+    scene.warnings.push_back({.file = *root.place.file,
+                              .line = root.place.line,
+                              .subject = root.path(),
+                              .reason = "the scene has no collision pipeline: SOFA detects nothing in it; all its "
+                                        "models are tested against one another here"});
   if (!parts.missing.empty())
     scene.warnings.push_back(
         remarkOn(*parts.component, "the pipeline lacks " + parts.missing + ": SOFA detects nothing with it"));
@@ -166,7 +175,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   for (const auto& [component, text] : evaluation.warnings()) scene.warnings.push_back(remarkOn(*component, text));
   for (const auto* component : modelsBelow(*root))
     if (!models.has(*component))
-      scene.outside.push_back(remarkOn(*component, "no collision pipeline of the scene takes this model"));
+      scene.remarks.push_back(remarkOn(*component, "no collision pipeline of the scene takes this model"));
   scene.inputs = scope.files();
   return scene;
 }
