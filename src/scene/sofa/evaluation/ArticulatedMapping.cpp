@@ -23,7 +23,7 @@ void addFrom(const Node& node, ComponentKind kind, Found& found) {
 const Component* stateNamed(const Component& mapping, std::string_view data) {
   const auto* link = mapping.attributes.find(data);
   if (link == nullptr) return nullptr;
-  const auto* state = followTo(mapping, *link, [](const Component& c) { return isState(c.kind()); });
+  const auto* state = followTo(mapping, *link, isState);
   if (state == nullptr) throw Unplaceable(mapping, "its " + std::string{data} + " is nowhere to be found");
   return state;
 }

@@ -121,14 +121,13 @@ Evaluation::Evaluation(const Node& root, ReadScope& scope, Generation generation
 void Evaluation::indexMappings(const Node& node) {
   if (!node.active) return;
   for (const auto& component : node.components) {
-    if (isMapping(component->kind()))
+    if (isMapping(*component))
       if (const auto* state = mappingOutput(*component); state != nullptr && state != mappingInput(*component))
         m_mappings[state] = component.get();
-    if (isTopologicalMapping(component->kind())) {
-      const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
+    if (isTopologicalMapping(*component)) {
       const auto* text = component->attributes.find("output");
       if (text == nullptr) text = component->attributes.find("object2");
-      if (const auto* topology = followTo(*component, text != nullptr ? *text : "@./", topologies))
+      if (const auto* topology = followTo(*component, text != nullptr ? *text : "@./", isTopology))
         m_topologicalMappings[topology] = component.get();
     }
   }
@@ -264,7 +263,7 @@ std::optional<Numbers> Evaluation::output(const Component& component, std::strin
   if (kind == ComponentKind::MeshLoader || kind == ComponentKind::SphereLoader)
     if (auto value = loaderOutput(component, mesh(component), name)) return value;
   if (const auto value = gridData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
-  if (isTopology(kind) && isMeshData(name)) {
+  if (isTopology(component) && isMeshData(name)) {
     auto& from = topology(component);
     const bool isKnown = name == "position" || name == "points" || name == "hexahedra" || name == "hexas";
     if (from.unknown || (from.sparse && !isKnown))

@@ -17,8 +17,7 @@ const Component* endOf(const Component& mapping, std::string_view name, std::str
                        std::string_view standard) {
   const auto* text = mapping.attributes.find(name);
   if (text == nullptr) text = mapping.attributes.find(oldName);
-  return followTo(mapping, text != nullptr ? std::string_view{*text} : standard,
-                  [](const Component& c) { return isState(c.kind()); });
+  return followTo(mapping, text != nullptr ? std::string_view{*text} : standard, isState);
 }
 
 /// For each point of the child the rigid frame that carries it.

@@ -11,7 +11,7 @@ namespace allpairs::scene::sofa {
 namespace {
 
 const State& stateAt(Evaluation& evaluation, const Component& mapping, const std::string& link) {
-  const auto* which = followTo(mapping, link, [](const Component& c) { return isState(c.kind()); });
+  const auto* which = followTo(mapping, link, isState);
   if (which == nullptr) throw Unplaceable(mapping, "the state '" + link.substr(0, 80) + "' is nowhere to be found");
   return evaluation.knownState(*which);
 }
@@ -33,14 +33,13 @@ void append(State& to, const State& from, std::size_t index) {
 
 /// The mass of each body of a state, all of which are equal; nothing where there is no mass.
 std::optional<double> massOf(const Component& bodies, std::size_t count) {
-  const auto& components = bodies.node->components;
-  const auto mass = std::ranges::find_if(components, [](const auto& c) { return c->type.ends_with("Mass"); });
-  if (mass == components.end()) return std::nullopt;
-  const auto& attributes = (*mass)->attributes;
+  const auto* mass = firstIn(*bodies.node, [](const Component& c) { return c.type.ends_with("Mass"); });
+  if (mass == nullptr) return std::nullopt;
+  const auto& attributes = mass->attributes;
   const auto* total = attributes.find("totalMass");
   const auto* each = total != nullptr ? total : attributes.find("vertexMass");
-  if ((*mass)->type != "UniformMass" || each == nullptr || each->starts_with('@') || attributes.has("filename"))
-    throw Unplaceable(**mass, "masses of this kind are not known to this reader");
+  if (mass->type != "UniformMass" || each == nullptr || each->starts_with('@') || attributes.has("filename"))
+    throw Unplaceable(*mass, "masses of this kind are not known to this reader");
   const double value = std::strtod(each->c_str(), nullptr);  // Of a rigid body more numbers follow.
   return total != nullptr ? value / static_cast<double>(count) : value;
 }

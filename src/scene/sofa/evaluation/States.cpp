@@ -93,13 +93,10 @@ bool isTooLate(Evaluation& evaluation, const Component& state, const Component& 
 }
 
 const Component* topologyFor(Evaluation& evaluation, const Component& state) {
-  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
   if (!evaluation.flag(state, "useTopology", true)) return nullptr;
   if (const auto* text = state.attributes.find("topology"); text != nullptr && !text->empty())
-    return followTo(state, *text, topologies);
-  const auto& components = state.node->components;
-  const auto first = std::ranges::find_if(components, [&](const auto& c) { return topologies(*c); });
-  return first == components.end() ? nullptr : first->get();
+    return followTo(state, *text, isTopology);
+  return firstIn(*state.node, isTopology);
 }
 
 /// The points of the topology, if there is one that has points.

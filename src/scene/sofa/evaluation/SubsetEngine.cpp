@@ -47,7 +47,7 @@ Mesh inputOf(Evaluation& evaluation, const Component& engine) {
   if (!evaluation.isGiven(engine, {"rest_position"})) throw Unplaceable(engine, "it is given no rest_position");
   mesh.positions = evaluation.points(engine, {"rest_position"});
   if (!evaluation.isGiven(engine, {"src"})) {
-    const auto* which = inContext(*engine.node, [](const Component& c) { return isTopology(c.kind()); });
+    const auto* which = inContext(*engine.node, isTopology);
     auto* topology = which != nullptr ? &evaluation.topology(*which) : nullptr;
     if (topology != nullptr && topology->sparse) throw Unplaceable(engine, "it reads a sparse grid");
     if (topology != nullptr && !evaluation.isGiven(engine, {"edges"})) mesh.edges = topology->edges();
@@ -135,12 +135,10 @@ class Parting {
 /// above.
 Numbers candidatesOf(Evaluation& evaluation, const Component& engine, std::size_t width) {
   if (auto given = evaluation.numbers(engine, {"position"}, width)) return std::move(*given);
-  const auto& local = engine.node->components;
-  const auto isKind = [&](ComponentKind kind) { return [kind](const auto& c) { return c->kind() == kind; }; };
-  const bool hasState = std::ranges::any_of(local, isKind(ComponentKind::MechanicalState));
-  const auto loader = std::ranges::find_if(local, isKind(ComponentKind::MeshLoader));
-  if (!hasState && loader != local.end()) return toNumbers(evaluation.mesh(**loader).positions);
-  const auto* state = inContext(*engine.node, [](const Component& c) { return isState(c.kind()); });
+  const auto* loader = firstIn(*engine.node, [](const Component& c) { return c.kind() == ComponentKind::MeshLoader; });
+  if (loader != nullptr && firstIn(*engine.node, isState) == nullptr)
+    return toNumbers(evaluation.mesh(*loader).positions);
+  const auto* state = inContext(*engine.node, isState);
   if (state == nullptr) throw Unplaceable(engine, "it has no points to choose from");
   return toNumbers(evaluation.knownState(*state).rest);
 }
@@ -150,10 +148,9 @@ template <std::size_t N>
 std::optional<Elements<N>> choiceOf(Evaluation& evaluation, const Component& engine, std::string_view list,
                                     Elements<N> Mesh::*member) {
   if (evaluation.isGiven(engine, {list, "src"})) return evaluation.elementLists(engine).*member;
-  const auto& local = engine.node->components;
-  const auto found = std::ranges::find_if(local, [](const auto& c) { return isTopology(c->kind()); });
-  if (found == local.end()) return Elements<N>{};
-  const auto& topology = evaluation.topology(**found);
+  const auto* found = firstIn(*engine.node, isTopology);
+  if (found == nullptr) return Elements<N>{};
+  const auto& topology = evaluation.topology(*found);
   if (topology.sparse || (topology.given.*member).empty()) return std::nullopt;
   return topology.given.*member;
 }

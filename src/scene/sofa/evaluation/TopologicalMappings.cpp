@@ -13,7 +13,7 @@ using enum ComponentKind;
 const Component* inputOf(const Component& mapping) {
   const auto* text = mapping.attributes.find("input");
   if (text == nullptr) text = mapping.attributes.find("object1");
-  return followTo(mapping, text != nullptr ? *text : "@../", [](const Component& c) { return isTopology(c.kind()); });
+  return followTo(mapping, text != nullptr ? *text : "@../", isTopology);
 }
 
 /// Cuts each cube into six tetrahedra; with `swapping`, neighbours in a grid are cut as mirror images.

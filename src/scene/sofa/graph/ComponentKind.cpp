@@ -168,11 +168,4 @@ std::string defaultNameStem(std::string_view type) {
   return stem;
 }
 
-bool isModel(ComponentKind kind) { return kind >= PointModel && kind <= UnknownModel; }
-bool isTopology(ComponentKind kind) { return kind >= MeshTopology && kind <= UnknownTopology; }
-bool isTopologicalMapping(ComponentKind kind) { return kind >= Tetra2Triangle && kind <= UnknownTopologicalMapping; }
-bool isMapping(ComponentKind kind) { return kind >= RigidMapping && kind <= UnknownMapping; }
-bool isState(ComponentKind kind) { return kind == MechanicalState || kind == UnknownState; }
-bool isMethod(ComponentKind kind) { return kind >= DiscreteMethod && kind <= OtherMethod; }
-
 }  // namespace allpairs::scene::sofa

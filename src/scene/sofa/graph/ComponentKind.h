@@ -17,7 +17,6 @@ enum class ComponentKind {
   ProximityMethod,
   OtherMethod,
   MechanicalState,
-  UnknownState,
   MeshLoader,
   SphereLoader,
   UnknownLoader,
@@ -90,12 +89,5 @@ struct ComponentClass {
 
 /// The stem of the names that SOFA gives to components without a name; empty for classes that it would not know.
 [[nodiscard]] std::string defaultNameStem(std::string_view type);
-
-[[nodiscard]] bool isModel(ComponentKind kind);
-[[nodiscard]] bool isTopology(ComponentKind kind);
-[[nodiscard]] bool isTopologicalMapping(ComponentKind kind);
-[[nodiscard]] bool isMapping(ComponentKind kind);
-[[nodiscard]] bool isState(ComponentKind kind);
-[[nodiscard]] bool isMethod(ComponentKind kind);
 
 }  // namespace allpairs::scene::sofa

@@ -77,14 +77,17 @@ LinkTarget followPath(const Node& from, const Component* self, std::string_view 
   return at;
 }
 
+const Component* firstIn(const Node& node, const Wanted& wanted) {
+  const auto first = std::ranges::find_if(node.components, [&](const auto& c) { return wanted(*c); });
+  return first == node.components.end() ? nullptr : first->get();
+}
+
 const Component* inContext(const Node& node, const Wanted& wanted) {
   const auto last =
       std::find_if(node.components.rbegin(), node.components.rend(), [&](const auto& c) { return wanted(*c); });
   if (last != node.components.rend()) return last->get();
-  for (const auto* ancestor = node.parent; ancestor != nullptr; ancestor = ancestor->parent) {
-    const auto first = std::ranges::find_if(ancestor->components, [&](const auto& c) { return wanted(*c); });
-    if (first != ancestor->components.end()) return first->get();
-  }
+  for (const auto* ancestor = node.parent; ancestor != nullptr; ancestor = ancestor->parent)
+    if (const auto* first = firstIn(*ancestor, wanted)) return first;
   return nullptr;
 }
 
@@ -103,10 +106,9 @@ const Component* followTo(const Component& self, std::string_view text, const Wa
 }
 
 const Component* namedTopology(const Component& self, std::string_view attribute, const Node& node) {
-  const auto topologies = [](const Component& c) { return isTopology(c.kind()); };
   const auto* link = self.attributes.find(attribute);
-  if (link == nullptr || link->empty()) return inContext(node, topologies);
-  const auto* found = followTo(self, *link, topologies);
+  if (link == nullptr || link->empty()) return inContext(node, isTopology);
+  const auto* found = followTo(self, *link, isTopology);
   if (found == nullptr)
     throw Unplaceable(self, std::string{attribute} + "=\"" + link->substr(0, 80) + "\" leads to no topology");
   return found;

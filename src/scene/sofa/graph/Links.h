@@ -33,6 +33,9 @@ struct LinkTarget {
 
 using Wanted = std::function<bool(const Component&)>;
 
+/// The first wanted component of a node itself; null if there is none.
+[[nodiscard]] const Component* firstIn(const Node& node, const Wanted& wanted);
+
 /// The component that a path leads to if it is wanted; for a path to a node the only wanted one in it, else (for `self`
 /// in that node or not) the nearest in its ancestors. Null if there is none, or more than one.
 [[nodiscard]] const Component* followTo(const Component& self, std::string_view text, const Wanted& wanted);

@@ -7,6 +7,12 @@
 namespace allpairs::scene::sofa {
 namespace {
 
+using enum ComponentKind;
+
+bool isFromTo(const Component& component, ComponentKind first, ComponentKind last) {
+  return component.kind() >= first && component.kind() <= last;
+}
+
 const std::filesystem::path& fileOf(const Place& place) {
   static const std::filesystem::path unknown{"(scene)"};
   return place.file ? *place.file : unknown;
@@ -35,6 +41,20 @@ std::string Component::path() const {
 std::string Component::describe() const { return type + " '" + name + "' (" + path() + ')'; }
 
 std::string Node::path() const { return parent == nullptr ? std::string{} : parent->path() + '/' + name; }
+
+bool isModel(const Component& component) { return isFromTo(component, PointModel, UnknownModel); }
+
+bool isTopology(const Component& component) { return isFromTo(component, MeshTopology, UnknownTopology); }
+
+bool isTopologicalMapping(const Component& component) {
+  return isFromTo(component, Tetra2Triangle, UnknownTopologicalMapping);
+}
+
+bool isMapping(const Component& component) { return isFromTo(component, RigidMapping, UnknownMapping); }
+
+bool isState(const Component& component) { return component.kind() == MechanicalState; }
+
+bool isMethod(const Component& component) { return isFromTo(component, DiscreteMethod, OtherMethod); }
 
 Unplaceable::Unplaceable(const Component& component, const std::string& reason)
     : FileError(fileOf(component.place), component.describe() + ": " + reason, component.place.line),

@@ -59,6 +59,13 @@ struct Component {
   [[nodiscard]] std::string describe() const;
 };
 
+[[nodiscard]] bool isModel(const Component& component);
+[[nodiscard]] bool isTopology(const Component& component);
+[[nodiscard]] bool isTopologicalMapping(const Component& component);
+[[nodiscard]] bool isMapping(const Component& component);
+[[nodiscard]] bool isState(const Component& component);
+[[nodiscard]] bool isMethod(const Component& component);
+
 /// One node of a scene, with what is in it.
 struct Node {
   std::string name;  ///< As given, or as SOFA would number it; newer SOFA leaves it empty.

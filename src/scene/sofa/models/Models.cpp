@@ -13,7 +13,7 @@ namespace {
 using enum ComponentKind;
 
 const State& stateOf(Evaluation& evaluation, const Component& model) {
-  const auto* which = inContext(*model.node, [](const Component& c) { return isState(c.kind()); });
+  const auto* which = inContext(*model.node, isState);
   if (which == nullptr) throw Unplaceable(model, "there is no MechanicalObject in its node or above");
   return evaluation.knownState(*which);
 }

@@ -15,22 +15,19 @@ using enum ComponentKind;
 /// The first wanted component below a node, in the order of traversal; inactive nodes do not count.
 const Component* firstBelow(const Node& node, const Wanted& wanted) {
   if (!node.active) return nullptr;
-  const auto found = std::ranges::find_if(node.components, [&](const auto& c) { return wanted(*c); });
-  if (found != node.components.end()) return found->get();
+  if (const auto* here = firstIn(node, wanted)) return here;
   for (const auto& child : node.children)
     if (const auto* below = firstBelow(*child, wanted)) return below;
   return nullptr;
 }
 
-bool isMethodComponent(const Component& component) { return isMethod(component.kind()); }
 bool isBroadPhase(const Component& component) { return component.kind() == BroadPhase; }
 bool isSubPipeline(const Component& component) { return component.kind() == SubPipeline; }
-bool isModelComponent(const Component& component) { return isModel(component.kind()); }
 
 void addModelsBelow(const Node& node, std::vector<const Component*>& models) {
   if (!node.active) return;
   for (const auto& component : node.components)
-    if (isModelComponent(*component)) models.push_back(component.get());
+    if (isModel(*component)) models.push_back(component.get());
   for (const auto& child : node.children) addModelsBelow(*child, models);
 }
 
@@ -38,7 +35,7 @@ void addModelsBelow(const Node& node, std::vector<const Component*>& models) {
 PipelineParts pipelineOver(const Node& node, const Component* component) {
   return {.component = component,
           .models = modelsBelow(node),
-          .method = firstBelow(node, isMethodComponent),
+          .method = firstBelow(node, isMethod),
           .broadPhase = firstBelow(node, isBroadPhase),
           .missing = {}};
 }
@@ -80,8 +77,8 @@ std::string missingOf(const PipelineParts& pipeline) {
 PipelineParts subPipeline(const Component& component) {
   PipelineParts pipeline{
       .component = &component,
-      .models = linked(component, "collisionModels", isModelComponent),
-      .method = lastOf(linked(component, "intersectionMethod", isMethodComponent)),
+      .models = linked(component, "collisionModels", isModel),
+      .method = lastOf(linked(component, "intersectionMethod", isMethod)),
       .broadPhase = lastOf(linked(component, "broadPhaseDetection", [](const Component&) { return true; })),
       .missing = {}};
   pipeline.missing = missingOf(pipeline);
