@@ -72,8 +72,4 @@ class Evaluation;
 [[nodiscard]] std::optional<Numbers> deviceOutput(Evaluation& evaluation, const Component& driver,
                                                   std::string_view name);
 
-/// The state that a mapping reads or null, the state that it writes or null.
-[[nodiscard]] const Component* mappingInput(const Component& mapping);
-[[nodiscard]] const Component* mappingOutput(const Component& mapping);
-
 }  // namespace allpairs::scene::sofa

@@ -34,10 +34,7 @@ Steps stepsOf(Evaluation& evaluation, const Component& engine) {
           .translation = evaluation.vector(engine, {"translation"}, {})};
 }
 
-bool hasFrames(const Component& engine) {
-  const auto* kind = engine.attributes.find("template");
-  return kind != nullptr && isRigidTemplate(*kind);
-}
+bool hasFrames(const Component& engine) { return isRigidTemplate(engine.attributes.value("template")); }
 
 std::optional<Numbers> transformed(Evaluation& evaluation, const Component& engine, std::string_view name) {
   if (name != "output_position") return std::nullopt;
@@ -95,8 +92,7 @@ std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, s
 }  // namespace
 
 std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component, std::string_view name) {
-  const auto* text = component.attributes.find(component.attributes.has(name) ? name : "src");
-  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  const auto link = parseLink(component.attributes.value(name, component.attributes.value("src")));
   const auto* from = link ? followPath(*component.node, &component, link->path).component : nullptr;
   if (from == nullptr) return std::nullopt;
   const bool isNamed = component.attributes.has(name) && !link->data.empty();

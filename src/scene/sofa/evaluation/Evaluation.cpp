@@ -122,14 +122,12 @@ void Evaluation::indexMappings(const Node& node) {
   if (!node.active) return;
   for (const auto& component : node.components) {
     if (isMapping(*component))
-      if (const auto* state = mappingOutput(*component); state != nullptr && state != mappingInput(*component))
+      if (const auto* state = mappingOutput(*component, isState);
+          state != nullptr && state != mappingInput(*component, isState))
         m_mappings[state] = component.get();
-    if (isTopologicalMapping(*component)) {
-      const auto* text = component->attributes.find("output");
-      if (text == nullptr) text = component->attributes.find("object2");
-      if (const auto* topology = followTo(*component, text != nullptr ? *text : "@./", isTopology))
+    if (isTopologicalMapping(*component))
+      if (const auto* topology = mappingOutput(*component, isTopology))
         m_topologicalMappings[topology] = component.get();
-    }
   }
   for (const auto& child : node.children) indexMappings(*child);
 }
@@ -216,8 +214,7 @@ void Evaluation::warn(const Component& component, std::string text) {
 }
 
 bool Evaluation::isDeadLink(const Component& component, std::string_view name) const {
-  const auto* text = component.attributes.find(name);
-  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  const auto link = parseLink(component.attributes.value(name));
   return link && followPath(*component.node, &component, link->path).component == nullptr;
 }
 
@@ -324,10 +321,9 @@ Vec3 Evaluation::vector(const Component& component, Names names, const Vec3& sta
 }
 
 bool Evaluation::flag(const Component& component, std::string_view name, bool standard) {
-  const auto* text = component.attributes.find(name);
-  if (text == nullptr) return standard;
-  if (text->starts_with('@')) return number(component, {name}, standard ? 1 : 0) != 0;
-  return parseBool(*text).value_or(standard);
+  const auto text = component.attributes.value(name);
+  if (text.starts_with('@')) return number(component, {name}, standard ? 1 : 0) != 0;
+  return parseBool(text).value_or(standard);
 }
 
 std::vector<Vec3> Evaluation::points(const Component& component, Names names) {
@@ -370,10 +366,10 @@ std::vector<std::size_t> Evaluation::indices(const Component& component, Names n
 
 std::optional<std::filesystem::path> Evaluation::file(const Component& component, Names names) {
   for (const auto name : names) {
-    const auto* text = component.attributes.find(name);
-    if (text == nullptr || text->empty()) continue;
-    auto found = m_scope.find(*text, *component.place.file);
-    if (!found.problem.empty()) throw Unplaceable(component, "the file '" + *text + "' " + found.problem);
+    const auto text = component.attributes.value(name);
+    if (text.empty()) continue;
+    auto found = m_scope.find(text, *component.place.file);
+    if (!found.problem.empty()) throw Unplaceable(component, "the file '" + std::string{text} + "' " + found.problem);
     m_scope.admit(found.path);
     return std::move(found.path);
   }
@@ -382,17 +378,16 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
 
 bool Evaluation::hasFile(const Component& component, Names names) const {
   return std::ranges::any_of(names, [&](auto name) {
-    const auto* text = component.attributes.find(name);
-    return text != nullptr && !text->empty() && m_scope.find(*text, *component.place.file).problem.empty();
+    const auto text = component.attributes.value(name);
+    return !text.empty() && m_scope.find(text, *component.place.file).problem.empty();
   });
 }
 
 std::string Evaluation::objFileOf(const Component& topology) const {
-  const auto* text = topology.attributes.find(topology.attributes.has("src") ? "src" : "triangles");
-  const auto link = text != nullptr ? parseLink(*text) : std::nullopt;
+  const auto link = parseLink(topology.attributes.value("src", topology.attributes.value("triangles")));
   const auto* from = link ? followPath(*topology.node, &topology, link->path).component : &topology;
-  const auto* name = from != nullptr ? from->attributes.find("filename") : nullptr;
-  return name != nullptr && lowerExtension(*name) == ".obj" ? *name : std::string{};
+  const auto name = from != nullptr ? from->attributes.value("filename") : std::string_view{};
+  return lowerExtension(name) == ".obj" ? std::string{name} : std::string{};
 }
 
 Numbers toNumbers(const std::vector<Vec3>& points) {

@@ -13,13 +13,6 @@ using enum ComponentKind;
 
 constexpr double kSubsetRadius = 1e-5;  // SOFA's default for how near a subset's points are to their originals.
 
-const Component* endOf(const Component& mapping, std::string_view name, std::string_view oldName,
-                       std::string_view standard) {
-  const auto* text = mapping.attributes.find(name);
-  if (text == nullptr) text = mapping.attributes.find(oldName);
-  return followTo(mapping, text != nullptr ? std::string_view{*text} : standard, isState);
-}
-
 /// For each point of the child the rigid frame that carries it.
 class Carriers {
  public:
@@ -177,12 +170,8 @@ State mapSubset(Evaluation& evaluation, const Component& mapping, const State& p
 
 }  // namespace
 
-const Component* mappingInput(const Component& mapping) { return endOf(mapping, "input", "object1", "@../"); }
-
-const Component* mappingOutput(const Component& mapping) { return endOf(mapping, "output", "object2", "@./"); }
-
 State mapState(Evaluation& evaluation, const Component& mapping, State child) {
-  const auto* input = mappingInput(mapping);
+  const auto* input = mappingInput(mapping, isState);
   if (mapping.kind() == UnknownMapping) throw Unplaceable(mapping, "this kind of mapping is not known to this reader");
   switch (mapping.kind()) {
     case IdentityMultiMapping:

@@ -10,16 +10,16 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-const State& stateAt(Evaluation& evaluation, const Component& mapping, const std::string& link) {
+const State& stateAt(Evaluation& evaluation, const Component& mapping, std::string_view link) {
   const auto* which = followTo(mapping, link, isState);
-  if (which == nullptr) throw Unplaceable(mapping, "the state '" + link.substr(0, 80) + "' is nowhere to be found");
+  if (which == nullptr)
+    throw Unplaceable(mapping, "the state '" + std::string{link.substr(0, 80)} + "' is nowhere to be found");
   return evaluation.knownState(*which);
 }
 
 std::vector<const State*> inputsOf(Evaluation& evaluation, const Component& mapping) {
   std::vector<const State*> inputs;
-  const auto* text = mapping.attributes.find("input");
-  for (const std::string& link : allWords(text != nullptr ? *text : std::string_view()))
+  for (const std::string& link : allWords(mapping.attributes.value("input")))
     inputs.push_back(&stateAt(evaluation, mapping, link));
   if (inputs.empty()) throw Unplaceable(mapping, "it names no state that it reads");
   return inputs;
@@ -70,15 +70,12 @@ State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child) {
 }
 
 State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child) {
-  const auto link = [&](const char* name) {
-    const auto* text = mapping.attributes.find(name);
-    return text != nullptr ? *text : std::string{};
-  };
-  const auto& deformed = stateAt(evaluation, mapping, link("input1"));
+  const auto& deformed = stateAt(evaluation, mapping, mapping.attributes.value("input1"));
   child.positions = deformed.positions;
   child.fromTopology = deformed.fromTopology;
-  if (link("input2").empty()) return child;
-  const auto& frames = stateAt(evaluation, mapping, link("input2"));
+  const auto carrier = mapping.attributes.value("input2");
+  if (carrier.empty()) return child;
+  const auto& frames = stateAt(evaluation, mapping, carrier);
   const auto index = evaluation.number(mapping, {"index"}, 0);
   if (frames.kind != State::Kind::Rigid || !(index >= 0) || index >= static_cast<double>(frames.positions.size()) ||
       evaluation.isGiven(mapping, {"repartition", "indexFromEnd"}))

@@ -44,8 +44,7 @@ Vec3 rolledUp(const Vec3& p, double curvature) {
 }
 
 bool hasTag(const Component& component, std::string_view wanted) {
-  const auto* text = component.attributes.find("tags");
-  const std::vector<std::string> tags = allWords(text != nullptr ? *text : std::string_view());
+  const std::vector<std::string> tags = allWords(component.attributes.value("tags"));
   return std::find(tags.begin(), tags.end(), wanted) != tags.end();
 }
 

@@ -22,8 +22,7 @@ struct Placement {
 };
 
 double single(const Component& component, std::string_view name, double standard) {
-  const auto* text = component.attributes.find(name);
-  return text != nullptr ? parseWholeFloat(*text).value_or(standard) : standard;
+  return parseWholeFloat(component.attributes.value(name)).value_or(standard);
 }
 
 /// Three attributes such as rx, ry and rz, any of which overrides the vector.
@@ -64,12 +63,11 @@ void move(State& state, const Vec3& scale, const Vec3& rotation, const Vec3& tra
 }
 
 State::Kind kindOf(const Component& component) {
-  const auto* text = component.attributes.find("template");
-  if (text == nullptr || text->empty()) return State::Kind::Points;
-  if (isRigidTemplate(*text)) return State::Kind::Rigid;
+  const auto given = component.attributes.value("template");
+  if (isRigidTemplate(given)) return State::Kind::Rigid;
   for (const auto name : {"Vec1", "Vec1d", "Vec1f", "Vec2", "Vec2d", "Vec2f", "Vec6", "Vec6d", "Vec6f", "Rigid2",
                           "Rigid2d", "Rigid2f", "Affine", "Quadratic", "F331", "F332", "F311", "E331", "U331"})
-    if (*text == name) return State::Kind::Other;
+    if (given == name) return State::Kind::Other;
   return State::Kind::Points;  // Vec3 in its spellings, and what SOFA doesn't know and takes for Vec3.
 }
 
@@ -94,8 +92,7 @@ bool isTooLate(Evaluation& evaluation, const Component& state, const Component& 
 
 const Component* topologyFor(Evaluation& evaluation, const Component& state) {
   if (!evaluation.flag(state, "useTopology", true)) return nullptr;
-  if (const auto* text = state.attributes.find("topology"); text != nullptr && !text->empty())
-    return followTo(state, *text, isTopology);
+  if (const auto link = state.attributes.value("topology"); !link.empty()) return followTo(state, link, isTopology);
   return firstIn(*state.node, isTopology);
 }
 
@@ -125,10 +122,10 @@ std::size_t countOf(Evaluation& evaluation, const Component& component, std::str
 }
 
 std::size_t declaredSize(const Component& component, std::size_t standard) {
-  const auto* text = component.attributes.find("size");
-  const double size = text != nullptr ? parseWholeFloat(*text).value_or(-1) : -1;
+  const auto text = component.attributes.value("size");
+  const double size = parseWholeFloat(text).value_or(-1);
   if (size < 0) return standard;
-  if (size > kMaxPoints) throw Unplaceable(component, "size=\"" + *text + "\" is out of all reason");
+  if (size > kMaxPoints) throw Unplaceable(component, "size=\"" + std::string{text} + "\" is out of all reason");
   return static_cast<std::size_t>(size);
 }
 

@@ -236,8 +236,7 @@ std::optional<Numbers> roiOutput(Evaluation& evaluation, const Component& engine
   const bool isOut = name.ends_with("OutROI"), isIndices = name == "indices" || name == "indicesOut";
   if ((!isOut && !isIndices && !name.ends_with("InROI")) || evaluation.isGiven(engine, {"orientedBox"}))
     return std::nullopt;
-  const auto* kind = engine.attributes.find("template");
-  const Roi roi(evaluation, engine, kind != nullptr && kind->starts_with("Rigid") ? 7 : 3);
+  const Roi roi(evaluation, engine, engine.attributes.value("template").starts_with("Rigid") ? 7 : 3);
   if (isIndices) return roi.indices(name == "indices");
   const auto list = name.substr(0, name.size() - std::string_view{isOut ? "OutROI" : "InROI"}.size());
   if (list == "points") return roi.points(!isOut);

@@ -10,12 +10,6 @@ namespace {
 
 using enum ComponentKind;
 
-const Component* inputOf(const Component& mapping) {
-  const auto* text = mapping.attributes.find("input");
-  if (text == nullptr) text = mapping.attributes.find("object1");
-  return followTo(mapping, text != nullptr ? *text : "@../", isTopology);
-}
-
 /// Cuts each cube into six tetrahedra; with `swapping`, neighbours in a grid are cut as mirror images.
 Elements<4> cutCubes(const Topology& from, bool swapping) {
   Elements<4> tetrahedra;
@@ -177,7 +171,7 @@ void fill(Evaluation& evaluation, const Component& mapping, Topology& from, Topo
 }  // namespace
 
 Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target) {
-  const auto* input = inputOf(mapping);
+  const auto* input = mappingInput(mapping, isTopology);
   if (input == nullptr) throw Unplaceable(mapping, "the topology that it reads is nowhere to be found");
   if (input == &target) throw Unplaceable(mapping, "it reads the topology that it writes");
   auto& from = evaluation.topology(*input);

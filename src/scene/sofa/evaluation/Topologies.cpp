@@ -101,8 +101,7 @@ struct Corners {
 Corners gridCorners(Evaluation& evaluation, const Component& grid) {
   constexpr std::array<std::string_view, 6> kNames{"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
   const auto single = [&](std::string_view name, double standard) {
-    const auto* text = grid.attributes.find(name);
-    return text != nullptr ? parseWholeFloat(*text).value_or(standard) : standard;
+    return parseWholeFloat(grid.attributes.value(name)).value_or(standard);
   };
   if (!std::ranges::all_of(kNames, [&](auto name) { return grid.attributes.has(name); }))
     return {evaluation.vector(grid, {"min"}, {}), evaluation.vector(grid, {"max"}, {1, 1, 1})};

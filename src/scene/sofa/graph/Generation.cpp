@@ -18,8 +18,7 @@ bool isNew(const Component& component) {
       "TriangleOctreeCollisionModel"};
   if (std::ranges::find(kNewNames, component.type) != kNewNames.end()) return true;
   if (component.type != "RequiredPlugin") return false;
-  const auto* plugin = component.attributes.find("pluginName");
-  return (plugin != nullptr ? *plugin : component.name).starts_with("Sofa.");
+  return component.attributes.value("pluginName", component.name).starts_with("Sofa.");
 }
 
 bool anyIsNew(const Node& node) {

@@ -105,12 +105,21 @@ const Component* followTo(const Component& self, std::string_view text, const Wa
   return only != nullptr ? only : inContext(*target.node, wanted);
 }
 
+const Component* mappingInput(const Component& mapping, const Wanted& wanted) {
+  return followTo(mapping, mapping.attributes.value("input", mapping.attributes.value("object1", "@../")), wanted);
+}
+
+const Component* mappingOutput(const Component& mapping, const Wanted& wanted) {
+  return followTo(mapping, mapping.attributes.value("output", mapping.attributes.value("object2", "@./")), wanted);
+}
+
 const Component* namedTopology(const Component& self, std::string_view attribute, const Node& node) {
-  const auto* link = self.attributes.find(attribute);
-  if (link == nullptr || link->empty()) return inContext(node, isTopology);
-  const auto* found = followTo(self, *link, isTopology);
+  const auto link = self.attributes.value(attribute);
+  if (link.empty()) return inContext(node, isTopology);
+  const auto* found = followTo(self, link, isTopology);
   if (found == nullptr)
-    throw Unplaceable(self, std::string{attribute} + "=\"" + link->substr(0, 80) + "\" leads to no topology");
+    throw Unplaceable(self,
+                      std::string{attribute} + "=\"" + std::string{link.substr(0, 80)} + "\" leads to no topology");
   return found;
 }
 

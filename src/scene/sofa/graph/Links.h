@@ -43,6 +43,12 @@ using Wanted = std::function<bool(const Component&)>;
 /// The one that a node's own components see: the last wanted one in it, or else the first in its nearest ancestor.
 [[nodiscard]] const Component* inContext(const Node& node, const Wanted& wanted);
 
+/// What a mapping reads: the wanted component that `input` links to, or `object1`; by default that of the node above.
+[[nodiscard]] const Component* mappingInput(const Component& mapping, const Wanted& wanted);
+
+/// What it writes: that of `output` or `object2`; by default that of its own node.
+[[nodiscard]] const Component* mappingOutput(const Component& mapping, const Wanted& wanted);
+
 /// The topology that an attribute of a component links to; without one, that in the context of a node, or null.
 /// Throws Unplaceable where the link leads to no topology.
 [[nodiscard]] const Component* namedTopology(const Component& self, std::string_view attribute, const Node& node);

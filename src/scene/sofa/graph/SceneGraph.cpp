@@ -25,6 +25,11 @@ const std::string* Attributes::find(std::string_view name) const {
   return found == m_entries.end() ? nullptr : &found->value;
 }
 
+std::string_view Attributes::value(std::string_view name, std::string_view standard) const {
+  const auto* found = find(name);
+  return found != nullptr ? std::string_view{*found} : standard;
+}
+
 void Attributes::set(std::string_view name, std::string_view value) {
   const auto found = std::ranges::find(m_entries, name, &Attribute::name);
   if (found != m_entries.end())

@@ -30,6 +30,8 @@ struct Attribute {
 class Attributes {
  public:
   [[nodiscard]] const std::string* find(std::string_view name) const;
+  /// The value of an attribute, or else the default.
+  [[nodiscard]] std::string_view value(std::string_view name, std::string_view standard = {}) const;
   [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
   void set(std::string_view name, std::string_view value);
 

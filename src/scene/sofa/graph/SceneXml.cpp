@@ -283,12 +283,10 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   node->isNamed = element.isNamed;
   node->place = element.place;
   node->parent = parent;
-  if (const auto* gravity = element.attributes.find("gravity")) node->gravity = *gravity;
-  if (const auto* activated = element.attributes.find("activated")) node->active = parseBool(*activated).value_or(true);
-  if (const auto* depend = element.attributes.find("depend")) {
-    const std::vector<std::string> names = allWords(*depend);
-    for (std::size_t i = 0; i + 1 < names.size(); i += 2) node->order.emplace_back(names[i], names[i + 1]);
-  }
+  node->gravity = element.attributes.value("gravity");
+  node->active = parseBool(element.attributes.value("activated")).value_or(true);
+  const std::vector<std::string> names = allWords(element.attributes.value("depend"));
+  for (std::size_t i = 0; i + 1 < names.size(); i += 2) node->order.emplace_back(names[i], names[i + 1]);
   for (auto& child : element.children) {
     if (child.isNode)
       node->children.push_back(toNode(std::move(child), node.get()));

@@ -44,8 +44,7 @@ PipelineParts pipelineOver(const Node& node, const Component* component) {
 std::vector<const Component*> linked(const Component& pipeline, std::string_view name, const Wanted& wanted) {
   std::vector<const Component*> components;
   std::set<const Component*> seen;
-  const auto* text = pipeline.attributes.find(name);
-  for (const std::string& link : allWords(text != nullptr ? *text : std::string_view())) {
+  for (const std::string& link : allWords(pipeline.attributes.value(name))) {
     const auto* component = followTo(pipeline, link, wanted);
     if (component == nullptr)
       throw Unplaceable(pipeline, std::string{name} + ": '" + link.substr(0, 80) + "' leads to no such component");

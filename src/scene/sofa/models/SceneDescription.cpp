@@ -19,8 +19,8 @@ namespace allpairs::scene::sofa {
 namespace {
 
 void warnOfMotion(Evaluation& evaluation, const Component& method) {
-  const auto* type = method.attributes.find("continuousCollisionType");
-  if (type != nullptr && *type != "None" && *type != "0")
+  const auto type = method.attributes.value("continuousCollisionType", "None");
+  if (type != "None" && type != "0")
     evaluation.warn(method,
                     "the method is continuous; boxes here are those of the start, without the motion of a step");
 }
