@@ -149,9 +149,8 @@ class Cells {
 /// Through the cells of a regular grid, found by arithmetic; points outside go with the nearest cell.
 std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in, const std::vector<Vec3>& points) {
   std::vector<Vec3> result;
-  const auto [nx, ny, nz] = grid.points;
   for (const auto& point : points) {
-    std::array<std::size_t, 3> cell{};
+    GridPlace cell{};
     Vec3 at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double local = grid.spacing[axis] != 0 ? (point[axis] - grid.origin[axis]) / grid.spacing[axis] : 0;
@@ -163,7 +162,7 @@ std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const std::size_t dx = corner & 1, dy = (corner >> 1) & 1, dz = corner >> 2;
       const double weight = (dx ? at[0] : 1 - at[0]) * (dy ? at[1] : 1 - at[1]) * (dz ? at[2] : 1 - at[2]);
-      sum = sum + in[nx * (ny * (cell[2] + dz) + cell[1] + dy) + cell[0] + dx] * weight;
+      sum = sum + in[indexOf(cell + GridPlace{dx, dy, dz}, grid.points)] * weight;
     }
     result.push_back(sum);
   }

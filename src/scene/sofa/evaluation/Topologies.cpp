@@ -74,7 +74,7 @@ Topology containerTopology(Evaluation& evaluation, const Component& component) {
   return topology;
 }
 
-std::array<std::size_t, 3> toCounts(const Component& grid, const Vec3& numbers) {
+GridPlace toCounts(const Component& grid, const Vec3& numbers) {
   double product = 1;
   for (const double n : numbers) product *= std::max(1.0, n);
   if (!(product <= kMaxPoints))
@@ -178,13 +178,10 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   constexpr std::uint64_t kElements = 8;  // elements of a grid take this many times the memory of its points
   evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
 
-  const auto [nx, ny, nz] = shape.points;
-  for (std::size_t z = 0; z < nz; ++z)
-    for (std::size_t y = 0; y < ny; ++y)
-      for (std::size_t x = 0; x < nx; ++x) topology.given.positions.push_back(shape.point(x, y, z));
+  forAllPlaces(shape.points, [&](const GridPlace& p) { topology.given.positions.push_back(shape.point(p)); });
   fillGrid(topology, shape.points, gridLists(evaluation, component));
   topology.pointCount = topology.given.positions.size();
-  topology.cells = {nx - 1, ny - 1, nz - 1};
+  topology.cells = {shape.points[0] - 1, shape.points[1] - 1, shape.points[2] - 1};
   topology.grid = shape;
   return topology;
 }
@@ -196,15 +193,14 @@ Topology cubeTopology(Evaluation& evaluation, const Component& component) {
               evaluation.number(component, {"nz"}, 0)};
   for (auto& n : counts) n = std::max(0.0, std::trunc(n));
   const auto corners = gridCorners(evaluation, component);
-  CubeSurface cube{.points = toCounts(component, counts),
-                   .origin = corners.min,
-                   .inner = evaluation.flag(component, "internalPoints", false)};
+  GridShape grid{.points = toCounts(component, counts), .origin = corners.min};
+  const bool hasInner = evaluation.flag(component, "internalPoints", false);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    cube.spacing[axis] = counts[axis] > 1 ? (corners.max[axis] - corners.min[axis]) / (counts[axis] - 1) : 0.0;
+    grid.spacing[axis] = counts[axis] > 1 ? (corners.max[axis] - corners.min[axis]) / (counts[axis] - 1) : 0.0;
   constexpr std::uint64_t kElements = 4;  // elements take this many times the memory of the points
-  evaluation.takePoints(component, kElements * cube.points[0] * cube.points[1] * cube.points[2]);
+  evaluation.takePoints(component, kElements * grid.points[0] * grid.points[1] * grid.points[2]);
   Topology topology;
-  topology.given = meshOf(cube);
+  topology.given = cubeSurface(grid, hasInner);
   topology.pointCount = topology.given.positions.size();
   topology.hasPositions = topology.pointCount > 0;
   return topology;

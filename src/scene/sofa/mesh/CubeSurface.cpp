@@ -4,26 +4,22 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-using GridPlace = std::array<std::size_t, 3>;
 constexpr std::size_t kX = 0, kY = 1, kZ = 2;
 
-bool isEnd(const CubeSurface& cube, const GridPlace& p, std::size_t axis) {
-  return p[axis] == 0 || p[axis] + 1 == cube.points[axis];
+bool isEnd(const GridShape& grid, const GridPlace& p, std::size_t axis) {
+  return p[axis] == 0 || p[axis] + 1 == grid.points[axis];
 }
 
 class Numbering {
  public:
-  explicit Numbering(const CubeSurface& cube) : m_cube(cube) {
-    const auto [nx, ny, nz] = cube.points;
-    m_isHollow = !cube.inner && nx > 1 && ny > 1 && nz > 1;
-  }
+  Numbering(const GridShape& grid, bool hasInner) : m_points(grid.points), m_isHollow(!hasInner && grid.isVolume()) {}
 
   [[nodiscard]] bool isHollow() const { return m_isHollow; }
 
   [[nodiscard]] Index of(const GridPlace& p) const {
-    const auto [nx, ny, nz] = m_cube.points;
+    const auto [nx, ny, nz] = m_points;
     const auto [x, y, z] = p;
-    if (!m_isHollow) return static_cast<Index>(x + nx * (y + ny * z));
+    if (!m_isHollow) return static_cast<Index>(indexOf(p, m_points));
     if (z == 0) return static_cast<Index>(x + nx * y);
     if (z + 1 == nz) return static_cast<Index>(x + nx * (y + ny));
     return static_cast<Index>(2 * nx * ny + (2 * nx + 2 * ny - 4) * (z - 1) + onSide(x, y));
@@ -31,38 +27,30 @@ class Numbering {
 
  private:
   [[nodiscard]] std::size_t onSide(std::size_t x, std::size_t y) const {
-    const auto [nx, ny, nz] = m_cube.points;
+    const auto [nx, ny, nz] = m_points;
     if (y == 0) return x;
     if (y + 1 == ny) return nx + x;
     return 2 * nx + (x == 0 ? 0 : ny - 2) + y - 1;
   }
 
-  const CubeSurface& m_cube;
-  bool m_isHollow = false;
+  GridPlace m_points;
+  bool m_isHollow;
 };
 
-template <class Visit>
-void forAll(const CubeSurface& cube, const Visit& visit) {
-  for (std::size_t z = 0; z < cube.points[2]; ++z)
-    for (std::size_t y = 0; y < cube.points[1]; ++y)
-      for (std::size_t x = 0; x < cube.points[0]; ++x) visit(GridPlace{x, y, z});
-}
-
-void addPoints(const CubeSurface& cube, const Numbering& numbers, Mesh& mesh) {
-  forAll(cube, [&](const GridPlace& p) {
-    if (numbers.isHollow() && !isEnd(cube, p, 0) && !isEnd(cube, p, 1) && !isEnd(cube, p, 2)) return;
+void addPoints(const GridShape& grid, const Numbering& numbers, Mesh& mesh) {
+  forAllPlaces(grid.points, [&](const GridPlace& p) {
+    if (numbers.isHollow() && !isEnd(grid, p, 0) && !isEnd(grid, p, 1) && !isEnd(grid, p, 2)) return;
     const auto index = numbers.of(p);
     if (index >= mesh.positions.size()) mesh.positions.resize(std::size_t{index} + 1);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      mesh.positions[index][axis] = cube.origin[axis] + cube.spacing[axis] * static_cast<double>(p[axis]);
+    mesh.positions[index] = grid.point(p);
   });
 }
 
-void addEdges(const CubeSurface& cube, const Numbering& numbers, Mesh& mesh) {
-  forAll(cube, [&](const GridPlace& p) {
+void addEdges(const GridShape& grid, const Numbering& numbers, Mesh& mesh) {
+  forAllPlaces(grid.points, [&](const GridPlace& p) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (p[axis] + 1 == cube.points[axis]) continue;
-      if (!isEnd(cube, p, (axis + 1) % 3) && !isEnd(cube, p, (axis + 2) % 3)) continue;
+      if (p[axis] + 1 == grid.points[axis]) continue;
+      if (!isEnd(grid, p, (axis + 1) % 3) && !isEnd(grid, p, (axis + 2) % 3)) continue;
       auto next = p;
       ++next[axis];
       mesh.edges.push_back({numbers.of(p), numbers.of(next)});
@@ -75,9 +63,9 @@ struct Side {
   std::size_t axis, at, u, v, row, column;
 };
 
-void addSide(const CubeSurface& cube, const Numbering& numbers, const Side& side, Mesh& mesh) {
-  for (std::size_t c = 0; c + 1 < cube.points[side.column]; ++c)
-    for (std::size_t r = 0; r + 1 < cube.points[side.row]; ++r) {
+void addSide(const GridShape& grid, const Numbering& numbers, const Side& side, Mesh& mesh) {
+  for (std::size_t c = 0; c + 1 < grid.points[side.column]; ++c)
+    for (std::size_t r = 0; r + 1 < grid.points[side.row]; ++r) {
       GridPlace p{};
       p[side.axis] = side.at;
       p[side.column] = c;
@@ -90,18 +78,18 @@ void addSide(const CubeSurface& cube, const Numbering& numbers, const Side& side
 
 }  // namespace
 
-Mesh meshOf(const CubeSurface& cube) {
-  const Numbering numbers(cube);
-  const auto [nx, ny, nz] = cube.points;
+Mesh cubeSurface(const GridShape& grid, bool hasInner) {
+  const Numbering numbers(grid, hasInner);
+  const auto [nx, ny, nz] = grid.points;
   Mesh mesh;
-  addPoints(cube, numbers, mesh);
-  addEdges(cube, numbers, mesh);
-  addSide(cube, numbers, {kZ, 0, kY, kX, kX, kY}, mesh);
-  if (nz > 1) addSide(cube, numbers, {kZ, nz - 1, kX, kY, kX, kY}, mesh);
-  addSide(cube, numbers, {kY, 0, kX, kZ, kX, kZ}, mesh);
-  if (ny > 1) addSide(cube, numbers, {kY, ny - 1, kZ, kX, kX, kZ}, mesh);
-  addSide(cube, numbers, {kX, 0, kZ, kY, kY, kZ}, mesh);
-  if (nx > 1) addSide(cube, numbers, {kX, nx - 1, kY, kZ, kY, kZ}, mesh);
+  addPoints(grid, numbers, mesh);
+  addEdges(grid, numbers, mesh);
+  addSide(grid, numbers, {kZ, 0, kY, kX, kX, kY}, mesh);
+  if (nz > 1) addSide(grid, numbers, {kZ, nz - 1, kX, kY, kX, kY}, mesh);
+  addSide(grid, numbers, {kY, 0, kX, kZ, kX, kZ}, mesh);
+  if (ny > 1) addSide(grid, numbers, {kY, ny - 1, kZ, kX, kX, kZ}, mesh);
+  addSide(grid, numbers, {kX, 0, kZ, kY, kY, kZ}, mesh);
+  if (nx > 1) addSide(grid, numbers, {kX, nx - 1, kY, kZ, kY, kZ}, mesh);
   return mesh;
 }
 

@@ -8,7 +8,6 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-using GridPlace = std::array<std::size_t, 3>;
 using Corners = std::array<Vec3, 3>;
 
 enum class Filling : std::uint8_t { Inside, Boundary, Outside };
@@ -46,7 +45,7 @@ class Voxels {
     for (const auto& point : surface.positions) {
       const auto cell = cellOf(point);
       if (!cell) return false;
-      m_filling[indexOf(*cell)] = Filling::Boundary;
+      filling(*cell) = Filling::Boundary;
       cells.push_back(*cell);
     }
     const auto addTriangle = [&](Index a, Index b, Index c) {
@@ -61,16 +60,15 @@ class Voxels {
   /// What can be reached from the rim without crossing the surface is outside.
   void clearOutside() {
     std::vector<GridPlace> open;
-    forAll([&](const GridPlace& cell) {
+    forAllPlaces(m_cells, [&](const GridPlace& cell) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (cell[axis] == 0 || cell[axis] + 1 == m_cells[axis]) return open.push_back(cell);
     });
     while (!open.empty()) {
       const auto cell = open.back();
       open.pop_back();
-      auto& filling = m_filling[indexOf(cell)];
-      if (filling != Filling::Inside) continue;
-      filling = Filling::Outside;
+      if (filling(cell) != Filling::Inside) continue;
+      filling(cell) = Filling::Outside;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (cell[axis] > 0) open.push_back(moved(cell, axis, -1));
         if (cell[axis] + 1 < m_cells[axis]) open.push_back(moved(cell, axis, 1));
@@ -82,10 +80,10 @@ class Voxels {
     Mesh result;
     const auto numbers = numberCorners(result);
     for (const auto wanted : {Filling::Boundary, Filling::Inside})
-      forAll([&](const GridPlace& cell) {
-        if (m_filling[indexOf(cell)] != wanted) return;
+      forAllPlaces(m_cells, [&](const GridPlace& cell) {
+        if (filling(cell) != wanted) return;
         std::array<Index, 8> corners{};
-        for (std::size_t i = 0; i < 8; ++i) corners[i] = numbers[pointIndex(cornerOf(cell, i))];
+        for (std::size_t i = 0; i < 8; ++i) corners[i] = numbers[pointIndex(cell + kCellCorners[i])];
         result.hexahedra.push_back(corners);
       });
     return result;
@@ -97,23 +95,8 @@ class Voxels {
     return cell;
   }
 
-  static GridPlace cornerOf(const GridPlace& cell, std::size_t corner) {
-    constexpr GridPlace kCorners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    const auto& c = kCorners[corner];
-    return {cell[0] + c[0], cell[1] + c[1], cell[2] + c[2]};
-  }
-
-  template <class Visit>
-  void forAll(const Visit& visit) const {
-    for (std::size_t z = 0; z < m_cells[2]; ++z)
-      for (std::size_t y = 0; y < m_cells[1]; ++y)
-        for (std::size_t x = 0; x < m_cells[0]; ++x) visit(GridPlace{x, y, z});
-  }
-
-  [[nodiscard]] std::size_t indexOf(const GridPlace& cell) const {
-    return cell[0] + m_cells[0] * (cell[1] + m_cells[1] * cell[2]);
-  }
+  [[nodiscard]] Filling& filling(const GridPlace& cell) { return m_filling[indexOf(cell, m_cells)]; }
+  [[nodiscard]] Filling filling(const GridPlace& cell) const { return m_filling[indexOf(cell, m_cells)]; }
 
   /// By x, then y, then z: the order in which corners are numbered.
   [[nodiscard]] std::size_t pointIndex(const GridPlace& point) const {
@@ -132,8 +115,8 @@ class Voxels {
   }
 
   [[nodiscard]] bool meets(const Corners& triangle, const GridPlace& cell) const {
-    const auto low = m_grid.point(cell[0], cell[1], cell[2]);
-    const auto diagonal = m_grid.point(cell[0] + 1, cell[1] + 1, cell[2] + 1) - low;
+    const auto low = m_grid.point(cell);
+    const auto diagonal = m_grid.point(cell + GridPlace{1, 1, 1}) - low;
     const auto centre = low + diagonal * 0.5;
     Corners scaled{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -150,19 +133,18 @@ class Voxels {
     }
     for (auto x = low[0]; x <= high[0]; ++x)
       for (auto y = low[1]; y <= high[1]; ++y)
-        for (auto z = low[2]; z <= high[2]; ++z) {
-          auto& filling = m_filling[indexOf({x, y, z})];
-          if (filling != Filling::Boundary && meets(triangle, {x, y, z})) filling = Filling::Boundary;
-        }
+        for (auto z = low[2]; z <= high[2]; ++z)
+          if (filling({x, y, z}) != Filling::Boundary && meets(triangle, {x, y, z}))
+            filling({x, y, z}) = Filling::Boundary;
   }
 
   /// The number of each corner of a kept cell by its place in the grid; also adds the corners to a mesh.
   std::vector<Index> numberCorners(Mesh& mesh) const {
     const auto [nx, ny, nz] = m_grid.points;
     std::vector<Index> numbers(nx * ny * nz, 0);
-    forAll([&](const GridPlace& cell) {
-      for (std::size_t i = 0; i < 8; ++i)
-        if (m_filling[indexOf(cell)] != Filling::Outside) numbers[pointIndex(cornerOf(cell, i))] = 1;
+    forAllPlaces(m_cells, [&](const GridPlace& cell) {
+      if (filling(cell) == Filling::Outside) return;
+      for (const auto& corner : kCellCorners) numbers[pointIndex(cell + corner)] = 1;
     });
     for (std::size_t x = 0; x < nx; ++x)
       for (std::size_t y = 0; y < ny; ++y)
@@ -170,7 +152,7 @@ class Voxels {
           auto& number = numbers[pointIndex({x, y, z})];
           if (number == 0) continue;
           number = static_cast<Index>(mesh.positions.size());
-          mesh.positions.push_back(m_grid.point(x, y, z));
+          mesh.positions.push_back(m_grid.point({x, y, z}));
         }
     return numbers;
   }

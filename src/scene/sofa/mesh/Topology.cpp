@@ -183,39 +183,32 @@ Vec3 Topology::position(std::size_t index) const {
 
 namespace {
 
-using GridPlace = std::array<std::size_t, 3>;
 constexpr GridPlace kSteps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 /// The points of a grid, and the visits to all from which so many steps are left on each axis.
 struct GridPoints {
   GridPlace count;
 
-  [[nodiscard]] Index at(std::size_t x, std::size_t y, std::size_t z) const {
-    return static_cast<Index>(count[0] * (count[1] * z + y) + x);
-  }
+  [[nodiscard]] Index at(const GridPlace& point) const { return static_cast<Index>(indexOf(point, count)); }
 
   template <class Visit>
   void forAll(const GridPlace& steps, const Visit& visit) const {
-    for (std::size_t z = 0; z + steps[2] < count[2]; ++z)
-      for (std::size_t y = 0; y + steps[1] < count[1]; ++y)
-        for (std::size_t x = 0; x + steps[0] < count[0]; ++x) visit(x, y, z);
+    GridPlace left{};
+    for (std::size_t axis = 0; axis < 3; ++axis) left[axis] = count[axis] - std::min(steps[axis], count[axis]);
+    forAllPlaces(left, visit);
   }
 };
 
 void addQuads(const GridPoints& grid, const GridPlace& u, const GridPlace& v, Elements<4>& quads) {
-  grid.forAll({u[0] + v[0], u[1] + v[1], u[2] + v[2]}, [&](std::size_t x, std::size_t y, std::size_t z) {
-    quads.push_back({grid.at(x, y, z), grid.at(x + u[0], y + u[1], z + u[2]),
-                     grid.at(x + u[0] + v[0], y + u[1] + v[1], z + u[2] + v[2]),
-                     grid.at(x + v[0], y + v[1], z + v[2])});
+  grid.forAll(u + v, [&](const GridPlace& p) {
+    quads.push_back({grid.at(p), grid.at(p + u), grid.at(p + u + v), grid.at(p + v)});
   });
 }
 
 Elements<2> edgesAlongAxes(const GridPoints& grid) {
   Elements<2> edges;
   for (const auto& s : kSteps)
-    grid.forAll(s, [&](std::size_t x, std::size_t y, std::size_t z) {
-      edges.push_back({grid.at(x, y, z), grid.at(x + s[0], y + s[1], z + s[2])});
-    });
+    grid.forAll(s, [&](const GridPlace& p) { edges.push_back({grid.at(p), grid.at(p + s)}); });
   return edges;
 }
 
@@ -227,17 +220,16 @@ Elements<2> edgesOf(const Elements<3>& triangles) {
 
 Elements<8> cubesOf(const GridPoints& grid) {
   Elements<8> cubes;
-  grid.forAll({1, 1, 1}, [&](std::size_t x, std::size_t y, std::size_t z) {
-    cubes.push_back({grid.at(x, y, z), grid.at(x + 1, y, z), grid.at(x + 1, y + 1, z), grid.at(x, y + 1, z),
-                     grid.at(x, y, z + 1), grid.at(x + 1, y, z + 1), grid.at(x + 1, y + 1, z + 1),
-                     grid.at(x, y + 1, z + 1)});
+  grid.forAll({1, 1, 1}, [&](const GridPlace& p) {
+    auto& cube = cubes.emplace_back();
+    for (std::size_t i = 0; i < 8; ++i) cube[i] = grid.at(p + kCellCorners[i]);
   });
   return cubes;
 }
 
 }  // namespace
 
-void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points, const GridLists& lists) {
+void fillGrid(Topology& topology, const GridPlace& points, const GridLists& lists) {
   const GridPoints grid{points};
   auto& mesh = topology.given;
   if (lists.quads || lists.triangles) {

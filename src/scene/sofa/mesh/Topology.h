@@ -6,22 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "sofa/mesh/Grid.h"
 #include "sofa/mesh/Mesh.h"
 
 namespace allpairs::scene::sofa {
-
-/// The shape of a grid whose axes are those of space.
-struct GridShape {
-  std::array<std::size_t, 3> points{2, 2, 2};
-  Vec3 origin{};
-  Vec3 spacing{};
-
-  [[nodiscard]] bool isVolume() const { return points[0] > 1 && points[1] > 1 && points[2] > 1; }
-  [[nodiscard]] Vec3 point(std::size_t x, std::size_t y, std::size_t z) const {
-    return {origin[0] + spacing[0] * static_cast<double>(x), origin[1] + spacing[1] * static_cast<double>(y),
-            origin[2] + spacing[2] * static_cast<double>(z)};
-  }
-};
 
 /// The points and elements that a topology component of a scene holds; lists that it wasn't given it derives when
 /// asked.
@@ -43,9 +31,9 @@ class Topology {
   bool hasPositions = false;  ///< Whether states may take their points from it.
   Mesh given;                 ///< Positions may be fewer or more than pointCount.
   std::optional<GridShape> grid;
-  std::array<std::size_t, 3> cells{2, 1, 1};  ///< Of grids along x, y and z, which some mappings ask for.
-  bool sparse = false;                        ///< A sparse grid, of which edges and faces are not known.
-  bool unknown = false;                       ///< Neither are its points and its cells.
+  GridPlace cells{2, 1, 1};  ///< Of grids along x, y and z, which some mappings ask for.
+  bool sparse = false;       ///< A sparse grid, of which edges and faces are not known.
+  bool unknown = false;      ///< Neither are its points and its cells.
 
   [[nodiscard]] const Elements<2>& edges();
   [[nodiscard]] const Elements<3>& triangles();
@@ -88,6 +76,6 @@ struct GridLists {
 };
 
 /// The elements of a regular grid.
-void fillGrid(Topology& topology, const std::array<std::size_t, 3>& points, const GridLists& lists = {});
+void fillGrid(Topology& topology, const GridPlace& points, const GridLists& lists = {});
 
 }  // namespace allpairs::scene::sofa
