@@ -44,7 +44,7 @@ const Component& hierarchyOf(const Component& mapping, const Component& angles) 
 }
 
 Quat turn(const Vec3& axis, double angle) {
-  const double length = std::sqrt(dot(axis, axis));
+  const double length = lengthOf(axis);
   if (!(length > 0)) return {};
   const Vec3 v = axis * (std::sin(angle / 2) / length);
   return {v[0], v[1], v[2], std::cos(angle / 2)};
@@ -107,7 +107,7 @@ class Joint {
   }
 
   static Vec3 unit(const Vec3& v) {
-    const double length = std::sqrt(dot(v, v));
+    const double length = lengthOf(v);
     return length > 0 ? v * (1 / length) : v;
   }
 

@@ -8,8 +8,6 @@
 namespace allpairs::scene::sofa {
 namespace {
 
-double lengthOf(const Vec3& v) { return std::sqrt(dot(v, v)); }
-
 /// How long each beam is, from one frame to the next; what is behind the last counts as long as the last.
 std::vector<double> beamLengths(const State& frames) {
   std::vector<double> lengths;

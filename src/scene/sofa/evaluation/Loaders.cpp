@@ -27,10 +27,7 @@ class Completion {
 };
 
 void triangulate(Mesh& mesh) {
-  for (const auto& q : mesh.quads) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
+  addHalves(mesh.quads, mesh.triangles);
   mesh.quads.clear();
 }
 
@@ -189,10 +186,7 @@ Mesh stuffedMesh(Evaluation& evaluation, const Component& engine) {
   Mesh surface;
   surface.positions = evaluation.points(engine, {"inputPoints"});
   surface.triangles = evaluation.elements<3>(engine, {"inputTriangles"});
-  for (const auto& q : evaluation.elements<4>(engine, {"inputQuads"})) {
-    surface.triangles.push_back({q[0], q[1], q[2]});
-    surface.triangles.push_back({q[0], q[2], q[3]});
-  }
+  addHalves(evaluation.elements<4>(engine, {"inputQuads"}), surface.triangles);
   if (surface.positions.empty() || surface.triangles.empty()) throw Unplaceable(engine, "it is given no surface");
   if (indicesUsed(surface) > surface.positions.size())
     throw Unplaceable(engine, "its triangles name points that are not there");
@@ -204,8 +198,8 @@ Mesh stuffedMesh(Evaluation& evaluation, const Component& engine) {
                .split = evaluation.flag(
                    engine, evaluation.isGiven(engine, {"splitTetras"}) ? "splitTetras" : "splitTetrahedra", false)};
   if (box && box->size() == 1) {
-    how.low = {box->values[0], box->values[1], box->values[2]};
-    how.high = {box->values[3], box->values[4], box->values[5]};
+    how.box.min = {box->values[0], box->values[1], box->values[2]};
+    how.box.max = {box->values[3], box->values[4], box->values[5]};
   }
   const double points = stuffingPoints(surface, how);
   constexpr double kMostPoints = 1e8;

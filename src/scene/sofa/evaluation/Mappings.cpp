@@ -122,8 +122,7 @@ std::vector<std::size_t> nearestWithin(const std::vector<Vec3>& wanted, const st
     auto best = std::pair{radius, others.size()};
     auto at = std::ranges::lower_bound(order, p[0] - radius, {}, [&](auto i) { return others[i][0]; });
     for (; at != order.end() && others[*at][0] <= p[0] + radius; ++at) {
-      const auto difference = p - others[*at];
-      const auto candidate = std::pair{std::sqrt(dot(difference, difference)), *at};
+      const auto candidate = std::pair{lengthOf(p - others[*at]), *at};
       if (candidate.first < radius && candidate < best) best = candidate;
     }
     result.push_back(best.second);

@@ -12,7 +12,7 @@ namespace allpairs::scene::sofa {
 namespace {
 
 Vec3 unit(const Vec3& v) {
-  const double length = std::sqrt(dot(v, v));
+  const double length = lengthOf(v);
   return length > std::numeric_limits<double>::epsilon() ? Vec3{v[0] / length, v[1] / length, v[2] / length} : v;
 }
 
@@ -93,7 +93,7 @@ std::optional<Numbers> frameOutput(Evaluation& evaluation, const Component& engi
     Vec3 place = points[i];
     if (i < lines.size()) {
       const Vec3 along = rotate({q[0], q[1], q[2], q[3]}, {0, 0, 1});
-      place = lines[i] + along * (dot(along, place - lines[i]) / std::sqrt(dot(along, along)));
+      place = lines[i] + along * (dot(along, place - lines[i]) / lengthOf(along));
     }
     result.values.insert(result.values.end(), place.begin(), place.end());
     result.values.insert(result.values.end(), q, q + 4);

@@ -35,9 +35,8 @@ Regions spheresOf(Evaluation& evaluation, const Component& engine) {
   const auto radii = evaluation.numbers(engine, {"radii"}, 1);
   if (!radii || radii->size() != centres.size()) throw Unplaceable(engine, "it has not one radius for each centre");
   for (std::size_t i = 0; i < centres.size(); ++i)
-    regions.emplace_back([centre = centres[i], radius = radii->values[i]](const Vec3& p) {
-      return !(std::sqrt(dot(p - centre, p - centre)) > radius);
-    });
+    regions.emplace_back(
+        [centre = centres[i], radius = radii->values[i]](const Vec3& p) { return !(lengthOf(p - centre) > radius); });
   return regions;
 }
 

@@ -93,19 +93,14 @@ Vec3 gridCounts(Evaluation& evaluation, const Component& grid) {
   return counts;
 }
 
-struct Corners {
-  Vec3 min{};
-  Vec3 max{1, 1, 1};
-};
-
-Corners gridCorners(Evaluation& evaluation, const Component& grid) {
+Box gridCorners(Evaluation& evaluation, const Component& grid) {
   constexpr std::array<std::string_view, 6> kNames{"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
   const auto single = [&](std::string_view name, double standard) {
     return parseWholeFloat(grid.attributes.value(name)).value_or(standard);
   };
   if (!std::ranges::all_of(kNames, [&](auto name) { return grid.attributes.has(name); }))
     return {evaluation.vector(grid, {"min"}, {}), evaluation.vector(grid, {"max"}, {1, 1, 1})};
-  Corners corners;
+  Box corners;
   const double scale = single("scale", 1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     corners.min[axis] = single(kNames[axis], 0) * scale;
@@ -115,7 +110,7 @@ Corners gridCorners(Evaluation& evaluation, const Component& grid) {
 }
 
 /// Origin and spacing of a grid with that many points between two corners; an axis with one point is special.
-GridShape gridBetween(const Corners& corners, const Vec3& counts) {
+GridShape gridBetween(const Box& corners, const Vec3& counts) {
   GridShape shape;
   shape.origin = corners.min;
   const auto extent = corners.max - corners.min;
@@ -128,7 +123,7 @@ GridShape gridBetween(const Corners& corners, const Vec3& counts) {
 
 /// A grid as it is written, and the number of its points along each axis.
 struct WrittenGrid {
-  Corners corners;
+  Box corners;
   Vec3 counts{};
   GridShape shape;
 };
@@ -232,22 +227,10 @@ std::optional<Mesh> readableSurfaceOf(Evaluation& evaluation, const Component& c
   }
 }
 
-Corners cornersAround(const Mesh& surface) {
-  constexpr double kMargin = 0.01;  // Of the extent, to each side.
-  Corners corners{surface.positions[0], surface.positions[0]};
-  for (const auto& p : surface.positions)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      corners.min[axis] = std::min(corners.min[axis], p[axis]);
-      corners.max[axis] = std::max(corners.max[axis], p[axis]);
-    }
-  const auto margin = (corners.max - corners.min) * kMargin;
-  return {corners.min - margin, corners.max + margin};
-}
-
 /// The regular grid that a sparse grid is cut from; with a spacing of zero where the surface is flat.
 GridShape shapeAround(Evaluation& evaluation, const Component& component, const Mesh& surface) {
-  Corners corners{evaluation.vector(component, {"min"}, {}), evaluation.vector(component, {"max"}, {})};
-  if (corners.min == Vec3{} && corners.max == Vec3{}) corners = cornersAround(surface);
+  Box corners{evaluation.vector(component, {"min"}, {}), evaluation.vector(component, {"max"}, {})};
+  if (corners.min == Vec3{} && corners.max == Vec3{}) corners = boxToFill(surface.positions);
   Vec3 counts = evaluation.vector(component, {"n"}, {2, 2, 2});
   for (auto& n : counts) n = std::max(2.0, std::trunc(n));
   if (const double width = evaluation.number(component, {"cellWidth"}, 0); width != 0)

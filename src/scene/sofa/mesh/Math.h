@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
+
+#include "allpairs/Box.h"
 
 namespace allpairs::scene::sofa {
 
@@ -18,8 +22,28 @@ using Vec3 = std::array<double, 3>;
 [[nodiscard]] constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+[[nodiscard]] inline double lengthOf(const Vec3& a) { return std::sqrt(dot(a, a)); }
 [[nodiscard]] inline bool isFinite(const Vec3& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+/// The box around points, of which there must be one.
+[[nodiscard]] inline Box boundsOf(std::span<const Vec3> points) {
+  Box box{points[0], points[0]};
+  for (const auto& p : points)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = std::min(box.min[axis], p[axis]);
+      box.max[axis] = std::max(box.max[axis], p[axis]);
+    }
+  return box;
+}
+
+/// The box that SOFA fills around a surface: larger than that of its points by a hundredth to each side.
+[[nodiscard]] inline Box boxToFill(std::span<const Vec3> points) {
+  constexpr double kMargin = 0.01;
+  const Box box = boundsOf(points);
+  const Vec3 margin = (box.max - box.min) * kMargin;
+  return {box.min - margin, box.max + margin};
 }
 
 /// A rotation; not normalised, because scenes give quaternions that aren't and mean what the matrix below makes of

@@ -38,6 +38,11 @@ struct Mesh {
   std::vector<double> radii;  ///< Of sphere files: one for each point.
 };
 
+/// Cuts quads in two, from the first corner to the third.
+inline void addHalves(const Elements<4>& quads, Elements<3>& triangles) {
+  for (const auto& q : quads) triangles.insert(triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
+}
+
 /// What the loaders of a scene may ask of a Wavefront file.
 struct ObjOptions {
   bool triangulate = false;  ///< Faces of four corners become triangles at once, as larger ones always do.

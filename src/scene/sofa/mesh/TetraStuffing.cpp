@@ -30,10 +30,10 @@ double volume(const std::vector<Vec3>& points, const FourPoints& t) {
 /// A grid of points, and another one of the middles of its cells, one point longer to each side.
 class Lattice {
  public:
-  Lattice(const Vec3& low, const Vec3& high, double size) : m_size(size) {
-    const Vec3 middle = halfWay(low, high);
+  Lattice(const Box& box, double size) : m_size(size) {
+    const Vec3 middle = middleOf(box);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double down = cells(middle[axis] - low[axis], size), up = cells(high[axis] - middle[axis], size);
+      const double down = cells(middle[axis] - box.min[axis], size), up = cells(box.max[axis] - middle[axis], size);
       m_firstCount[axis] = static_cast<int>(std::min(up + down + 1, kMostPoints));
       m_secondCount[axis] = m_firstCount[axis] + 1;
       m_first[axis] = middle[axis] + -down * size;
@@ -41,11 +41,11 @@ class Lattice {
     }
   }
 
-  [[nodiscard]] static double pointsIn(const Vec3& low, const Vec3& high, double size) {
-    const Vec3 middle = halfWay(low, high);
+  [[nodiscard]] static double pointsIn(const Box& box, double size) {
+    const Vec3 middle = middleOf(box);
     double product = 2;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      product *= cells(middle[axis] - low[axis], size) + cells(high[axis] - middle[axis], size) + 2;
+      product *= cells(middle[axis] - box.min[axis], size) + cells(box.max[axis] - middle[axis], size) + 2;
     return product;
   }
 
@@ -79,8 +79,8 @@ class Lattice {
  private:
   static constexpr double kMostPoints = 1e6;  // On an axis; more would have been refused before.
 
-  [[nodiscard]] static Vec3 halfWay(const Vec3& low, const Vec3& high) {
-    const Vec3 sum = low + high;
+  [[nodiscard]] static Vec3 middleOf(const Box& box) {
+    const Vec3 sum = box.min + box.max;
     return {sum[0] / 2, sum[1] / 2, sum[2] / 2};
   }
 
@@ -407,41 +407,24 @@ class Stuffer {
   std::vector<FourPoints> m_tetrahedra;
 };
 
-/// The box to fill and the size of a cell.
-struct Filled {
-  Vec3 low, high;
-  double size;
-};
-
-Filled filledBy(const Mesh& surface, const Stuffing& how) {
-  constexpr double kMargin = 0.01;  // Of the extent, to each side.
-  Filled filled{how.low, how.high, how.size};
-  if (how.low[0] >= how.high[0]) {
-    Vec3 low = surface.positions[0], high = low;
-    for (const auto& p : surface.positions)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], p[axis]);
-        high[axis] = std::max(high[axis], p[axis]);
-      }
-    const Vec3 margin = (high - low) * kMargin;
-    filled.low = low - margin;
-    filled.high = high + margin;
-  }
-  if (filled.size < 0) filled.size = std::ranges::max(filled.high - filled.low) / -filled.size;
-  return filled;
+/// With the box to fill and the size of a cell in numbers.
+Stuffing measured(const Mesh& surface, Stuffing how) {
+  if (how.box.min[0] >= how.box.max[0]) how.box = boxToFill(surface.positions);
+  if (how.size < 0) how.size = std::ranges::max(how.box.max - how.box.min) / -how.size;
+  return how;
 }
 
 }  // namespace
 
 double stuffingPoints(const Mesh& surface, const Stuffing& how) {
-  const auto filled = filledBy(surface, how);
-  return Lattice::pointsIn(filled.low, filled.high, filled.size);
+  const Stuffing in = measured(surface, how);
+  return Lattice::pointsIn(in.box, in.size);
 }
 
 Mesh stuffed(const Mesh& surface, const Stuffing& how) {
-  const auto filled = filledBy(surface, how);
-  const Lattice lattice(filled.low, filled.high, filled.size);
-  return Stuffer(surface, lattice, how).make();
+  const Stuffing in = measured(surface, how);
+  const Lattice lattice(in.box, in.size);
+  return Stuffer(surface, lattice, in).make();
 }
 
 }  // namespace allpairs::scene::sofa

@@ -9,8 +9,7 @@ namespace allpairs::scene::sofa {
 
 /// How a surface is filled with tetrahedra.
 struct Stuffing {
-  Vec3 low{};  ///< The box to fill; that of the surface, a little larger, where its x is no interval.
-  Vec3 high{};
+  Box box{};         ///< The box to fill; that of the surface, a little larger, where its x is no interval.
   double size = -8;  ///< Of a cell; below zero, how many of them lie along the longest side.
   double alphaLong = 0.24999;
   double alphaShort = 0.42978;

@@ -237,11 +237,7 @@ void fillGrid(Topology& topology, const GridPlace& points, const GridLists& list
     addQuads(grid, kSteps[0], kSteps[2], mesh.quads);
     addQuads(grid, kSteps[1], kSteps[2], mesh.quads);
   }
-  if (lists.triangles)
-    for (const auto& q : mesh.quads) {
-      mesh.triangles.push_back({q[0], q[1], q[2]});
-      mesh.triangles.push_back({q[0], q[2], q[3]});
-    }
+  if (lists.triangles) addHalves(mesh.quads, mesh.triangles);
   if (lists.cubes) mesh.hexahedra = cubesOf(grid);
   if (lists.edges)
     mesh.edges = lists.diagonals && !mesh.triangles.empty() ? edgesOf(mesh.triangles) : edgesAlongAxes(grid);

@@ -99,22 +99,17 @@ void describeLines(Evaluation& evaluation, const Component& component, ModelDesc
 }
 
 /// The box around the points of the surface of a distance grid, scaled.
-std::array<Vec3, 2> boundsOfGridSurface(Evaluation& evaluation, const Component& component) {
+Box boundsOfGridSurface(Evaluation& evaluation, const Component& component) {
   const auto file = evaluation.file(component, {"filename", "fileRigidDistanceGrid"});
   if (!file || lowerExtension(*file) != ".obj") throw Unplaceable(component, "its surface is no Wavefront file");
   if (evaluation.number(component, {"sampling"}, 0) != 0 || evaluation.flag(component, "flipNormals", false) ||
       evaluation.vector(component, {"rotation"}, {}) != Vec3{})
     throw Unplaceable(component, "a distance grid that is sampled, turned or inside out is not known to this reader");
   const double scale = std::abs(evaluation.number(component, {"scale"}, 1));
-  const auto surface = readObj(*file);
+  auto surface = readObj(*file);
   if (surface.positions.empty()) throw Unplaceable(component, "its surface has no points");
-  Vec3 low = surface.positions[0] * scale, high = low;
-  for (const auto& p : surface.positions)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis] * scale);
-      high[axis] = std::max(high[axis], p[axis] * scale);
-    }
-  return {low, high};
+  for (auto& p : surface.positions) p = p * scale;
+  return boundsOf(surface.positions);
 }
 
 void describeTetrahedra(Evaluation& evaluation, const Component& component, ModelDescription& model) {
