@@ -36,16 +36,6 @@ void checkFrames(const NpyHeader& header, const Path& path, const std::string& p
   }
 }
 
-/// The file holds what its header says, no more and no less. Asked before anything is allocated for it.
-void checkLength(const NpyHeader& header, std::uint64_t itemSize, const InputFile& file, const Path& path) {
-  const std::uint64_t frameBytes = header.shape[1] * 6 * itemSize;  // fits: there are less than 2^32 boxes
-  const std::uint64_t frames = header.shape[0];
-  const bool fits = frameBytes == 0 || frames <= file.remaining() / frameBytes;
-  if (fits && frames * frameBytes == file.remaining()) return;
-  throw FileError(path, "holds " + std::to_string(file.remaining()) +
-                            " bytes of numbers, which is not what its shape " + shapeText(header.shape) + " needs");
-}
-
 }  // namespace
 
 bool isBoxFramesFile(const Path& path) {
@@ -81,7 +71,7 @@ struct BoxFrames::State {
 BoxFrames::BoxFrames(const Path& path, const std::string& part) : m_state(std::make_unique<State>(path, part)) {
   m_state->isFloat32 = holdsFloat32(m_state->header, path);
   checkFrames(m_state->header, path, part);
-  checkLength(m_state->header, m_state->itemSize(), m_state->file, path);
+  requireLength(m_state->header, m_state->itemSize(), m_state->file, path);
 }
 
 BoxFrames::~BoxFrames() = default;

@@ -21,10 +21,7 @@ void checkShape(const NpyHeader& header, std::uint64_t itemSize, const InputFile
   if (header.shape.size() != 2 || header.shape[1] != 6) {
     throw FileError(path, "has shape " + shapeText(header.shape) + "; boxes are (n, 6)");
   }
-  const std::uint64_t rowSize = 6 * itemSize;
-  if (header.shape[0] <= file.remaining() / rowSize && header.shape[0] * rowSize == file.remaining()) return;
-  throw FileError(path, "holds " + std::to_string(file.remaining()) +
-                            " bytes of numbers, which is not what its shape " + shapeText(header.shape) + " needs");
+  requireLength(header, itemSize, file, path);
 }
 
 }  // namespace

@@ -137,11 +137,7 @@ class ValueFile {
       throw FileError(
           m_path, "has shape " + shapeText(m_header.shape) + "; " + std::string(wordsOf(m_kind).many) + " are (n,)");
     }
-    const bool fits = size() <= m_file.remaining() / m_itemSize && size() * m_itemSize == m_file.remaining();
-    if (fits) return;
-    throw FileError(m_path, "holds " + std::to_string(m_file.remaining()) +
-                                " bytes of numbers, which is not what its shape " + shapeText(m_header.shape) +
-                                " needs");
+    requireLength(m_header, m_itemSize, m_file, m_path);
   }
 
   template <class Stored, class Number>

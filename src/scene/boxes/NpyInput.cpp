@@ -2,6 +2,7 @@
 #include "boxes/NpyInput.h"
 
 #include <cstring>
+#include <limits>
 
 #include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
@@ -24,10 +25,9 @@ std::uint32_t readHeaderLength(InputFile& file, const Path& path) {
   if (version < 1 || version > 3) {
     throw FileError(path, "is of .npy version " + std::to_string(version) + "; versions 1 to 3 are known");
   }
-  std::array<unsigned char, 4> length{};
+  std::array<char, 4> length{};
   file.read(length.data(), version == 1 ? 2 : 4);
-  return static_cast<std::uint32_t>(length[0]) | static_cast<std::uint32_t>(length[1]) << 8 |
-         static_cast<std::uint32_t>(length[2]) << 16 | static_cast<std::uint32_t>(length[3]) << 24;
+  return littleEndian<std::uint32_t>({length.data(), length.size()});
 }
 
 }  // namespace
@@ -43,6 +43,15 @@ NpyHeader readNpyHeader(InputFile& file, const Path& path) {
   } catch (const InvalidArgument& problem) {
     throw FileError(path, problem.what());
   }
+}
+
+void requireLength(const NpyHeader& header, std::uint64_t itemSize, const InputFile& file, const Path& path) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t size = itemSize;
+  for (const std::uint64_t extent : header.shape) size = extent != 0 && size > kMost / extent ? kMost : size * extent;
+  if (size == file.remaining()) return;
+  throw FileError(path, "holds " + std::to_string(file.remaining()) +
+                            " bytes of numbers, which is not what its shape " + shapeText(header.shape) + " needs");
 }
 
 bool holdsFloat32(const NpyHeader& header, const Path& path) {

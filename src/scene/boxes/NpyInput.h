@@ -13,6 +13,7 @@
 #include "allpairs/StopFlag.h"
 #include "allpairs/scene/BoxArray.h"
 #include "boxes/NpyHeader.h"
+#include "input/ByteOrder.h"
 #include "input/FileBytes.h"
 
 namespace allpairs::scene {
@@ -30,15 +31,18 @@ namespace allpairs::scene {
 /// Bad input: another type throws FileError.
 [[nodiscard]] bool holdsFloat32(const NpyHeader& header, const std::filesystem::path& path);
 
+/// Throws FileError unless what is left of the file are as many numbers as the header says, no more and no less. Asked
+/// before anything is allocated for them.
+void requireLength(const NpyHeader& header, std::uint64_t itemSize, const InputFile& file,
+                   const std::filesystem::path& path);
+
 /// Turns numbers as they stand in the file into those of this machine.
 template <class T>
 void toNativeOrder(const NpyHeader& header, T* numbers, std::size_t count) {
-  const bool littleEndian = header.descr.front() != '>';
-  if (littleEndian == (std::endian::native == std::endian::little)) return;
-  std::for_each_n(numbers, count, [](T& value) {
-    auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
-    std::reverse(bytes.begin(), bytes.end());
-    value = std::bit_cast<T>(bytes);
+  const std::endian order = header.descr.front() == '>' ? std::endian::big : std::endian::little;
+  if (order == std::endian::native) return;
+  std::for_each_n(numbers, count, [order](T& number) {
+    number = numberOf<T>({reinterpret_cast<const char*>(&number), sizeof(T)}, order);
   });
 }
 

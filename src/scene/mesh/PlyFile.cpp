@@ -3,12 +3,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
 
 #include "allpairs/scene/FileError.h"
+#include "input/ByteOrder.h"
 #include "input/FileBytes.h"
 #include "input/Words.h"
 #include "mesh/Faces.h"
@@ -83,12 +83,10 @@ class PlyBody {
   template <class T>
   T take() {
     if (m_text.size() < sizeof(T)) fail("truncated: its header promises more than the file has");
-    std::array<char, sizeof(T)> bytes{};
-    std::memcpy(bytes.data(), m_text.data(), sizeof(T));
+    const T number =
+        numberOf<T>(m_text, m_encoding == PlyEncoding::LittleEndian ? std::endian::little : std::endian::big);
     m_text.remove_prefix(sizeof(T));
-    const bool isLittle = m_encoding == PlyEncoding::LittleEndian;
-    if (isLittle != (std::endian::native == std::endian::little)) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
+    return number;
   }
 
   std::string_view m_text;

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "allpairs/scene/FileError.h"
+#include "input/ByteOrder.h"
 #include "input/FileBytes.h"
-#include "input/LittleEndian.h"
 #include "input/Words.h"
 #include "mesh/MeshObject.h"
 #include "mesh/Position.h"

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "input/LittleEndian.h"
+#include "input/ByteOrder.h"
 #include "mesh/gltf/GltfDocument.h"
 
 namespace allpairs::scene {

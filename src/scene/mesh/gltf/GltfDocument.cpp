@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "allpairs/scene/FileError.h"
+#include "input/ByteOrder.h"
 #include "input/FileBytes.h"
-#include "input/LittleEndian.h"
 #include "input/Words.h"
 
 namespace allpairs::scene {

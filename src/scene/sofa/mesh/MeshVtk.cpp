@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
 #include <new>
 #include <pugixml.hpp>
 
 #include "allpairs/scene/FileError.h"
+#include "input/ByteOrder.h"
 #include "input/FileBytes.h"
 #include "input/LineIndex.h"
 #include "input/TextScanner.h"
@@ -45,14 +44,6 @@ void addCells(const CellLists& lists, Mesh& mesh, const Fail& fail) {
     else if (cell >= lists.types.size() || !cells.add(lists.types[cell], corners))
       fail("a cell does not have the points or the type that it needs");
   }
-}
-
-template <class Raw>
-Raw fromBigEndian(const char* bytes) {
-  std::array<char, sizeof(Raw)> raw{};
-  std::memcpy(raw.data(), bytes, sizeof(Raw));
-  if constexpr (std::endian::native == std::endian::little) std::ranges::reverse(raw);
-  return std::bit_cast<Raw>(raw);
 }
 
 /// The old format: a header in text, the arrays in text or as big-endian bytes.
@@ -96,17 +87,21 @@ class LegacyVtkReader {
       Vec3 point{};
       for (auto& coordinate : point)
         coordinate = !m_binary  ? m_text.number()
-                     : isDouble ? fromBigEndian<double>(m_text.bytes(8).data())
-                                : static_cast<double>(fromBigEndian<float>(m_text.bytes(4).data()));
+                     : isDouble ? bigEndian<double>()
+                                : static_cast<double>(bigEndian<float>());
       m_mesh.positions.push_back(point);
     }
   }
 
   std::vector<std::int64_t> integers(std::size_t count) {
     std::vector<std::int64_t> values;
-    for (std::size_t i = 0; i < count; ++i)
-      values.push_back(m_binary ? fromBigEndian<std::int32_t>(m_text.bytes(4).data()) : m_text.integer());
+    for (std::size_t i = 0; i < count; ++i) values.push_back(m_binary ? bigEndian<std::int32_t>() : m_text.integer());
     return values;
+  }
+
+  template <class Number>
+  Number bigEndian() {
+    return numberOf<Number>(m_text.bytes(sizeof(Number)), std::endian::big);
   }
 
   std::size_t count() {
