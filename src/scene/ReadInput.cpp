@@ -50,7 +50,7 @@ Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
   if (isBoxArrayFile(path)) return readBoxes(path, options);
   const std::string extension = lowerExtension(path);
   if (extension == ".scn" || extension == ".xml") return readSofaScene(path, options);
-  if (extension == ".obj" || extension == ".ply" || isAssimpFile(path)) return readMesh(path, options);
+  if (isMeshFile(path)) return readMesh(path, options);
   if (extension == ".py" || extension == ".pyscn")
     throw FileError(
         path, "is a SOFA scene in Python, which only SOFA can run: open it in runSofa, save it as .scn, and read that");

@@ -11,6 +11,7 @@
 #include "allpairs/scene/FileError.h"
 #include "boxes/CsvLine.h"
 #include "input/FileBytes.h"
+#include "input/Words.h"
 
 namespace allpairs::scene {
 namespace {
@@ -30,8 +31,7 @@ struct CsvLayout {
 /// Which coordinate a header's word means: minx, min_x, "Min X", xmin, x0 and the like; nothing for other words.
 std::optional<std::size_t> coordinateOf(std::string_view word) {
   std::string plain;
-  for (const char c : word) {
-    if (c >= 'A' && c <= 'Z') plain += static_cast<char>(c - 'A' + 'a');
+  for (const char c : lowerCase(word)) {
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain += c;
   }
   for (std::size_t i = 0; i < kCoordinates; ++i) {

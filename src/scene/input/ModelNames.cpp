@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "input/UniqueNames.h"
+#include "input/Words.h"
 
 namespace allpairs::scene {
 namespace {
@@ -149,10 +150,7 @@ bool isGenericName(std::string_view name) {
       "geometry", "shape",  "model", "scene", "root",  "untitled", "unnamed", "openscad_model"};
   std::string_view stem = withoutDigits(withoutNumber(name));
   if (!stem.empty() && std::string_view("._- ").find(stem.back()) != std::string_view::npos) stem.remove_suffix(1);
-  std::string lower(stem);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
+  return std::find(kWords.begin(), kWords.end(), lowerCase(stem)) != kWords.end();
 }
 
 void nameModels(Scene& scene) {

@@ -270,18 +270,7 @@ class ObjectTransfer {
   static std::string pack(const std::vector<MeshObject>& objects, const MeshFrame& frame) {
     std::string bytes(1, kResult);
     bytes.append(reinterpret_cast<const char*>(&frame), sizeof(frame));
-    for (const MeshObject& object : objects) {
-      put(bytes, object.name);
-      put(bytes, object.kind);
-      put(bytes, object.id);
-      put(bytes, object.body);
-      put(bytes, object.assembly);
-      put(bytes, object.passedOver);
-      put(bytes, object.positions);
-      put(bytes, object.triangles);
-      put(bytes, object.lines);
-      put(bytes, object.points);
-    }
+    for (const MeshObject& object : objects) forEachPart(object, [&bytes](const auto& part) { put(bytes, part); });
     return bytes;
   }
 
@@ -291,22 +280,27 @@ class ObjectTransfer {
     if (frame.up < 0 || frame.up > 3) frame = {};
     while (!bytes.empty()) {
       MeshObject& object = objects.emplace_back();
-      take(bytes, object.name);
-      take(bytes, object.kind);
-      take(bytes, object.id);
-      take(bytes, object.body);
-      take(bytes, object.assembly);
-      take(bytes, object.passedOver);
-      take(bytes, object.positions);
-      take(bytes, object.triangles);
-      take(bytes, object.lines);
-      take(bytes, object.points);
+      forEachPart(object, [&bytes](auto& part) { take(bytes, part); });
       check(object);
     }
     return objects;
   }
 
  private:
+  template <class Object, class Visit>
+  static void forEachPart(Object& object, const Visit& visit) {
+    visit(object.name);
+    visit(object.kind);
+    visit(object.id);
+    visit(object.body);
+    visit(object.assembly);
+    visit(object.passedOver);
+    visit(object.positions);
+    visit(object.triangles);
+    visit(object.lines);
+    visit(object.points);
+  }
+
   template <class List>
   static void put(std::string& bytes, const List& list) {
     const std::uint64_t count = list.size();

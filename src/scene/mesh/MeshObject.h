@@ -80,4 +80,7 @@ inline constexpr const char* kIsCad =
 /// Whether Assimp knows files of this extension, and reads shapes from them.
 [[nodiscard]] bool isAssimpFile(const std::filesystem::path& path);
 
+/// Whether readMesh() takes files of this extension.
+[[nodiscard]] bool isMeshFile(const std::filesystem::path& path);
+
 }  // namespace allpairs::scene

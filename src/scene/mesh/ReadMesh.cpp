@@ -37,64 +37,40 @@ std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, Mesh
   return readGltfObjects(path, scope);
 }
 
-/// Makes the models of one object of the scene's last file, all of one owner.
-class ObjectModels {
- public:
-  ObjectModels(Scene& scene, UniqueNames& names, ReadScope& scope) : m_scene(scene), m_names(names), m_scope(scope) {}
-
-  void add(MeshObject object) {
-    m_scope.take(ReadScope::kBytesPerModel +
-                 4 * object.name.size() +  // its owner, its model and the names in use have it too
-                 3 * (object.body.size() + object.assembly.size()));  // of up to three models
-    m_scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
-    m_name = std::move(object.name);
-    m_kind = std::move(object.kind);
-    m_id = std::move(object.id);
-    m_body = std::move(object.body);
-    m_assembly = std::move(object.assembly);
-    std::vector<Point> isolated;
-    for (const std::uint32_t index : object.points) isolated.push_back(object.positions[index]);
-    if (!isolated.empty()) m_points = std::make_unique<collision::PointModel>(m_name, std::move(isolated));
-    if (!object.lines.empty()) {
-      m_lines = std::make_unique<collision::LineModel>(m_name, object.positions, std::move(object.lines));
-    }
-    if (!object.triangles.empty()) {
-      add(std::make_unique<collision::TriangleModel>(m_name, std::move(object.positions), std::move(object.triangles)));
-    }
-    add(std::move(m_lines));
-    add(std::move(m_points));
+/// The models of an object's triangles, its lines and its points, where it has any.
+std::vector<std::unique_ptr<collision::CollisionModel>> modelsOf(MeshObject& object) {
+  std::vector<std::unique_ptr<collision::CollisionModel>> models(3);
+  std::vector<Point> isolated;
+  for (const std::uint32_t index : object.points) isolated.push_back(object.positions[index]);
+  if (!isolated.empty()) models[2] = std::make_unique<collision::PointModel>(object.name, std::move(isolated));
+  if (!object.lines.empty()) {
+    models[1] = std::make_unique<collision::LineModel>(object.name, object.positions, std::move(object.lines));
   }
-
- private:
-  void add(std::unique_ptr<collision::CollisionModel> model) {
-    if (!model) return;
-    model->setName(m_names.unique(m_name));
-    model->setOwner(m_scene.owners.back().get());
-    m_scene.sources.push_back({.file = m_scene.files.size() - 1,
-                               .name = model->getName(),
-                               .kind = m_kind,
-                               .id = m_id,
-                               .body = m_body,
-                               .assembly = m_assembly});
-    m_scene.models.push_back(std::move(model));
+  if (!object.triangles.empty()) {
+    models[0] = std::make_unique<collision::TriangleModel>(object.name, std::move(object.positions),
+                                                           std::move(object.triangles));
   }
+  std::erase(models, nullptr);
+  return models;
+}
 
-  Scene& m_scene;
-  UniqueNames& m_names;
-  ReadScope& m_scope;
-  std::string m_name;
-  std::string m_kind;
-  std::string m_id;
-  std::string m_body;
-  std::string m_assembly;
-  std::unique_ptr<collision::CollisionModel> m_lines;
-  std::unique_ptr<collision::CollisionModel> m_points;
-};
-
-bool isMeshFile(const fs::path& path) {
-  const std::string extension = lowerExtension(path);
-  if (extension == ".scn" || extension == ".xml" || isBoxArrayFile(path)) return false;
-  return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
+/// Adds the models of an object of the scene's last file, all of one owner, under names that are new in the file.
+void addObject(Scene& scene, MeshObject object, UniqueNames& names, ReadScope& scope) {
+  scope.take(ReadScope::kBytesPerModel +
+             4 * object.name.size() +  // its owner, its model and the names in use have it too
+             3 * (object.body.size() + object.assembly.size()));  // of up to three models
+  scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
+  for (auto& model : modelsOf(object)) {
+    model->setName(names.unique(object.name));
+    model->setOwner(scene.owners.back().get());
+    scene.sources.push_back({.file = scene.files.size() - 1,
+                             .name = model->getName(),
+                             .kind = object.kind,
+                             .id = object.id,
+                             .body = object.body,
+                             .assembly = object.assembly});
+    scene.models.push_back(std::move(model));
+  }
 }
 
 std::vector<fs::path> sortedEntries(const fs::path& folder) {
@@ -184,7 +160,6 @@ void requireAllowed(const fs::path& path, const ReadScope& scope) {
 void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   scene.files.push_back(path);
   UniqueNames names;
-  ObjectModels models(scene, names, scope);
   const std::size_t before = scene.models.size();
   MeshFrame frame;
   try {
@@ -193,7 +168,7 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
       if (!object.passedOver.empty()) {
         scene.remarks.push_back({.file = path, .subject = object.name, .reason = std::move(object.passedOver)});
       }
-      models.add(std::move(object));
+      addObject(scene, std::move(object), names, scope);
     }
   } catch (const InvalidArgument& problem) {
     throw FileError(path, problem.what());
@@ -203,6 +178,12 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
 }
 
 }  // namespace
+
+bool isMeshFile(const fs::path& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".scn" || extension == ".xml" || isBoxArrayFile(path)) return false;
+  return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
+}
 
 Scene readMesh(const fs::path& path, const ReadOptions& options) {
   if (options.progress) options.progress({.done = 0, .total = 1, .file = path});
