@@ -44,6 +44,12 @@ double TextScanner::number() {
   return *value;
 }
 
+std::array<double, 3> TextScanner::point() {
+  std::array<double, 3> coordinates{};
+  for (double& coordinate : coordinates) coordinate = number();
+  return coordinates;
+}
+
 std::int64_t TextScanner::integer() {
   const auto word = this->word();
   if (word.empty()) fail("an integer is missing");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +26,8 @@ class TextScanner {
   /// The next word of this line, or an empty one at its end.
   std::string_view wordInLine();
   double number();
+  /// Three numbers.
+  std::array<double, 3> point();
   std::int64_t integer();
   void expect(std::string_view word);
   void skipLine();

@@ -16,12 +16,6 @@ void checkElements(const Elements<N>& elements, const char* kind, const Mesh& me
                                   " of " + std::to_string(mesh.positions.size()));
 }
 
-Vec3 readPoint(TextScanner& text) {
-  Vec3 point{};
-  for (auto& coordinate : point) coordinate = text.number();
-  return point;
-}
-
 Index readIndex(TextScanner& text, std::size_t count) {
   const auto index = text.integer();
   if (index < 0 || static_cast<std::size_t>(index) >= count) text.fail("a face names a point that isn't there");
@@ -48,7 +42,7 @@ Mesh readSpheres(const std::filesystem::path& path) {
   for (auto word = text.word(); !word.empty(); word = text.word()) {
     if (word == "sphe") {
       text.integer();
-      mesh.positions.push_back(readPoint(text));
+      mesh.positions.push_back(text.point());
       mesh.radii.push_back(text.number());
     } else {
       text.skipLine();
@@ -63,7 +57,7 @@ Mesh readOff(const std::filesystem::path& path) {
   const auto points = text.integer(), faces = text.integer();
   text.integer();
   Mesh mesh;
-  for (std::int64_t i = 0; i < points; ++i) mesh.positions.push_back(readPoint(text));
+  for (std::int64_t i = 0; i < points; ++i) mesh.positions.push_back(text.point());
   for (std::int64_t i = 0; i < faces; ++i) {
     std::vector<Index> corners;
     for (auto left = text.integer(); left > 0; --left) corners.push_back(readIndex(text, mesh.positions.size()));
@@ -78,7 +72,7 @@ Mesh readTrian(const std::filesystem::path& path) {
   TextScanner text(path);
   Mesh mesh;
   const auto points = text.integer();
-  for (std::int64_t i = 0; i < points; ++i) mesh.positions.push_back(readPoint(text));
+  for (std::int64_t i = 0; i < points; ++i) mesh.positions.push_back(text.point());
   const auto faces = text.integer();
   for (std::int64_t i = 0; i < faces; ++i) {
     std::array<Index, 3> corners{};

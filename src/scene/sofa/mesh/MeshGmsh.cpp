@@ -44,9 +44,7 @@ class GmshReader {
     const auto count = m_text.integer();
     for (std::int64_t i = 0; i < count; ++i) {
       m_indices[m_text.integer()] = static_cast<Index>(m_mesh.positions.size());
-      Vec3 position{};
-      for (auto& coordinate : position) coordinate = m_text.number();
-      m_mesh.positions.push_back(position);
+      m_mesh.positions.push_back(m_text.point());
     }
     m_text.expect(m_form == 2 ? "$EndNodes" : "$ENDNOD");
   }
@@ -60,9 +58,7 @@ class GmshReader {
       for (std::int64_t i = 0; i < count; ++i) m_text.integer();
       for (std::int64_t i = 0; i < count; ++i) {
         m_indices[static_cast<std::int64_t>(m_mesh.positions.size()) + 1] = static_cast<Index>(m_mesh.positions.size());
-        Vec3 position{};
-        for (auto& coordinate : position) coordinate = m_text.number();
-        m_mesh.positions.push_back(position);
+        m_mesh.positions.push_back(m_text.point());
         m_text.skipLine();  // Parametric coordinates may follow.
       }
     }
@@ -174,7 +170,7 @@ class GmshReader {
   void addEdges(std::initializer_list<std::array<std::size_t, 2>> edges) {
     if (m_form != 4) m_seen.clear();
     for (const auto& [a, b] : edges) {
-      const std::array<Index, 2> edge{std::min(m_corners[a], m_corners[b]), std::max(m_corners[a], m_corners[b])};
+      const auto edge = sorted<2>({m_corners[a], m_corners[b]});
       if (m_seen.insert(edge).second) m_mesh.edges.push_back(edge);
     }
   }

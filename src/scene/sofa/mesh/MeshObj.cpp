@@ -61,17 +61,16 @@ class ObjReader final : ObjParser {
 
   [[noreturn]] void failAtEnd(const std::string& problem) const { failAt(m_lastLine, problem); }
 
-  template <class Uses>
-  auto& usesOf(Uses& uses, const ObjCorner& corner) const {
-    if (static_cast<std::size_t>(corner.position) >= uses.size()) failAtEnd("a face names a point that isn't there");
-    return uses[static_cast<std::size_t>(corner.position)];
+  std::size_t pointOf(const ObjCorner& corner, std::size_t count) const {
+    if (static_cast<std::size_t>(corner.position) >= count) failAtEnd("a face names a point that isn't there");
+    return static_cast<std::size_t>(corner.position);
   }
 
   /// Renumbers the points so that each has one texture coordinate and one normal; points of no face disappear.
   void splitSeams() {
     std::vector<std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>> uses(m_mesh.positions.size());
     for (const auto& face : m_faces)
-      for (const auto& corner : face) usesOf(uses, corner)[{corner.texture, corner.normal}] = 0;
+      for (const auto& corner : face) uses[pointOf(corner, uses.size())][{corner.texture, corner.normal}] = 0;
     std::vector<Vec3> positions;
     for (std::size_t i = 0; i < uses.size(); ++i)
       for (auto& [combination, index] : uses[i]) {
@@ -79,18 +78,14 @@ class ObjReader final : ObjParser {
         positions.push_back(m_mesh.positions[i]);
       }
     for (auto& face : m_faces)
-      for (auto& corner : face) corner.position = usesOf(uses, corner)[{corner.texture, corner.normal}];
+      for (auto& corner : face) corner.position = uses[pointOf(corner, uses.size())][{corner.texture, corner.normal}];
     m_mesh.positions = std::move(positions);
   }
 
   void addFace(std::span<const ObjCorner> corners) {
-    const auto at = [&](std::size_t i) {
-      if (static_cast<std::size_t>(corners[i].position) >= m_mesh.positions.size())
-        failAtEnd("a face names a point that isn't there");
-      return static_cast<Index>(corners[i].position);
-    };
+    const auto at = [&](std::size_t i) { return static_cast<Index>(pointOf(corners[i], m_mesh.positions.size())); };
     if (corners.size() == 2) {
-      m_mesh.edges.push_back({std::min(at(0), at(1)), std::max(at(0), at(1))});
+      m_mesh.edges.push_back(sorted<2>({at(0), at(1)}));
     } else if (corners.size() == 4 && !m_options.triangulate) {
       m_mesh.quads.push_back({at(0), at(1), at(2), at(3)});
     } else {

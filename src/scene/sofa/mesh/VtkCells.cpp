@@ -97,7 +97,7 @@ void VtkCells::addLinear(std::int64_t type, std::span<const Index> c) {
 
 void VtkCells::addQuadratic(std::int64_t type, std::span<const Index> c) {
   const auto addEdge = [&](Index a, Index b) {
-    const std::array<Index, 2> edge{std::min(a, b), std::max(a, b)};
+    const auto edge = sorted<2>({a, b});
     if (m_edges.insert(edge).second) m_mesh.edges.push_back(edge);
   };
   if (type == kQuadraticEdge) m_mesh.edges.push_back({c[0], c[1]});
