@@ -62,10 +62,6 @@ void remarkOnEmpty(const scene::EmptyBoxes& empty, const std::filesystem::path& 
   remarks.push_back({.file = file, .subject = subject, .reason = emptyReason(empty)});
 }
 
-std::filesystem::path shownPath(const InputSettings& settings, const std::string& path) {
-  return settings.spooled == nullptr ? std::filesystem::path(path) : settings.spooled->shown(path);
-}
-
 BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& options) {
   BoxInput input;
   std::vector<scene::BoxArray> arrays;
@@ -153,6 +149,10 @@ void withInputs(InputSettings& settings, const std::function<void()>& work) {
     work();
     settings.spooled = nullptr;
   });
+}
+
+std::filesystem::path shownPath(const InputSettings& settings, const std::string& path) {
+  return settings.spooled == nullptr ? std::filesystem::path(path) : settings.spooled->shown(path);
 }
 
 Inputs readInputs(const InputSettings& settings) {

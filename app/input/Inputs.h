@@ -33,6 +33,9 @@ using Inputs = std::variant<BoxInput, scene::Scene>;
 /// Does work on inputs of which those that can be read only once, such as standard input, are files meanwhile.
 void withInputs(InputSettings& settings, const std::function<void()>& work);
 
+/// What the user calls one of the inputs, or a file that was read for them.
+[[nodiscard]] std::filesystem::path shownPath(const InputSettings& settings, const std::string& path);
+
 /// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
 

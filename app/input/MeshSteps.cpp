@@ -71,6 +71,18 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
   return meshes;
 }
 
+std::vector<Box> triangleBoxes(const std::vector<TriangleMesh>& meshes) {
+  std::vector<Box> boxes;
+  for (const TriangleMesh& mesh : meshes) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (i % 3 == 0) boxes.push_back(kEmptyBox);
+      const double* point = &mesh.positions[3 * std::size_t{mesh.triangles[i]}];
+      boxes.back() = merge(boxes.back(), Box{{point[0], point[1], point[2]}, {point[0], point[1], point[2]}});
+    }
+  }
+  return boxes;
+}
+
 void checkSameMeshes(const std::vector<TriangleMesh>& earlier, const std::filesystem::path& earlierPath,
                      const std::vector<TriangleMesh>& later, const std::filesystem::path& laterPath) {
   const std::string earlierName = "'" + printable(earlierPath.string()) + "'";

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "allpairs/Box.h"
 #include "cli/Options.h"
 
 namespace allpairs::app {
@@ -30,6 +31,9 @@ struct MeshStep {
 /// Bad input: throws FileError; a file without triangles too, and one that would be written.
 [[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input,
                                                            bool isFirst);
+
+/// The boxes of all their triangles, mesh by mesh.
+[[nodiscard]] std::vector<Box> triangleBoxes(const std::vector<TriangleMesh>& meshes);
 
 /// Throws FileError that names both files, the mesh and the element unless the meshes of `later` are those of `earlier`
 /// moved: as many, with as many vertices and the same triangles.

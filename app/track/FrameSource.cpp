@@ -40,8 +40,7 @@ class MeshFrames final : public FrameSource {
     if (m_frame == 0) m_first = meshes;
     checkSameMeshes(m_first, m_input.paths.front(), meshes, m_input.paths[m_frame]);
     ++m_frame;
-    m_boxes.clear();
-    for (const TriangleMesh& mesh : meshes) addBoxes(mesh);
+    m_boxes = triangleBoxes(meshes);
     return BoxView::fromBoxes(m_boxes);
   }
 
@@ -61,20 +60,6 @@ class MeshFrames final : public FrameSource {
   }
 
  private:
-  void addBoxes(const TriangleMesh& mesh) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-      Box box = kEmptyBox;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const double* point = &mesh.positions[3 * std::size_t{mesh.triangles[i + corner]}];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          box.min[axis] = std::min(box.min[axis], point[axis]);
-          box.max[axis] = std::max(box.max[axis], point[axis]);
-        }
-      }
-      m_boxes.push_back(box);
-    }
-  }
-
   const InputSettings& m_input;
   std::size_t m_frame = 0;
   std::vector<TriangleMesh> m_first;

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "cli/Text.h"
-#include "input/SpooledInputs.h"
+#include "input/Inputs.h"
 
 namespace allpairs::app {
 
@@ -16,9 +16,7 @@ namespace flag = view::flag;
 std::string titleOf(const InputSettings& input) {
   std::vector<std::string> names;
   for (const std::string& path : input.paths) {
-    const std::filesystem::path shown =
-        input.spooled == nullptr ? std::filesystem::path(path) : input.spooled->shown(path);
-    const std::filesystem::path clean = shown.lexically_normal();
+    const std::filesystem::path clean = shownPath(input, path).lexically_normal();
     names.push_back((clean.has_filename() ? clean : clean.parent_path()).filename().string());
   }
   constexpr std::size_t kShown = 3;

@@ -143,19 +143,6 @@ std::vector<double> positionsOf(const std::vector<TriangleMesh>& meshes) {
   return all;
 }
 
-std::vector<Box> triangleBoxes(const std::vector<std::uint32_t>& corners, const std::vector<double>& positions) {
-  std::vector<Box> boxes(corners.size() / 3, kEmptyBox);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    Box& box = boxes[i / 3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double coordinate = positions[3 * std::size_t{corners[i]} + axis];
-      box.min[axis] = std::min(box.min[axis], coordinate);
-      box.max[axis] = std::max(box.max[axis], coordinate);
-    }
-  }
-  return boxes;
-}
-
 view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOptions& options) {
   const Timer timer;
   const std::vector<std::string>& paths = input.paths;
@@ -169,9 +156,8 @@ view::ViewScene makeMeshFrames(const InputSettings& input, const DetectionOption
     line.show(i, paths.size(), fmt::format("frame {} of {}: {}", i + 1, paths.size(), name));
     const std::vector<TriangleMesh> meshes = i == 0 ? first : readTriangleMeshes(input, i, false);
     checkSameMeshes(first, paths.front(), meshes, paths[i]);
-    std::vector<double> positions = positionsOf(meshes);
-    const std::vector<Box> boxes = triangleBoxes(scene.corners, positions);
-    search.add(BoxView::fromBoxes(boxes), std::move(positions));
+    const std::vector<Box> boxes = triangleBoxes(meshes);
+    search.add(BoxView::fromBoxes(boxes), positionsOf(meshes));
   }
   scene.statistics.readSeconds = timer.seconds() - scene.statistics.detectSeconds;
   return scene;
