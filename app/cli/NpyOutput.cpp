@@ -6,8 +6,14 @@
 #include <cstring>
 
 #include "allpairs/scene/WriteResult.h"
+#include "cli/ExitStatus.h"
 
 namespace allpairs::app {
+void refuseTerminal(const Output& output) {
+  if (!output.isTerminal()) return;
+  throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
+}
+
 NpyOutput::NpyOutput(Output& output, std::string_view type, const std::vector<std::uint64_t>& shape)
     : m_output(output) {
   m_output.write(scene::npyHeader(type, shape));

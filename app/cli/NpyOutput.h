@@ -11,6 +11,9 @@
 
 namespace allpairs::app {
 
+/// Throws UsageError where --format npy would go to a terminal.
+void refuseTerminal(const Output& output);
+
 /// Writes a NumPy array, C order, little-endian, as its numbers come: as many as the shape says.
 class NpyOutput {
  public:

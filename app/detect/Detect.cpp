@@ -15,6 +15,7 @@
 #include "allpairs/scene/ReadInput.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
+#include "cli/NpyOutput.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
@@ -106,10 +107,7 @@ void writeExact(const Outcome& outcome, const std::string& format, Output& outpu
   } else if (format == "csv") {
     writeExactCsv(result, exact, sink);
   } else if (format == "npy") {
-    const std::vector<Pair> kept = withoutFalse(result.pairs, exact);
-    scene::ResultView found = result;
-    found.pairs = kept;
-    scene::writeNpy(found, sink);
+    writeExactNpy(result, exact, sink);
   } else {
     writeExactTable(result, exact, outcome.notes, sink);
   }
@@ -181,14 +179,12 @@ void makeScene(Inputs& inputs) {
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
   checkOutputs(settings.input);
   Output output(targetOf(settings.output));
-  if (settings.format == "npy" && output.isTerminal()) {
-    throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
-  }
+  if (settings.format == "npy") refuseTerminal(output);
   if (settings.search.clearance && !settings.exact)
     throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
-    const std::size_t pairs = detectWorlds({settings.input, settings.format, options}, output);
+    const std::size_t pairs = detectWorlds(settings.input, options, settings.format, output);
     output.commit();
     if (!settings.output.empty()) sayWritten(counted(pairs, "pair"), settings.output);
     return;

@@ -10,16 +10,6 @@
 namespace allpairs::app {
 namespace {
 
-OverlapOptions engineOptions(const DetectionOptions& options, BoxPairOrder order, Executor* executor) {
-  OverlapOptions engine;
-  engine.strategy = options.strategy;
-  engine.order = order == BoxPairOrder::NewestFirst ? Order::BySecond : Order::ByFirst;
-  engine.distance = options.distance.value_or(0.0);
-  engine.region = options.region;
-  engine.executor = executor;
-  return engine;
-}
-
 [[noreturn]] void reportDifference(const scene::BoxArray& boxes, const Pair& pair, bool isMissing) {
   throw collision::VerificationError(
       "verification failed: '" + boxes.name(pair.first) + "' and '" + boxes.name(pair.second) +
@@ -56,7 +46,8 @@ std::uint64_t testsOfAllPairs(std::uint64_t count) {
 
 Detection detectBoxes(const scene::BoxArray& boxes, BoxPairOrder order, const DetectionOptions& options) {
   const std::unique_ptr<Executor> executor = makeExecutor(options.threads, boxes.size());
-  const OverlapOptions engine = engineOptions(options, order, executor.get());
+  OverlapOptions engine = overlapOptions(options, executor.get());
+  engine.order = order == BoxPairOrder::NewestFirst ? Order::BySecond : Order::ByFirst;
   Detection detection;
   detection.search = std::make_unique<OverlapSearch>(engine);
   const Timer timer;

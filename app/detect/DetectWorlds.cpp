@@ -173,25 +173,22 @@ void writeTable(const WorldPairsView& found, const WorldBoxes& boxes, const Worl
 
 }  // namespace
 
-std::size_t detectWorlds(const WorldsRequest& request, Output& output) {
-  const WorldBoxes boxes = readWorlds(request.input);
+std::size_t detectWorlds(const InputSettings& input, const DetectionOptions& options, const std::string& format,
+                         Output& output) {
+  const WorldBoxes boxes = readWorlds(input);
   const Worlds worlds = boxes.view();
-  const std::unique_ptr<Executor> executor = makeExecutor(request.detection.threads, worlds.boxes().size());
-  OverlapOptions options;
-  options.strategy = request.detection.strategy;
-  options.distance = request.detection.distance.value_or(0.0);
-  options.region = request.detection.region;
-  options.executor = executor.get();
-  WorldsSearch search(options);
+  const std::unique_ptr<Executor> executor = makeExecutor(options.threads, worlds.boxes().size());
+  const OverlapOptions engine = overlapOptions(options, executor.get());
+  WorldsSearch search(engine);
   const Timer timer;
   const WorldPairsView found = search.find(worlds);
-  const WorldsRun run{timer.seconds(), request.detection.verify};
-  if (run.isVerified) verify(worlds, found, options);
-  if (request.format == "npy") {
+  const WorldsRun run{timer.seconds(), options.verify};
+  if (run.isVerified) verify(worlds, found, engine);
+  if (format == "npy") {
     writeNpy(found, output);
-  } else if (request.format == "csv") {
+  } else if (format == "csv") {
     writeCsv(found, output);
-  } else if (request.format == "json") {
+  } else if (format == "json") {
     writeJson(found, boxes, run, output);
   } else {
     writeTable(found, boxes, run, output);

@@ -23,6 +23,15 @@ std::string strategyName(Strategy strategy) {
   return strategy == Strategy::Bvh ? "bvh" : "auto";
 }
 
+OverlapOptions overlapOptions(const DetectionOptions& options, Executor* executor) {
+  OverlapOptions engine;
+  engine.strategy = options.strategy;
+  engine.distance = options.distance.value_or(0.0);
+  engine.region = options.region;
+  engine.executor = executor;
+  return engine;
+}
+
 std::unique_ptr<Executor> makeExecutor(std::size_t threads, std::size_t models) {
   if (threads == 1 || models < kWorthThreads) return nullptr;
   return std::make_unique<parallel::TbbExecutor>(threads);

@@ -61,6 +61,9 @@ enum class BoxPairOrder : std::uint8_t {
 /// The word for a strategy on the command line.
 [[nodiscard]] std::string strategyName(Strategy strategy);
 
+/// What the engine is asked for where models are boxes.
+[[nodiscard]] OverlapOptions overlapOptions(const DetectionOptions& options, Executor* executor);
+
 /// An executor for that many threads if there is enough work for them; else null.
 [[nodiscard]] std::unique_ptr<Executor> makeExecutor(std::size_t threads, std::size_t models);
 

@@ -35,15 +35,15 @@ struct ExactRequest {
 [[nodiscard]] ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates,
                                   const ExactRequest& request);
 
-/// The candidates that are not known to be apart.
-[[nodiscard]] std::vector<Pair> withoutFalse(std::span<const Pair> candidates, const ExactReport& report);
-
 /// For people: the worst first, as isWorse() says.
 void writeExactTable(const scene::ResultView& result, const ExactReport& report, const TableNotes& notes,
                      scene::ByteSink sink);
 
 /// A line for each candidate, with its state, distance, depth, points, normal and number of contacts.
 void writeExactCsv(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink);
+
+/// The candidates that are not known to be apart.
+void writeExactNpy(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink);
 
 /// The object of writeJson() with two more members: "exact", a list as long as "pairs", and "exactStatistics".
 void writeExactJson(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink);

@@ -182,6 +182,16 @@ void writeExactCsv(const scene::ResultView& result, const ExactReport& report, s
   }
 }
 
+void writeExactNpy(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink) {
+  std::vector<Pair> kept;
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    if (report.pairs[i].state != ExactState::Apart) kept.push_back(result.pairs[i]);
+  }
+  scene::ResultView found = result;
+  found.pairs = kept;
+  scene::writeNpy(found, sink);
+}
+
 void writeExactJson(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink) {
   sink("{\"exact\": [");
   for (std::size_t i = 0; i < report.pairs.size(); ++i) sink((i == 0 ? "\n  " : ",\n  ") + jsonOf(report.pairs[i]));

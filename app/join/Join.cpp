@@ -116,7 +116,7 @@ void runJoin(const JoinSettings& settings) {
   JoinLine line;
   options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
   join::JoinSummary summary;
-  const std::vector<std::filesystem::path> inputs = inputsOf(settings.shared);
+  const std::vector<std::filesystem::path> inputs = pathsOf(settings.shared.sets.paths);
   try {
     if (settings.count) {
       summary = join::countFiles(inputs, options);

@@ -42,6 +42,4 @@ std::unique_ptr<Executor> executorOf(const std::string& threads) {
   return count == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(count);
 }
 
-std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments) { return pathsOf(arguments.sets.paths); }
-
 }  // namespace allpairs::app

@@ -31,8 +31,6 @@ void addJoinArguments(CLI::App& command, JoinArguments& arguments);
 /// What --threads says; null for one.
 [[nodiscard]] std::unique_ptr<Executor> executorOf(const std::string& threads);
 
-[[nodiscard]] std::vector<std::filesystem::path> inputsOf(const JoinArguments& arguments);
-
 /// Warns of boxes that are empty, if there are any.
 void warnOfEmpty(const JoinArguments& arguments, const std::array<scene::EmptyBoxes, 2>& empty);
 

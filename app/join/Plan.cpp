@@ -78,13 +78,13 @@ void runPlan(const PlanSettings& settings) {
   options.executor = executor.get();
   std::optional<ProgressClock> clock(std::in_place, "counting");
   if (settings.ranks != 0) {
-    const join::RanksPlan plan = join::planRanks(inputsOf(settings.shared), settings.ranks, options);
+    const join::RanksPlan plan = join::planRanks(pathsOf(settings.shared.sets.paths), settings.ranks, options);
     clock.reset();
     warnOfEmpty(settings.shared, plan.empty);
     Output(std::nullopt).write(ranksText(plan, settings));
     return;
   }
-  const join::JoinSummary plan = join::planFiles(inputsOf(settings.shared), options);
+  const join::JoinSummary plan = join::planFiles(pathsOf(settings.shared.sets.paths), options);
   clock.reset();
   warnOfEmpty(settings.shared, plan.empty);
   // What is known is said before what may fail, as where the disk is too small.

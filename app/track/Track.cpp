@@ -17,6 +17,7 @@
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
+#include "cli/NpyOutput.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
@@ -143,9 +144,7 @@ void runTrack(const TrackSettings& settings) {
   const std::string format = formatOf(settings.format, settings.output, kTrackFormats);
   checkOutputs(settings.input);
   Output output(targetOf(settings.output));
-  if (format == "npy" && output.isTerminal()) {
-    throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");
-  }
+  if (format == "npy") refuseTerminal(output);
   const std::unique_ptr<FrameSource> source = openFrames(settings.input);
   const TrackReport report = Tracker(settings, *source).run();
   writeTrack(report, format, output);

@@ -28,11 +28,8 @@ class FrameSearch {
  public:
   FrameSearch(view::ViewScene& scene, const DetectionOptions& options, std::size_t frames)
       : m_scene(scene), m_options(options), m_frames(frames), m_executor(makeExecutor(options.threads, count())) {
-    OverlapOptions searchOptions;
+    OverlapOptions searchOptions = overlapOptions(options, m_executor.get());
     searchOptions.order = Order::BySecond;
-    searchOptions.distance = scene.distance;
-    searchOptions.region = scene.region;
-    searchOptions.executor = m_executor.get();
     if (!scene.corners.empty()) {
       searchOptions.filter.accept = [&scene](std::uint32_t a, std::uint32_t b) {
         return !view::shareVertex(scene, a, b);
