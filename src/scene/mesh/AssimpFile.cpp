@@ -181,7 +181,7 @@ class NodeReader {
       object.positions.push_back(placed(world, pointOf(position)));
     }
     for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) addFaceOf(object, face, base);
-    if (mesh.mNumFaces == 0) addAllPoints(object, base);
+    if (mesh.mNumFaces == 0) object.addAllPoints(base);
   }
 
   /// Assimp's own triangulation ends the program on bad faces.
@@ -195,10 +195,6 @@ class NodeReader {
     m_corners.clear();
     for (unsigned i = 0; i < face.mNumIndices; ++i) m_corners.push_back(corner(i));
     if (!addCutFace(object, m_corners)) fail(object, "has " + tooIntricate(m_corners.size()));
-  }
-
-  static void addAllPoints(MeshObject& object, std::size_t base) {
-    for (std::size_t i = base; i < object.positions.size(); ++i) object.points.push_back(static_cast<std::uint32_t>(i));
   }
 
   [[noreturn]] void fail(const MeshObject& object, const std::string& problem) const {

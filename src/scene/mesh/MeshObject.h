@@ -26,6 +26,13 @@ struct MeshObject {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> lines;
   std::vector<std::uint32_t> points;
+
+  [[nodiscard]] bool hasElements() const { return !triangles.empty() || !lines.empty() || !points.empty(); }
+
+  /// Shows all positions as points, from a place in the list on.
+  void addAllPoints(std::size_t from = 0) {
+    for (std::size_t i = from; i < positions.size(); ++i) points.push_back(static_cast<std::uint32_t>(i));
+  }
 };
 
 /// What a format says of coordinates besides; nothing where it says nothing.

@@ -112,9 +112,7 @@ class ObjReader final : ObjParser {
                                  std::to_string(m_positions.size()));
     }
     std::for_each(m_fans.begin(), m_fans.end(), [this](const Fan& fan) { cut(fan); });
-    std::erase_if(m_objects, [](const MeshObject& object) {
-      return object.triangles.empty() && object.lines.empty() && object.points.empty();
-    });
+    std::erase_if(m_objects, [](const MeshObject& object) { return !object.hasElements(); });
     if (m_objects.empty() && !m_positions.empty()) return {allPoints()};
     if (m_objects.size() == 1) {  // keeps the numbers of its vertices, by which others may refer to them
       m_objects[0].positions = std::move(m_positions);
@@ -128,7 +126,7 @@ class ObjReader final : ObjParser {
   MeshObject allPoints() {
     MeshObject object;
     object.positions = std::move(m_positions);
-    for (std::uint32_t i = 0; i < object.positions.size(); ++i) object.points.push_back(i);
+    object.addAllPoints();
     return object;
   }
 

@@ -24,8 +24,7 @@ class OffReader {
     for (std::uint64_t i = 0; i < m_vertices; ++i) addPosition(nextLine());
     for (std::uint64_t i = 0; i < m_faces; ++i) readFace(nextLine());
     if (!findLine().empty()) fail("has more than its header promises");
-    const bool isCloud = m_object.triangles.empty() && m_object.lines.empty() && m_object.points.empty();
-    for (std::uint32_t i = 0; isCloud && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
+    if (!m_object.hasElements()) m_object.addAllPoints();
     return {std::move(m_object)};
   }
 

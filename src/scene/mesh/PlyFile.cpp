@@ -119,8 +119,7 @@ class PlyReader {
       if (cutFan(m_object.positions, std::span(m_object.triangles).subspan(fan.first, fan.count))) continue;
       m_body.fail(fan.place.text() + " is " + tooIntricate(fan.count + 2));
     }
-    const bool hasElements = !m_object.triangles.empty() || !m_object.lines.empty();
-    for (std::uint32_t i = 0; !hasElements && i < m_object.positions.size(); ++i) m_object.points.push_back(i);
+    if (m_object.triangles.empty() && m_object.lines.empty()) m_object.addAllPoints();
     return {std::move(m_object)};
   }
 

@@ -90,7 +90,7 @@ class GltfNodeReader {
     }
     const std::vector<std::string> assemblies = assembliesOf(m_nodes);
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
-    if (std::all_of(m_objects.begin(), m_objects.end(), isEmpty)) blameExtensions();
+    if (std::ranges::none_of(m_objects, &MeshObject::hasElements)) blameExtensions();
     return std::move(m_objects);
   }
 
@@ -100,10 +100,6 @@ class GltfNodeReader {
     Transform parent{};
     std::size_t parentPlace = NestedNode::kNoParent;  ///< In the list of nodes.
   };
-
-  static bool isEmpty(const MeshObject& object) {
-    return object.triangles.empty() && object.lines.empty() && object.points.empty();
-  }
 
   /// Says what is missing to read a document in which nothing was found.
   void blameExtensions() const {
