@@ -74,14 +74,9 @@ LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const 
     local.positions = readMesh(*file).positions;
     return {std::move(local), false};
   } else if (evaluation.isGiven(mapping, {"initialPoints"})) {
-    const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.kind == State::Kind::Rigid ? 7 : 3);
+    const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.width());
     if (given->size() == 0) return {std::move(local)};
-    local.resize(given->size());
-    for (std::size_t i = 0; i < given->size(); ++i) {
-      const auto* v = given->values.data() + i * given->width;
-      local.positions[i] = {v[0], v[1], v[2]};
-      if (given->width == 7) local.orientations[i] = {v[3], v[4], v[5], v[6]};
-    }
+    local.setPositions(*given);
     return {std::move(local), false};
   }
   return {std::move(local)};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "sofa/graph/Values.h"
 #include "sofa/mesh/Math.h"
 
 namespace allpairs::scene::sofa {
@@ -46,6 +47,19 @@ struct State {
   std::optional<AffineMap> fromTopology;
   /// That topology is a sparse grid: how it is moved is known, where its points are isn't.
   bool pointsUnknown = false;
+
+  /// How many numbers an entry has: a point's, and of a frame those of its turn too.
+  [[nodiscard]] std::size_t width() const { return kind == Kind::Rigid ? 7 : 3; }
+
+  /// Takes the entries of numbers of that width for its positions and turns.
+  void setPositions(const Numbers& numbers) {
+    resize(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto* v = numbers.values.data() + i * numbers.width;
+      positions[i] = {v[0], v[1], v[2]};
+      if (kind == Kind::Rigid) orientations[i] = {v[3], v[4], v[5], v[6]};
+    }
+  }
 
   void resize(std::size_t count) {
     positions.resize(count);

@@ -71,15 +71,6 @@ State::Kind kindOf(const Component& component) {
   return State::Kind::Points;  // Vec3 in its spellings, and what SOFA doesn't know and takes for Vec3.
 }
 
-void setPositions(State& state, const Numbers& numbers) {
-  state.resize(numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto* v = numbers.values.data() + i * numbers.width;
-    state.positions[i] = {v[0], v[1], v[2]};
-    if (state.kind == State::Kind::Rigid) state.orientations[i] = {v[3], v[4], v[5], v[6]};
-  }
-}
-
 /// Whether a topology knows its points only after this state has asked for them, because it comes later in the node.
 bool isTooLate(Evaluation& evaluation, const Component& state, const Component& topology) {
   const auto* mapping = evaluation.topologicalMappingOf(topology);
@@ -129,11 +120,9 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
   return static_cast<std::size_t>(size);
 }
 
-std::size_t widthOf(const State& state) { return state.kind == State::Kind::Rigid ? 7 : 3; }
-
 std::vector<Vec3> restPositions(Evaluation& evaluation, const Component& component, const State& state) {
   std::vector<Vec3> rest;
-  const auto given = evaluation.numbers(component, {"rest_position"}, widthOf(state));
+  const auto given = evaluation.numbers(component, {"rest_position"}, state.width());
   for (std::size_t i = 0; given && i < given->size(); ++i) {
     const auto* v = given->values.data() + i * given->width;
     rest.push_back({v[0], v[1], v[2]});
@@ -219,7 +208,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
   warnOfProjections(evaluation, component);
-  const std::size_t width = widthOf(state);
+  const std::size_t width = state.width();
   state.resize(1);
   const auto motion = state.kind == State::Kind::Points ? evaluation.gridMotion(component, "position") : std::nullopt;
   if (motion && motion->areUnknown) {
@@ -230,7 +219,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
     return state;
   }
   if (const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1}))
-    setPositions(state, *given);
+    state.setPositions(*given);
   if (const auto size = declaredSize(component, state.positions.size());
       !evaluation.isLinked(component, {"position"})) {
     evaluation.takePoints(component, size);
