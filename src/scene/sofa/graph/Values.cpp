@@ -52,6 +52,12 @@ std::size_t numberLength(std::string_view word) {
   return i;
 }
 
+bool appendNumber(std::string_view word, std::vector<double>& values) {
+  const auto value = parseFinite(word);
+  if (value) values.push_back(*value);
+  return value.has_value();
+}
+
 bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& scope) {
   const auto dash = word.find('-', 1);
   if (dash == std::string_view::npos) return false;
@@ -63,6 +69,18 @@ bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& 
   scope.takeElements(count, sizeof(double));
   for (double value = *first; value <= *last; ++value) values.push_back(value);
   return true;
+}
+
+/// The values of all words, each appended by `append`; nothing, and the word in `bad`, where it returns false.
+template <class Append>
+std::optional<std::vector<double>> parseWords(std::string_view text, std::string& bad, const Append& append) {
+  std::vector<double> values;
+  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
+    if (append(word, values)) continue;
+    bad = word;
+    return std::nullopt;
+  }
+  return values;
 }
 
 }  // namespace
@@ -79,47 +97,24 @@ Numbers withWidth(const Numbers& numbers, std::size_t width, const std::vector<d
 }
 
 std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad) {
-  std::vector<double> values;
-  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
-    const auto value = parseFinite(word);
-    if (!value) {
-      bad = word;
-      return std::nullopt;
-    }
-    values.push_back(*value);
-  }
-  return values;
+  return parseWords(text, bad, appendNumber);
 }
 
 std::optional<std::vector<double>> parseNumberStream(std::string_view text, std::string& bad) {
-  std::vector<double> values;
-  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
-    for (auto rest = word; !rest.empty();) {
-      const auto length = numberLength(rest);
-      const auto value = parseFinite(rest.substr(0, length));
-      if (!value) {
-        bad = word;
-        return std::nullopt;
-      }
-      values.push_back(*value);
-      rest.remove_prefix(length);
+  return parseWords(text, bad, [](std::string_view word, std::vector<double>& values) {
+    while (!word.empty()) {
+      const auto length = numberLength(word);
+      if (!appendNumber(word.substr(0, length), values)) return false;
+      word.remove_prefix(length);
     }
-  }
-  return values;
+    return true;
+  });
 }
 
 std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad, ReadScope& scope) {
-  std::vector<double> values;
-  for (auto word = takeWord(text, isBlankOrLineEnd); !word.empty(); word = takeWord(text, isBlankOrLineEnd)) {
-    const auto value = parseFinite(word);
-    if (value) {
-      values.push_back(*value);
-    } else if (!appendRange(word, values, scope)) {
-      bad = word;
-      return std::nullopt;
-    }
-  }
-  return values;
+  return parseWords(text, bad, [&scope](std::string_view word, std::vector<double>& values) {
+    return appendNumber(word, values) || appendRange(word, values, scope);
+  });
 }
 
 std::optional<bool> parseBool(std::string_view text) {
