@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "allpairs/Error.h"
 
@@ -30,10 +33,31 @@ std::string countedBoxes(std::uint64_t first, std::uint64_t second) {
 
 std::string printable(const std::string& text) { return escapedControls(text); }
 
+std::string shellWord(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=@%+";
+  const auto isPlain = [&kPlain](char c) {
+    return static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), isPlain)) return text;
+  std::string word = "'";
+  for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
+  return word + '\'';
+}
+
+std::string coordinateText(double value) {
+  constexpr int kFewestDigits = 6;
+  constexpr double kMost = 1e12;
+  int digits = kFewestDigits;
+  for (double limit = 1e4; limit <= std::abs(value) && std::abs(value) < kMost; limit *= 10.0) ++digits;
+  return fmt::format("{:.{}g}", value, digits);
+}
+
 std::string boxText(const Box& box) {
   if (isEmpty(box)) return "empty";
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]", box.min[0], box.min[1], box.min[2],
-                     box.max[0], box.max[1], box.max[2]);
+  const auto corner = [](const std::array<double, 3>& point) {
+    return fmt::format("[{}, {}, {}]", coordinateText(point[0]), coordinateText(point[1]), coordinateText(point[2]));
+  };
+  return corner(box.min) + " to " + corner(box.max);
 }
 
 std::string lowerExtension(const std::string& path) {

@@ -20,6 +20,12 @@ namespace allpairs::app {
 /// The text with its control characters written as \x1b, so that a terminal shows them and does not obey them.
 [[nodiscard]] std::string printable(const std::string& text);
 
+/// The text as a shell reads it as one word: in quotes where it has spaces and the like.
+[[nodiscard]] std::string shellWord(const std::string& text);
+
+/// A coordinate with six digits, or with as many as it takes to tell hundredths apart.
+[[nodiscard]] std::string coordinateText(double value);
+
 /// A box as [0, 0, 0] to [1, 1, 1], short enough to read.
 [[nodiscard]] std::string boxText(const Box& box);
 

@@ -145,7 +145,9 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
                     "no model of it can be placed or read, and nothing is left: 'allpairs info "
                     "--partial' lists why");
   }
-  const std::string paths = fmt::format("{}", fmt::join(input.paths, " "));
+  std::vector<std::string> words;
+  for (const std::string& path : input.paths) words.push_back(shellWord(path));
+  const std::string paths = fmt::format("{}", fmt::join(words, " "));
   const std::string inputs = printable(input.spooled == nullptr ? paths : input.spooled->shownIn(paths));
   fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
              counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");

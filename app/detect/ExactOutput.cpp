@@ -16,7 +16,9 @@ namespace {
 
 using collision::Vec3;
 
-std::string pointText(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]); }
+std::string pointText(const Vec3& p) {
+  return fmt::format("({}, {}, {})", coordinateText(p[0]), coordinateText(p[1]), coordinateText(p[2]));
+}
 
 /// Which of the two is an open surface, so that something is not known.
 std::string openText(const ExactPair& pair) {

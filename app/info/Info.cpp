@@ -92,15 +92,7 @@ std::string tableOf(std::size_t count, const std::function<scene::ModelRecord(st
   return text;
 }
 
-std::string remarkText(const scene::Remark& remark) {
-  std::string place = remark.file.string();
-  if (remark.line != 0) place += fmt::format(":{}", remark.line);
-  if (!place.empty()) place += ": ";
-  // A file that was left out as a whole is named already.
-  const bool repeats = remark.subject.empty() || remark.subject == remark.file.filename();
-  const std::string subject = repeats ? "" : remark.subject + ": ";
-  return fmt::format("  {}\n", printable(place + subject + remark.reason));
-}
+std::string remarkText(const scene::Remark& remark) { return fmt::format("  {}\n", printable(textOf(remark))); }
 
 std::string warningsText(const std::vector<scene::Remark>& warnings) {
   std::string text = warnings.empty() ? "" : "\nwarnings\n";

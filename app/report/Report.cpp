@@ -206,7 +206,7 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings, c
   view::BcfOptions options;
   options.version = settings.bcf == "3.0" ? view::BcfVersion::V30 : view::BcfVersion::V21;
   options.metresPerUnit = settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0));
-  if (since) options.resolved = since->resolved;
+  if (since) options.gone = since->gone;
   options.date = date;
   const std::string bcf = bcfOf(scene, pictured, pictures, options);
   const ScenePage page = pageOf(scene);

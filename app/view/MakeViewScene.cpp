@@ -149,6 +149,7 @@ void addExact(const scene::Scene& from, const ViewRequest& request, view::ViewSc
   ExactReport report = examine(from, pairs, {.clearance = clearance, .lineLimit = lines});
   for (ExactPair& pair : report.pairs) pair.first = pair.second = nullptr;  // which end with the scene that was read
   to.isExact = true;
+  if (to.method == "boxes") to.method = "shapes";
   to.exact = std::move(report.pairs);
   to.exactSeconds = report.seconds;
   to.clearance = clearance;

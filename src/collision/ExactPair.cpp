@@ -34,6 +34,7 @@ std::string_view stateName(ExactState state) noexcept {
 }
 
 collision::Vec3 placeOf(const ExactPair& pair) noexcept {
+  if (pair.state == ExactState::Contained) return pair.isFirstInner ? pair.pointOnFirst : pair.pointOnSecond;
   const bool isArea = isContact(pair.state) && pair.depth.value_or(0.0) == 0.0 && !isEmpty(pair.contactBox);
   const collision::Vec3& a = isArea ? pair.contactBox.min : pair.pointOnFirst;
   const collision::Vec3& b = isArea ? pair.contactBox.max : pair.pointOnSecond;

@@ -3,6 +3,7 @@
 
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "allpairs/Error.h"
@@ -76,6 +77,15 @@ void moveAll(Scene& scene, Scene& more) {
 }
 
 }  // namespace
+
+std::string textOf(const Remark& remark) {
+  std::string place = remark.file.string();
+  if (remark.line != 0) place += ':' + std::to_string(remark.line);
+  if (!place.empty()) place += ": ";
+  // A file that was left out as a whole is named already.
+  const bool repeats = remark.subject.empty() || remark.subject == remark.file.filename();
+  return place + (repeats ? "" : remark.subject + ": ") + remark.reason;
+}
 
 Scene emptyScene() {
   Scene scene;

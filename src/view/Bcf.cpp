@@ -20,6 +20,11 @@ namespace {
 
 using Node = pugi::xml_node;
 
+constexpr const char* kClash = "Clash";
+constexpr const char* kContact = "Contact";
+constexpr const char* kClearance = "Clearance";
+constexpr const char* kUndecided = "Undecided";
+
 std::string viewpointGuid(const Clash& clash) { return guidOf({clash.guid, "viewpoint"}); }
 
 /// Where there is no memory, pugixml says so instead of throwing.
@@ -80,7 +85,8 @@ std::string version(BcfVersion version) {
 std::string extensions() {
   pugi::xml_document document;
   Node root = addNode(document.root(), "Extensions");
-  addText(addNode(root, "TopicTypes"), "TopicType", "Clash");
+  Node types = addNode(root, "TopicTypes");
+  for (const char* type : {kClash, kContact, kClearance, kUndecided}) addText(types, "TopicType", type);
   Node statuses = addNode(root, "TopicStatuses");
   for (const char* status : {"Open", "In progress", "Accepted", "Closed"})  // as in web/src/notes.js
     addText(statuses, "TopicStatus", status);
@@ -91,12 +97,29 @@ std::string extensions() {
   return textOf(document);
 }
 
+/// What is wrong: a clash, or something less.
+const char* topicTypeOf(const Clash& clash) {
+  if (clash.exact == nullptr) return kClash;
+  switch (clash.exact->state) {
+    case ExactState::Touching:
+      return kContact;
+    case ExactState::WithinClearance:
+      return kClearance;
+    case ExactState::Undecided:
+    case ExactState::NotExamined:
+      return kUndecided;
+    default:
+      return kClash;
+  }
+}
+
 /// What a topic says besides its viewpoint.
 struct TopicText {
   std::string guid;
   std::string status;
   std::string title;
   std::string description;
+  std::string type = kClash;
   std::string label{};     ///< Empty: none.
   std::size_t number = 0;  ///< 0: none.
 };
@@ -104,15 +127,18 @@ struct TopicText {
 TopicText topicOf(const ViewScene& scene, const Clash& clash) {
   const std::string more =
       clash.inside.empty() ? "" : fmt::format(" It is the worst of {} pairs.", clash.inside.size() + 1);
-  TopicText topic{clash.guid, "Open", titleOf(scene, clash), findingOf(scene, clash) + more};
-  if (clash.isNew) topic.label = *clash.isNew ? "new" : "persisting";
+  TopicText topic{clash.guid, "Open", titleOf(scene, clash), findingOf(scene, clash) + more + beforeText(clash)};
+  if (clash.since) topic.label = changeName(*clash.since);
+  if (clash.since == Change::Resolved) topic.status = "Closed";
+  topic.type = topicTypeOf(clash);
   topic.number = clash.number;
   return topic;
 }
 
 TopicText topicOf(const EarlierClash& clash) {
-  return {clash.guid, "Closed", clash.first + " and " + clash.second,
-          "It was in the report before, and is none any more.", "resolved"};
+  return {
+      clash.guid, "Closed",  clash.first + " and " + clash.second, "It was in the report before, and is none any more.",
+      kClash,     "resolved"};
 }
 
 void addHeader(Node root, const ViewScene& scene, bool isThree) {
@@ -124,7 +150,7 @@ void addHeader(Node root, const ViewScene& scene, bool isThree) {
 Node addTopic(Node root, const TopicText& text, const BcfOptions& options) {
   const bool isThree = options.version == BcfVersion::V30;
   Node topic = addElement(root, "Topic", "Guid", text.guid);
-  addAttribute(topic, "TopicType", "Clash");
+  addAttribute(topic, "TopicType", text.type);
   addAttribute(topic, "TopicStatus", text.status);
   addText(topic, "Title", text.title);
   if (text.number != 0) addText(topic, "Index", std::to_string(text.number));
@@ -250,8 +276,7 @@ std::string makeBcf(const ViewScene& scene, std::span<const Clash> clashes, cons
     archive.add(clash.guid + "/viewpoint.bcfv", viewpoint(scene, clash, options));
     archive.add(clash.guid + "/snapshot.png", options.picture(clash));
   }
-  for (const EarlierClash& clash : options.resolved)
-    archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
+  for (const EarlierClash& clash : options.gone) archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
   return archive.finish();
 }
 

@@ -19,7 +19,7 @@ struct BcfOptions {
   std::string date;                                  ///< When: 2026-01-31T12:00:00Z.
   double metresPerUnit = 1.0;                        ///< BCF's cameras stand in metres.
   std::function<std::string(const Clash&)> picture;  ///< The bytes of a clash's PNG.
-  std::span<const EarlierClash> resolved{};          ///< Topics to close.
+  std::span<const EarlierClash> gone{};              ///< Topics to close.
 };
 
 /// The bytes of a BCF file: for each clash a topic with a viewpoint and a picture. Models with a GlobalId are named by

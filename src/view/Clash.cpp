@@ -77,8 +77,7 @@ std::string exactFinding(const ViewScene& scene, const Clash& clash) {
     case ExactState::Clash:
       if (!pair.depth)
         return fmt::format("Surfaces cross at {}. How deep is not known: {}.", place, openText(scene, clash));
-      return fmt::format("{} deep at {}, the nearest way out of {} is {}.", shortNumber(*pair.depth), place,
-                         scene.name(clash.second), pointText(pair.normal));
+      return fmt::format("{} deep at {}, along {}.", shortNumber(*pair.depth), place, pointText(pair.normal));
     case ExactState::Touching:
       return fmt::format("They touch at {}.", place);
     case ExactState::Undecided:
@@ -189,6 +188,8 @@ std::string findingOf(const ViewScene& scene, const Clash& clash) {
                      shortNumber(clash.overlap[0]), shortNumber(clash.overlap[1]), shortNumber(clash.overlap[2]),
                      shortNumber(clash.volume));
 }
+
+std::string beforeText(const Clash& clash) { return clash.before.empty() ? "" : " Before: " + clash.before + '.'; }
 
 std::string headlineOf(const ViewScene& scene) {
   if (scene.isExact) return countText(countRows(scene));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,13 @@
 #include "ViewScene.h"
 
 namespace allpairs::view {
+
+/// What has become of a row since an earlier report.
+enum class Change : std::uint8_t {
+  New,         ///< It was not there, or was no clash and is one.
+  Persisting,  ///< It was there.
+  Resolved,    ///< It was a clash and is none any more.
+};
 
 /// One row of a report: a pair, and what its boxes have in common. Where models are parts of bodies, the worst pair of
 /// two bodies.
@@ -19,9 +27,10 @@ struct Clash {
   std::array<double, 3> overlap{};   ///< Per axis; negative where the boxes are apart.
   double volume = 0.0;               ///< Of what both boxes share.
   const ExactPair* exact = nullptr;  ///< What the shapes say, in the scene; null where only boxes were asked.
-  std::vector<Clash> inside{};  ///< The other pairs of the same two bodies, the worst first, without number and GUID.
-  std::optional<bool> isNew{};  ///< Whether an earlier report, if there is one, did not have it.
-  std::string guid;             ///< The same for the same two models or bodies, so that a later report renews a topic.
+  std::vector<Clash> inside{};    ///< The other pairs of the same two bodies, the worst first, without number and GUID.
+  std::optional<Change> since{};  ///< Since an earlier report, if there is one.
+  std::string before{};           ///< How the earlier report had it, if otherwise: "clash, 0.3 deep".
+  std::string guid;  ///< The same for the same two models or bodies, so that a later report renews a topic.
 
   [[nodiscard]] bool isSelf() const { return first == second; }
 };
@@ -40,6 +49,9 @@ struct Clash {
 
 /// What was found, as a sentence or two.
 [[nodiscard]] std::string findingOf(const ViewScene& scene, const Clash& clash);
+
+/// " Before: touching." where an earlier report had the row otherwise.
+[[nodiscard]] std::string beforeText(const Clash& clash);
 
 /// What was found in all, in a few words: "3 clashes (1 duplicate), 6 apart", or "12 pairs of boxes".
 [[nodiscard]] std::string headlineOf(const ViewScene& scene);

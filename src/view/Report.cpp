@@ -34,11 +34,10 @@ std::string namesOf(const ViewScene& scene, const Clash& clash) {
   return text + kindOf(scene, clash, clash.second);
 }
 
-/// The state as a word with a colour, and whether it is new.
+/// The state as a word with a colour, and what has become of it.
 std::string badgeOf(const Clash& clash) {
   std::string text;
-  if (clash.isNew)
-    text = *clash.isNew ? "<span class=\"state new\">new</span> " : "<span class=\"state\">persisting</span> ";
+  if (clash.since) text = fmt::format("<span class=\"state {0}\">{0}</span> ", changeName(*clash.since));
   if (clash.exact == nullptr) return text;
   const std::string_view name = stateName(clash.exact->state);
   return fmt::format("<span class=\"state {}\">{}</span> ", name, name) + text;
@@ -75,7 +74,8 @@ std::string figureOf(const Report& report, const Clash& clash) {
   const ViewScene& scene = report.scene;
   std::string text = fmt::format("<figure id=\"clash-{}\" data-guid=\"{}\">{}<figcaption>{}. {}", clash.number,
                                  clash.guid, pictureOf(report, clash), clash.number, namesOf(scene, clash));
-  text += fmt::format("<br><span class=\"fact\">{}{}</span>", badgeOf(clash), escapeHtml(findingOf(scene, clash)));
+  text += fmt::format("<br><span class=\"fact\">{}{}</span>", badgeOf(clash),
+                      escapeHtml(findingOf(scene, clash) + beforeText(clash)));
   text += partsOf(scene, clash);
   return text + "</figcaption></figure>\n";
 }
@@ -104,7 +104,7 @@ std::string rowOf(const ViewScene& scene, const Clash& clash, bool hasPicture) {
   const std::string order =  // states are sorted by how bad they are
       clash.exact == nullptr ? "" : fmt::format(" data-order=\"{}\"", static_cast<int>(clash.exact->state));
   const std::string state =
-      clash.exact == nullptr && !clash.isNew ? "" : fmt::format("<td{}>{}</td>", order, badgeOf(clash));
+      clash.exact == nullptr && !clash.since ? "" : fmt::format("<td{}>{}</td>", order, badgeOf(clash));
   const std::string more = clash.inside.empty() ? "" : fmt::format(" (worst of {} pairs)", clash.inside.size() + 1);
   return fmt::format("<tr data-guid=\"{}\">{}{}<td>{}</td><td>{}{}</td>{}</tr>\n", clash.guid, numberCell(number),
                      state, escapeHtml(firstNameOf(scene, clash)),
@@ -124,19 +124,27 @@ std::string worstOf(const ViewScene& scene, std::span<const Clash> clashes) {
 
 /// What was left out, and of what.
 std::string scopeOf(const ViewScene& scene, std::size_t candidates) {
-  const std::string method = scene.method == "boxes" ? "" : ' ' + escapeHtml(scene.method) + '.';
+  const std::string method =
+      scene.method == "boxes" || scene.method == "shapes" ? "" : ' ' + escapeHtml(scene.method) + '.';
   std::string text = fmt::format("<p>{}, {} by their boxes.{}", counted(scene.modelCount, "model"),
                                  counted(candidates, "candidate"), method);
-  if (!scene.bodies.empty()) text += " Pairs of the same two bodies are one row: the worst of them.";
+  if (!scene.bodies.empty()) text += " Pairs that belong together are one row: the worst of them.";
   if (scene.clearance > 0.0) text += fmt::format(" Clearance {}.", shortNumber(scene.clearance));
   const std::uint64_t apart = scene.isExact ? countStates(scene.exact).of(ExactState::Apart) : 0;
   if (apart != 0)
     text += fmt::format(" {} that {} apart by {} {} not shown.", counted(apart, "candidate"), apart == 1 ? "is" : "are",
                         apart == 1 ? "its shapes" : "their shapes", apart == 1 ? "is" : "are");
-  if (!scene.ignored.empty())
-    text += fmt::format(" {} of the input left out: 'allpairs info' lists {}.", counted(scene.ignored.size(), "part"),
-                        scene.ignored.size() == 1 ? "it" : "them");
   return text + "</p>\n";
+}
+
+/// What of the input was not read, and so not tested.
+std::string leftOutOf(const ViewScene& scene) {
+  if (scene.ignored.empty()) return {};
+  std::string text = fmt::format("<details><summary>{} of the input left out, and not tested</summary><ul>",
+                                 counted(scene.ignored.size(), "part"));
+  for (const scene::Remark& remark : std::span(scene.ignored).first(std::min(scene.ignored.size(), kMostRows)))
+    text += fmt::format("<li>{}</li>", escapeHtml(validUtf8(textOf(remark))));
+  return text + "</ul></details>\n";
 }
 
 constexpr const char* kOfShapes =
@@ -151,9 +159,9 @@ constexpr const char* kOfBoxes =
 std::string changesOf(const Since* since) {
   if (since == nullptr) return {};
   std::string text = fmt::format("<p class=\"worst\">Since {}: {}.</p>\n", escapeHtml(since->name), countText(*since));
-  if (since->resolved.empty()) return text;
-  text += "<details><summary>Resolved</summary><ul>";
-  for (const EarlierClash& clash : std::span(since->resolved).first(std::min(since->resolved.size(), kMostRows)))
+  if (since->gone.empty()) return text;
+  text += "<details><summary>Resolved, and no longer listed</summary><ul>";
+  for (const EarlierClash& clash : std::span(since->gone).first(std::min(since->gone.size(), kMostRows)))
     text += fmt::format("<li>{} and {}</li>", escapeHtml(clash.first), escapeHtml(clash.second));
   return text + "</ul></details>\n";
 }
@@ -188,7 +196,8 @@ std::string introduction(const Report& report) {
   const std::size_t count = clashes.size();
   std::string text =
       fmt::format("<h1>{}</h1>\n<p class=\"headline\">{}</p>\n", escapeHtml(scene.title), headlineOf(scene));
-  text += changesOf(report.since) + worstOf(scene, clashes) + scopeOf(scene, candidates) + aboutOf(report);
+  text += changesOf(report.since) + worstOf(scene, clashes) + scopeOf(scene, candidates) + leftOutOf(scene) +
+          aboutOf(report);
   if (scene.modelCount == 0) return text + "<p>The input has no models.</p>\n";
   if (candidates == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
   if (count == 0) return text + "<p>No two models touch: there is nothing to look at.</p>\n";
@@ -198,7 +207,7 @@ std::string introduction(const Report& report) {
 void writeTable(const ViewScene& scene, std::span<const Clash> clashes, std::size_t pictured, scene::ByteSink sink) {
   if (clashes.empty()) return;
   sink("<div class=\"scroll\"><table>\n<thead><tr><th class=\"number\">#</th>");
-  if (scene.isExact || clashes.front().isNew) sink("<th>state</th>");
+  if (scene.isExact || clashes.front().since) sink("<th>state</th>");
   sink("<th>first</th><th>second</th>");
   if (scene.isExact) {
     sink("<th class=\"number\">depth</th><th class=\"number\">distance</th>");

@@ -42,7 +42,7 @@ std::string idCellsOf(const ViewScene& scene, std::uint32_t model) {
 
 /// A pair of a row.
 void writeCsvLine(const ViewScene& scene, const Clash& row, const Clash& pair, scene::ByteSink sink) {
-  const std::string since = row.isNew ? (*row.isNew ? ",new" : ",persisting") : "";
+  const std::string since = row.since ? ',' + std::string(changeName(*row.since)) : "";
   sink(fmt::format("{},{},{},{}{}{}{},{}\n", row.number, cellOf(scene.name(pair.first)),
                    cellOf(scene.name(pair.second)), csvMeasuresOf(pair), idCellsOf(scene, pair.first),
                    idCellsOf(scene, pair.second), since, row.guid));
@@ -68,7 +68,7 @@ void writeReportCsv(const Report& report, scene::ByteSink sink) {
   }
   if (report.since == nullptr) return;
   const std::size_t left = (scene.isExact ? 10U : 4U) + (scene.ids.empty() ? 0U : 4U);
-  for (const EarlierClash& clash : report.since->resolved) {
+  for (const EarlierClash& clash : report.since->gone) {
     sink(fmt::format(",{},{},{}resolved,{}\n", cellOf(clash.first), cellOf(clash.second), std::string(left, ','),
                      clash.guid));
   }

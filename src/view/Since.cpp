@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <set>
+#include <system_error>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -65,6 +69,42 @@ std::vector<std::string> takeHead(std::string_view& text) {
   return head;
 }
 
+/// The state of a name.
+std::optional<ExactState> stateNamed(std::string_view name) {
+  for (std::size_t i = 0; i < kExactStates; ++i) {
+    if (const auto state = static_cast<ExactState>(i); stateName(state) == name) return state;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> numberIn(const std::string& cell) {
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (problem != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+/// What has become of a row that an earlier report has too.
+Change changeOf(const EarlierClash& earlier, const Clash& clash) {
+  if (!earlier.state || clash.exact == nullptr) return Change::Persisting;
+  const bool was = isClash(*earlier.state);
+  const bool is = isClash(clash.exact->state);
+  return was == is ? Change::Persisting : is ? Change::New : Change::Resolved;
+}
+
+/// How an earlier report had a row, where that differs: in its state, or by more than a hundredth of its depth.
+std::string beforeOf(const EarlierClash& earlier, const Clash& clash) {
+  constexpr double kSameDepth = 0.01;
+  if (!earlier.state || clash.exact == nullptr) return {};
+  const std::optional<double>& depth = clash.exact->depth;
+  const bool isDepthKnown = earlier.depth && depth;
+  const bool isAsDeep =
+      !isDepthKnown || std::abs(*earlier.depth - *depth) <= kSameDepth * std::max(std::abs(*earlier.depth), *depth);
+  if (*earlier.state == clash.exact->state && isAsDeep) return {};
+  const bool hasDepth = earlier.depth && isClash(*earlier.state);
+  return std::string(stateName(*earlier.state)) + (hasDepth ? ", " + shortNumber(*earlier.depth) + " deep" : "");
+}
+
 }  // namespace
 
 bool isReportCsv(std::string_view text) { return !takeHead(text).empty(); }
@@ -72,7 +112,12 @@ bool isReportCsv(std::string_view text) { return !takeHead(text).empty(); }
 std::vector<EarlierClash> readReportCsv(std::string_view text) {
   const std::vector<std::string> head = takeHead(text);
   if (head.empty()) throw Error("is no table of a report: its first line is another");
-  const auto guid = static_cast<std::size_t>(std::find(head.begin(), head.end(), "guid") - head.begin());
+  const auto columnOf = [&head](std::string_view name) {
+    return static_cast<std::size_t>(std::find(head.begin(), head.end(), name) - head.begin());
+  };
+  const std::size_t guid = columnOf("guid");
+  const std::size_t state = columnOf("state");
+  const std::size_t depth = columnOf("depth");
   std::vector<EarlierClash> rows;
   std::set<std::string> known;
   while (!text.empty()) {
@@ -80,30 +125,44 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
     if (fields.size() != head.size() || !isGuid(fields[guid]))
       throw Error("is no table of a report: a line has other columns");
     const bool isResolved = fields[0].empty();  // before that report already
-    if (!isResolved && known.insert(fields[guid]).second)
-      rows.push_back({fields[guid], nameOf(std::move(fields[1])), nameOf(std::move(fields[2]))});
+    if (isResolved || !known.insert(fields[guid]).second) continue;
+    EarlierClash& row = rows.emplace_back();
+    if (state < head.size()) row.state = stateNamed(fields[state]);
+    if (depth < head.size()) row.depth = numberIn(fields[depth]);
+    row.guid = std::move(fields[guid]);
+    row.first = nameOf(std::move(fields[1]));
+    row.second = nameOf(std::move(fields[2]));
   }
   return rows;
 }
 
 Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, std::span<Clash> clashes) {
-  std::unordered_set<std::string> before;
-  for (const EarlierClash& clash : earlier) before.insert(clash.guid);
+  std::unordered_map<std::string_view, const EarlierClash*> before;
+  for (const EarlierClash& clash : earlier) before.emplace(clash.guid, &clash);
   Since since{.name = std::move(name)};
-  std::unordered_set<std::string> now;
+  std::unordered_set<std::string_view> now;
   for (Clash& clash : clashes) {
-    clash.isNew = !before.contains(clash.guid);
-    ++(*clash.isNew ? since.added : since.persisting);
+    const auto found = before.find(clash.guid);
+    clash.since = found == before.end() ? Change::New : changeOf(*found->second, clash);
+    if (found != before.end()) clash.before = beforeOf(*found->second, clash);
+    ++(*clash.since == Change::New          ? since.added
+       : *clash.since == Change::Persisting ? since.persisting
+                                            : since.resolved);
     now.insert(clash.guid);
   }
   for (const EarlierClash& clash : earlier) {
-    if (!now.contains(clash.guid)) since.resolved.push_back(clash);
+    if (!now.contains(clash.guid)) since.gone.push_back(clash);
   }
+  since.resolved += since.gone.size();
   return since;
 }
 
+std::string_view changeName(Change change) {
+  return change == Change::New ? "new" : change == Change::Persisting ? "persisting" : "resolved";
+}
+
 std::string countText(const Since& since) {
-  return fmt::format("{} new, {} persisting, {} resolved", since.added, since.persisting, since.resolved.size());
+  return fmt::format("{} new, {} persisting, {} resolved", since.added, since.persisting, since.resolved);
 }
 
 }  // namespace allpairs::view

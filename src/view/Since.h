@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "Clash.h"
+#include "allpairs/collision/ExactPair.h"
 
 namespace allpairs::view {
 
@@ -15,14 +17,17 @@ struct EarlierClash {
   std::string guid;
   std::string first;
   std::string second;
+  std::optional<ExactState> state{};  ///< Of its worst pair, where shapes were tested.
+  std::optional<double> depth{};      ///< Of that pair.
 };
 
 /// What has become of an earlier report's rows.
 struct Since {
-  std::string name;                      ///< What the earlier report is called.
-  std::size_t added = 0;                 ///< How many rows it did not have.
-  std::size_t persisting = 0;            ///< How many it had.
-  std::vector<EarlierClash> resolved{};  ///< Those that are none any more.
+  std::string name;                  ///< What the earlier report is called.
+  std::size_t added = 0;             ///< How many rows are new.
+  std::size_t persisting = 0;        ///< How many it had.
+  std::size_t resolved = 0;          ///< How many were clashes, or no longer are rows.
+  std::vector<EarlierClash> gone{};  ///< Those that are no rows any more.
 };
 
 /// Whether a text begins as a report's clashes.csv does.
@@ -33,8 +38,11 @@ struct Since {
 /// Bad input: a text that no report has written throws Error.
 [[nodiscard]] std::vector<EarlierClash> readReportCsv(std::string_view text);
 
-/// Compares rows with those of an earlier report, by their GUIDs, and notes in each whether it is new.
+/// Compares rows with those of an earlier report, by their GUIDs and states, and notes in each what has become of it.
 [[nodiscard]] Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, std::span<Clash> clashes);
+
+/// The word for it: new, persisting, resolved.
+[[nodiscard]] std::string_view changeName(Change change);
 
 /// "2 new, 3 persisting, 1 resolved".
 [[nodiscard]] std::string countText(const Since& since);

@@ -201,11 +201,44 @@ TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
       "is a folder without mesh files; --recursive of detect, info, view and report searches those within it, too");
   const auto cad = folder.write("gear.STEP", "ISO-10303-21;");
   expectFileError([&] { (void)scene::readInput(cad); }, "has the exact surfaces of a CAD program, which are not read");
-  folder.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const scene::Scene scene = scene::readInput(folder.path());
+}
+
+TEST(MeshFolder, NothingStaysOfAFileThatIsLeftOutMidway) {
+  const TempFolder folder;
+  std::string many;
+  for (int i = 1; i <= 3000; ++i) {
+    const std::string first = std::to_string(3 * i - 2);
+    many += "o part\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf " + first + ' ' + std::to_string(3 * i - 1) + ' ' +
+            std::to_string(3 * i) + '\n';
+  }
+  folder.write("b.obj", many);
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const scene::Scene scene = scene::readInput(folder.path(), {.partial = true, .maxMemory = 3 << 20});
   EXPECT_EQ(scene.models.size(), 1U);
-  ASSERT_EQ(scene.remarks.size(), 2U);
-  EXPECT_NE(scene.remarks[0].reason.find("CAD program"), std::string::npos) << scene.remarks[0].reason;
+  EXPECT_EQ(scene.owners.size(), 1U);
+  EXPECT_EQ(scene.sources.size(), 1U);
+  EXPECT_EQ(scene.files.size(), 1U);
+  ASSERT_EQ(scene.remarks.size(), 1U);
+  EXPECT_EQ(scene.remarks.front().subject, "b.obj");
+  EXPECT_TRUE(scene.remarks.front().isPartial);
+}
+
+TEST(MeshFolder, ACadFileIsAnErrorUnlessPartialOrThereAsAMeshToo) {
+  const TempFolder folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  folder.write("cube.obj", mesh);
+  folder.write("gear.STEP", "ISO-10303-21;");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "; --partial leaves it out");
+  const scene::Scene partial = scene::readInput(folder.path(), {.partial = true});
+  EXPECT_EQ(partial.models.size(), 1U);
+  ASSERT_EQ(partial.remarks.size(), 1U);
+  EXPECT_TRUE(partial.remarks[0].isPartial);
+  EXPECT_EQ(textOf(partial.remarks[0]).find((folder.path() / "gear.STEP").string() + ": has the exact surfaces"), 0U);
+  folder.write("gear.obj", mesh);
+  const scene::Scene whole = scene::readInput(folder.path());
+  EXPECT_EQ(whole.models.size(), 2U);
+  ASSERT_EQ(whole.remarks.size(), 1U);
+  EXPECT_FALSE(whole.remarks[0].isPartial);
 }
 
 TEST(MeshFolder, IsReadWithTheFoldersWithinItOnlyWhereThatIsAskedFor) {

@@ -142,5 +142,14 @@ TEST(PlyMesh, ErrorsNameTheLine) {
       "mesh.ply: its faces have no list 'vertex_indices'");
 }
 
+TEST(PlyMesh, VerticesOfFacesOfOneCornerAreThereOnce) {
+  const scene::Scene scene =
+      read(ascii("element vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element face 1\nproperty list uchar int vertex_indices\n",
+                 "0 0 0\n1 0 0\n1 0\n"));
+  ASSERT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.models.front()->getLast()->getSize(), 1U);
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -221,6 +221,54 @@ TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
   EXPECT_NE(readBytes(folder.path() / "again/index.html").find(nothingNew), std::string::npos);
 }
 
+TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
+  const TempFolder folder;
+  const auto write = [&](double lid, double d, double f) {
+    std::string text;
+    const auto add = [&text](const std::string& name, double x) {
+      text += name + ',' + std::to_string(x) + ",0,0," + std::to_string(x + 1.0) + ",1,1\n";
+    };
+    const std::vector<std::pair<std::string, double>> boxes{{"a", 0.0},  {"lid", lid}, {"c", 10.0}, {"d", d},
+                                                            {"e", 20.0}, {"f", f},     {"g", 30.0}, {"h", 30.75}};
+    for (const auto& [name, x] : boxes) add(name, x);
+    return folder.write("boxes.csv", text);
+  };
+  const fs::path out = folder.path() / "out";
+  expectSuccess(runProgram({"report", write(1.0, 10.75, 20.75), "--exact", "-o", out}));
+  expectSuccess(runProgram({"report", write(0.5, 11.0, 20.5), "--exact", "-o", out, "--since", out}));
+  std::map<std::string, std::string> changes;
+  for (const std::string& line : tableOf(out)) {
+    Names cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    changes[cells[1] + ' ' + cells[2]] = cells[3] + ' ' + cells[cells.size() - 2];
+  }
+  EXPECT_EQ(changes, (std::map<std::string, std::string>{{"lid a", "clash new"},
+                                                         {"d c", "touching resolved"},
+                                                         {"f e", "clash persisting"},
+                                                         {"h g", "clash persisting"}}));
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find(": 1 new, 2 persisting, 1 resolved.</p>"), std::string::npos);
+  std::map<std::string, std::string> topics;
+  for (const auto& [name, bytes] : filesOf(out / "clashes.bcf")) {
+    if (!name.ends_with("markup.bcf")) continue;
+    const pugi::xml_document document = parse(bytes);
+    const pugi::xml_node topic = document.child("Markup").child("Topic");
+    const std::string words = topic.child_value("Description");
+    const std::size_t before = words.find(" Before: ");
+    topics[topic.child_value("Title")] = std::string(topic.attribute("TopicType").value()) + ' ' +
+                                         topic.attribute("TopicStatus").value() +
+                                         (before == std::string::npos ? "" : words.substr(before));
+    if (before != std::string::npos) {
+      EXPECT_NE(page.find(words.substr(before)), std::string::npos) << words;
+    }
+  }
+  EXPECT_EQ(topics, (std::map<std::string, std::string>{{"lid and a", "Clash Open Before: touching."},
+                                                        {"d and c", "Contact Closed Before: clash, 0.25 deep."},
+                                                        {"f and e", "Clash Open Before: clash, 0.25 deep."},
+                                                        {"h and g", "Clash Open"}}));
+}
+
 TEST(ReportSince, FilesOfOneNameAreKnownByTheirFolders) {
   const TempFolder folder;
   for (const char* name : {"left/bolt.obj", "right/bolt.obj", "base/plate.obj"}) {

@@ -2,7 +2,7 @@
 // The bottom of the panel: what is chosen. A pair: what its boxes share. A model: its partners, and why others are none.
 
 import { byId, button, fillWith, make, nameLine } from "./dom.js";
-import { contactCorners, findingOf, headingOf, shortFinding, state, stateWords } from "./exact.js";
+import { findingOf, headingOf, placeOf, shortFinding, state, stateWords } from "./exact.js";
 import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
 import { copyNames } from "./listed.js";
 import { hiddenMark, tagsOf } from "./lists.js";
@@ -91,11 +91,8 @@ export class Details {
     const point = (p) => Array.from(p, (x) => measure(Math.abs(x) < 1e-12 * Math.max(...p.map(Math.abs)) ? 0 : x)).join(", ");
     if (finding.depth > 0) add("Depth", measure(finding.depth), "pair-depth");
     if (finding.state >= state.undecided && finding.state !== state.notExamined) add("Distance", measure(finding.distance), "pair-distance");
-    if (finding.state !== state.notExamined) {
-      const corners = finding.depth > 0 || finding.state >= state.undecided ? [...finding.first, ...finding.second] : contactCorners(finding);
-      add("At", point([0, 1, 2].map((k) => (corners[k] + corners[k + 3]) / 2)), "pair-place");
-    }
-    if (finding.depth > 0) add("Way out of the second", point(finding.normal));
+    if (finding.state !== state.notExamined) add("At", point(placeOf(finding)), "pair-place");
+    if (finding.depth > 0) add("Depth is along", point(finding.normal));
     this.addBox(add, "First box", first);
     this.addBox(add, "Second box", second);
     fillWith(this.element, this.head(headingOf(finding)), names, ...(words ? [make("p", "verdict", words)] : []), facts, ...this.partsOfRow());

@@ -74,6 +74,13 @@ export const headingOf = (pair) => headings[pair.state];
 
 const openWords = (pair, first, second) => (pair.openFirst && pair.openSecond ? "the surfaces of both are not closed" : `the surface of ${pair.openFirst ? first : second} is not closed`);
 
+/** Where to look, as `placeOf` in ExactPair.cpp says. */
+export function placeOf(pair) {
+  if (pair.state === state.contained) return [...(pair.isFirstInner ? pair.first : pair.second)];
+  const corners = pair.depth > 0 || pair.state >= state.undecided ? [...pair.first, ...pair.second] : contactCorners(pair);
+  return [0, 1, 2].map((k) => (corners[k] + corners[k + 3]) / 2);
+}
+
 /** A sentence for what numbers do not say, or nothing. `inner` is the smaller of the two. */
 export function findingOf(pair, first, second) {
   const sentences = {

@@ -2,7 +2,7 @@
 // What goes out of the page: what is listed as CSV and JSON, the names of what is chosen, and the picture.
 
 import { byId } from "./dom.js";
-import { contactCorners, state, states } from "./exact.js";
+import { placeOf, state, states } from "./exact.js";
 import { kind, sharedExtents } from "./pairs.js";
 
 const keptMs = 60_000; // until a file that is saved is let go
@@ -13,8 +13,7 @@ const nothing = [null, null, null];
 /** What shapes say of a pair, with the names of the columns of a report's clashes.csv. */
 function findingFields(finding) {
   if (finding.state === state.notExamined) return { state: states[finding.state], depth: null, distance: null, ...along("", nothing), ...along("normal", nothing) };
-  const corners = finding.depth > 0 || finding.state >= state.undecided ? [...finding.first, ...finding.second] : contactCorners(finding);
-  const place = [0, 1, 2].map((k) => (corners[k] + corners[k + 3]) / 2);
+  const place = placeOf(finding);
   return { state: states[finding.state], depth: number(finding.depth), distance: number(finding.distance), ...along("", place), ...along("normal", finding.normal) };
 }
 

@@ -44,7 +44,7 @@ function exactFacts({ scene, table }) {
   return [
     fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ") || (clashes === 0 ? "no two models share space" : "")),
     ...others.filter(([is]) => counts[is] > 0).map(([is, label, id]) => fact(label, grouped(counts[is]), `fact-${id}`, is === state.clearance ? `within ${measure(exact.clearance)}` : "")),
-    fact("Apart", grouped(counts[state.apart]), "fact-apart", `of ${counted(counts.reduce((sum, count) => sum + count), "candidate")}`),
+    fact("Apart", grouped(counts[state.apart]), "fact-apart", `of ${counted(counts.reduce((sum, count) => sum + count), scene.hasBodies ? "row" : "candidate")}`),
   ];
 }
 

@@ -57,7 +57,8 @@ struct ExactPair {
   collision::Vec3 pointOnFirst{};
   collision::Vec3 pointOnSecond{};
 
-  /// A unit vector: the direction in which to move the first to separate them; if they are apart, away from the second.
+  /// A unit vector, away from the second: the direction in which the distance or the depth is measured. Moving the first
+  /// along it by the depth brings the deepest point to the surface; others may then still lie within.
   collision::Vec3 normal{};
 
   /// The number of pairs of elements (triangles, segments, points, balls) that intersect; 0 where surfaces don't meet.
@@ -80,7 +81,8 @@ struct ExactPair {
   bool isFirstInner = false;
 };
 
-/// Where to look: between the deepest or the nearest points; in the middle of where surfaces meet that only touch.
+/// Where to look: between the deepest or the nearest points; in the middle of where surfaces meet that only touch; of
+/// what is contained its deepest point.
 [[nodiscard]] collision::Vec3 placeOf(const ExactPair& pair) noexcept;
 
 /// Whether a comes before b in a list of what to repair first: by state, then the deepest, then the nearest.

@@ -23,6 +23,9 @@ struct Remark {
   bool isPartial = false;  ///< A model is missing for it: without ReadOptions::partial it would be an error.
 };
 
+/// A remark on one line: "parts/a.stl:3: hull: why".
+[[nodiscard]] std::string textOf(const Remark& remark);
+
 /// The owner of models: a node of a scene, an object of a mesh file. Models of one owner are one body.
 struct Owner {
   std::string path;

@@ -15,7 +15,9 @@ std::optional<double> scannedNumber(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error == std::errc::result_out_of_range && word.find("e-") != std::string_view::npos) return 0;
+  if (error == std::errc::result_out_of_range &&
+      (word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos))
+    return 0;
   if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }

@@ -119,7 +119,7 @@ class PlyReader {
       if (cutFan(m_object.positions, std::span(m_object.triangles).subspan(fan.first, fan.count))) continue;
       m_body.fail(fan.place.text() + " is " + tooIntricate(fan.count + 2));
     }
-    if (m_object.triangles.empty() && m_object.lines.empty()) m_object.addAllPoints();
+    if (!m_object.hasElements()) m_object.addAllPoints();
     return {std::move(m_object)};
   }
 

@@ -98,25 +98,35 @@ class MeshSearch {
 
   void look(const fs::path& folder) {
     checkStop(m_options.stop);
-    for (const fs::path& entry : sortedEntries(folder)) take(entry);
+    const std::vector<fs::path> entries = sortedEntries(folder);
+    for (const fs::path& entry : entries) take(entry, entries);
   }
 
   [[nodiscard]] const std::vector<fs::path>& meshes() const { return m_meshes; }
   [[nodiscard]] bool hasPassedOverFolders() const { return m_hasPassedOverFolders; }
 
  private:
-  void take(const fs::path& entry) {
+  void take(const fs::path& entry, const std::vector<fs::path>& siblings) {
     std::error_code ignored;
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
       takeFolder(entry);
+    } else if (!isSpecial && isCadFile(entry)) {
+      takeCad(entry, siblings);
     } else if (isSpecial || !isMeshFile(entry)) {
-      remarkOn(entry, isSpecial          ? "is not a regular file"
-                      : isCadFile(entry) ? kIsCad
-                                         : "is no mesh file by its extension");
+      remarkOn(entry, isSpecial ? "is not a regular file" : "is no mesh file by its extension");
     } else {
       m_meshes.push_back(entry);
     }
+  }
+
+  /// A part that cannot be read, unless it is there as a mesh too: leaving it out without a word would hide its clashes.
+  void takeCad(const fs::path& entry, const std::vector<fs::path>& siblings) {
+    const auto isItsMesh = [&](const fs::path& other) { return other.stem() == entry.stem() && isMeshFile(other); };
+    if (std::any_of(siblings.begin(), siblings.end(), isItsMesh))
+      return remarkOn(entry, "is a CAD file beside a mesh of the same name, which is taken");
+    if (!m_options.partial) throw FileError(entry, std::string(kIsCad) + "; --partial leaves it out");
+    m_remarks.push_back(remarkOfMissing(entry, FileError(entry, kIsCad)));
   }
 
   /// A link may lead back to a folder above it, or to one that is searched anyway.
@@ -160,7 +170,8 @@ void requireAllowed(const fs::path& path, const ReadScope& scope) {
 void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   scene.files.push_back(path);
   UniqueNames names;
-  const std::size_t before = scene.models.size();
+  const std::size_t models = scene.models.size();
+  const std::size_t owners = scene.owners.size();
   MeshFrame frame;
   try {
     for (MeshObject& object : readObjects(path, scope, frame)) {
@@ -170,11 +181,16 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
       }
       addObject(scene, std::move(object), names, scope);
     }
-  } catch (const InvalidArgument& problem) {
-    throw FileError(path, problem.what());
+    if (scene.models.size() == models) throw FileError(path, "holds no triangles, lines or points");
+  } catch (const Error& problem) {  // none of a file that is left out stays
+    scene.models.resize(models);
+    scene.sources.resize(models);
+    scene.owners.resize(owners);
+    scene.files.pop_back();
+    if (dynamic_cast<const InvalidArgument*>(&problem) != nullptr) throw FileError(path, problem.what());
+    throw;
   }
   noteFrame(scene, path, frame.up, frame.metresPerUnit > 0.0 ? std::optional(frame.metresPerUnit) : std::nullopt);
-  if (scene.models.size() == before) throw FileError(path, "holds no triangles, lines or points");
 }
 
 }  // namespace

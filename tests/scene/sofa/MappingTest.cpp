@@ -62,6 +62,25 @@ TEST_F(SofaMapping, RigidFramesCarryFrames) {
   EXPECT_THAT(onlyBox(scene), IsBox(Corners{-2, -2, -1, 2, 4, 1}));
 }
 
+TEST_F(SofaMapping, FramesOfAFileThatTheirStateDoesNotHaveAreNotTurned) {
+  std::string points;
+  for (int i = 0; i < 5000; ++i) points += "v " + std::to_string(i) + " 0 0\n";
+  write("many.obj", points + "f 1 2 3\n");
+  const auto scene = readIn(std::string{"<MechanicalObject template='Rigid' rz='90'/>"} +
+                            R"(<Node><MechanicalObject template="Rigid" position="1 0 0 0 0 0 1"/>
+                            <RigidRigidMapping filename="many.obj"/><OBBModel extents="3 2 1"/></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{-2, -3, -1, 2, 5000, 1}));
+}
+
+TEST_F(SofaMapping, FramesOnADeformedStateAreNotTurned) {
+  std::string points;
+  for (int i = 0; i < 5000; ++i) points += std::to_string(i) + " 0 0 ";
+  const auto scene = readIn("<MechanicalObject name='points' position='" + points +
+                            R"('/><Node><MechanicalObject template="Rigid" position="1 0 0 0 0 0 1"/>
+                            <DeformableOnRigidFrameMapping input1="@../points"/><OBBModel extents="3 2 1"/></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{-3, -2, -1, 5000, 2, 1}));
+}
+
 TEST_F(SofaMapping, IdentityCopiesThePointsOrTheCentres) {
   EXPECT_THAT(box("<MechanicalObject position='1 2 3 4 5 6'/>", "<MechanicalObject/><IdentityMapping/>"),
               IsBox(Corners{1, 2, 3, 4, 5, 6}));

@@ -66,12 +66,12 @@ LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const 
   if (evaluation.flag(mapping, "useX0", false)) {
     if (child.kind == State::Kind::Rigid && child.rest != child.positions)
       throw Unplaceable(mapping, "its frames at rest are not known to this reader");
-    local.positions = child.rest;
+    local.setPoints(child.rest);
     return {std::move(local), false};
   }
   if (const auto file = evaluation.file(mapping, {"filename", "fileRigidMapping"})) {
     if (file->extension() == ".xs3") throw Unplaceable(mapping, "files of the kind .xs3 cannot be read");
-    local.positions = readMesh(*file).positions;
+    local.setPoints(readMesh(*file).positions);
     return {std::move(local), false};
   } else if (evaluation.isGiven(mapping, {"initialPoints"})) {
     const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.width());
@@ -99,8 +99,7 @@ State mapRigidly(Evaluation& evaluation, const Component& mapping, const State& 
 }
 
 State mapIdentically(const State& parent, State child) {
-  child.resize(parent.positions.size());
-  child.positions = parent.positions;
+  child.setPoints(parent.positions);
   if (child.kind == State::Kind::Rigid && parent.kind == State::Kind::Rigid) child.orientations = parent.orientations;
   child.fromTopology.reset();
   return child;

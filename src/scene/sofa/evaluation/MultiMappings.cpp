@@ -71,7 +71,7 @@ State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child) {
 
 State mapOnFrame(Evaluation& evaluation, const Component& mapping, State child) {
   const auto& deformed = stateAt(evaluation, mapping, mapping.attributes.value("input1"));
-  child.positions = deformed.positions;
+  child.setPoints(deformed.positions);
   child.fromTopology = deformed.fromTopology;
   const auto carrier = mapping.attributes.value("input2");
   if (carrier.empty()) return child;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sofa/graph/Values.h"
@@ -59,6 +60,12 @@ struct State {
       positions[i] = {v[0], v[1], v[2]};
       if (kind == Kind::Rigid) orientations[i] = {v[3], v[4], v[5], v[6]};
     }
+  }
+
+  /// Takes points for its positions; frames that it did not have are not turned.
+  void setPoints(std::vector<Vec3> points) {
+    resize(points.size());
+    positions = std::move(points);
   }
 
   void resize(std::size_t count) {
