@@ -189,6 +189,8 @@ ExitStatus run(CLI::App& program, int count, const char* const* arguments) {
     return fail(ExitStatus::WrongUsage, std::string(problem.what()) + " (see '" + chosenCommand(program) + " --help')");
   } catch (const allpairs::collision::VerificationError& problem) {
     return fail(ExitStatus::Difference, problem.what());
+  } catch (const allpairs::app::Found& found) {
+    return fail(ExitStatus::Found, found.what());
   } catch (const allpairs::app::ClosedPipe&) {
     return ExitStatus::ClosedPipe;
   } catch (const std::bad_alloc&) {

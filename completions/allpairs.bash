@@ -24,13 +24,15 @@ _allpairs() {
         --distance) return ;;
         --box) return ;;
         --clearance) return ;;
+        --min-depth) return ;;
         --strategy) words='auto exhaustive bvh' ;;
         --threads) return ;;
+        --fail-on) words='pair clash' ;;
         --format) words='table csv json npy' ;;
         -o | --output) files=-f ;;
         --color) words='auto always never' ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --strategy --threads --verify --exact --worlds --format -o --output --color'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --strategy --threads --verify --exact --worlds --fail-on --format -o --output --color'
           files=-f
           ;;
       esac
@@ -130,12 +132,13 @@ _allpairs() {
         --distance) return ;;
         --box) return ;;
         --clearance) return ;;
+        --min-depth) return ;;
         --group) words='body assembly file none' ;;
         --up) words='x y z' ;;
         -o | --output) files=-f ;;
         --port) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up --sequence -o --output --open --serve --port'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up --sequence -o --output --open --serve --port'
           files=-f
           ;;
       esac
@@ -149,15 +152,17 @@ _allpairs() {
         --distance) return ;;
         --box) return ;;
         --clearance) return ;;
+        --min-depth) return ;;
         --group) words='body assembly file none' ;;
         --up) words='x y z' ;;
         -o | --output) files=-d ;;
         --bcf) words='2.1 3.0' ;;
         --since) files=-d ;;
+        --fail-on) words='pair clash new' ;;
         --pictures) return ;;
         --metres-per-unit) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --exact --boxes --group --up -o --output --force --bcf --since --open --pictures --metres-per-unit'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up -o --output --force --bcf --since --fail-on --open --pictures --metres-per-unit'
           files=-f
           ;;
       esac

@@ -91,10 +91,10 @@ double parseDistance(const std::string& text) {
   return *value;
 }
 
-double parseClearance(const std::string& text) {
+double parseLength(const char* option, const std::string& text) {
   const std::optional<double> value = parseNumber(text);
   if (!value || !std::isfinite(*value) || *value < 0.0)
-    throw UsageError("--clearance: '" + text + "' is not a distance from 0 on");
+    throw UsageError(option + (": '" + text) + "' is not a distance from 0 on");
   return *value;
 }
 

@@ -26,10 +26,10 @@ namespace allpairs::app {
 /// Bad input: anything but a number, NaN and -infinity throw UsageError.
 [[nodiscard]] double parseDistance(const std::string& text);
 
-/// The number that follows --clearance.
+/// The number that follows an option: a length from 0 on.
 ///
 /// Bad input: anything but a finite number that is not negative throws UsageError.
-[[nodiscard]] double parseClearance(const std::string& text);
+[[nodiscard]] double parseLength(const char* option, const std::string& text);
 
 /// The number that follows --threads.
 ///

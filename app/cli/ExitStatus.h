@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace allpairs::app {
 
@@ -11,6 +12,7 @@ enum class ExitStatus : int {
   Difference = 1,    ///< --verify found that two strategies disagree.
   WrongUsage = 2,    ///< An option or argument that makes no sense.
   BadInput = 3,      ///< A file that can't be read, understood or written.
+  Found = 4,         ///< What --fail-on names was found.
   ClosedPipe = 141,  ///< The reader of the output has gone: what a shell reports for SIGPIPE.
 };
 
@@ -18,6 +20,12 @@ enum class ExitStatus : int {
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// What --fail-on names was found: after all output is written.
+class Found : public std::runtime_error {
+ public:
+  explicit Found(const std::string& what) : std::runtime_error("--fail-on: found " + what) {}
 };
 
 /// Nobody reads the output any more.

@@ -44,6 +44,7 @@ struct DetectSettings {
   std::string format;  ///< Empty: as the output file's extension says, else a table.
   std::string output;
   std::string color = "auto";
+  std::string failOn;
 };
 
 constexpr const char* kDetectExamples = R"(INPUT is one or more of
@@ -60,6 +61,7 @@ Examples:
   allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
   allpairs detect parts/ --distance 0.5
   allpairs detect parts/ --exact --clearance 0.5
+  allpairs detect parts/ --exact --min-depth 0.05 --fail-on clash
   allpairs detect boxes.npy -o pairs.npy
   allpairs detect robots.npy --worlds -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
@@ -156,7 +158,9 @@ void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
 Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
   warnOfPart(scene, settings.input);
   Outcome outcome{.detection = withClock(scene.models.size(), [&] { return detectScene(scene, options); })};
-  if (settings.exact) outcome.exact = examine(scene, outcome.detection.pairs, {.clearance = options.clearance});
+  if (settings.exact)
+    outcome.exact =
+        examine(scene, outcome.detection.pairs, {.clearance = options.clearance, .leastDepth = options.leastDepth});
   const auto& models = scene.models;
   outcome.notes.method = methodText(scene);
   outcome.notes.remarkCount = scene.remarks.size();
@@ -184,11 +188,14 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   if (settings.format == "npy") refuseTerminal(output);
   if (settings.search.clearance && !settings.exact)
     throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
+  if (settings.search.leastDepth && !settings.exact) throw UsageError("--min-depth is of shapes: add --exact");
+  if (settings.failOn == "clash" && !settings.exact) throw UsageError("--fail-on clash is of shapes: add --exact");
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
     const std::size_t pairs = detectWorlds(settings.input, options, settings.format, output);
     output.commit();
     if (!settings.output.empty()) sayWritten(counted(pairs, "pair"), settings.output);
+    if (settings.failOn == "pair" && pairs != 0) throw Found(counted(pairs, "pair"));
     return;
   }
   if (settings.exact) requireExact();
@@ -214,6 +221,10 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   output.commit();
   clock.reset();
   if (!settings.output.empty()) sayWritten(summaryOf(outcome), settings.output);
+  const bool isFound = settings.failOn == "clash"  ? countStates(outcome.exact->pairs).clashes() != 0
+                       : settings.failOn == "pair" ? !outcome.result.pairs.empty()
+                                                   : false;
+  if (isFound) throw Found(summaryOf(outcome));
 }
 
 }  // namespace
@@ -230,6 +241,8 @@ void addDetect(CLI::App& program) {
   command->add_flag("--exact", settings->exact,
                     "Test the shapes too: clashes with depth and position, distances of the other pairs");
   command->add_flag("--worlds", settings->worlds, "A .npy array (w, n, 6): pairs of boxes of the same world only");
+  addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash"})
+      ->description("End with status 4 if there is a pair, or with --exact a clash");
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);
   addChoice(*command, "--color", settings->color, {"auto", "always", "never"})

@@ -22,6 +22,7 @@ namespace allpairs::app {
 struct DetectionOptions {
   std::optional<double> distance;
   std::optional<Box> region;
+  double leastDepth = 0.0;  ///< Of shapes: what reaches no deeper into each other touches.
   double clearance = 0.0;  ///< Of shapes: boxes that are up to this far apart are candidates, whatever the distance is.
   Strategy strategy = Strategy::Automatic;
   std::size_t threads = 0;  ///< 0: as many as the machine runs at once.

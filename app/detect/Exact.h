@@ -28,6 +28,7 @@ void requireExact();
 /// What a look at shapes is asked for.
 struct ExactRequest {
   double clearance = 0.0;     ///< Pairs that are apart by no more are within it.
+  double leastDepth = 0.0;    ///< Pairs that reach no deeper into each other touch.
   std::size_t lineLimit = 0;  ///< The maximum number of lines where surfaces cross, of each pair.
 };
 

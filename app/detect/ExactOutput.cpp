@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,10 @@ namespace {
 using collision::Vec3;
 
 std::string pointText(const Vec3& p) {
-  return fmt::format("({}, {}, {})", coordinateText(p[0]), coordinateText(p[1]), coordinateText(p[2]));
+  constexpr double kNothing = 1e-12;  // beside the largest
+  const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  const auto text = [&](double x) { return coordinateText(std::abs(x) <= kNothing * largest ? 0.0 : x); };
+  return fmt::format("({}, {}, {})", text(p[0]), text(p[1]), text(p[2]));
 }
 
 /// Which of the two is an open surface, so that something is not known.

@@ -15,7 +15,8 @@ bool hasExact() { return true; }
 ExactReport examine(const scene::Scene& scene, std::span<const Pair> candidates, const ExactRequest& request) {
   const Timer timer;
   ProgressLine line;
-  FclNarrowPhase phase({.clearance = request.clearance, .lineLimit = request.lineLimit});
+  FclNarrowPhase phase(
+      {.clearance = request.clearance, .leastDepth = request.leastDepth, .lineLimit = request.lineLimit});
   phase.beginNarrowPhase();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     line.show(i, candidates.size(),

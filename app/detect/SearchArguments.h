@@ -14,9 +14,10 @@ struct SearchArguments {
   std::optional<std::string> distance;
   std::optional<std::string> box;
   std::optional<std::string> clearance;
+  std::optional<std::string> leastDepth;
 };
 
-/// Declares --distance, --box and --clearance.
+/// Declares --distance, --box, --clearance and --min-depth.
 void addSearchOptions(CLI::App& command, SearchArguments& arguments);
 
 /// Bad input: UsageError if the distance is not a number or the box is not a region.

@@ -39,6 +39,7 @@
 #include "cli/Options.h"
 #include "cli/Progress.h"
 #include "cli/Terminal.h"
+#include "cli/Text.h"
 #include "input/Inputs.h"
 #include "report/ReportFolder.h"
 #include "view/MakeViewScene.h"
@@ -61,6 +62,7 @@ struct ReportSettings {
   std::string bcf = "2.1";
   std::string since;
   bool force = false;
+  std::string failOn;
   bool open = false;
 };
 
@@ -195,9 +197,19 @@ void writeBcfScript(const std::string& bcf, scene::ByteSink sink) {
   sink("\");\n");
 }
 
-/// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind.
-void writeReport(const view::ViewScene& scene, const ReportSettings& settings, const std::string& date,
-                 const std::optional<Earlier>& earlier) {
+/// How many rows are what --fail-on names: any, clashes, or new clashes, where shapes were tested.
+std::size_t countFound(const std::vector<view::Clash>& clashes, const std::string& failOn) {
+  const auto isFound = [&failOn](const view::Clash& clash) {
+    const bool isClash = clash.exact == nullptr || allpairs::isClash(clash.exact->state);
+    return failOn == "pair" || (isClash && (failOn == "clash" || clash.since == view::Change::New));
+  };
+  return failOn.empty() ? 0 : static_cast<std::size_t>(std::count_if(clashes.begin(), clashes.end(), isFound));
+}
+
+/// Draws everything before the first file is written, so that what goes wrong on the way leaves nothing behind. Returns
+/// how many rows are what --fail-on names.
+std::size_t writeReport(const view::ViewScene& scene, const ReportSettings& settings, const std::string& date,
+                        const std::optional<Earlier>& earlier) {
   std::vector<view::Clash> clashes = view::clashesOf(scene);
   std::optional<view::Since> since;
   if (earlier) since = view::compareWith(earlier->rows, earlier->name, clashes);
@@ -223,6 +235,7 @@ void writeReport(const view::ViewScene& scene, const ReportSettings& settings, c
   folder.commit(pictured.size(), page.problem.empty());
   const std::string changes = since ? " (" + view::countText(*since) + ')' : "";
   sayWritten(view::headlineOf(scene) + changes, std::filesystem::path(settings.folder) / "index.html");
+  return countFound(clashes, settings.failOn);
 }
 
 /// The earlier report, by its folder or its table; before the work, and before a report in the same folder replaces it.
@@ -254,6 +267,7 @@ void checkIsOneFrame(const std::vector<std::string>& paths) {
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
   if (settings.folder == "-") throw UsageError("-o: a report is a folder, for which '-' is no name");
+  if (settings.failOn == "new" && settings.since.empty()) throw UsageError("--fail-on new compares: add --since");
   if (const double length = settings.metresPerUnit.value_or(1.0); !(length > 0.0) || length > kMostMetres) {
     throw UsageError("--metres-per-unit must be above 0 and at most 1e18");
   }
@@ -263,8 +277,13 @@ void runReport(const ReportSettings& settings) {
   const std::optional<Earlier> earlier = readEarlier(settings.since);
   checkIsOneFrame(settings.input.paths);
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
-  writeReport(scene, settings, date, earlier);
+  if (settings.failOn == "clash" && !scene.isExact)
+    throw UsageError("--fail-on clash is of shapes, and none were tested; --fail-on pair is of boxes");
+  const std::size_t found = writeReport(scene, settings, date, earlier);
   if (settings.open) openInBrowser(std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html"));
+  const std::string word = settings.failOn == "new" ? "new row" : settings.failOn == "pair" ? "row" : "row of clashes";
+  const std::string words = settings.failOn == "clash" ? "rows of clashes" : word + 's';
+  if (found != 0) throw Found(counted(found, word, words));
 }
 
 }  // namespace
@@ -288,6 +307,8 @@ void addReport(CLI::App& program) {
           "Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved")
       ->type_name("DIR")
       ->check([](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); });
+  addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash", "new"})
+      ->description("End with status 4 if there is a pair, a clash, or one that is new since --since");
   command->add_flag("--open", settings->open, "Open the report in the browser");
   takeCount(
       *command->add_option("--pictures", settings->pictures, "Number of pairs with a picture and a BCF topic, at most")

@@ -146,10 +146,12 @@ void addExact(const scene::Scene& from, const ViewRequest& request, view::ViewSc
   const std::vector<Pair>& pairs = to.frames.front().pairs;
   const double clearance = request.detection.clearance;
   const std::size_t lines = std::clamp(kMostInAll / (pairs.size() + 1), kLeastLines, kMostLines);
-  ExactReport report = examine(from, pairs, {.clearance = clearance, .lineLimit = lines});
+  const double leastDepth = request.detection.leastDepth;
+  ExactReport report = examine(from, pairs, {.clearance = clearance, .leastDepth = leastDepth, .lineLimit = lines});
   for (ExactPair& pair : report.pairs) pair.first = pair.second = nullptr;  // which end with the scene that was read
   to.isExact = true;
   if (to.method == "boxes") to.method = "shapes";
+  if (leastDepth > 0.0) to.method += fmt::format(", clashes deeper than {}", leastDepth);
   to.exact = std::move(report.pairs);
   to.exactSeconds = report.seconds;
   to.clearance = clearance;

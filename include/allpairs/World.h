@@ -148,7 +148,8 @@ class World {
   /// Filters apply as within a world, except that two static boxes are tested too; `accept` of this world is called.
   [[nodiscard]] std::vector<Pair> findBetween(const World& other) const;
 
-  /// The boxes that would be a pair with a box, with their margins as its distance: by ascending id.
+  /// The boxes that would be a pair with a box, with their margins as its distance: by ascending id. The distance of the
+  /// options, which is of pairs, is not added: enlarge the box by it.
   ///
   /// Geometry: the margin is added to a maximum, the box's or the other's, in double, as in a pair. Rays, sweeps and
   ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a negative

@@ -269,6 +269,7 @@ TEST(FclBodies, AToleranceOfZeroIsOneAndEachBelowIsRefused) {
     EXPECT_THROW(FclNarrowPhase({.tolerance = bad}), InvalidArgument);
     EXPECT_THROW(FclNarrowPhase({.duplicateTolerance = bad}), InvalidArgument);
     EXPECT_THROW(FclNarrowPhase({.clearance = bad}), InvalidArgument);
+    EXPECT_THROW(FclNarrowPhase({.leastDepth = bad}), InvalidArgument);
   }
 }
 

@@ -119,6 +119,38 @@ TEST_F(Exact, WhatIsApartByNoMoreThanTheClearanceIsWithinIt) {
                 "--clearance: '-1' is not a distance from 0 on");
 }
 
+TEST_F(Exact, ClashesNoDeeperThanAskedForOnlyTouch) {
+  const ProgramRun run = detect({"--min-depth", "0.125"});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("by their shapes 1 clash (1 contained), 2 touching, 1 apart\n\n"));
+  EXPECT_THAT(run.out, HasSubstr("\n  touching     b-bracket   a-plate     at (0.9375, "));
+  EXPECT_THAT(detect({"--min-depth", "0.1249"}).out, HasSubstr("by their shapes 2 clashes (1 contained)"));
+  // A part that is in another stays a clash, however deep.
+  EXPECT_THAT(detect({"--min-depth", "9"}).out, HasSubstr("by their shapes 1 clash (1 contained)"));
+  expectFailure(runProgram({"detect", parts().string(), "--min-depth", "1"}), 2, "--min-depth is of shapes");
+  expectFailure(detect({"--min-depth", "nan"}), 2, "--min-depth: 'nan' is not a distance from 0 on");
+}
+
+TEST_F(Exact, ScriptsLearnOfClashesByTheStatus) {
+  const std::filesystem::path to = parts() / "out.json";
+  const auto fails = [&](const std::vector<std::string>& options, const std::string& message) {
+    const ProgramRun run = detect(options);
+    EXPECT_EQ(run.status, 4) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("--fail-on: found " + message));
+    return run.out;
+  };
+  EXPECT_THAT(fails({"--fail-on", "clash"}, "2 clashes (1 contained), 1 touching, 1 apart"), HasSubstr("0.125 deep"));
+  fails({"--fail-on", "pair", "-o", to.string()}, "2 clashes");
+  EXPECT_TRUE(std::filesystem::exists(to));
+  for (const char* part : {"a-plate.obj", "e-pin.obj"}) std::filesystem::remove(parts() / part);
+  expectSuccess(detect({"--fail-on", "clash"}));
+  fails({"--fail-on", "pair"}, "0 clashes, 1 touching, 1 apart");
+  expectFailure(runProgram({"detect", parts().string(), "--fail-on", "clash"}), 2, "add --exact");
+  EXPECT_EQ(runProgram({"detect", parts().string(), "--fail-on", "pair"}).status, 4);
+  std::filesystem::remove(parts() / "b-bracket.obj");
+  expectSuccess(runProgram({"detect", parts().string(), "--fail-on", "pair"}));
+}
+
 TEST_F(Exact, WhatCannotBeDecidedIsSaid) {
   std::ofstream(parts() / "g-open.obj") << "v -9 -9 -9\nv 9 -9 -9\nv 0 9 -9\nv 0 0 20\nf 1 2 4\nf 2 3 4\nf 1 2 3\n";
   const ProgramRun run = detect({});

@@ -255,6 +255,41 @@ TEST(Stop, EndsOneLongTaskOfTheSearch) {
   stopInTheMiddle(manyBoxes(500'000, 0), options);
 }
 
+TEST(Stop, EndsOneQueryOfAWorldWithinSomeHundredBoxes) {
+  std::size_t looks = 0;
+  std::size_t most = static_cast<std::size_t>(-1);
+  const auto ask = [&] { return ++looks > most; };
+  const StopFlag stop{FunctionRef<bool()>(ask)};
+  WorldOptions options;
+  options.stop = &stop;
+  World world(options);
+  BoxProperties properties;
+  properties.isStatic = true;  // which makes no pairs of them
+  static_cast<void>(world.add(test::lent(manyBoxes(10'000, 0)), properties));
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const Ray ray{{-1, 0.5, 0.5}, {1, 0, 0}};
+  const std::vector<std::function<void()>> queries{
+      [&] { EXPECT_EQ(world.findOverlapping(box).size(), 10'000U); },
+      [&] { EXPECT_EQ(world.findAll(ray).size(), 10'000U); },
+      [&] { EXPECT_EQ(world.findFirst(ray).id, 0U); },
+      [&] {
+        EXPECT_EQ(world.findNearest({3, 3, 3}, 10'000).size(), 10'000U);
+      },
+  };
+  for (const auto& query : queries) {
+    most = static_cast<std::size_t>(-1);
+    query();  // which may prepare something
+    looks = 0;
+    query();
+    EXPECT_GT(looks, 10U);
+    const std::size_t all = looks;
+    for (most = 0; most < all; most += 7) {
+      looks = 0;
+      EXPECT_THROW(query(), Stopped);
+    }
+  }
+}
+
 TEST(Stop, AFlagThatAsksIsHeededWheneverItIsAskedFor) {
   const std::vector<BoxF> boxes = test::randomBoxes(3000, 97, 2.5F);
   for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {

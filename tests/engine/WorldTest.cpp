@@ -270,8 +270,10 @@ TEST(World, RaysAndSweepsThatMakeNoSenseAreNamed) {
             }),
             "sweep 0: its box has a NaN");
   std::vector<SweepHit> hits(1);
-  EXPECT_EQ(messageOf([&] { world.findFirst(rays, hits); }), "as many hits as rays are needed");
-  EXPECT_EQ(messageOf([&] { world.findFirst(sweeps, hits); }), "as many hits as sweeps are needed");
+  EXPECT_EQ(messageOf([&] { world.findFirst(rays, hits); }),
+            std::to_string(std::size(rays)) + " rays, and room for 1 hits");
+  EXPECT_EQ(messageOf([&] { world.findFirst(sweeps, hits); }),
+            std::to_string(std::size(sweeps)) + " sweeps, and room for 1 hits");
 }
 
 TEST(World, AQueryOfNoCategoryOrNoMaskFindsNothing) {

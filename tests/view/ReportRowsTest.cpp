@@ -247,6 +247,15 @@ TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
                                                          {"d c", "touching resolved"},
                                                          {"f e", "clash persisting"},
                                                          {"h g", "clash persisting"}}));
+  const auto statusOf = [&](const std::string& what, const fs::path& earlier) {
+    const ProgramRun run = runProgram({"report", folder.path() / "boxes.csv", "--exact", "-o", folder.path() / "again",
+                                       "--since", earlier, "--fail-on", what});
+    return std::to_string(run.status) + run.err.substr(0, run.err.find('\n'));
+  };
+  EXPECT_EQ(statusOf("new", out), "0");  // out is what is there now
+  EXPECT_EQ(statusOf("clash", out), "4allpairs: --fail-on: found 3 rows of clashes");
+  EXPECT_EQ(statusOf("pair", out), "4allpairs: --fail-on: found 4 rows");
+  expectFailure(runProgram({"report", folder.path(), "-o", out, "--fail-on", "new"}), 2, "add --since");
   const std::string page = readBytes(out / "index.html");
   EXPECT_NE(page.find(": 1 new, 2 persisting, 1 resolved.</p>"), std::string::npos);
   std::map<std::string, std::string> topics;

@@ -78,7 +78,8 @@ class PairReport {
   [[nodiscard]] ExactState stateOf(const ExactBody& first, const ExactBody& second) const {
     if (!isMet()) return stateOfApart(first, second);
     if (m_anyIsDeep && (isWithin(first) || isWithin(second))) return ExactState::Contained;
-    return m_anyIsDeep || m_isCrossed ? ExactState::Clash : ExactState::Touching;
+    const bool isShallow = m_anyIsDeep && m_best.depth <= m_options.leastDepth;
+    return (m_anyIsDeep || m_isCrossed) && !isShallow ? ExactState::Clash : ExactState::Touching;
   }
 
   [[nodiscard]] ExactState stateOfApart(const ExactBody& first, const ExactBody& second) const {
@@ -179,6 +180,7 @@ void checkOptions(const ExactOptions& options) {
   if (!(options.tolerance >= 0.0)) throw InvalidArgument("the tolerance of an exact test is negative or NaN");
   if (!(options.duplicateTolerance >= 0.0)) throw InvalidArgument("the tolerance of duplicates is negative or NaN");
   if (!(options.clearance >= 0.0)) throw InvalidArgument("the clearance of an exact test is negative or NaN");
+  if (!(options.leastDepth >= 0.0)) throw InvalidArgument("the least depth of a clash is negative or NaN");
 }
 
 }  // namespace

@@ -284,11 +284,14 @@ SweepHit World::findFirst(const BoxSweep& sweep, const QueryFilter& filter) cons
   return State::queries(*this, filter).first(sweep);
 }
 void World::findFirst(Span<const Ray> rays, Span<SweepHit> hits, const QueryFilter& filter) const {
-  if (hits.size() != rays.size()) throw InvalidArgument("as many hits as rays are needed");
+  if (hits.size() != rays.size())
+    throw InvalidArgument(std::to_string(rays.size()) + " rays, and room for " + std::to_string(hits.size()) + " hits");
   State::queries(*this, filter).first(sweepsOf(rays), hits);
 }
 void World::findFirst(Span<const BoxSweep> sweeps, Span<SweepHit> hits, const QueryFilter& filter) const {
-  if (hits.size() != sweeps.size()) throw InvalidArgument("as many hits as sweeps are needed");
+  if (hits.size() != sweeps.size())
+    throw InvalidArgument(std::to_string(sweeps.size()) + " sweeps, and room for " + std::to_string(hits.size()) +
+                          " hits");
   checkSweeps(sweeps);
   State::queries(*this, filter).first(sweeps, hits);
 }

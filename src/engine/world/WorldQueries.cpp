@@ -33,11 +33,25 @@ bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t cou
   return list.size() - begin == count;
 }
 
+/// A hierarchy that a query descends, and the flag that ends it.
+struct Tree {
+  const BvhView& view;
+  bool isExact;  ///< Whether lanes are the boxes.
+  const StopFlag* stop;
+
+  /// Before a block of a level, so that two looks have 256 boxes between them at most.
+  void look(std::size_t level) const {
+    if (level == 1) checkStop(stop);
+  }
+};
+
 /// Calls take(id, lanes) for all candidate boxes; lanesOf(block) has a bit for each candidate lane.
 template <class LanesOf, class Take>
-void descend(const BvhView& view, const LanesOf& lanesOf, const Take& take) {
+void descend(const Tree& tree, const LanesOf& lanesOf, const Take& take) {
+  const BvhView& view = tree.view;
   // As deep as there are levels, at most kMaxLevels.
   const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
+    tree.look(level);
     const LaneBlock& lanes = view.level[level].blocks[block];
     forEachBit(lanesOf(lanes), [&](std::size_t lane) {
       const std::size_t child = block * kFanOut + lane;
@@ -62,8 +76,10 @@ std::size_t cheapestLane(std::uint32_t bits, const std::array<float, kFanOut>& c
 /// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
 /// lanes: lower bounds of the costs of their boxes, and not negative.
 template <class LanesOf, class Take>
-void descendByCost(const BvhView& view, const LanesOf& lanesOf, const float& limit, const Take& take) {
+void descendByCost(const Tree& tree, const LanesOf& lanesOf, const float& limit, const Take& take) {
+  const BvhView& view = tree.view;
   const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
+    tree.look(level);
     std::array<float, kFanOut> costs;
     const LaneBlock& lanes = view.level[level].blocks[block];
     std::uint32_t bits = lanesOf(lanes, costs.data());
@@ -100,7 +116,8 @@ template <class Visit>
 void WorldQueries::eachBvh(const Visit& visit) const {
   const auto show = [&](std::size_t world) {
     m_search.eachTree(world, [&](const DynamicBvh& tree, bool isStatic) {
-      if (isStatic ? m_filter.staticBoxes : m_filter.dynamicBoxes) visit(tree.view(), tree.exact());
+      if (isStatic ? m_filter.staticBoxes : m_filter.dynamicBoxes)
+        visit(Tree{tree.view(), tree.exact(), m_search.stop()});
     });
   };
   // Those of all worlds, or of the filter's and of the boxes of every world.
@@ -168,12 +185,12 @@ void WorldQueries::overlapping(const Box& query, std::vector<BoxId>& ids) const 
   const LaneBox lanes = lanesOf(query);
   const bool queryIsExact = boxOf(lanes) == query;
   const auto lanesIn = [&](const LaneBlock& block) { return m_search.kernels().touchingLanes(block, lanes); };
-  eachBvh([&](const BvhView& hierarchy, bool exact) {
+  eachBvh([&](const Tree& tree) {
     const auto take = [&](BoxId id, const LaneBox&) {
       if (!passes(id)) return;
-      if ((exact && queryIsExact) || overlap(m_store.box(id), query, m_store.margin(id))) ids.push_back(id);
+      if ((tree.isExact && queryIsExact) || overlap(m_store.box(id), query, m_store.margin(id))) ids.push_back(id);
     };
-    descend(hierarchy, lanesIn, take);
+    descend(tree, lanesIn, take);
   });
   std::sort(ids.begin() + begin, ids.end());
 }
@@ -186,15 +203,15 @@ SweepHit WorldQueries::first(const BoxSweep& sweep) const {
   const auto lanesIn = [&](const LaneBlock& block, float* times) {
     return m_search.kernels().meetingLanes(block, lanes, limit, times);
   };
-  eachBvh([&](const BvhView& hierarchy, bool exact) {
+  eachBvh([&](const Tree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
-      const SweepHit hit{id, meetingTime(sweep, widenedBox(id, at, exact))};
+      const SweepHit hit{id, meetingTime(sweep, widenedBox(id, at, tree.isExact))};
       if (hit.t >= kFar || !isNearer(hit, best)) return;
       best = hit;
       limit = roundUpFar(hit.t);
     };
-    descendByCost(hierarchy, lanesIn, limit, take);
+    descendByCost(tree, lanesIn, limit, take);
   });
   return best;
 }
@@ -208,13 +225,13 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
     std::array<float, kFanOut> times;
     return m_search.kernels().meetingLanes(block, lanes, limit, times.data());
   };
-  eachBvh([&](const BvhView& hierarchy, bool exact) {
+  eachBvh([&](const Tree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
-      const double t = meetingTime(sweep, widenedBox(id, at, exact));
+      const double t = meetingTime(sweep, widenedBox(id, at, tree.isExact));
       if (t < kFar) hits.push_back({id, t});
     };
-    descend(hierarchy, lanesIn, take);
+    descend(tree, lanesIn, take);
   });
   std::sort(hits.begin() + begin, hits.end(), isNearer);
 }
@@ -240,15 +257,15 @@ void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count
     return m_search.kernels().nearLanes(block, lanes, limit, squares);
   };
   const std::size_t begin = neighbors.size();
-  eachBvh([&](const BvhView& hierarchy, bool exact) {
+  eachBvh([&](const Tree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
-      const Neighbor found{id, distanceFrom(point, widenedBox(id, at, exact))};
+      const Neighbor found{id, distanceFrom(point, widenedBox(id, at, tree.isExact))};
       if (!keepNearest(neighbors, begin, count, found)) return;
       const double farthest = neighbors[begin].distance;
       limit = std::min(limit, roundUpFar(farthest * farthest));
     };
-    descendByCost(hierarchy, lanesIn, limit, take);
+    descendByCost(tree, lanesIn, limit, take);
   });
   std::sort(neighbors.begin() + static_cast<std::ptrdiff_t>(begin), neighbors.end(), isCloser);
 }

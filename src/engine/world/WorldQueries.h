@@ -43,7 +43,7 @@ class WorldQueries {
   template <class T, class PointOf, class Find>
   [[nodiscard]] ResultLists<T> findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const;
 
-  /// Calls visit(hierarchy, exact) for each that is not empty, of those that the filter includes.
+  /// Calls visit(tree) for each hierarchy that is not empty, of those that the filter includes.
   template <class Visit>
   void eachBvh(const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id) const noexcept;

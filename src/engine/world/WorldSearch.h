@@ -68,6 +68,7 @@ class WorldSearch {
   [[nodiscard]] Executor& begin(CallExecutor& call) const noexcept {
     return call.over(m_options.executor, m_options.stop);
   }
+  [[nodiscard]] const StopFlag* stop() const noexcept { return m_options.stop; }
   [[nodiscard]] const Kernels& kernels() const noexcept { return m_kernels; }
 
  private:

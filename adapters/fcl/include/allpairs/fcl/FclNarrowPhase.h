@@ -23,6 +23,10 @@ struct ExactOptions {
   /// Models that are apart by no more are WithinClearance.
   double clearance = 0.0;
 
+  /// Models that reach into each other no deeper, and of which neither holds the other, are Touching: fits, and the
+  /// facets of round parts.
+  double leastDepth = 0.0;
+
   /// The maximum number of contact points, and of contact lines, of a pair.
   std::size_t contactLimit = 16;
   std::size_t lineLimit = 0;
