@@ -116,7 +116,9 @@ std::string describeExtra(const CLI::App& program) {
   }
   if (std::find(names.begin(), names.end(), name) != names.end())
     return "the option '" + name + "' comes behind '" + command.get_name() + "'";
-  return "unknown option '" + name + "'" + allpairs::app::suggestionFor(name, names);
+  std::string hint = allpairs::app::suggestionFor(name, names);
+  if (hint.ends_with("--margin?")) hint = allpairs::app::suggestionFor("--distance", names);
+  return "unknown option '" + name + "'" + hint;
 }
 
 /// CLI11 says "Could not convert: --name = text". All that it converts are numbers.

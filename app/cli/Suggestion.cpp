@@ -11,6 +11,9 @@ namespace {
 /// A longer word is not a mistyped one.
 constexpr std::size_t kLongest = 40;
 
+/// So many letters, dashes included, of the beginning of a word mean it.
+constexpr std::size_t kLeastOfCut = 5;
+
 /// The least number of letters to add, leave out or replace (Levenshtein's distance).
 std::size_t changesBetween(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
@@ -33,7 +36,8 @@ std::string suggestionFor(std::string_view word, const std::vector<std::string>&
   std::string best;
   std::size_t least = 1 + word.size() / 3;  // a third of its letters may be wrong
   for (const std::string& choice : choices) {
-    const std::size_t changes = changesBetween(word, choice);
+    const bool isCut = word.size() >= kLeastOfCut && choice.starts_with(word);
+    const std::size_t changes = isCut ? 1 : changesBetween(word, choice);
     if (changes >= least || changes >= choice.size()) continue;
     least = changes;
     best = choice;

@@ -83,7 +83,8 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
     expectFailure(runProgram(words), kWrongUsage, message);
   };
   expectUsage({"detect", "--distnce", "1", "a.npy"}, "unknown option '--distnce' - did you mean --distance? (see");
-  expectUsage({"detect", "--margn", "1", "a.npy"}, "unknown option '--margn' - did you mean --margin? (see");
+  expectUsage({"detect", "--margn", "1", "a.npy"}, "unknown option '--margn' - did you mean --distance? (see");
+  expectUsage({"detect", "--dist", "1", "a.npy"}, "unknown option '--dist' - did you mean --distance? (see");
   expectUsage({"detect", "a.npy", "--treads=2"}, "unknown option '--treads' - did you mean --threads? (see");
   expectUsage({"track", "a.npy", "--verfy"}, "unknown option '--verfy' - did you mean --verify? (see");
   expectUsage({"detect", "a.npy", "--picture"}, "unknown option '--picture' (see");

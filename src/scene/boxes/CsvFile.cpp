@@ -70,8 +70,9 @@ CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& pla
 }
 
 bool looksLikeHeader(const std::vector<CsvField>& fields) {
+  const auto isCoordinate = [](const CsvField& field) { return coordinateOf(field.text).has_value(); };
   return std::none_of(fields.begin(), fields.end(), isCsvNumber) &&
-         std::any_of(fields.begin(), fields.end(), [](const CsvField& field) { return coordinateOf(field.text); });
+         (fields.size() >= kCoordinates || std::any_of(fields.begin(), fields.end(), isCoordinate));
 }
 
 CsvLayout layoutOfHeader(const std::vector<CsvField>& fields, const TextPlace& place) {
