@@ -21,10 +21,15 @@ struct Coordinates {
 /// The cells that points may be bound to: all of one dimension, triangles before quads and tetrahedra before hexahedra.
 ///
 /// Coordinates of a cell are along the edges from its first corner; a point goes to the cell in whose coordinates it is
-/// deepest inside, or if it is in none to the one with the nearest centre.
+/// deepest inside, or if it is in none to the one with the nearest centre. Of a set container only cells near the point
+/// count, by the grid that SOFA looks them up in.
 class Cells {
  public:
-  explicit Cells(Topology& topology) : m_tetrahedra(topology.tetrahedra()), m_hexahedra(topology.hexahedra()) {
+  Cells(Topology& topology, Generation generation)
+      : m_flattest(generation == Generation::Sofa20 ? 1e-100 : std::numeric_limits<double>::epsilon()),
+        m_tetrahedra(topology.tetrahedra()),
+        m_hexahedra(topology.hexahedra()) {
+    if (topology.family == Topology::Family::Container) m_sides = topology.edges();
     if (!m_tetrahedra.empty() || !m_hexahedra.empty()) return;
     m_triangles = topology.triangles();
     m_quads = topology.quads();
@@ -44,8 +49,10 @@ class Cells {
     for (const auto& c : m_hexahedra) frames.push_back(frame(in, c, {c[1], c[3], c[4]}, Shape::Hexahedron));
     for (const auto& c : m_triangles) frames.push_back(frame(in, c, {c[1], c[2], c[0]}, Shape::Triangle));
     for (const auto& c : m_quads) frames.push_back(frame(in, c, {c[1], c[3], c[0]}, Shape::Quad));
+    const auto reaches = m_sides.empty() ? Reaches{} : reachesIn(in);
     std::vector<Coordinates> result;
-    for (const auto& point : points) result.push_back(best(frames, point));
+    for (const auto& point : points)
+      result.push_back(m_sides.empty() ? nearestOf(frames, point) : nearestInGrid(frames, reaches, point));
     return result;
   }
 
@@ -82,15 +89,22 @@ class Cells {
   }
 
   template <std::size_t N>
-  static Frame frame(const std::vector<Vec3>& in, const std::array<Index, N>& corners,
-                     const std::array<Index, 3>& along, Shape shape) {
+  Frame frame(const std::vector<Vec3>& in, const std::array<Index, N>& corners, const std::array<Index, 3>& along,
+              Shape shape) const {
     Frame result{shape, in[corners[0]], {}, {}};
     for (const auto corner : corners) result.centre = result.centre + in[corner];
     result.centre = result.centre * (1.0 / static_cast<double>(N));
     Mat3 basis{in[along[0]] - result.origin, in[along[1]] - result.origin, in[along[2]] - result.origin};
     if (shape == Shape::Triangle || shape == Shape::Quad) basis.z = cross(basis.x, basis.y);
-    result.toLocal = inverse(basis);
+    const bool isFlat = std::abs(dot(basis.x, cross(basis.y, basis.z))) <= m_flattest;
+    result.toLocal = isFlat ? instead(basis) : inverse(basis);
     return result;
+  }
+
+  /// What SOFA has where it cannot invert: in containers the edges that it would have inverted, else zero.
+  [[nodiscard]] Mat3 instead(const Mat3& m) const {
+    if (m_sides.empty()) return {{}, {}, {}};
+    return {{m.x[0], m.y[0], m.z[0]}, {m.x[1], m.y[1], m.z[1]}, {m.x[2], m.y[2], m.z[2]}};
   }
 
   /// How far outside of a cell its own coordinates are, at most zero inside.
@@ -109,18 +123,81 @@ class Cells {
     return std::max({-v[0], -v[1], v[0] - 1, v[1] - 1, std::abs(v[2]) - kThickness});
   }
 
-  static Coordinates best(const std::vector<Frame>& frames, const Vec3& point) {
-    Coordinates result;
-    double nearest = std::numeric_limits<double>::max();
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const auto local = frames[i].toLocal * (point - frames[i].origin);
-      double distance = outside(frames[i].shape, local);
-      if (distance > 0) distance = dot(point - frames[i].centre, point - frames[i].centre);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      result = {i, local};
+  /// The best cell so far.
+  struct Nearest {
+    Coordinates at;
+    double distance = std::numeric_limits<double>::max();
+
+    void consider(const std::vector<Frame>& frames, std::size_t cell, const Vec3& point) {
+      const auto& frame = frames[cell];
+      const auto local = frame.toLocal * (point - frame.origin);
+      double candidate = outside(frame.shape, local);
+      if (candidate > 0) candidate = dot(point - frame.centre, point - frame.centre);
+      if (!(candidate < distance)) return;
+      distance = candidate;
+      at = {cell, local};
     }
-    return result;
+  };
+
+  static Coordinates nearestOf(const std::vector<Frame>& frames, const Vec3& point) {
+    Nearest nearest;
+    for (std::size_t i = 0; i < frames.size(); ++i) nearest.consider(frames, i, point);
+    return nearest.at;
+  }
+
+  /// The places of a grid that the box of each cell touches; as wide as the sides of cells are long on average.
+  struct Reaches {
+    double width = 0;
+    std::vector<std::array<Vec3, 2>> boxes;
+
+    [[nodiscard]] Vec3 placeOf(const Vec3& p) const {
+      const double perWidth = 1 / width;
+      return {std::floor(p[0] * perWidth), std::floor(p[1] * perWidth), std::floor(p[2] * perWidth)};
+    }
+  };
+
+  [[nodiscard]] Reaches reachesIn(const std::vector<Vec3>& in) const {
+    Reaches reaches;
+    for (const auto& [a, b] : m_sides) reaches.width += lengthOf(in[a] - in[b]);
+    reaches.width /= static_cast<double>(m_sides.size());
+    const auto addAll = [&](const auto& cells) {
+      for (const auto& corners : cells) {
+        std::array<Vec3, std::tuple_size_v<std::decay_t<decltype(corners)>>> points;
+        std::ranges::transform(corners, points.begin(), [&](auto corner) { return in[corner]; });
+        const auto [low, high] = boundsOf(points);
+        reaches.boxes.push_back({reaches.placeOf(low), reaches.placeOf(high)});
+      }
+    };
+    addAll(m_tetrahedra), addAll(m_hexahedra), addAll(m_triangles), addAll(m_quads);
+    return reaches;
+  }
+
+  /// The cells that touch a point's place come first; if none is near enough, those that touch the places around it in
+  /// the order of these; and all if none touches its own.
+  static Coordinates nearestInGrid(const std::vector<Frame>& frames, const Reaches& reaches, const Vec3& point) {
+    const auto place = reaches.placeOf(point);
+    const auto touching = [&](double around) {
+      std::vector<std::pair<Vec3, std::size_t>> found;
+      for (std::size_t i = 0; i < reaches.boxes.size(); ++i) {
+        const auto& [low, high] = reaches.boxes[i];
+        Vec3 first{};
+        bool touches = true;
+        for (std::size_t axis = 0; axis < 3 && touches; ++axis) {
+          touches = low[axis] <= place[axis] + around && high[axis] >= place[axis] - around;
+          first[axis] = std::max(low[axis], place[axis] - around);
+        }
+        if (touches) found.emplace_back(first, i);
+      }
+      std::ranges::sort(found);
+      return found;
+    };
+    Nearest nearest;
+    for (const auto& [first, cell] : touching(0)) nearest.consider(frames, cell, point);
+    if (nearest.distance == std::numeric_limits<double>::max()) return nearestOf(frames, point);
+    // A squared length, or how deep inside, against a length: so SOFA.
+    if (std::abs(nearest.distance) > reaches.width / 2)
+      for (const auto& [first, cell] : touching(1)) nearest.consider(frames, cell, point);
+    return nearest.at;
   }
 
   /// The first edge beside which a point lies, or else the last edge.
@@ -139,11 +216,13 @@ class Cells {
     return result;
   }
 
+  double m_flattest;  ///< The largest determinant that SOFA takes for none.
   Elements<4> m_tetrahedra;
   Elements<8> m_hexahedra;
   Elements<3> m_triangles;
   Elements<4> m_quads;
   Elements<2> m_edges;
+  Elements<2> m_sides;  ///< Of a set container: its edges, whatever its cells are.
 };
 
 /// Through the cells of a regular grid, found by arithmetic; points outside go with the nearest cell.
@@ -204,7 +283,9 @@ bool areOf(const Topology& grid, const State& state) {
 
 std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,
                                      const State& child) {
-  const auto* which = namedTopology(mapping, "input_topology", *parent.node);
+  const auto* which = mapping.attributes.value("input_topology").empty()
+                          ? firstInContext(*parent.node, isTopology)
+                          : namedTopology(mapping, "input_topology", *parent.node);
   if (which == nullptr) throw Unplaceable(mapping, "its input has no topology");
   auto& topology = evaluation.topology(*which);
   const auto& in = evaluation.state(parent);
@@ -217,17 +298,18 @@ std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& ma
   (void)evaluation.knownState(parent);
   checkPointCount(mapping, topology, in.positions.size());
   if (topology.grid && topology.grid->isVolume()) return throughGrid(*topology.grid, in.positions, child.positions);
+  if (topology.grid) {
+    evaluation.warn(mapping, "the grid of its input is no volume, and it moves nothing, as in SOFA");
+    return child.positions;
+  }
   const bool boundAtRest = evaluation.flag(mapping, "useRestPosition", false);
   switch (which->kind()) {
     case PointContainer:
       return child.positions;  // SOFA finds no way to map, says so, and leaves the child alone.
     case EdgeContainer:
       return {};  // SOFA binds no point to these.
-    case HexahedronContainer:
-      // Bound at rest, in coordinates that are exact even in bent cells: what has not moved since stays where it is.
-      return in.rest == in.positions ? child.positions : throughCells(Cells(topology), in, child, boundAtRest);
     default:
-      return throughCells(Cells(topology), in, child, boundAtRest);
+      return throughCells(Cells(topology, evaluation.generation()), in, child, boundAtRest);
   }
 }
 

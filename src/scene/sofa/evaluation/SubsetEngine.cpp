@@ -46,7 +46,7 @@ Mesh inputOf(Evaluation& evaluation, const Component& engine) {
   if (!evaluation.isGiven(engine, {"rest_position"})) throw Unplaceable(engine, "it is given no rest_position");
   mesh.positions = evaluation.points(engine, {"rest_position"});
   if (!evaluation.isGiven(engine, {"src"})) {
-    const auto* which = inContext(*engine.node, isTopology);
+    const auto* which = firstInContext(*engine.node, isTopology);
     auto* topology = which != nullptr ? &evaluation.topology(*which) : nullptr;
     if (topology != nullptr && topology->sparse) throw Unplaceable(engine, "it reads a sparse grid");
     if (topology != nullptr && !evaluation.isGiven(engine, {"edges"})) mesh.edges = topology->edges();

@@ -86,8 +86,12 @@ const Component* inContext(const Node& node, const Wanted& wanted) {
   const auto last =
       std::find_if(node.components.rbegin(), node.components.rend(), [&](const auto& c) { return wanted(*c); });
   if (last != node.components.rend()) return last->get();
-  for (const auto* ancestor = node.parent; ancestor != nullptr; ancestor = ancestor->parent)
-    if (const auto* first = firstIn(*ancestor, wanted)) return first;
+  return node.parent != nullptr ? firstInContext(*node.parent, wanted) : nullptr;
+}
+
+const Component* firstInContext(const Node& node, const Wanted& wanted) {
+  for (const auto* at = &node; at != nullptr; at = at->parent)
+    if (const auto* first = firstIn(*at, wanted)) return first;
   return nullptr;
 }
 

@@ -43,6 +43,9 @@ using Wanted = std::function<bool(const Component&)>;
 /// The one that a node's own components see: the last wanted one in it, or else the first in its nearest ancestor.
 [[nodiscard]] const Component* inContext(const Node& node, const Wanted& wanted);
 
+/// The one that SOFA's get() finds from a node: the first wanted one in it, or else in its nearest ancestor.
+[[nodiscard]] const Component* firstInContext(const Node& node, const Wanted& wanted);
+
 /// What a mapping reads: the wanted component that `input` links to, or `object1`; by default that of the node above.
 [[nodiscard]] const Component* mappingInput(const Component& mapping, const Wanted& wanted);
 

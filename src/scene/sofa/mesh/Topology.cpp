@@ -161,9 +161,23 @@ const Elements<4>& Topology::quads() {
 }
 
 const Elements<2>& Topology::edges() {
-  if (!given.edges.empty() || (family == Family::Container && pointCount == 0)) return given.edges;
-  if (!m_edges) m_edges = derivedEdges();
+  if (family == Family::Container && pointCount == 0) return given.edges;
+  const bool mayLack = family == Family::Container && !given.tetrahedra.empty();
+  if (!given.edges.empty() && !mayLack) return given.edges;
+  if (m_edges) return *m_edges;
+  m_edges = derivedEdges();
+  if (!given.edges.empty()) completeEdges(*m_edges);
   return *m_edges;
+}
+
+/// Containers of tetrahedra keep the edges that they were given; if one of a tetrahedron is not among them, they add
+/// those of all tetrahedra, the given ones once more.
+void Topology::completeEdges(Elements<2>& derived) const {
+  Seen<2> known;
+  for (const auto& edge : given.edges) known.insert(sorted(edge));
+  const bool isComplete = std::ranges::all_of(derived, [&](const auto& edge) { return known.contains(edge); });
+  if (isComplete) derived.clear();
+  derived.insert(derived.begin(), given.edges.begin(), given.edges.end());
 }
 
 Elements<2> Topology::derivedEdges() {

@@ -45,6 +45,7 @@ class Topology {
 
  private:
   [[nodiscard]] Elements<2> derivedEdges();
+  void completeEdges(Elements<2>& derived) const;
 
   std::optional<Elements<2>> m_edges;
   std::optional<Elements<3>> m_triangles;

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "SceneText.h"
+#include "allpairs/collision/BruteForceBroadPhase.h"
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/ReadSofaScene.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Scenes that SOFA reads otherwise than one would think.
+class SofaSurprises : public testing::Test {
+ protected:
+  struct Answer {
+    std::vector<std::string> models;  ///< "/A/S 1 [0 0 0] [1 1 1]": name, number of elements, box.
+    std::string pairs;                ///< "1-0 2-0".
+    std::vector<std::string> warnings;
+  };
+
+  [[nodiscard]] Answer answer(const std::string& body, scene::SofaVersion sofa = scene::SofaVersion::Sofa2612) const {
+    const auto path =
+        m_folder.write("scene.scn", "<Node name='root'><CollisionPipeline/>" + m_method + body + "</Node>");
+    scene::Scene scene = scene::readSofaScene(path, {.sofa = sofa});
+    Answer result;
+    collision::BruteForceBroadPhase broadPhase;
+    broadPhase.setIntersectionMethod(scene.intersection.get());
+    broadPhase.init();
+    broadPhase.beginBroadPhase();
+    for (const auto& model : scene.models) {
+      const Box box = boxOf(*model);
+      std::ostringstream text;
+      text << model->getName() << ' ' << model->getSize() << " [" << box.min[0] + 0.0 << ' ' << box.min[1] + 0.0 << ' '
+           << box.min[2] + 0.0 << "] [" << box.max[0] + 0.0 << ' ' << box.max[1] + 0.0 << ' ' << box.max[2] + 0.0
+           << ']';
+      result.models.push_back(text.str());
+      broadPhase.addCollisionModel(model->getFirst());
+    }
+    broadPhase.endBroadPhase();
+    for (const auto& [first, second] : broadPhase.getCollisionModelPairs())
+      result.pairs +=
+          (result.pairs.empty() ? "" : " ") + first->getLast()->getName() + '-' + second->getLast()->getName();
+    for (const scene::Remark& remark : scene.warnings) result.warnings.push_back(remark.subject + ": " + remark.reason);
+    return result;
+  }
+
+  /// The models of a scene in which nothing overlaps and of which nothing is to be said.
+  [[nodiscard]] std::vector<std::string> models(const std::string& body,
+                                                scene::SofaVersion sofa = scene::SofaVersion::Sofa2612) const {
+    const Answer result = answer(body, sofa);
+    EXPECT_EQ(result.pairs, "");
+    EXPECT_THAT(result.warnings, IsEmpty());
+    return result.models;
+  }
+
+  [[nodiscard]] std::string complaint(const std::string& body) const {
+    try {
+      (void)answer(body);
+    } catch (const FileError& problem) {
+      return problem.what();
+    }
+    return "read";
+  }
+
+  TempFolder m_folder;
+  std::string m_method = "<MinProximityIntersection alarmDistance='0' contactDistance='0'/>";
+};
+
+constexpr auto kOld = scene::SofaVersion::Sofa2006;
+constexpr auto kNew = scene::SofaVersion::Sofa2612;
+
+/// A node with a ball of radius 0.5, and more in front of it.
+std::string ball(const std::string& name, const std::string& points, const std::string& more = "") {
+  return "<Node name='" + name + "'><MechanicalObject position='" + points + "'/>" + more +
+         "<SphereCollisionModel name='S' radius='0.5'/></Node>";
+}
+
+std::string boundBall(const std::string& points) { return ball("C", points, "<BarycentricMapping/>"); }
+
+TEST_F(SofaSurprises, PointsInABentCellOfAContainerMoveAsInOneOfAMesh) {
+  for (const char* kind : {"MeshTopology", "HexahedronSetTopologyContainer"})
+    for (const auto sofa : {kOld, kNew})
+      EXPECT_THAT(models(std::string("<Node name='A'><") + kind +
+                             " position='0 0 0 1 0 0 2 2 0 0 1 0 0 0 1 1 0 1 2 2 1 0 1 1' "
+                             "hexahedra='0 1 2 3 4 5 6 7'/><MechanicalObject/>" +
+                             boundBall("1 1 0.5") + "</Node>",
+                         sofa),
+                  ElementsAre("/A/C/S 1 [1.5 1.5 0] [2.5 2.5 1]"))
+          << kind;
+}
+
+TEST_F(SofaSurprises, AFlatGridBindsNothing) {
+  for (const auto sofa : {kOld, kNew}) {
+    const Answer flat = answer("<Node name='A'><RegularGridTopology n='5 5 1' max='4 4 0'/><MechanicalObject/>" +
+                                   boundBall("1 1 5") + "</Node>" + ball("B", "1 1 5"),
+                               sofa);
+    EXPECT_THAT(flat.models, ElementsAre("/A/C/S 1 [0.5 0.5 4.5] [1.5 1.5 5.5]", "/B/S 1 [0.5 0.5 4.5] [1.5 1.5 5.5]"));
+    EXPECT_EQ(flat.pairs, "/B/S-/A/C/S");
+    EXPECT_THAT(flat.warnings, ElementsAre(HasSubstr("the grid of its input is no volume, and it moves nothing")));
+  }
+}
+
+TEST_F(SofaSurprises, TheFirstOfTwoTopologiesCountsWhereComponentsSearchThemselves) {
+  const std::string points = "position='0 0 0 4 0 0 0 4 0 4 4 4'";
+  const std::string triangle = "<MeshTopology " + points + " triangles='0 1 2'/>";
+  const std::string edge = "<MeshTopology " + points + " edges='0 3'/>";
+  const auto bound = [&](const std::string& topologies) {
+    return models("<Node name='A'>" + topologies + "<MechanicalObject " + points + "/>" + boundBall("1 1 0.25") +
+                  "</Node>");
+  };
+  EXPECT_THAT(bound(triangle + edge), ElementsAre("/A/C/S 1 [0.5 0.5 -0.5] [1.5 1.5 0.5]"));
+  EXPECT_THAT(bound(edge + triangle), ElementsAre("/A/C/S 1 [0.25 0.25 0.25] [1.25 1.25 1.25]"));
+  EXPECT_THAT(
+      models("<Node name='A'>" + triangle + edge +
+             "<SubsetTopology name='e' rest_position='@B/t.position' "
+             "box='0 0 0 9 9 9'/><Node name='B'><MeshTopology name='t' " +
+             points + "/></Node><Node name='C'><MechanicalObject " + points +
+             "/><MeshTopology triangles='@../e.trianglesInROI'/><TriangleCollisionModel name='T'/></Node></Node>"),
+      ElementsAre("/A/C/T 1 [0 0 0] [4 4 0]"));
+}
+
+/// A large triangle, a small one above it that starts at a height, and twenty small ones far away.
+std::string nearAndFar(const std::string& height) {
+  std::string points = "0 0 0 10 0 0 0 10 10 8 8 " + height + " 8.3 8 " + height + " 8 8.3 " + height;
+  std::string triangles = "0 1 2 3 4 5";
+  for (int i = 0; i < 20; ++i) {
+    const std::string x = std::to_string(20 + i);
+    points += ' ' + x + " 0 500 " + x + ".3 0 500 " + x + " 0.3 500";
+    for (int corner = 0; corner < 3; ++corner) triangles += ' ' + std::to_string(6 + 3 * i + corner);
+  }
+  return "<TriangleSetTopologyContainer position='" + points + "' triangles='" + triangles + "'/><MechanicalObject/>";
+}
+
+TEST_F(SofaSurprises, OfAContainerOnlyTrianglesNearAPointBindIt) {
+  // Places are 0.954 wide. From z = 5 the small triangle, whose centre is nearest, is not among the places around.
+  const auto bound = [this](const std::string& height, const std::string& points) {
+    for (const auto sofa : {kOld, kNew})
+      EXPECT_EQ(models("<Node name='A'>" + nearAndFar(height) + boundBall(points) + "</Node>", sofa).size(), 1U);
+    return models("<Node name='A'>" + nearAndFar(height) + boundBall(points) + "</Node>");
+  };
+  EXPECT_THAT(bound("5", "8 8 1"), ElementsAre("/A/C/S 1 [7.5 4 4] [8.5 5 5]"));
+  EXPECT_THAT(bound("2.4", "8 8 1"), ElementsAre("/A/C/S 1 [7.5 7.5 1.9] [8.5 8.5 2.9]"));
+  EXPECT_THAT(bound("5", "8 8 30"), ElementsAre("/A/C/S 1 [7.5 7.5 4.5] [8.5 8.5 5.5]")) << "none near: all count";
+}
+
+TEST_F(SofaSurprises, FlatTrianglesBindByTheirSidesInContainersAndToTheirFirstCornerInMeshes) {
+  const auto bound = [&](const std::string& kind, scene::SofaVersion sofa, const std::string& size,
+                         const std::string& point) {
+    return models("<Node name='A'><" + kind + " position='0 0 0 " + size + " triangles='0 1 2'/><MechanicalObject/>" +
+                      "<Node name='C'><MechanicalObject position='" + point +
+                      "'/><BarycentricMapping/><PointCollisionModel name='P'/></Node></Node>",
+                  sofa);
+  };
+  const std::string container = "TriangleSetTopologyContainer", mesh = "MeshTopology";
+  for (const auto sofa : {kOld, kNew}) {
+    EXPECT_THAT(bound(container, sofa, "1 0 0 2 0 0'", "0.25 5 7"), ElementsAre("/A/C/P 1 [1.25 0 0] [1.25 0 0]"));
+    EXPECT_THAT(bound(mesh, sofa, "1 0 0 2 0 0'", "0.25 5 7"), ElementsAre("/A/C/P 1 [0 0 0] [0 0 0]"));
+  }
+  // Newer SOFA takes triangles for flat that are smaller than about a ten-thousandth.
+  const std::string tiny = "0.0001 0 0 0 0.0001 0'", point = "0.00005 0.00002 0";
+  const std::string kept = "/A/C/P 1 [5e-05 2e-05 0] [5e-05 2e-05 0]";
+  EXPECT_THAT(bound(container, kOld, tiny, point), ElementsAre(kept));
+  EXPECT_THAT(bound(mesh, kOld, tiny, point), ElementsAre(kept));
+  EXPECT_THAT(bound(container, kNew, tiny, point), ElementsAre("/A/C/P 1 [5e-13 2e-13 0] [5e-13 2e-13 0]"));
+  EXPECT_THAT(bound(mesh, kNew, tiny, point), ElementsAre("/A/C/P 1 [0 0 0] [0 0 0]"));
+}
+
+TEST_F(SofaSurprises, TetrahedraThatLackAnEdgeOfTheirsGetAllOfThem) {
+  const auto lines = [&](const std::string& edges, const std::string& tetrahedra) {
+    return models("<Node name='A'><TetrahedronSetTopologyContainer position='0 0 0 1 0 0 0 1 0 0 0 1' edges='" + edges +
+                  "' " + tetrahedra + "/><MechanicalObject/><LineCollisionModel name='L'/></Node>");
+  };
+  const std::string tetrahedra = "tetrahedra='0 1 2 3'";
+  EXPECT_THAT(lines("0 1", tetrahedra), ElementsAre("/A/L 7 [0 0 0] [1 1 1]"));
+  EXPECT_THAT(lines("0 1 0 2 0 3 1 2 1 3 3 2", tetrahedra), ElementsAre("/A/L 6 [0 0 0] [1 1 1]"));
+  EXPECT_THAT(lines("0 1", ""), ElementsAre("/A/L 1 [0 0 0] [1 0 0]"));
+}
+
+}  // namespace
+}  // namespace allpairs::test
