@@ -24,8 +24,8 @@ using testing::IsEmpty;
 class SofaSurprises : public testing::Test {
  protected:
   struct Answer {
-    std::vector<std::string> models;  ///< "/A/S 1 [0 0 0] [1 1 1]": name, number of elements, box.
-    std::string pairs;                ///< "1-0 2-0".
+    std::vector<std::string> models;  ///< "/A/S 1 [0 0 0] [1 1 1]": name, number of elements, and box if it has any.
+    std::string pairs;                ///< "/B/S-/A/S": the names of the two.
     std::vector<std::string> warnings;
   };
 
@@ -39,12 +39,7 @@ class SofaSurprises : public testing::Test {
     broadPhase.init();
     broadPhase.beginBroadPhase();
     for (const auto& model : scene.models) {
-      const Box box = boxOf(*model);
-      std::ostringstream text;
-      text << model->getName() << ' ' << model->getSize() << " [" << box.min[0] + 0.0 << ' ' << box.min[1] + 0.0 << ' '
-           << box.min[2] + 0.0 << "] [" << box.max[0] + 0.0 << ' ' << box.max[1] + 0.0 << ' ' << box.max[2] + 0.0
-           << ']';
-      result.models.push_back(text.str());
+      result.models.push_back(textOf(*model));
       broadPhase.addCollisionModel(model->getFirst());
     }
     broadPhase.endBroadPhase();
@@ -53,6 +48,17 @@ class SofaSurprises : public testing::Test {
           (result.pairs.empty() ? "" : " ") + first->getLast()->getName() + '-' + second->getLast()->getName();
     for (const scene::Remark& remark : scene.warnings) result.warnings.push_back(remark.subject + ": " + remark.reason);
     return result;
+  }
+
+  /// Minus zero is written as zero.
+  static std::string textOf(collision::CollisionModel& model) {
+    std::ostringstream text;
+    text << model.getName() << ' ' << model.getSize();
+    if (model.getSize() == 0) return text.str();
+    const auto [min, max] = boxOf(model);
+    text << " [" << min[0] + 0.0 << ' ' << min[1] + 0.0 << ' ' << min[2] + 0.0 << "] [" << max[0] + 0.0 << ' '
+         << max[1] + 0.0 << ' ' << max[2] + 0.0 << ']';
+    return text.str();
   }
 
   /// The models of a scene in which nothing overlaps and of which nothing is to be said.
@@ -185,6 +191,118 @@ TEST_F(SofaSurprises, TetrahedraThatLackAnEdgeOfTheirsGetAllOfThem) {
   EXPECT_THAT(lines("0 1", tetrahedra), ElementsAre("/A/L 7 [0 0 0] [1 1 1]"));
   EXPECT_THAT(lines("0 1 0 2 0 3 1 2 1 3 3 2", tetrahedra), ElementsAre("/A/L 6 [0 0 0] [1 1 1]"));
   EXPECT_THAT(lines("0 1", ""), ElementsAre("/A/L 1 [0 0 0] [1 0 0]"));
+}
+
+TEST_F(SofaSurprises, RangesMayGoDownAndHaveSteps) {
+  const auto chosen = [&](const std::string& indices) {
+    return models("<Node name='A'><MechanicalObject position='0 0 0 1 0 0 2 0 0 3 0 0'/>" +
+                  ball("C", "9 9 9", "<SubsetMapping indices='" + indices + "'/>") + "</Node>");
+  };
+  EXPECT_THAT(chosen("3-1"), ElementsAre("/A/C/S 3 [0.5 -0.5 -0.5] [3.5 0.5 0.5]"));
+  EXPECT_THAT(chosen("0-3-2"), ElementsAre("/A/C/S 2 [-0.5 -0.5 -0.5] [2.5 0.5 0.5]"));
+  EXPECT_THAT(chosen("3-0-2"), ElementsAre("/A/C/S 2 [-0.5 -0.5 -0.5] [2.5 0.5 0.5]")) << "from its end";
+  EXPECT_THAT(chosen("3-1--2"), ElementsAre("/A/C/S 2 [0.5 -0.5 -0.5] [3.5 0.5 0.5]"));
+  EXPECT_THAT(chosen("1-1"), ElementsAre("/A/C/S 1 [0.5 -0.5 -0.5] [1.5 0.5 0.5]"));
+  EXPECT_THAT(
+      complaint("<MechanicalObject position='0 0 0'/>" + ball("C", "0 0 0", "<SubsetMapping indices='3-0--2'/>")),
+      HasSubstr("'3-0--2' is neither an index nor a range"));
+}
+
+TEST_F(SofaSurprises, GroupsAreRangesOrTheIntegersThatWordsStartWith) {
+  const auto pairs = [&](const std::string& group, const std::string& other) {
+    const auto inGroup = [](const std::string& node, const std::string& numbers) {
+      return "<Node name='" + node + "'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='S' group='" +
+             numbers + "'/></Node>";
+    };
+    return answer(inGroup("A", group) + inGroup("B", other));
+  };
+  for (const char* other : {"1", "2", "3"}) EXPECT_EQ(pairs("3-1", other).pairs, "") << other;
+  EXPECT_EQ(pairs("3-1", "4").pairs, "/B/S-/A/S");
+  EXPECT_EQ(pairs("0-4-2", "3").pairs, "/B/S-/A/S");
+  EXPECT_EQ(pairs("0-4-2", "4").pairs, "");
+  for (const char* word : {"1,2", "1.9", "1e1"}) {
+    EXPECT_EQ(pairs(word, "1").pairs, "") << word;
+    const Answer outside = pairs(word, "2");
+    EXPECT_EQ(outside.pairs, "/B/S-/A/S") << word;
+    EXPECT_THAT(outside.warnings, ElementsAre(HasSubstr("only the integer that it starts with is read, as in SOFA")));
+  }
+}
+
+TEST_F(SofaSurprises, MappingsThatSofaDoesNotHaveMoveNothing) {
+  const std::string points = "<MechanicalObject name='p' position='5 0 0'/>";
+  const std::string frames = "<MechanicalObject name='p' template='Rigid3' position='5 0 0 0 0 0 1'/>";
+  const std::string point = "<MechanicalObject name='o' position='0 0 0'/>";
+  const std::string frame = "<MechanicalObject name='o' template='Rigid3' position='0 0 0 0 0 0 1'/>";
+  const auto mapped = [&](const std::string& from, const std::string& to, const std::string& mapping) {
+    return answer("<Node name='A'>" + from + "<Node name='C'>" + to + "<" + mapping +
+                  "/><SphereCollisionModel name='S' radius='0.5'/></Node></Node>");
+  };
+  const auto stays = ElementsAre("/A/C/S 1 [-0.5 -0.5 -0.5] [0.5 0.5 0.5]");
+  const auto moves = ElementsAre("/A/C/S 1 [4.5 -0.5 -0.5] [5.5 0.5 0.5]");
+  const std::string multi = " input='@../p' output='@o'";
+  for (const std::string& mapping : {std::string("IdentityMapping"), std::string("SubsetMapping indices='0'"),
+                                     "IdentityMultiMapping" + multi, "SubsetMultiMapping indexPairs='0 0'" + multi}) {
+    const bool dropsTurns = mapping == "IdentityMapping" || mapping.starts_with("SubsetMulti");
+    const Answer toFrames = mapped(points, frame, mapping), toPoints = mapped(frames, point, mapping);
+    EXPECT_THAT(toFrames.models, stays) << mapping;
+    EXPECT_THAT(toFrames.warnings, ElementsAre(HasSubstr("SOFA has no such mapping from points to frames")));
+    EXPECT_THAT(mapped(points, point, mapping).models, moves) << mapping;
+    EXPECT_THAT(mapped(frames, frame, mapping).models, moves) << mapping;
+    if (dropsTurns) {
+      EXPECT_THAT(toPoints.models, moves) << mapping;
+      EXPECT_THAT(toPoints.warnings, IsEmpty());
+    } else {
+      EXPECT_THAT(toPoints.models, stays) << mapping;
+      EXPECT_THAT(toPoints.warnings, ElementsAre(HasSubstr("SOFA has no such mapping from frames to points")));
+    }
+  }
+}
+
+TEST_F(SofaSurprises, NamesAreReadAsSofaSpellsThem) {
+  const auto model = [&](const std::string& name, const std::string& attributes) {
+    return models("<Node name='A'><MechanicalObject template='Rigid3' position='0 0 0 0 0 0 1'/><" + name +
+                  " name='M' " + attributes + "/></Node>");
+  };
+  const auto along = [](const std::string& y) {
+    return ElementsAre("/A/M 1 [-0.5 -" + y + " -0.5] [0.5 " + y + " 0.5]");
+  };
+  EXPECT_THAT(model("CapsuleCollisionModel", "dafaultHeight='10'"), along("5.5"));
+  EXPECT_THAT(model("CapsuleCollisionModel", "defaultHeight='10'"), along("1.5"));
+  EXPECT_THAT(model("CylinderCollisionModel", "defaultHeight='10'"), along("5.5"));
+  EXPECT_THAT(model("CylinderCollisionModel", "dafaultHeight='10' localAxes='1 0 0'"), along("1.5"));
+  EXPECT_THAT(model("SphereCollisionModel", "defaultRadius='10'"), ElementsAre("/A/M 1 [-1 -1 -1] [1 1 1]"));
+}
+
+TEST_F(SofaSurprises, NewerRigidMappingsDoNotReadRepartition) {
+  const auto carried = [&](const std::string& name, scene::SofaVersion sofa) {
+    return answer("<Node name='A'><MechanicalObject template='Rigid3' position='5 0 0 0 0 0 1 50 0 0 0 0 0 1'/>" +
+                      ball("C", "0 0 0 1 0 0", "<RigidMapping " + name + "='1 1'/>") + "</Node>",
+                  sofa);
+  };
+  const auto byOne = ElementsAre("/A/C/S 2 [4.5 -0.5 -0.5] [6.5 0.5 0.5]");
+  const auto byBoth = ElementsAre("/A/C/S 2 [4.5 -0.5 -0.5] [51.5 0.5 0.5]");
+  EXPECT_THAT(carried("repartition", kOld).models, byBoth);
+  EXPECT_THAT(carried("d_repartition", kOld).models, byOne);
+  EXPECT_THAT(carried("d_repartition", kNew).models, byBoth);
+  const Answer unread = carried("repartition", kNew);
+  EXPECT_THAT(unread.models, byOne);
+  EXPECT_THAT(unread.warnings, ElementsAre(HasSubstr("its repartition is not read, as in SOFA since 25.06")));
+}
+
+TEST_F(SofaSurprises, MappingsReadInputAndOutputAlone) {
+  EXPECT_THAT(models("<Node name='A'><MechanicalObject name='r' template='Rigid3' position='5 0 0 0 0 0 1'/>"
+                     "<Node name='N'><MechanicalObject template='Rigid3' position='50 0 0 0 0 0 1'/>" +
+                     ball("C", "0 0 0", "<RigidMapping object1='@../../r' object2='@nobody'/>") + "</Node></Node>"),
+              ElementsAre("/A/N/C/S 1 [49.5 -0.5 -0.5] [50.5 0.5 0.5]"));
+}
+
+TEST_F(SofaSurprises, SkinsOnBonesThatRestElsewhereAreRefused) {
+  const auto skin = [](const std::string& restScale) {
+    return "<Node name='A'><MechanicalObject template='Rigid3' position='10 0 0 0 0 0 1' restScale='" + restScale +
+           "'/>" + ball("C", "6 0 0", "<SkinningMapping nbRef='1'/>") + "</Node>";
+  };
+  EXPECT_THAT(complaint(skin("0.5")), HasSubstr("its bones are not where they rest"));
+  EXPECT_THAT(models(skin("1")), ElementsAre("/A/C/S 1 [5.5 -0.5 -0.5] [6.5 0.5 0.5]"));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_F(SofaHostile, PathsThatLeadOutOfTheSceneLeadNowhere) {
 
 TEST_F(SofaHostile, HugeNumbersAreNamed) {
   for (const auto text :
-       {"<MechanicalObject size='1e30'/><PointModel/>", "<MechanicalObject/><SphereModel group='1e30'/>",
+       {"<MechanicalObject size='1e30'/><PointModel/>", "<MechanicalObject/><SphereModel group='10000000000'/>",
         "<RegularGrid n='1000000000 1 1'/><MechanicalObject/><PointModel/>",
         "<RegularGrid nx='1e18' ny='1e18' nz='1e18'/><MechanicalObject/><PointModel/>",
         "<MechanicalObject position='0 0 0'/><MeshTopology edges='0 4000000000'/><LineModel/>",

@@ -191,7 +191,7 @@ TEST_F(SofaTopology, HexahedraShowTheQuadsOfTheirBorderAndQuadsTwoTrianglesEach)
       <Node name="T"><TriangleSetTopologyContainer name="t"/>
         <Quad2TriangleTopologicalMapping input="@../q" output="@t"/><TriangleModel/>
         <Node name="E"><EdgeSetTopologyContainer name="e"/>
-          <Triangle2EdgeTopologicalMapping object1="@../t" object2="@e"/><LineModel/></Node></Node></Node>)");
+          <Triangle2EdgeTopologicalMapping input="@../t" output="@e"/><LineModel/></Node></Node></Node>)");
   ASSERT_EQ(scene.models.size(), 3U);
   EXPECT_EQ(scene.models[0].elementCount(), 20U);
   EXPECT_EQ(scene.models[1].elementCount(), 20U);

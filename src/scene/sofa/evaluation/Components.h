@@ -24,6 +24,8 @@ class Evaluation;
 [[nodiscard]] bool isRigidTemplate(std::string_view name);
 [[nodiscard]] State initialState(Evaluation& evaluation, const Component& component);
 [[nodiscard]] State mapState(Evaluation& evaluation, const Component& mapping, State child);
+/// Whether SOFA has a mapping of this class between two kinds of states. If it has not it makes none, and that is noted.
+[[nodiscard]] bool isMade(Evaluation& evaluation, const Component& mapping, const State& from, const State& to);
 /// The points of several states, one after the other.
 [[nodiscard]] State mapAllOf(Evaluation& evaluation, const Component& mapping, State child);
 /// Chosen points of several states.

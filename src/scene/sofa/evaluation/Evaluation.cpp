@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kMaxBusy = 150;  // Components that wait for one another; scenes have chains of about ten.
 
 bool isIndexList(std::string_view name) {
-  return name == "indices" || name.ends_with("ndexPerPoint") || name == "group" || name == "points_indices";
+  return name == "indices" || name.ends_with("ndexPerPoint") || name == "group" || name == "points_indices" ||
+         name == "indexPairs" || name.ends_with("repartition");
 }
 
 bool isMeshData(std::string_view name) {
@@ -194,6 +195,13 @@ std::optional<Numbers> Evaluation::written(const Component& component, std::stri
   if (text.starts_with('@')) return linked(component, name, text);
   std::string bad;
   auto values = isIndexList(name) ? parseIntegers(text, bad, m_scope) : parseNumbers(text, bad);
+  if (!values && name == "group") {
+    const auto word = bad;
+    values = parseIntegers(text, bad, m_scope, WordEnd::Dropped);
+    if (values)
+      warn(component,
+           "group: of '" + word.substr(0, 40) + "' only the integer that it starts with is read, as in SOFA");
+  }
   if (!values && !isIndexList(name)) {
     const auto joined = bad;
     values = parseNumberStream(text, bad);

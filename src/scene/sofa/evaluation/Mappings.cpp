@@ -19,7 +19,11 @@ class Carriers {
   Carriers(Evaluation& evaluation, const Component& mapping, std::size_t points, std::size_t frames)
       : m_mapping(mapping), m_frames(frames) {
     m_perPoint = evaluation.indices(mapping, {"rigidIndexPerPoint"});
-    if (mapping.attributes.has("repartition")) spread(evaluation.indices(mapping, {"repartition"}), points);
+    const char* repartition = evaluation.generation() == Generation::Sofa20 ? "repartition" : "d_repartition";
+    if (mapping.attributes.has(repartition))
+      spread(evaluation.indices(mapping, {repartition}), points);
+    else if (mapping.attributes.has("repartition"))
+      evaluation.warn(mapping, "its repartition is not read, as in SOFA since 25.06, which calls it d_repartition");
     if (m_perPoint.size() != points) m_perPoint.clear();
     const auto index = evaluation.number(mapping, {"index"}, 0);
     m_index = static_cast<std::size_t>(std::clamp(index, 0.0, 4e9));
@@ -163,6 +167,15 @@ State mapSubset(Evaluation& evaluation, const Component& mapping, const State& p
 
 }  // namespace
 
+bool isMade(Evaluation& evaluation, const Component& mapping, const State& from, const State& to) {
+  const bool fromFrames = from.kind == State::Kind::Rigid, toFrames = to.kind == State::Kind::Rigid;
+  const bool dropsTurns = mapping.kind() == IdentityMapping || mapping.kind() == SubsetMultiMapping;
+  if (fromFrames == toFrames || (fromFrames && dropsTurns)) return true;
+  evaluation.warn(mapping, std::string{"SOFA has no such mapping from "} +
+                               (fromFrames ? "frames to points" : "points to frames") + ", and moves nothing by it");
+  return false;
+}
+
 State mapState(Evaluation& evaluation, const Component& mapping, State child) {
   const auto* input = mappingInput(mapping, isState);
   if (mapping.kind() == UnknownMapping) throw Unplaceable(mapping, "this kind of mapping is not known to this reader");
@@ -189,8 +202,10 @@ State mapState(Evaluation& evaluation, const Component& mapping, State child) {
     case RigidMapping:
       return mapRigidly(evaluation, mapping, evaluation.knownState(*input), child);
     case IdentityMapping:
+      if (!isMade(evaluation, mapping, evaluation.knownState(*input), child)) return child;
       return mapIdentically(evaluation.knownState(*input), std::move(child));
     case SubsetMapping:
+      if (!isMade(evaluation, mapping, evaluation.knownState(*input), child)) return child;
       return mapSubset(evaluation, mapping, evaluation.knownState(*input), child);
     default:
       break;

@@ -47,9 +47,12 @@ std::optional<double> massOf(const Component& bodies, std::size_t count) {
 }  // namespace
 
 State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
+  const auto inputs = inputsOf(evaluation, mapping);
+  for (const auto* input : inputs)
+    if (!isMade(evaluation, mapping, *input, child)) return child;
   child.resize(0);
   child.fromTopology.reset();
-  for (const auto* input : inputsOf(evaluation, mapping)) {
+  for (const auto* input : inputs) {
     evaluation.takePoints(mapping, input->positions.size());
     for (std::size_t i = 0; i < input->positions.size(); ++i) append(child, *input, i);
   }
@@ -58,6 +61,8 @@ State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
 
 State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child) {
   const auto inputs = inputsOf(evaluation, mapping);
+  for (const auto* input : inputs)
+    if (!isMade(evaluation, mapping, *input, child)) return child;
   const auto pairs = evaluation.indices(mapping, {"indexPairs"});
   child.resize(0);
   child.fromTopology.reset();
@@ -110,7 +115,7 @@ State mapSkin(Evaluation& evaluation, const Component& mapping, const Component&
   if (evaluation.mappingOf(bones) != nullptr ||
       evaluation.isGiven(bones,
                          {"rest_position", "rotation2", "translation2", "rx2", "ry2", "rz2", "dx2", "dy2", "dz2"}) ||
-      evaluation.isGiven(mapping, {"initPos"}))
+      evaluation.number(bones, {"restScale"}, 1) != 1 || evaluation.isGiven(mapping, {"initPos"}))
     throw Unplaceable(mapping, "its bones are not where they rest, and this reader bends no skin");
   child.fromTopology.reset();
   return child;

@@ -110,11 +110,11 @@ const Component* followTo(const Component& self, std::string_view text, const Wa
 }
 
 const Component* mappingInput(const Component& mapping, const Wanted& wanted) {
-  return followTo(mapping, mapping.attributes.value("input", mapping.attributes.value("object1", "@../")), wanted);
+  return followTo(mapping, mapping.attributes.value("input", "@../"), wanted);
 }
 
 const Component* mappingOutput(const Component& mapping, const Wanted& wanted) {
-  return followTo(mapping, mapping.attributes.value("output", mapping.attributes.value("object2", "@./")), wanted);
+  return followTo(mapping, mapping.attributes.value("output", "@./"), wanted);
 }
 
 const Component* namedTopology(const Component& self, std::string_view attribute, const Node& node) {

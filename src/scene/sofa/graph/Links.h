@@ -46,10 +46,10 @@ using Wanted = std::function<bool(const Component&)>;
 /// The one that SOFA's get() finds from a node: the first wanted one in it, or else in its nearest ancestor.
 [[nodiscard]] const Component* firstInContext(const Node& node, const Wanted& wanted);
 
-/// What a mapping reads: the wanted component that `input` links to, or `object1`; by default that of the node above.
+/// What a mapping reads: the wanted component that `input` links to; by default that of the node above.
 [[nodiscard]] const Component* mappingInput(const Component& mapping, const Wanted& wanted);
 
-/// What it writes: that of `output` or `object2`; by default that of its own node.
+/// What it writes: that of `output`; by default that of its own node.
 [[nodiscard]] const Component* mappingOutput(const Component& mapping, const Wanted& wanted);
 
 /// The topology that an attribute of a component links to; without one, that in the context of a node, or null.

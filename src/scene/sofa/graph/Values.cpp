@@ -58,16 +58,43 @@ bool appendNumber(std::string_view word, std::vector<double>& values) {
   return value.has_value();
 }
 
-bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& scope) {
+std::optional<double> parseInteger(std::string_view word, WordEnd end) {
+  const auto sign = word.substr(0, !word.empty() && isSign(word[0]) ? 1 : 0);
+  const auto* after = std::find_if_not(word.begin() + sign.size(), word.end(), isDigit);
+  if (after == word.begin() + sign.size() || (after != word.end() && end == WordEnd::Read)) return std::nullopt;
+  return parseFinite({word.begin(), after});
+}
+
+struct Range {
+  double first = 0;
+  double last = 0;
+  double step = 0;
+};
+
+/// "3-7", or with a step "3-7-2"; against its step a range is read from its end.
+std::optional<Range> parseRange(std::string_view word, WordEnd end) {
   const auto dash = word.find('-', 1);
-  if (dash == std::string_view::npos) return false;
-  const auto first = parseFinite(word.substr(0, dash)), last = parseFinite(word.substr(dash + 1));
-  if (!first || !last || *last - *first > kMaxRange) return false;
-  if (std::abs(*first) > kMaxIndex || std::abs(*last) > kMaxIndex) return false;  // from where on one more is no more
-  const auto count = static_cast<std::uint64_t>(std::max(0.0, *last - *first + 1));
+  if (dash == std::string_view::npos) return std::nullopt;
+  const auto dash2 = std::min(word.find('-', dash + 2), word.size());
+  const auto first = parseInteger(word.substr(0, dash), end);
+  const auto last = parseInteger(word.substr(dash + 1, dash2 - dash - 1), end);
+  const auto step = dash2 < word.size() ? parseInteger(word.substr(dash2 + 1), end) : 0;
+  if (!first || !last || !step) return std::nullopt;
+  if (*step == 0) return Range{*first, *last, *first < *last ? 1.0 : -1.0};
+  if ((*last - *first) * *step < 0) return Range{*last, *first, *step};
+  return Range{*first, *last, *step};
+}
+
+bool appendRange(std::string_view word, std::vector<double>& values, ReadScope& scope, WordEnd end) {
+  const auto range = parseRange(word, end);
+  if (!range || std::abs(range->first) > kMaxIndex || std::abs(range->last) > kMaxIndex) return false;
+  const double steps = (range->last - range->first) / range->step;
+  if (steps > kMaxRange) return false;
+  if (range->step < 0 && steps != std::floor(steps)) return false;  // SOFA's lists and sets end in different ways.
+  const auto count = static_cast<std::uint64_t>(steps) + 1;
   if (count > scope.left() / (4 * sizeof(double))) return false;
   scope.takeElements(count, sizeof(double));
-  for (double value = *first; value <= *last; ++value) values.push_back(value);
+  for (std::uint64_t i = 0; i < count; ++i) values.push_back(range->first + static_cast<double>(i) * range->step);
   return true;
 }
 
@@ -111,9 +138,13 @@ std::optional<std::vector<double>> parseNumberStream(std::string_view text, std:
   });
 }
 
-std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad, ReadScope& scope) {
-  return parseWords(text, bad, [&scope](std::string_view word, std::vector<double>& values) {
-    return appendNumber(word, values) || appendRange(word, values, scope);
+std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad, ReadScope& scope,
+                                                 WordEnd end) {
+  return parseWords(text, bad, [&](std::string_view word, std::vector<double>& values) {
+    if (word.find('-', 1) != std::string_view::npos) return appendRange(word, values, scope, end);
+    const auto value = parseInteger(word, end);
+    if (value) values.push_back(*value);
+    return value.has_value();
   });
 }
 

@@ -29,10 +29,13 @@ struct Numbers {
 /// "1.5.2" are 1.5 and 0.2. Nothing, and the word at fault in `bad`, as above.
 [[nodiscard]] std::optional<std::vector<double>> parseNumberStream(std::string_view text, std::string& bad);
 
-/// As the integers of an index list, where "3-7" means 3 4 5 6 7.
+/// What follows the integer that a word starts with, which in groups SOFA does not look at.
+enum class WordEnd { Read, Dropped };
+
+/// As the integers of an index list, where "3-6" means 3 4 5 6, "6-3" the other way round, and "3-7-2" 3 5 7.
 /// A range that is larger than may be read is no list.
 [[nodiscard]] std::optional<std::vector<double>> parseIntegers(std::string_view text, std::string& bad,
-                                                               ReadScope& scope);
+                                                               ReadScope& scope, WordEnd end = WordEnd::Read);
 
 /// Yes and no in the ways in which scenes write them.
 [[nodiscard]] std::optional<bool> parseBool(std::string_view text);

@@ -120,7 +120,7 @@ void describeTetrahedra(Evaluation& evaluation, const Component& component, Mode
 
 void describeSpheres(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = stateOf(evaluation, component).positions;
-  const double radius = evaluation.number(component, {"radius", "defaultRadius"}, 1);
+  const double radius = evaluation.number(component, {"radius"}, 1);
   model.radii = padded(evaluation, component, "listRadius", {model.positions.size(), radius});
 }
 
@@ -138,16 +138,12 @@ void describeRigidCapsules(Evaluation& evaluation, const Component& component, M
   const auto& state = framesOf(evaluation, component);
   const auto count = state.positions.size();
   const bool cylinder = component.kind() == CylinderModel;
-  const auto [own, other] = cylinder ? std::pair{"defaultHeight", "dafaultHeight"}
-                                     : std::pair{"dafaultHeight", "defaultHeight"};  // as SOFA spells it
-  const double height = evaluation.number(component, {own}, evaluation.number(component, {other}, 2));
+  const double height = evaluation.number(component, {cylinder ? "defaultHeight" : "dafaultHeight"}, 2);  // so SOFA
   const auto heights = padded(evaluation, component, "heights", {count, height});
   model.radii = padded(evaluation, component, "radii", {count, evaluation.number(component, {"defaultRadius"}, 0.5)});
   const Vec3 along = cylinder ? evaluation.vector(component, {"defaultLocalAxis"}, {0, 1, 0}) : Vec3{0, 1, 0};
-  auto axes = cylinder ? evaluation.points(component, {"localAxes"}) : std::vector<Vec3>{};
-  axes.resize(count, along);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto half = rotate(state.orientations[i], axes[i]) * (heights[i] / 2);
+    const auto half = rotate(state.orientations[i], along) * (heights[i] / 2);
     model.positions.push_back(state.positions[i] - half);
     model.positions.push_back(state.positions[i] + half);
     model.lines.push_back({static_cast<Index>(2 * i), static_cast<Index>(2 * i + 1)});
