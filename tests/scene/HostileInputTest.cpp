@@ -131,7 +131,8 @@ TEST_F(Containment, NoMessageRepeatsWhatIsInAFileOfAnotherKind) {
                                          "<MeshTrianLoader name='l' filename='" + name + "'/><MeshTopology src='@l'/>",
                                          "<include href='" + name + "'/>"}) {
       const std::string said = complaint(input("a.scn", sceneOf(component)));
-      EXPECT_NE(said, "") << component;
+      const bool isRead = !component.starts_with("<MeshTopology") || name.ends_with(".obj") || name.ends_with(".msh");
+      EXPECT_EQ(said != "", isRead) << component;
       EXPECT_EQ(said.find("SECRET"), std::string::npos) << said;
     }
   }

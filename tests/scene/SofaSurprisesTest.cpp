@@ -193,6 +193,38 @@ TEST_F(SofaSurprises, TetrahedraThatLackAnEdgeOfTheirsGetAllOfThem) {
   EXPECT_THAT(lines("0 1", ""), ElementsAre("/A/L 1 [0 0 0] [1 0 0]"));
 }
 
+TEST_F(SofaSurprises, StatesThatAreReadFromAFileAreNamed) {
+  const Answer read = answer(ball("A", "0 0 0", "<ReadState filename='a.state'/>"));
+  EXPECT_THAT(read.models, ElementsAre("/A/S 1 [-0.5 -0.5 -0.5] [0.5 0.5 0.5]"));
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("SOFA may move points by it before it detects anything")));
+}
+
+TEST_F(SofaSurprises, TheScaleOfALoaderOfSpheresIsAlsoThatOfTheStateThatTakesItsData) {
+  m_folder.write("one.sph", "sph 1.0\nnums 1\nsphe 0 1 0 0 0.5\n");
+  const auto spheres = [&](const std::string& scale, const std::string& from, scene::SofaVersion sofa) {
+    return models("<Node name='A'><SphereLoader name='l' filename='one.sph' " + scale + "='3 3 3'/><MechanicalObject " +
+                      from + "/><SphereCollisionModel name='S' radius='0.5'/></Node>",
+                  sofa);
+  };
+  const auto at = [](const std::string& low, const std::string& high) {
+    return ElementsAre("/A/S 1 [" + low + " -0.5 -0.5] [" + high + " 0.5 0.5]");
+  };
+  EXPECT_THAT(spheres("scale3d", "position='@l.position'", kNew), at("2.5", "3.5"));
+  EXPECT_THAT(spheres("scale3d", "position='@l.position'", kOld), at("0.5", "1.5"));
+  EXPECT_THAT(spheres("scale", "src='@l'", kNew), at("8.5", "9.5"));
+  EXPECT_THAT(spheres("scale", "src='@l'", kOld), at("2.5", "3.5"));
+  EXPECT_THAT(spheres("scale3d", "src='@l'", kOld), at("0.5", "1.5"));
+}
+
+TEST_F(SofaSurprises, TheDiscreteMethodHasNoAlarmDistance) {
+  m_method = "<DiscreteIntersection name='d' alarmDistance='5'/>";
+  const Answer apart = answer(ball("A", "0 0 0") + ball("B", "4 0 0"));
+  EXPECT_THAT(apart.models,
+              ElementsAre("/A/S 1 [-0.5 -0.5 -0.5] [0.5 0.5 0.5]", "/B/S 1 [3.5 -0.5 -0.5] [4.5 0.5 0.5]"));
+  EXPECT_EQ(apart.pairs, "");
+  EXPECT_THAT(apart.warnings, ElementsAre(HasSubstr("d: its alarmDistance is not read, as in SOFA")));
+}
+
 TEST_F(SofaSurprises, RangesMayGoDownAndHaveSteps) {
   const auto chosen = [&](const std::string& indices) {
     return models("<Node name='A'><MechanicalObject position='0 0 0 1 0 0 2 0 0 3 0 0'/>" +
@@ -296,6 +328,36 @@ TEST_F(SofaSurprises, MappingsReadInputAndOutputAlone) {
               ElementsAre("/A/N/C/S 1 [49.5 -0.5 -0.5] [50.5 0.5 0.5]"));
 }
 
+TEST_F(SofaSurprises, TopologiesReadTwoKindsOfFiles) {
+  m_folder.write("t.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  m_folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto triangles = [&](const std::string& file) {
+    return answer("<Node name='A'><MeshTopology name='m' filename='" + file +
+                  "'/><MechanicalObject/><PointCollisionModel name='P'/></Node>");
+  };
+  EXPECT_THAT(triangles("t.obj").models, ElementsAre("/A/P 3 [0 0 0] [1 1 0]"));
+  const Answer unread = triangles("t.off");
+  EXPECT_THAT(unread.models, ElementsAre("/A/P 1 [0 0 0] [0 0 0]"));
+  EXPECT_THAT(unread.warnings, ElementsAre(HasSubstr("/A/m: a topology reads files .obj and .msh alone")));
+}
+
+TEST_F(SofaSurprises, LinksWithoutADataAreNotRead) {
+  const Answer unread = answer(
+      "<Node name='A'><MeshTopology name='t' position='3 0 0 4 0 0'/><Node name='C'>"
+      "<MechanicalObject position='@../t'/><SphereCollisionModel name='S'/></Node></Node>");
+  EXPECT_THAT(unread.models, ElementsAre("/A/C/S 1 [-1 -1 -1] [1 1 1]"));
+  EXPECT_THAT(unread.warnings,
+              ElementsAre(HasSubstr("position=\"@../t\" links to a component and names no data of it")));
+}
+
+TEST_F(SofaSurprises, ASizeBesideTheLinkToATopologysPointsIsNamed) {
+  const Answer sized = answer(
+      "<Node name='A'><MeshTopology name='t' position='0 0 0 1 0 0 2 0 0'/>"
+      "<MechanicalObject position='@t.position' size='2'/><PointCollisionModel name='P'/></Node>");
+  EXPECT_THAT(sized.models, ElementsAre("/A/P 3 [0 0 0] [2 0 0]"));
+  EXPECT_THAT(sized.warnings, ElementsAre(HasSubstr("a link to 3 points; SOFA may make them 2")));
+}
+
 TEST_F(SofaSurprises, SkinsOnBonesThatRestElsewhereAreRefused) {
   const auto skin = [](const std::string& restScale) {
     return "<Node name='A'><MechanicalObject template='Rigid3' position='10 0 0 0 0 0 1' restScale='" + restScale +
@@ -303,6 +365,12 @@ TEST_F(SofaSurprises, SkinsOnBonesThatRestElsewhereAreRefused) {
   };
   EXPECT_THAT(complaint(skin("0.5")), HasSubstr("its bones are not where they rest"));
   EXPECT_THAT(models(skin("1")), ElementsAre("/A/C/S 1 [5.5 -0.5 -0.5] [6.5 0.5 0.5]"));
+}
+
+TEST_F(SofaSurprises, SubsetsWithoutABoxHaveTheUnitCube) {
+  EXPECT_THAT(models("<Node name='A'><SubsetTopology name='e' rest_position='0.5 0.5 0.5 5 5 5'/>"
+                     "<MechanicalObject position='@e.pointsInROI'/><PointCollisionModel name='P'/></Node>"),
+              ElementsAre("/A/P 1 [0.5 0.5 0.5] [0.5 0.5 0.5]"));
 }
 
 }  // namespace

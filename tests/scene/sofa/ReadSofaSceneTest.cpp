@@ -99,14 +99,14 @@ TEST_F(ReadSofaScene, CarriesFlagsGroupsDistancesAndOwnersOver) {
 }
 
 TEST_F(ReadSofaScene, MakesTheMethodThatTheSceneNames) {
-  for (const auto name :
-       {"DiscreteIntersection", "MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"}) {
+  for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"}) {
     const auto scene = read(std::string{"<"} + name + " alarmDistance='0.75' contactDistance='0.25'/>");
     EXPECT_EQ(scene.intersection->typeName(), name);
     EXPECT_EQ(scene.intersectionName, name);
     EXPECT_EQ(scene.intersection->getAlarmDistance(), 0.75);
     EXPECT_EQ(scene.intersection->getContactDistance(), 0.25);
   }
+  EXPECT_EQ(read("<DiscreteIntersection/>").intersectionName, "DiscreteIntersection");
   EXPECT_EQ(read("").intersection->typeName(), "DiscreteIntersection");
 }
 

@@ -231,10 +231,13 @@ std::optional<Numbers> Evaluation::linked(const Component& component, std::strin
   const auto target = followPath(*component.node, &component, link->path);
   const auto what = std::string{name} + "=\"" + text.substr(0, 80) + '"';
   if (target.component == nullptr) throw Unplaceable(component, what + " links to nothing");
-  const auto data = link->data.empty() ? std::string{name} : link->data;
-  auto result = output(*target.component, data);
+  if (link->data.empty()) {
+    warn(component, what + " links to a component and names no data of it; it is not read, as in SOFA");
+    return std::nullopt;
+  }
+  auto result = output(*target.component, link->data);
   if (!result)
-    throw Unplaceable(component, what + " needs the " + data + " of " + target.component->describe() +
+    throw Unplaceable(component, what + " needs the " + link->data + " of " + target.component->describe() +
                                      ", which this reader cannot compute");
   return result;
 }
@@ -265,6 +268,11 @@ std::optional<Numbers> Evaluation::output(const Component& component, std::strin
   const Busy busy(*this, component, std::string{name} + " data");
   if (kind == ComponentKind::MechanicalState || kind == ComponentKind::MeshLoader)
     if (const auto value = placementData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
+  if (kind == ComponentKind::SphereLoader && name == "scale3d") {  // A second name of its scale, since 20.12.
+    if (m_generation == Generation::Sofa20) return std::nullopt;
+    const auto scale = vector(component, {"scale", "scale3d"}, {1, 1, 1});
+    return Numbers{{scale.begin(), scale.end()}, 3};
+  }
   if (kind == ComponentKind::MeshLoader || kind == ComponentKind::SphereLoader)
     if (auto value = loaderOutput(component, mesh(component), name)) return value;
   if (const auto value = gridData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};

@@ -100,10 +100,11 @@ void transform(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
   for (auto& p : mesh.positions) p = rotate(rotation, scaled(p, scale)) + translation;
 }
 
-/// Since 21.06 SOFA turns spheres too, and leaves their radii as they are.
+/// Since 20.12 SOFA turns spheres too, and leaves their radii as they are.
 void transformSpheres(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
   const bool isOld = evaluation.generation() == Generation::Sofa20;
-  const auto scale = evaluation.vector(loader, {"scale"}, {1, 1, 1});
+  const auto scale = isOld ? evaluation.vector(loader, {"scale"}, {1, 1, 1})
+                           : evaluation.vector(loader, {"scale", "scale3d"}, {1, 1, 1});
   const auto rotation = fromEulerDegrees(isOld ? Vec3{} : evaluation.vector(loader, {"rotation"}, {}));
   const auto translation = evaluation.vector(loader, {"translation"}, {});
   if (isOld)

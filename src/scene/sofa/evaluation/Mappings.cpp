@@ -79,7 +79,7 @@ LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const 
     return {std::move(local), false};
   } else if (evaluation.isGiven(mapping, {"initialPoints"})) {
     const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.width());
-    if (given->size() == 0) return {std::move(local)};
+    if (!given || given->size() == 0) return {std::move(local)};
     local.setPositions(*given);
     return {std::move(local), false};
   }

@@ -120,6 +120,13 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
   return static_cast<std::size_t>(size);
 }
 
+/// Whether a state takes its positions from a topology by a link: others write theirs once more before they are used.
+bool isOfTopology(const Component& state) {
+  const auto link = parseLink(state.attributes.value("position", state.attributes.value("src")));
+  const auto* from = link ? followPath(*state.node, &state, link->path).component : nullptr;
+  return from != nullptr && isTopology(*from);
+}
+
 std::vector<Vec3> restPositions(Evaluation& evaluation, const Component& component, const State& state) {
   std::vector<Vec3> rest;
   const auto given = evaluation.numbers(component, {"rest_position"}, state.width());
@@ -143,8 +150,9 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
   move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
 }
 
-/// Constraints that put the points of their state somewhere as the simulation starts, before SOFA detects anything.
-/// Those of position-based dynamics do so too, but towards a goal that lies where the points are.
+/// What puts the points of its state somewhere as the simulation starts, before SOFA detects anything: constraints,
+/// and a file of states. Constraints of position-based dynamics do so too, but towards a goal that lies where the points
+/// are.
 constexpr std::array kProjections{
     "AffineMovementConstraint"sv,
     "AffineMovementProjectiveConstraint"sv,
@@ -172,6 +180,7 @@ constexpr std::array kProjections{
     "ProjectToLineConstraint"sv,
     "ProjectToPlaneConstraint"sv,
     "ProjectToPointConstraint"sv,
+    "ReadState"sv,
     "SkeletalMotionConstraint"sv,
     "SkeletalMotionProjectiveConstraint"sv,
 };
@@ -224,6 +233,9 @@ State initialState(Evaluation& evaluation, const Component& component) {
       !evaluation.isLinked(component, {"position"})) {
     evaluation.takePoints(component, size);
     state.resize(size);
+  } else if (size != state.positions.size() && isOfTopology(component)) {
+    evaluation.warn(component, "its position is a link to " + std::to_string(state.positions.size()) +
+                                   " points; SOFA may make them " + std::to_string(size) + ", as its size says");
   }
   std::size_t largest = 1;
   for (const auto name : {"rest_position", "reset_position"})

@@ -16,7 +16,7 @@ using Regions = std::vector<std::function<bool(const Vec3&)>>;
 Regions boxesOf(Evaluation& evaluation, const Component& engine) {
   Regions regions;
   auto given = evaluation.numbers(engine, {"box"}, 6);
-  if (!given && engine.kind() == ComponentKind::BoxRoi) given = Numbers{{0, 0, 0, 1, 1, 1}, 6};
+  if (!given) given = Numbers{{0, 0, 0, 1, 1, 1}, 6};
   for (std::size_t i = 0; given && i < given->size(); ++i) {
     const auto* v = given->values.data() + 6 * i;
     const Vec3 a{v[0], v[1], v[2]}, b{v[3], v[4], v[5]};

@@ -26,9 +26,17 @@ std::size_t highestOf(Evaluation& evaluation, const Component& component, std::s
   return used;
 }
 
+/// The file that a topology is read from: SOFA reads two kinds, as they are spelled here, and has nothing of others.
+std::optional<std::filesystem::path> meshFileOf(Evaluation& evaluation, const Component& component) {
+  auto file = evaluation.file(component, {"filename", "fileTopology"});
+  if (!file || file->extension() == ".obj" || file->extension() == ".msh") return file;
+  evaluation.warn(component, "a topology reads files .obj and .msh alone, and nothing of this one, as in SOFA");
+  return std::nullopt;
+}
+
 Topology meshTopology(Evaluation& evaluation, const Component& component) {
   Topology topology;
-  if (const auto file = evaluation.file(component, {"filename", "fileTopology"})) {
+  if (const auto file = meshFileOf(evaluation, component)) {
     topology.given = readMesh(*file);
     checkMesh(topology.given, *file);
     topology.pointCount = topology.given.positions.size();

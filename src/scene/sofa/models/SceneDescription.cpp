@@ -30,14 +30,18 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
   if (method->kind() == ComponentKind::OtherMethod)
     throw Unplaceable(*method, "this intersection method is not known to this reader");
   MethodDescription result{.name = method->type, .proximity = method->kind() == ComponentKind::ProximityMethod};
-  result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, result.proximity ? 1.0 : 0.0);
+  if (result.proximity) {
+    result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, 1.0);
+    result.contactDistance = evaluation.number(*method, {"contactDistance"}, 0.5);
+  } else if (method->type != "DiscreteIntersection") {
+    result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, 0.0);
+  } else if (method->attributes.has("alarmDistance")) {
+    evaluation.warn(*method, "its alarmDistance is not read, as in SOFA, where this method has none");
+  }
   warnOfMotion(evaluation, *method);
-  if (method->type == "BulletIntersection") {
+  if (method->type == "BulletIntersection")
     evaluation.warn(*method,
                     "Bullet detects in this scene, with margins of its own; here the models' own boxes are tested");
-    return result;
-  }
-  result.contactDistance = evaluation.number(*method, {"contactDistance"}, result.proximity ? 0.5 : 0.0);
   return result;
 }
 
