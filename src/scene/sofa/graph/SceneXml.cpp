@@ -199,6 +199,19 @@ class ElementReader {
     return element;
   }
 
+  /// <Attribute type="radius"><Data value="3"/></Attribute>; the last of several counts.
+  static void addAttributeElements(const pugi::xml_node& xml, Element& element) {
+    for (const auto& child : xml.children("Attribute")) {
+      std::string value;
+      for (const auto& data : child.children("Data")) value = data.attribute("value").value();
+      const std::string_view name = child.attribute("type").value();
+      if (name == "name")
+        element.name = value;
+      else
+        element.attributes.set(name, value);
+    }
+  }
+
   std::optional<Element> makeElement(const SourceFile& file, const pugi::xml_node& xml) {
     m_scope.take(kBytesPerElement);  // includes can double with every level
     const std::string_view tag = xml.name();
@@ -215,8 +228,7 @@ class ElementReader {
       m_scope.take(kBytesPerValue + 2 * std::string_view{attribute.value()}.size());
       if (name != "name" && name != "type") element.attributes.set(name, attribute.value());
     }
-    for (const auto& child : xml.children("Attribute"))
-      element.attributes.set(child.attribute("type").value(), child.attribute("value").value());
+    if (!element.isNode) addAttributeElements(xml, element);
     return element;
   }
 
