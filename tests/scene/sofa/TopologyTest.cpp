@@ -170,7 +170,8 @@ constexpr auto kCube = "<RegularGridTopology name='grid' n='2 2 2'/><MechanicalO
 TEST_F(SofaTopology, TetrahedraShowTheTrianglesOfTheirBorder) {
   const auto scene = readIn(R"(<TetrahedronSetTopologyContainer name="t" position="0 0 0 1 0 0 0 1 0 0 0 1 1 1 1"
       tetrahedra="0 1 2 3 1 2 3 4"/><MechanicalObject/>
-    <Node><TriangleSetTopologyContainer name="c"/><Tetra2TriangleTopologicalMapping input="@../t" output="@c"/>
+    <Node><TriangleSetTopologyContainer name="c"/><TriangleSetTopologyModifier/>
+    <Tetra2TriangleTopologicalMapping input="@../t" output="@c"/>
     <LineModel/><TriangleModel/></Node>)");
   ASSERT_EQ(scene.models.size(), 2U);
   EXPECT_EQ(scene.models[0].elementCount(), 9U);
@@ -178,17 +179,18 @@ TEST_F(SofaTopology, TetrahedraShowTheTrianglesOfTheirBorder) {
 }
 
 TEST_F(SofaTopology, MappingsGoFromTheParentsTopologyToTheirOwnNodesUnlessTold) {
-  const auto scene = readIn(std::string{kCube} + R"(<Node><TetrahedronSetTopologyContainer/>
-    <Hexa2TetraTopologicalMapping/><TetrahedronModel/></Node>)");
+  const auto scene = readIn(std::string{kCube} + R"(<Node>
+    <TetrahedronSetTopologyContainer/><TetrahedronSetTopologyModifier/><Hexa2TetraTopologicalMapping/><TetrahedronModel/></Node>)");
   ASSERT_EQ(scene.models.size(), 1U);
   EXPECT_EQ(scene.models[0].elementCount(), 6U);
 }
 
 TEST_F(SofaTopology, HexahedraShowTheQuadsOfTheirBorderAndQuadsTwoTrianglesEach) {
   const auto scene = readIn(R"(<RegularGridTopology name="grid" n="3 2 2"/><MechanicalObject/>
-    <Node name="Q"><QuadSetTopologyContainer name="q"/><Hexa2QuadTopologicalMapping input="@../grid" output="@q"/>
+    <Node name="Q"><QuadSetTopologyContainer name="q"/><QuadSetTopologyModifier/>
+      <Hexa2QuadTopologicalMapping input="@../grid" output="@q"/>
       <TriangleModel/>
-      <Node name="T"><TriangleSetTopologyContainer name="t"/>
+      <Node name="T"><TriangleSetTopologyContainer name="t"/><TriangleSetTopologyModifier/>
         <Quad2TriangleTopologicalMapping input="@../q" output="@t"/><TriangleModel/>
         <Node name="E"><EdgeSetTopologyContainer name="e"/>
           <Triangle2EdgeTopologicalMapping input="@../t" output="@e"/><LineModel/></Node></Node></Node>)");
@@ -201,7 +203,7 @@ TEST_F(SofaTopology, HexahedraShowTheQuadsOfTheirBorderAndQuadsTwoTrianglesEach)
 TEST_F(SofaTopology, TheBorderOfASheetOfTrianglesIsItsEdges) {
   const auto scene = readIn(R"(<TriangleSetTopologyContainer name="t" position="0 0 0 1 0 0 1 1 0 0 1 0"
       triangles="0 1 2 0 2 3"/><MechanicalObject/>
-    <Node><EdgeSetTopologyContainer/><Triangle2EdgeTopologicalMapping/><LineModel/></Node>)");
+    <Node><EdgeSetTopologyContainer/><EdgeSetTopologyModifier/><Triangle2EdgeTopologicalMapping/><LineModel/></Node>)");
   ASSERT_EQ(scene.models.size(), 1U);
   EXPECT_EQ(scene.models[0].elementCount(), 4U);
 }

@@ -19,6 +19,9 @@ class Evaluation;
 
 [[nodiscard]] Mesh loadMesh(Evaluation& evaluation, const Component& loader);
 [[nodiscard]] Topology buildTopology(Evaluation& evaluation, const Component& component);
+/// Whether a container has elements of the kind of another: SOFA derives its class from that of the other.
+[[nodiscard]] bool canHold(ComponentKind container, ComponentKind element);
+/// What a mapping fills a topology with; what is written there where SOFA refuses the mapping.
 [[nodiscard]] Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target);
 /// Whether a template's name means frames of a rigid body in space: seven numbers each.
 [[nodiscard]] bool isRigidTemplate(std::string_view name);

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "sofa/evaluation/Components.h"
 #include "sofa/evaluation/Evaluation.h"
@@ -147,9 +151,6 @@ void fill(Evaluation& evaluation, const Component& mapping, Topology& from, Topo
       break;
     case Hexa2Quad:
       to.given.quads = borderOf(from.quads(), from.hexahedra());
-      evaluation.takePoints(mapping, from.pointCount);
-      for (std::size_t i = 0; i < from.pointCount; ++i) to.given.positions.push_back(from.position(i));
-      to.hasPositions = from.pointCount > 0;
       break;
     case Quad2Triangle:
       to.given.triangles = cutQuads(from);
@@ -168,6 +169,87 @@ void fill(Evaluation& evaluation, const Component& mapping, Topology& from, Topo
   }
 }
 
+/// The kind of container that a topology counts as: its own, or that of the highest elements in it.
+ComponentKind kindOf(const Component& component, const Topology& topology) {
+  if (topology.family == Topology::Family::Container) return component.kind();
+  const auto& given = topology.given;
+  if (!given.hexahedra.empty()) return HexahedronContainer;
+  if (!given.tetrahedra.empty()) return TetrahedronContainer;
+  if (!given.quads.empty()) return QuadContainer;
+  if (!given.triangles.empty()) return TriangleContainer;
+  return given.edges.empty() ? PointContainer : EdgeContainer;
+}
+
+struct ElementKind {
+  ComponentKind container;
+  std::string_view elements;
+  std::string_view modifier;
+};
+
+constexpr std::array<ElementKind, 5> kElementKinds{
+    {{EdgeContainer, "edges", "EdgeSetTopologyModifier"},
+     {TriangleContainer, "triangles", "TriangleSetTopologyModifier"},
+     {QuadContainer, "quads", "QuadSetTopologyModifier"},
+     {TetrahedronContainer, "tetrahedra", "TetrahedronSetTopologyModifier"},
+     {HexahedronContainer, "hexahedra", "HexahedronSetTopologyModifier"}}};
+
+const ElementKind& elementsOf(ComponentKind container) {
+  return *std::ranges::find(kElementKinds, container, &ElementKind::container);
+}
+
+/// What SOFA asks of a mapping before it carries it out.
+struct Conditions {
+  std::optional<ComponentKind> input;
+  std::optional<ComponentKind> output;
+  std::optional<ComponentKind> modifier;  ///< In the node of the output or above.
+};
+
+Conditions conditionsOf(ComponentKind mapping, Generation generation) {
+  const bool isNew = generation == Generation::Sofa26;
+  const auto onlyNew = [&](ComponentKind kind) { return isNew ? std::optional{kind} : std::nullopt; };
+  const auto onlyOld = [&](ComponentKind kind) { return isNew ? std::nullopt : std::optional{kind}; };
+  switch (mapping) {
+    case Hexa2Quad:
+      return {onlyNew(HexahedronContainer), QuadContainer, QuadContainer};
+    case Quad2Triangle:
+      return {onlyNew(QuadContainer), TriangleContainer, TriangleContainer};
+    case Triangle2Edge:
+      return {onlyNew(TriangleContainer), onlyNew(EdgeContainer), EdgeContainer};
+    case Tetra2Triangle:
+      return {{}, onlyOld(TriangleContainer), onlyOld(TriangleContainer)};
+    case Hexa2Tetra:
+      return {{}, {}, onlyOld(TetrahedronContainer)};
+    default:
+      return {};
+  }
+}
+
+bool hasModifier(const Node& node, ComponentKind container) {
+  const auto isModifier = [container](const Component& component) {
+    return std::ranges::any_of(kElementKinds, [&](const ElementKind& kind) {
+      return component.type.ends_with(kind.modifier) && canHold(kind.container, container);
+    });
+  };
+  return inContext(node, isModifier) != nullptr;
+}
+
+/// Why SOFA refuses a mapping from one topology to another; empty if it doesn't.
+std::string refusalOf(Evaluation& evaluation, const Component& mapping, const Component& input,
+                      const Component& target) {
+  const bool isNew = evaluation.generation() == Generation::Sofa26;
+  const auto conditions = conditionsOf(mapping.kind(), evaluation.generation());
+  if (conditions.input && kindOf(input, evaluation.topology(input)) != *conditions.input)
+    return "its input is no topology of " + std::string{elementsOf(*conditions.input).elements};
+  const bool isMesh = isNew && target.kind() == MeshTopology;
+  const auto kind = isMesh ? kindOf(target, buildTopology(evaluation, target)) : target.kind();
+  if (conditions.output && kind != *conditions.output && (isNew || !canHold(kind, *conditions.output)))
+    return "its output is no topology of " + std::string{elementsOf(*conditions.output).elements};
+  if (conditions.modifier && !hasModifier(*target.node, *conditions.modifier))
+    return "there is no " + std::string{elementsOf(*conditions.modifier).modifier} +
+           " in the node of its output or above";
+  return {};
+}
+
 }  // namespace
 
 Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target) {
@@ -177,6 +259,10 @@ Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Com
   auto& from = evaluation.topology(*input);
   if (from.unknown || (from.sparse && (mapping.kind() != Hexa2Tetra || evaluation.flag(mapping, "swapping", false))))
     throw Unplaceable(mapping, "the cells of a sparse grid are not known to this reader");
+  if (const auto refusal = refusalOf(evaluation, mapping, *input, target); !refusal.empty()) {
+    evaluation.warn(mapping, "SOFA refuses it, and it is left out: " + refusal);
+    return buildTopology(evaluation, target);
+  }
   Topology to;
   to.family = target.kind() == MeshTopology ? Topology::Family::Mesh : Topology::Family::Container;
   to.pointCount = from.pointCount;

@@ -50,12 +50,6 @@ Topology meshTopology(Evaluation& evaluation, const Component& component) {
   return topology;
 }
 
-bool canHold(ComponentKind container, ComponentKind element) {
-  if (container == element || element == EdgeContainer) return container != PointContainer || element == PointContainer;
-  return (container == TetrahedronContainer && element == TriangleContainer) ||
-         (container == HexahedronContainer && element == QuadContainer);
-}
-
 Mesh containerLists(Evaluation& evaluation, const Component& component) {
   const auto holds = [&](ComponentKind element) { return canHold(component.kind(), element); };
   Mesh mesh;
@@ -280,6 +274,12 @@ Topology sparseGridTopology(Evaluation& evaluation, const Component& component) 
 }
 
 }  // namespace
+
+bool canHold(ComponentKind container, ComponentKind element) {
+  if (container == element || element == EdgeContainer) return container != PointContainer || element == PointContainer;
+  return (container == TetrahedronContainer && element == TriangleContainer) ||
+         (container == HexahedronContainer && element == QuadContainer);
+}
 
 std::optional<Vec3> gridData(Evaluation& evaluation, const Component& grid, std::string_view name) {
   if (grid.kind() != RegularGrid) return std::nullopt;
