@@ -314,8 +314,9 @@ TEST(ReadMemory, RangesOfIndicesAreBounded) {
   const auto read = [&](const std::string& range) {
     return complaint(
         folder.write("a.scn", sceneOf("<MeshTopology position='0 0 0 1 0 0 0 1 0' triangles='0 1 2'/><Node>"
-                                      "<MechanicalObject/><SubsetMapping indices='" +
-                                      range + "'/><PointModel/></Node>")));
+                                      "<MechanicalObject position='0 0 0 1 0 0 0 1 0'/><Node><MechanicalObject/>"
+                                      "<SubsetMapping indices='" +
+                                      range + "'/><PointModel/></Node></Node>")));
   };
   EXPECT_EQ(read("0-2"), "");
   for (const std::string& range : {std::string("0-49000000"), std::string("1e300-1e300"), repeated("0-4000000 ", 10)}) {

@@ -94,7 +94,7 @@ std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, s
 std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component, std::string_view name) {
   const auto link = parseLink(component.attributes.value(name, component.attributes.value("src")));
   const auto* from = link ? followPath(*component.node, &component, link->path).component : nullptr;
-  if (from == nullptr) return std::nullopt;
+  if (from == nullptr || from->order > component.order) return std::nullopt;
   const bool isNamed = component.attributes.has(name) && !link->data.empty();
   const std::string_view data = isNamed ? std::string_view{link->data} : name;
   if (from->kind() == ComponentKind::SparseGrid && data == "position")

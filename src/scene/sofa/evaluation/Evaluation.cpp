@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "input/FileBytes.h"
+#include "input/Words.h"
 #include "sofa/evaluation/Components.h"
-#include "sofa/graph/Links.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -83,6 +83,13 @@ std::uint64_t sizeOf(const Mesh& mesh) {
 
 bool isEngine(ComponentKind kind) { return kind >= ComponentKind::TransformEngine && kind <= ComponentKind::Device; }
 
+/// Mappings that read several states, or those of two kinds.
+bool mapsSeveral(ComponentKind kind) {
+  using enum ComponentKind;
+  return kind == IdentityMultiMapping || kind == SubsetMultiMapping || kind == DeformableOnRigidFrameMapping ||
+         kind == ArticulatedMapping;
+}
+
 /// The name under which a component gives a value that has several. Where it gives more than one, SOFA, which goes
 /// through them in the order of the alphabet, keeps the last.
 std::string_view givenName(const Component& component, std::initializer_list<std::string_view> names) {
@@ -124,13 +131,30 @@ void Evaluation::indexMappings(const Node& node) {
   for (const auto& component : node.components) {
     if (isMapping(*component))
       if (const auto* state = mappingOutput(*component, isState);
-          state != nullptr && state != mappingInput(*component, isState))
+          state != nullptr && state != mappingInput(*component, isState) && isMade(*component, isState))
         m_mappings[state] = component.get();
     if (isTopologicalMapping(*component))
-      if (const auto* topology = mappingOutput(*component, isTopology))
+      if (const auto* topology = mappingOutput(*component, isTopology);
+          topology != nullptr && isMade(*component, isTopology))
         m_topologicalMappings[topology] = component.get();
   }
   for (const auto& child : node.children) indexMappings(*child);
+}
+
+bool Evaluation::isMade(const Component& mapping, const Wanted& wanted) {
+  const auto kind = mapping.kind();
+  if (kind == ComponentKind::UnknownMapping || kind == ComponentKind::UnknownTopologicalMapping) return true;
+  if (mapsSeveral(kind) && mapping.attributes.value("output").empty()) {
+    warn(mapping, "it names no output: as in SOFA, it is left out");
+    return false;
+  }
+  std::vector<const Component*> ends{mappingOutput(mapping, wanted)};
+  if (!mapsSeveral(kind)) ends.push_back(mappingInput(mapping, wanted));
+  for (const auto name : {"input", "input1", "input2"})
+    for (const std::string& link : allWords(mapping.attributes.value(name)))
+      ends.push_back(followTo(mapping, link, wanted));
+  return std::ranges::all_of(
+      ends, [&](const auto* end) { return end == nullptr || isMadeFor(mapping, *end, "it is left out"); });
 }
 
 const Component* Evaluation::mappingOf(const Component& state) const {
@@ -221,6 +245,13 @@ void Evaluation::warn(const Component& component, std::string text) {
   if (std::ranges::find(m_warnings, warning) == m_warnings.end()) m_warnings.push_back(warning);
 }
 
+bool Evaluation::isMadeFor(const Component& component, const Component& needed, std::string_view without) {
+  if (needed.order <= component.order) return true;
+  warn(component,
+       "it needs " + needed.describe() + ", which comes later in the file: as in SOFA, " + std::string{without});
+  return false;
+}
+
 bool Evaluation::isDeadLink(const Component& component, std::string_view name) const {
   const auto link = parseLink(component.attributes.value(name));
   return link && followPath(*component.node, &component, link->path).component == nullptr;
@@ -235,6 +266,7 @@ std::optional<Numbers> Evaluation::linked(const Component& component, std::strin
     warn(component, what + " links to a component and names no data of it; it is not read, as in SOFA");
     return std::nullopt;
   }
+  if (!isMadeFor(component, *target.component, "its " + std::string{name} + " has the default")) return std::nullopt;
   auto result = output(*target.component, link->data);
   if (!result)
     throw Unplaceable(component, what + " needs the " + link->data + " of " + target.component->describe() +
@@ -247,6 +279,7 @@ std::optional<Numbers> Evaluation::throughSrc(const Component& component, std::s
   if (text == nullptr || component.attributes.has(name)) return std::nullopt;
   const auto* from = source(component);
   if (from == nullptr) throw Unplaceable(component, "src=\"" + text->substr(0, 80) + "\" links to nothing");
+  if (!isMadeFor(component, *from, "its src gives nothing")) return std::nullopt;
   if (from->kind() == ComponentKind::MeshLoader &&
       (name == "translation" || name == "rotation" || name == "scale3d" || name == "scale"))
     return std::nullopt;
@@ -402,7 +435,8 @@ bool Evaluation::hasFile(const Component& component, Names names) const {
 std::string Evaluation::objFileOf(const Component& topology) const {
   const auto link = parseLink(topology.attributes.value("src", topology.attributes.value("triangles")));
   const auto* from = link ? followPath(*topology.node, &topology, link->path).component : &topology;
-  const auto name = from != nullptr ? from->attributes.value("filename") : std::string_view{};
+  if (from == nullptr || from->order > topology.order) return {};
+  const auto name = from->attributes.value("filename");
   return lowerExtension(name) == ".obj" ? std::string{name} : std::string{};
 }
 

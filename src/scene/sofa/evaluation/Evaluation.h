@@ -13,6 +13,7 @@
 #include "input/ReadScope.h"
 #include "sofa/evaluation/State.h"
 #include "sofa/graph/Generation.h"
+#include "sofa/graph/Links.h"
 #include "sofa/graph/SceneGraph.h"
 #include "sofa/graph/Values.h"
 #include "sofa/mesh/Mesh.h"
@@ -76,6 +77,10 @@ class Evaluation {
   void warn(const Component& component, std::string text);
   [[nodiscard]] const Warnings& warnings() const { return m_warnings; }
 
+  /// Whether a component comes before another that needs it. SOFA makes them in the order of the file, and what needs
+  /// something later goes without; a warning says how.
+  bool isMadeFor(const Component& component, const Component& needed, std::string_view without);
+
   /// The mapping that moves a state; null if none does.
   [[nodiscard]] const Component* mappingOf(const Component& state) const;
   /// The topological mapping that fills a topology; null if none does.
@@ -90,6 +95,7 @@ class Evaluation {
   std::optional<Numbers> output(const Component& component, std::string_view name);
   const Component* source(const Component& component) const;
   void indexMappings(const Node& node);
+  bool isMade(const Component& mapping, const Wanted& wanted);
 
   ReadScope& m_scope;
   Generation m_generation;

@@ -53,6 +53,7 @@ struct Component {
   Place place;
   Node* node = nullptr;
   std::size_t index = 0;  ///< Among the components of its node.
+  std::size_t order = 0;  ///< Among all of the scene, as they stand in the file; SOFA makes them in this order.
   ComponentClass what;
 
   [[nodiscard]] ComponentKind kind() const { return what.kind; }

@@ -274,7 +274,7 @@ class ElementReader {
   std::size_t m_depth = 0;
 };
 
-void addComponent(Node& node, Element&& element) {
+void addComponent(Node& node, Element&& element, std::size_t order) {
   auto component = std::make_unique<Component>();
   component->what = classOf(element.type);
   component->type = std::move(element.type);
@@ -286,10 +286,12 @@ void addComponent(Node& node, Element&& element) {
   component->place = element.place;
   component->node = &node;
   component->index = node.components.size();
+  component->order = order;
   node.components.push_back(std::move(component));
 }
 
-std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
+/// Makes a node, its parent's or the outermost, of an element; `made` counts components.
+std::unique_ptr<Node> toNode(Element&& element, Node* parent, std::size_t& made) {
   auto node = std::make_unique<Node>();
   node->name = std::move(element.name);
   node->isNamed = element.isNamed;
@@ -301,9 +303,9 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
   for (std::size_t i = 0; i + 1 < names.size(); i += 2) node->order.emplace_back(names[i], names[i + 1]);
   for (auto& child : element.children) {
     if (child.isNode)
-      node->children.push_back(toNode(std::move(child), node.get()));
+      node->children.push_back(toNode(std::move(child), node.get(), made));
     else
-      addComponent(*node, std::move(child));
+      addComponent(*node, std::move(child), made++);
   }
   return node;
 }
@@ -311,7 +313,8 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent) {
 }  // namespace
 
 std::unique_ptr<Node> readSceneGraph(const std::filesystem::path& path, ReadScope& scope) {
-  return toNode(ElementReader(scope).readFile(path), nullptr);
+  std::size_t made = 0;
+  return toNode(ElementReader(scope).readFile(path), nullptr, made);
 }
 
 }  // namespace allpairs::scene::sofa

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "input/FileBytes.h"
+#include "sofa/evaluation/Components.h"
 #include "sofa/graph/Links.h"
 
 namespace allpairs::scene::sofa {
@@ -260,6 +261,15 @@ void describeRules(Evaluation& evaluation, const Component& component, ModelDesc
 }
 
 }  // namespace
+
+bool isMade(Evaluation& evaluation, const Component& model) {
+  if (model.kind() != PointModel && model.kind() != LineModel && model.kind() != TriangleModel) return true;
+  const auto* state = inContext(*model.node, isState);
+  const auto* seen = inContext(*model.node, [&](const Component& c) { return isState(c) && c.order < model.order; });
+  if (state == nullptr || seen == state || (seen != nullptr && !isRigidTemplate(seen->attributes.value("template"))))
+    return true;
+  return evaluation.isMadeFor(model, *state, "it is left out");
+}
 
 std::size_t ModelDescription::elementCount() const {
   switch (shape) {

@@ -79,6 +79,7 @@ class ModelList {
 
  private:
   bool add(const Component& component) {
+    if (!isMade(m_evaluation, component)) return false;
     try {
       auto model = describeModel(m_evaluation, component);
       model.owner = ownerOf(component);
