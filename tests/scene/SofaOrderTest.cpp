@@ -115,5 +115,54 @@ TEST_F(SofaOrder, DataThatLinkToWhatComesLaterHaveTheirDefaults) {
             "in SOFA, its position has the default\n");
 }
 
+TEST_F(SofaOrder, LinesAreThoseThatTheTopologyHasWhenTheModelStarts) {
+  const std::string tetrahedron = "position='0 0 0 1 0 0 0 1 0 0 0 1' tetrahedra='0 1 2 3'";
+  const std::string none =
+      "comes later, or what fills it does: as in SOFA, it has only the elements that are written there\n"
+      "/A/l: it has no elements, and is in no pair\n";
+  const auto scene = [&](const std::string& model, const std::string& topology) {
+    return "<Node name='A'><MechanicalObject name='m' position='0 0 0 1 0 0 0 1 0 0 0 1'/>" + model + topology +
+           "<TriangleCollisionModel name='t'/></Node>";
+  };
+  for (const SofaVersion sofa : kBoth) {
+    for (const std::string kind : {"TetrahedronSetTopologyContainer", "MeshTopology"}) {
+      const auto topology = [&](const std::string& edges) {
+        return "<" + kind + " name='c' " + tetrahedron + edges + "/>";
+      };
+      EXPECT_EQ(answer(scene("<LineCollisionModel name='l'/>", topology("")), sofa),
+                "/A/l 0\n/A/t 4 [0 0 0] [1 1 1]\n/A/l: its topology " + kind + " 'c' (/A/c) " + none);
+      EXPECT_EQ(answer(scene("<CapsuleCollisionModel name='l'/>", topology("")), sofa),
+                "/A/l 0\n/A/t 4 [0 0 0] [1 1 1]\n/A/l: its topology " + kind + " 'c' (/A/c) " + none);
+      EXPECT_EQ(answer(scene("<LineCollisionModel name='l'/>", topology(" edges='0 1'")), sofa).substr(0, 23),
+                "/A/l 1 [0 0 0] [1 0 0]\n");
+    }
+    EXPECT_EQ(answer("<Node name='A'><MechanicalObject position='0 0 0 1 0 0 0 1 0'/><LineCollisionModel name='l'/>"
+                     "<MeshTopology edges='0 1 1 2'/></Node>",
+                     sofa),
+              "/A/l 2 [0 0 0] [1 1 0]\n");
+    EXPECT_EQ(answer(scene("<TetrahedronCollisionModel name='l'/>", "<MeshTopology " + tetrahedron + "/>"), sofa),
+              "/A/l 1 [0 0 0] [1 1 1]\n/A/t 4 [0 0 0] [1 1 1]\n");
+  }
+}
+
+TEST_F(SofaOrder, LinesBeforeTheMappingThatFillsTheirTopologyAreNone) {
+  const auto scene = [](const std::string& first, const std::string& last) {
+    return "<Node name='A'><TetrahedronSetTopologyContainer name='g' position='0 0 0 1 0 0 0 1 0 0 0 1' "
+           "tetrahedra='0 1 2 3'/><MechanicalObject/><Node name='Q'><TriangleSetTopologyContainer name='q'/>"
+           "<TriangleSetTopologyModifier/><MechanicalObject/>" +
+           first + "<Tetra2TriangleTopologicalMapping input='@../g' output='@q'/><IdentityMapping/>" + last +
+           "</Node></Node>";
+  };
+  const std::string models = "<LineCollisionModel name='l'/><TriangleCollisionModel name='t'/>";
+  for (const SofaVersion sofa : kBoth) {
+    EXPECT_EQ(answer(scene(models, ""), sofa),
+              "/A/Q/l 0\n/A/Q/t 4 [0 0 0] [1 1 1]\n"
+              "/A/Q/l: its topology TriangleSetTopologyContainer 'q' (/A/Q/q) comes later, or what fills it does: as "
+              "in SOFA, it has only the elements that are written there\n"
+              "/A/Q/l: it has no elements, and is in no pair\n");
+    EXPECT_EQ(answer(scene("", models), sofa), "/A/Q/l 6 [0 0 0] [1 1 1]\n/A/Q/t 4 [0 0 0] [1 1 1]\n");
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -21,6 +21,8 @@ class Evaluation;
 [[nodiscard]] Topology buildTopology(Evaluation& evaluation, const Component& component);
 /// Whether a container has elements of the kind of another: SOFA derives its class from that of the other.
 [[nodiscard]] bool canHold(ComponentKind container, ComponentKind element);
+/// Whether a topology is empty when a component of its node asks it, because it, or what fills it, comes later.
+[[nodiscard]] bool isTooLate(const Evaluation& evaluation, const Component& asking, const Component& topology);
 /// What a mapping fills a topology with; what is written there where SOFA refuses the mapping.
 [[nodiscard]] Topology mapTopology(Evaluation& evaluation, const Component& mapping, const Component& target);
 /// Whether a template's name means frames of a rigid body in space: seven numbers each.

@@ -71,16 +71,6 @@ State::Kind kindOf(const Component& component) {
   return State::Kind::Points;  // Vec3 in its spellings, and what SOFA doesn't know and takes for Vec3.
 }
 
-/// Whether a topology knows its points only after this state has asked for them, because it comes later in the node.
-bool isTooLate(Evaluation& evaluation, const Component& state, const Component& topology) {
-  const auto* mapping = evaluation.topologicalMappingOf(topology);
-  if (mapping != nullptr) return mapping->node == state.node && mapping->index > state.index;
-  if (topology.kind() == RegularGrid || topology.kind() == SparseGrid) return false;  // They are made when asked.
-  if (std::ranges::find(state.node->order, std::pair{topology.name, state.name}) != state.node->order.end())
-    return false;
-  return topology.node == state.node && topology.index > state.index;
-}
-
 const Component* topologyFor(Evaluation& evaluation, const Component& state) {
   if (!evaluation.flag(state, "useTopology", true)) return nullptr;
   if (const auto link = state.attributes.value("topology"); !link.empty()) return followTo(state, link, isTopology);
@@ -95,8 +85,10 @@ void takePoints(Evaluation& evaluation, const Component& component, State& state
     return;
   }
   auto& topology = evaluation.topology(*which);
-  const bool tooLate = isTooLate(evaluation, component, *which);
-  if (tooLate && (which->attributes.has("filename") || evaluation.topologicalMappingOf(*which) != nullptr)) return;
+  const bool isMapped = evaluation.topologicalMappingOf(*which) != nullptr;
+  const bool isGrid = which->kind() == RegularGrid || which->kind() == SparseGrid;  // Their points are made when asked.
+  const bool tooLate = (isMapped || !isGrid) && isTooLate(evaluation, component, *which);
+  if (tooLate && (which->attributes.has("filename") || isMapped)) return;
   if (!topology.hasPositions) return;
   state.resize(0);
   evaluation.takePoints(component, tooLate ? 0 : topology.pointCount);

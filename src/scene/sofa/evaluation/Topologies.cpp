@@ -281,6 +281,14 @@ bool canHold(ComponentKind container, ComponentKind element) {
          (container == HexahedronContainer && element == QuadContainer);
 }
 
+bool isTooLate(const Evaluation& evaluation, const Component& asking, const Component& topology) {
+  const auto* mapping = evaluation.topologicalMappingOf(topology);
+  if (mapping != nullptr) return mapping->node == asking.node && mapping->index > asking.index;
+  const auto& order = asking.node->order;
+  if (std::ranges::find(order, std::pair{topology.name, asking.name}) != order.end()) return false;
+  return topology.node == asking.node && topology.index > asking.index;
+}
+
 std::optional<Vec3> gridData(Evaluation& evaluation, const Component& grid, std::string_view name) {
   if (grid.kind() != RegularGrid) return std::nullopt;
   if (name == "n") return gridCounts(evaluation, grid);

@@ -82,6 +82,20 @@ void noteEmpty(Evaluation& evaluation, const Component& model) {
   evaluation.warn(model, std::move(reason));
 }
 
+/// SOFA asks a topology for its lines or tetrahedra once, as the model starts: those that the topology has by then.
+template <std::size_t N>
+Elements<N> elementsAtStart(Evaluation& evaluation, const Component& model, const Elements<N>& inTheEnd,
+                            Evaluation::Names names) {
+  const auto& topology = topologyComponentOf(model);
+  if (!isTooLate(evaluation, model, topology)) return inTheEnd;
+  auto written = evaluation.elements<N>(topology, names);
+  if (written != inTheEnd)
+    evaluation.warn(model, "its topology " + topology.describe() +
+                               " comes later, or what fills it does: as in SOFA, it has only the elements that are "
+                               "written there");
+  return written;
+}
+
 void describeTriangles(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = pointsOf(evaluation, component).positions;
   auto& topology = topologyOf(evaluation, component);
@@ -95,7 +109,8 @@ void describeTriangles(Evaluation& evaluation, const Component& component, Model
 
 void describeLines(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = pointsOf(evaluation, component).positions;
-  model.lines = topologyOf(evaluation, component).edges();
+  model.lines =
+      elementsAtStart<2>(evaluation, component, topologyOf(evaluation, component).edges(), {"edges", "lines"});
   checkCorners(component, model.lines, model.positions.size());
 }
 
@@ -115,7 +130,8 @@ Box boundsOfGridSurface(Evaluation& evaluation, const Component& component) {
 
 void describeTetrahedra(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.positions = pointsOf(evaluation, component).positions;
-  model.tetrahedra = topologyOf(evaluation, component).tetrahedra();
+  model.tetrahedra = elementsAtStart<4>(evaluation, component, topologyOf(evaluation, component).tetrahedra(),
+                                        {"tetrahedra", "tetras"});
   checkCorners(component, model.tetrahedra, model.positions.size());
 }
 
