@@ -164,5 +164,25 @@ TEST_F(SofaOrder, LinesBeforeTheMappingThatFillsTheirTopologyAreNone) {
   }
 }
 
+TEST_F(SofaOrder, APositionThatLinksToAMappedStateFollowsItWithoutTransformsOfItsOwn) {
+  const auto scene = [](const std::string& mapping, const std::string& second) {
+    return "<Node name='A'><MechanicalObject template='Rigid3' position='10 0 0 0 0 0 1'/><Node name='C'>"
+           "<MechanicalObject name='m' position='0 0 0'/>" +
+           mapping + "</Node></Node><Node name='B'><MechanicalObject name='n' position='@../A/C/m.position' " + second +
+           "/><SphereCollisionModel name='s'/></Node><Node name='D'><MechanicalObject name='o' "
+           "position='@../B/n.position' translation2='0 3 0'/><SphereCollisionModel name='s'/></Node>";
+  };
+  const std::string again =
+      ": its position links to a state that a mapping moves: as in SOFA, it is that state's in the end, without the "
+      "transforms of its own\n";
+  for (const SofaVersion sofa : kBoth) {
+    EXPECT_EQ(answer(scene("<RigidMapping/>", "translation='5 0 0'"), sofa),
+              "/B/s 1 [9 -1 -1] [11 1 1]\n/D/s 1 [9 -1 -1] [11 1 1]\n/D/s - /B/s\n/B/n" + again + "/D/o" + again);
+    EXPECT_EQ(answer(scene("<RigidMapping/>", ""), sofa),
+              "/B/s 1 [9 -1 -1] [11 1 1]\n/D/s 1 [9 -1 -1] [11 1 1]\n/D/s - /B/s\n/D/o" + again);
+    EXPECT_EQ(answer(scene("", "translation='5 0 0'"), sofa), "/B/s 1 [4 -1 -1] [6 1 1]\n/D/s 1 [4 2 -1] [6 4 1]\n");
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -142,6 +142,33 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
   move(state, {1, 1, 1}, placement.rotation2, placement.translation2);
 }
 
+/// The state that a state's position links to; null if it links to none.
+const Component* linkedState(const Component& state) {
+  const auto link = parseLink(state.attributes.value("position", state.attributes.value("src")));
+  const auto* from = link ? followPath(*state.node, &state, link->path).component : nullptr;
+  if (from == nullptr || !isState(*from) || from->order > state.order) return nullptr;
+  const bool isPosition = link->data.empty() || link->data == "position";
+  return isPosition || !state.attributes.has("position") ? from : nullptr;
+}
+
+/// Whether mappings write a state again once all states are placed, or one that its position links to.
+bool isWrittenAgain(const Evaluation& evaluation, const Component& state) {
+  if (evaluation.mappingOf(state) != nullptr) return true;
+  const auto* from = linkedState(state);
+  return from != nullptr && isWrittenAgain(evaluation, *from);
+}
+
+/// SOFA copies a linked position again when what it links to is written again.
+void copyAgain(Evaluation& evaluation, const Component& component, const Numbers& given, State& state) {
+  const auto placed = state;
+  state.setPositions(given);
+  state.fromTopology.reset();
+  if (state.positions != placed.positions || state.orientations != placed.orientations)
+    evaluation.warn(component,
+                    "its position links to a state that a mapping moves: as in SOFA, it is that state's in the end, "
+                    "without the transforms of its own");
+}
+
 /// What puts the points of its state somewhere as the simulation starts, before SOFA detects anything: constraints,
 /// and a file of states. Constraints of position-based dynamics do so too, but towards a goal that lies where the points
 /// are.
@@ -219,8 +246,8 @@ State initialState(Evaluation& evaluation, const Component& component) {
     place(evaluation, component, state);
     return state;
   }
-  if (const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1}))
-    state.setPositions(*given);
+  const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1});
+  if (given) state.setPositions(*given);
   if (const auto size = declaredSize(component, state.positions.size());
       !evaluation.isLinked(component, {"position"})) {
     evaluation.takePoints(component, size);
@@ -238,6 +265,8 @@ State initialState(Evaluation& evaluation, const Component& component) {
 
   if (motion) state.fromTopology = motion->map;
   place(evaluation, component, state);
+  if (given && evaluation.mappingOf(component) == nullptr && isWrittenAgain(evaluation, component))
+    copyAgain(evaluation, component, *given, state);
   return state;
 }
 
