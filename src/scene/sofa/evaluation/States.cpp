@@ -146,7 +146,7 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
 const Component* linkedState(const Component& state) {
   const auto link = parseLink(state.attributes.value("position", state.attributes.value("src")));
   const auto* from = link ? followPath(*state.node, &state, link->path).component : nullptr;
-  if (from == nullptr || !isState(*from) || from->order > state.order) return nullptr;
+  if (from == nullptr || !isState(*from) || from->order >= state.order) return nullptr;
   const bool isPosition = link->data.empty() || link->data == "position";
   return isPosition || !state.attributes.has("position") ? from : nullptr;
 }
