@@ -124,6 +124,7 @@ void runJoin(const JoinSettings& settings) {
       Output output(targetOf(settings.output));
       if (output.isTerminal()) throw UsageError("pairs are binary and not written to a terminal: use -o FILE");
       options.commit = [&output] { output.commit(); };
+      options.output = settings.output;
       summary = join::joinFiles(
           inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
     }

@@ -105,12 +105,14 @@ def join(
         .npy files of shape (n,): a number for each box, as in `overlaps`; several are one array. With ``second`` a tuple of
         two: files of each set, or None.
     memory : int
-        The bytes that the process may have, at least 64 MiB; 0 means half of the machine's. The interpreter, and what
-        else the process has loaded, should leave 32 MiB at most, or be added.
+        The bytes that the process may have, at least 64 MiB; 0 means half of the machine's. 24 MiB of them are for the
+        interpreter and what else the process has loaded, and what that is more comes on top: NumPy and this package are
+        40 MiB, so that with 64 MiB the process has up to 80.
     work : path
         The folder of the join's own files; by default the name of the output, or of the first input, and ".work". It
         takes 32 bytes for each box and copy (56 in float64) and 8 for each pair, 8 more for each box with margins and 8
-        for each two of groups, categories and masks. It stays after a failure.
+        for each two of groups, categories and masks. It stays after a failure, and after a kill the part of the output
+        that was written beside it too; the join that goes on writes over that.
     resume : bool
         Go on with what is complete in that folder.
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 namespace allpairs::join {
 
@@ -23,5 +24,8 @@ class Checksum {
  private:
   std::unique_ptr<XXH3_state_t> m_state;
 };
+
+/// That of a text.
+[[nodiscard]] inline std::uint64_t checksumOf(std::string_view text) { return XXH3_64bits(text.data(), text.size()); }
 
 }  // namespace allpairs::join

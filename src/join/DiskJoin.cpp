@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "DiskJoin.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,6 +21,7 @@
 #include "allpairs/StopFlag.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/FolderNames.h"
+#include "allpairs/scene/TargetFile.h"
 #include "allpairs/scene/WriteResult.h"
 
 namespace allpairs::join {
@@ -46,6 +49,26 @@ void releaseFreedMemory() {
 }
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; }
+
+/// The folder that a file takes room in; none of what is no file, such as a device.
+std::optional<fs::path> folderOf(const fs::path& file) {
+  std::error_code ignored;
+  if (file.empty() || (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))) return std::nullopt;
+  return fs::absolute(scene::resolvedTarget(file)).parent_path();
+}
+
+bool isOnDiskOf(const fs::path& a, const fs::path& b) {
+  struct stat one {};
+  struct stat other {};
+  return ::stat(a.c_str(), &one) == 0 && ::stat(b.c_str(), &other) == 0 && one.st_dev == other.st_dev;
+}
+
+void requireRoomIn(const fs::path& folder, std::uint64_t bytes, const std::string& problem) {
+  std::error_code unknown;
+  const fs::space_info space = fs::space(folder, unknown);
+  if (unknown || bytes <= space.available) return;
+  throw FileError(folder, "its disk has " + megabytes(space.available) + problem);
+}
 
 }  // namespace
 
@@ -192,11 +215,15 @@ void DiskJoin::dropDamagedCells() {
 void DiskJoin::requireRoom(const Division& division) const {
   const std::uint64_t boxes = division.records() * recordType().size();
   const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairs * pairSize();
-  std::error_code problem;
-  const fs::space_info space = fs::space(m_options.work, problem);
-  if (problem || boxes + pairs <= space.available) return;
-  throw FileError(m_options.work, "its disk has " + megabytes(space.available) + " left, and this join needs " +
-                                      megabytes(boxes) + " for boxes and about " + megabytes(pairs) + " for pairs");
+  const std::string found =
+      " left, and this join needs " + megabytes(boxes) + " for boxes and about " + megabytes(pairs) + " for pairs";
+  const std::optional<fs::path> output = folderOf(m_options.output);
+  if (output && isOnDiskOf(*output, m_options.work)) {
+    requireRoomIn(m_options.work, boxes + 2 * pairs, found + ", and as much for the result");
+  } else {
+    requireRoomIn(m_options.work, boxes + pairs, found);
+    if (output) requireRoomIn(*output, pairs, " left, and the result needs about " + megabytes(pairs));
+  }
 }
 
 void DiskJoin::distribute() {

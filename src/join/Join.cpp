@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/join/Join.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <system_error>
 
+#include "Checksum.h"
 #include "DiskJoin.h"
 #include "WorkFile.h"
 #include "allpairs/Error.h"
@@ -35,13 +34,13 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
 }
 
 /// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it
-/// is not complete.
+/// is not complete. Its name is that of its place and a number of the work folder: no other join has it meanwhile, and
+/// one that goes on after a kill writes over what this left.
 class PartFile {
  public:
   /// Bad input: a place that is taken by what is no file, such as a device, throws FileError.
-  explicit PartFile(const fs::path& target)
-      : m_target(scene::resolvedTarget(target)),
-        m_part(m_target.string() + '.' + std::to_string(::getpid()) + ".part") {
+  PartFile(const fs::path& target, const fs::path& work)
+      : m_target(scene::resolvedTarget(target)), m_part(m_target.string() + '.' + numberOf(work) + ".part") {
     const fs::file_status there = fs::status(m_target);
     if (!fs::exists(there)) return;
     if (!fs::is_regular_file(there)) throw FileError(target, "is there and is no file that can be replaced");
@@ -70,6 +69,10 @@ class PartFile {
   }
 
  private:
+  static std::string numberOf(const fs::path& folder) {
+    return std::to_string(checksumOf(scene::resolvedTarget(fs::absolute(folder)).string()) >> 32U);
+  }
+
   fs::path m_target;
   fs::path m_part;
   std::optional<fs::perms> m_mode;  ///< Of the file that is replaced.
@@ -122,7 +125,8 @@ JoinSummary joinFiles(Span<const fs::path> inputs, const fs::path& output, const
     for (const auto& of : {files.margins, files.groups, files.categories, files.masks})
       scene::checkIsNoInput(output, of);
   }
-  PartFile part(output);
+  options.output = output;
+  PartFile part(output, options.work);
   options.commit = [&part] { part.commit(); };
   return joinFiles(inputs, ResultSink([&part](std::string_view bytes) { part.write(bytes); }), options);
 }

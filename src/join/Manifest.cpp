@@ -22,12 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kFirstLine = "allpairs join 1\n";  // the form of the file
 
-std::uint64_t checksumOf(std::string_view text) {
-  Checksum checksum;
-  checksum.add(text.data(), text.size());
-  return checksum.value();
-}
-
 /// A line of a word and whole numbers; doubles are their bits, signed numbers in two's complement.
 template <class... Numbers>
 void addLine(std::string& text, std::string_view word, Numbers... numbers) {

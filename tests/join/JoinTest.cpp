@@ -3,12 +3,16 @@
 #include "allpairs/join/Join.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "JoinCase.h"
@@ -182,6 +186,51 @@ TEST(Join, AFailureAtTheEndCanBeResumed) {
   const std::filesystem::path output = with.folder.path() / "pairs.npy";
   EXPECT_GT(joinFiles(with.paths, output, options).resumedCells, 0U);
   EXPECT_TRUE(bytesOfFile(output) == expectedBytes(boxes));
+}
+
+TEST(Join, OfWhatAKillLeavesBesideTheResultNothingStays) {
+  namespace fs = std::filesystem;
+  const std::vector<Box> boxes = toDouble(randomBoxes(500, 17));
+  const JoinCase with(boxes);
+  const fs::path output = with.folder.path() / "pairs.npy";
+  join::JoinOptions options;
+  options.resume = true;
+  options.progress = [](const join::JoinProgress& progress) {
+    if (progress.step == "writing") ::_exit(9);
+  };
+  const auto files = [&with] { return std::distance(fs::directory_iterator(with.folder.path()), {}); };
+  for (int kill = 0; kill < 3; ++kill) {
+    if (const pid_t child = ::fork(); child == 0) {
+      joinFiles(with.paths, output, options);
+      ::_exit(1);
+    } else {
+      int status = 0;
+      ASSERT_EQ(::waitpid(child, &status, 0), child);
+      ASSERT_EQ(WEXITSTATUS(status), 9);
+    }
+    EXPECT_EQ(files(), 3) << "the boxes, the work folder, and a part of the result";
+  }
+  options.progress = {};
+  EXPECT_GT(joinFiles(with.paths, output, options).resumedCells, 0U);
+  EXPECT_TRUE(bytesOfFile(output) == expectedBytes(boxes));
+  EXPECT_EQ(files(), 2);
+}
+
+TEST(Join, ADiskThatHasNoRoomForTheResultBesideThePairsIsRefusedAtOnce) {
+  JoinCase with;
+  const std::filesystem::path folder = with.folder.path();
+  const std::uintmax_t room = std::filesystem::space(folder).available;
+  const double pairs = 0.7 * static_cast<double>(room) / 8;  // of boxes in one place
+  with.add(std::vector<Box>(static_cast<std::size_t>(std::sqrt(2.0 * pairs)), cube(0, 0, 0)));
+  join::JoinOptions options = with.options();
+  options.progress = [](const join::JoinProgress& progress) {
+    if (progress.step == "distributing") throw std::runtime_error("it writes");
+  };
+  const std::uint64_t planned = planFiles(with.paths, options).pairBytes;
+  EXPECT_TRUE(planned < room && room < 2 * planned) << planned << " of " << room;
+  EXPECT_THROW(joinFiles(with.paths, folder / "pairs.npy", options), FileError);
+  const auto ignore = [](std::string_view) {};
+  EXPECT_THROW(joinFiles(with.paths, join::ResultSink(ignore), options), std::runtime_error) << "it may be a pipe";
 }
 
 TEST(Join, AnyMemoryWillDo) {

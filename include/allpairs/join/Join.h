@@ -71,6 +71,9 @@ struct JoinOptions {
   /// them, a group, categories and a mask, as in FilterBits.
   scene::BoxValueFiles values{};
   scene::BoxValueFiles secondValues{};
+
+  /// The file that the sink writes, if it writes one: its disk is asked for room too.
+  std::filesystem::path output{};
 };
 
 /// What a join did, or is expected to do.
@@ -103,14 +106,16 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 ///            What was complete stays in the work folder.
 /// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32
 ///            bytes per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and
-///            masks, and 8 per pair (16 of more than 2^32 boxes in a set). Where the disk is estimated to be too small
-///            it throws before it writes.
+///            masks, and 8 per pair (16 of more than 2^32 boxes in a set); as many per pair for the result, on the disk
+///            of options.output. Where a disk is estimated to be too small it throws before it writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
-///            was damaged is made again. Inputs that have changed throw FileError. The result's bytes are the same.
+///            was damaged is made again, and a manifest that was throws FileError. So do inputs of another size or time
+///            of change than before. The result's bytes are the same.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
 
-/// The same into a file, which appears when it is complete, beside which it is written; options.commit is not used. The
-/// default work folder is `output` with ".work" behind it. Where `output` is a link its target is replaced; permissions
+/// The same into a file, which appears when it is complete, beside which it is written; options.commit and
+/// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", in whose place a
+/// join that is resumed writes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target is replaced; permissions
 /// stay. One that is there and is no file, or is one of the inputs, throws FileError.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
