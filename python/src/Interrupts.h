@@ -114,4 +114,14 @@ auto interruptibly(std::size_t boxes, Runs runs, const Work& work) {
   }
 }
 
+/// The same for work(flag), where no object has a flag that searches read.
+template <class Work>
+auto stoppably(std::size_t boxes, Runs runs, const Work& work) {
+  CallFlag stop;
+  return interruptibly(boxes, runs, [&](Stopper& stopper) {
+    const Stopper::Hold hold(stopper, stop);
+    return work(stop.flag());
+  });
+}
+
 }  // namespace allpairs::python

@@ -25,10 +25,8 @@ namespace {
 py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
                     const std::optional<std::filesystem::path>& output, join::JoinOptions& options,
                     std::size_t threads) {
-  CallFlag stop;
-  options.stop = &stop.flag();
-  const join::JoinSummary summary = interruptibly(kLong, Runs::OnThreads, [&](Stopper& stopper) {
-    const Stopper::Hold hold(stopper, stop);
+  const join::JoinSummary summary = stoppably(kLong, Runs::OnThreads, [&](const StopFlag& stop) {
+    options.stop = &stop;
     std::unique_ptr<Executor> executor;
     if (threads != 1) executor = std::make_unique<parallel::TbbExecutor>(threads);
     options.executor = executor.get();

@@ -16,11 +16,12 @@
 #include "Bindings.h"
 #include "Boxes.h"
 #include "BufferProtocol.h"
-#include "Gil.h"
 #include "IdPairArray.h"
+#include "Interrupts.h"
 #include "NumberArray.h"
 #include "Options.h"
 #include "allpairs/Error.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/partition/Cell.h"
 
 namespace allpairs::python {
@@ -81,8 +82,7 @@ std::uint64_t countBetweenInCell(const Boxes& first, const Boxes& second, const 
 
 std::unique_ptr<RealArray> cellsOf(const Partition& partition) {
   std::vector<double> numbers;
-  for (std::size_t i = 0; i < partition.size(); ++i) {
-    const Cell cell = partition.cell(i);
+  for (const Cell& cell : partition.cells()) {
     numbers.insert(numbers.end(), cell.min.begin(), cell.min.end());
     numbers.insert(numbers.end(), cell.max.begin(), cell.max.end());
   }
@@ -115,20 +115,20 @@ Partition fromCuts(const std::vector<std::array<double, 4>>& rows) {
 /// Rows of a box and a cell that it goes to.
 std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxes& boxes, double distance,
                                           double maxMargin) {
-  std::vector<std::uint64_t> rows;
-  {
-    const ReleasedGil released;
-    const BoxView& set = boxes.set();
+  const BoxView& set = boxes.set();
+  return stoppably(set.size(), Runs::Alone, [&](const StopFlag& stop) {
+    std::vector<std::uint64_t> rows;
     const double greatest = std::max(maxMargin, partition::greatestMargin(set));
     std::vector<std::uint32_t> ordered;
     const auto reach = [&](std::size_t i) { return partition::reachOf(set[i], set.margin(i), distance, greatest); };
     partition.visitCells(set.size(), reach, [&](std::size_t i, Span<const std::uint32_t> cells) {
+      checkStop(&stop);
       ordered.assign(cells.begin(), cells.end());
       std::sort(ordered.begin(), ordered.end());
       for (const std::uint32_t cell : ordered) rows.insert(rows.end(), {i, cell});
     });
-  }
-  return std::make_unique<OffsetArray>(std::move(rows), 2);
+    return std::make_unique<OffsetArray>(std::move(rows), 2);
+  });
 }
 
 }  // namespace
@@ -136,7 +136,8 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
 void bindPartition(py::module_& module) {
   py::class_<Partition>(module, "Partition")
       .def(py::init([](const Boxes& sample, std::size_t cells, double distance) {
-        return Partition(sample.set(), cells, distance);
+        return stoppably(sample.set().size(), Runs::Alone,
+                         [&](const StopFlag& stop) { return Partition(sample.set(), cells, distance, &stop); });
       }))
       .def_static("from_cuts", &fromCuts)
       .def("cuts", &cutsOf)

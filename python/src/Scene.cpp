@@ -29,10 +29,8 @@ std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector
   options.allowOutside = allowOutside;
   options.maxMemory = maxMemory;
   options.recursive = recursive;
-  CallFlag stop;
-  options.stop = &stop.flag();
-  return interruptibly(kLong, Runs::Alone, [&](Stopper& stopper) {
-    const Stopper::Hold hold(stopper, stop);
+  return stoppably(kLong, Runs::Alone, [&](const StopFlag& stop) {
+    options.stop = &stop;
     return std::make_shared<LoadedScene>(path, options);
   });
 }

@@ -67,9 +67,11 @@ std::optional<double> cutOf(std::span<const Box> reaches, std::uint32_t axis, do
   return std::isfinite(at) ? std::optional(at) : std::nullopt;
 }
 
-std::optional<Division> divide(std::span<const Box> reaches, double low, std::vector<double>& minima) {
+std::optional<Division> divide(std::span<const Box> reaches, double low, std::vector<double>& minima,
+                               const StopFlag* stop) {
   std::optional<Division> best;
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    checkStop(stop);
     const std::optional<double> at = cutOf(reaches, axis, low, minima);
     if (!at) continue;
     const Division division = divisionAt(reaches, axis, *at);
@@ -81,6 +83,12 @@ std::optional<Division> divide(std::span<const Box> reaches, double low, std::ve
 }
 
 std::int32_t sideOfCell(std::size_t number) { return ~static_cast<std::int32_t>(number); }
+
+/// Leaves one side of a cut.
+void narrow(Cell& cell, const Cut& cut, bool isLow) {
+  double& bound = isLow ? cell.max[cut.axis] : cell.min[cut.axis];
+  bound = isLow ? std::min(bound, cut.at) : std::max(bound, cut.at);
+}
 
 void checkCuts(std::span<const Cut> cuts) {
   std::vector<bool> isCutSeen(cuts.size());
@@ -103,7 +111,8 @@ void checkCuts(std::span<const Cut> cuts) {
 /// Makes the cuts of a part of space.
 class Partition::Cutter {
  public:
-  explicit Cutter(std::vector<Cut>& cuts, std::size_t cells) : m_cuts(cuts), m_cells(cells) {}
+  Cutter(std::vector<Cut>& cuts, std::size_t cells, const StopFlag* stop = nullptr)
+      : m_cuts(cuts), m_cells(cells), m_stop(stop) {}
 
   /// Cuts cell `number`, whose boxes these are, into about `parts`, and returns what stands in its place. New cells are
   /// numbered on from those there are.
@@ -111,7 +120,7 @@ class Partition::Cutter {
     if (parts < 2 || reaches.size() < 2) return sideOfCell(number);
     const std::size_t lowParts = parts / 2;
     const double share = static_cast<double>(lowParts) / static_cast<double>(parts);
-    const std::optional<Division> division = divide(reaches, share, m_minima);
+    const std::optional<Division> division = divide(reaches, share, m_minima, m_stop);
     if (!division) return sideOfCell(number);
     const std::size_t place = m_cuts.size();
     const std::size_t highNumber = m_cells++;
@@ -142,12 +151,13 @@ class Partition::Cutter {
 
   std::vector<Cut>& m_cuts;
   std::size_t m_cells;
+  const StopFlag* m_stop;
   std::vector<double> m_minima;
 };
 
-Partition::Partition(const BoxView& sample, std::size_t cells, double distance) {
+Partition::Partition(const BoxView& sample, std::size_t cells, double distance, const StopFlag* stop) {
   std::vector<Box> reaches = reachesOf(sample, distance);
-  Cutter(m_cuts, 1).cut(reaches, 0, cells);
+  Cutter(m_cuts, 1, stop).cut(reaches, 0, cells);
 }
 
 Partition Partition::fromCuts(Span<const Cut> cuts) {
@@ -161,19 +171,27 @@ Cell Partition::cell(std::size_t number) const {
   if (number >= size()) throw InvalidArgument("cell " + std::to_string(number) + " of " + std::to_string(size()));
   Cell cell;
   std::int32_t side = sideOfCell(number);
-  while (!m_cuts.empty() && side != 0) {  // from the cell up to the first cut
-    const auto isOver = [side](const Cut& cut) { return cut.low == side || cut.high == side; };
-    const auto found = std::find_if(m_cuts.begin(), m_cuts.end(), isOver);
-    double& max = cell.max[found->axis];
-    double& min = cell.min[found->axis];
-    if (found->low == side) {
-      max = std::min(max, found->at);
-    } else {
-      min = std::max(min, found->at);
-    }
-    side = static_cast<std::int32_t>(found - m_cuts.begin());
+  for (std::size_t i = m_cuts.size(); i-- > 0;) {  // up to the first cut: each stands before its sides
+    const Cut& cut = m_cuts[i];
+    if (cut.low != side && cut.high != side) continue;
+    narrow(cell, cut, cut.low == side);
+    side = static_cast<std::int32_t>(i);
   }
   return cell;
+}
+
+std::vector<Cell> Partition::cells() const {
+  std::vector<Cell> cells(size());
+  std::vector<Cell> parts(m_cuts.size());  // what each cut divides
+  for (std::size_t i = 0; i < m_cuts.size(); ++i) {
+    const Cut& cut = m_cuts[i];
+    for (const std::int32_t side : {cut.low, cut.high}) {
+      Cell& part = side < 0 ? cells[static_cast<std::size_t>(~side)] : parts[static_cast<std::size_t>(side)];
+      part = parts[i];
+      narrow(part, cut, side == cut.low);
+    }
+  }
+  return cells;
 }
 
 std::uint32_t Partition::cellOf(const Point& point) const noexcept {

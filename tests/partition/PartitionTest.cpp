@@ -103,6 +103,27 @@ TEST(Partition, ACellIsCutAgainAndTheOthersStay) {
   EXPECT_FALSE(partition.cutAgain(2, BoxView(), 4)) << "nothing to go by";
 }
 
+TEST(Partition, BoundsOfAllCellsAreThoseOfEach) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(3'000, 6));
+  Partition partition(boxes, 30);
+  ASSERT_TRUE(partition.cutAgain(3, boxes, 4));
+  for (const Partition& any : {partition, Partition()}) {
+    const std::vector<Cell> cells = any.cells();
+    ASSERT_EQ(cells.size(), any.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(cells[i], any.cell(i)) << i;
+    // Each is where its points are said to be.
+    for (const Box& box : boxes) EXPECT_TRUE(cells[any.cellOf(box.min)].holds(box.min));
+  }
+}
+
+TEST(Partition, ASearchForCutsCanBeStopped) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(3'000, 6));
+  StopFlag stop;
+  EXPECT_EQ(Partition(boxes, 8, 0.0, &stop).size(), Partition(boxes, 8).size());
+  stop.set();
+  EXPECT_THROW(Partition(boxes, 8, 0.0, &stop), Stopped);
+}
+
 TEST(Partition, CountsByTheGreatestMarginOfEither) {
   const Partition partition = Partition::fromCuts(std::vector<Cut>{{10.0, 0, ~0, ~1}});
   const std::vector<Box> boxes = {cube(0, 0, 0), cube(5, 0, 0), cube(20, 0, 0)};
@@ -136,6 +157,7 @@ TEST(Partition, ComesBackFromItsCuts) {
   const Partition again = Partition::fromCuts(partition.cuts());
   ASSERT_EQ(again.size(), partition.size());
   for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again.cell(i), partition.cell(i));
+  EXPECT_EQ(again.cells(), partition.cells());
 }
 
 TEST(Partition, CutsThatAreNoTreeAreRefused) {

@@ -67,6 +67,13 @@ world.add(heap[:50_000])
 interrupted(lambda: world.nearest(np.zeros((500_000, 3)), 10))
 assert len(world.overlapping(heap[:1])) == 50_000
 """,
+    "a partition": """
+points = np.random.default_rng(1).random((2_000_000, 3))
+interrupted(lambda: allpairs.Partition(points, points, cells=1_000_000))
+partition = allpairs.Partition(row[::10], cells=500)
+interrupted(lambda: partition.cells_of(np.tile([0, 0, 0, 2e6, 1, 1], (200_000, 1))))  # each in all cells
+assert partition.cells_of(row[:5]).tolist() == [[i, 0] for i in range(5)]
+""",
     "candidates": """
 mesh = allpairs.MeshCandidates(np.arange(600_000).reshape(-1, 3), 600_000)
 mesh.set_positions(np.tile([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], (200_000, 1)))

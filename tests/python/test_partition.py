@@ -3,6 +3,7 @@
 
 import itertools
 import pickle
+import time
 
 import numpy as np
 import pytest
@@ -102,6 +103,15 @@ def test_cells_leave_out_what_a_search_of_two_sets_leaves_out():
         count += allpairs.count_between_in_cell(sets[0][a], sets[1][b], cell, **options, **given)
     assert sorted(found) == every_kept_pair_between(*sets, **options, **own).tolist()
     assert count == len(found) > 20
+
+
+def test_bounds_of_many_cells_take_no_time():
+    corners = np.arange(60_000.0)[:, None] * np.ones(6)
+    partition = allpairs.Partition(corners, cells=30_000)
+    begin = time.process_time()
+    cells = partition.cells
+    assert time.process_time() - begin < 0.5  # by cells squared it took seconds
+    assert len(cells) == len(partition) == 30_000
 
 
 def test_a_partition_pickles():

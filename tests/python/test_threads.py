@@ -61,6 +61,15 @@ def candidates(size):
     return lambda: mesh.find("face-face")
 
 
+def a_partition(size):
+    return lambda: allpairs.Partition(BOXES[:size], cells=50)
+
+
+def cells_of(size):
+    partition = allpairs.Partition(BOXES[:size], cells=50)
+    return lambda: partition.cells_of(BOXES[:size])
+
+
 @functools.lru_cache
 def written(size):
     path = pathlib.Path(FOLDER.name) / f"{size}.csv"
@@ -159,6 +168,8 @@ def test_the_oracle_sees_who_keeps_the_interpreter():
         a_step,
         a_query,
         candidates,
+        a_partition,
+        cells_of,
         reading,
         a_detection,
     ],

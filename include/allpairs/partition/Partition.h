@@ -9,6 +9,7 @@
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 #include "allpairs/Span.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/partition/Cell.h"
 
 namespace allpairs::partition {
@@ -40,8 +41,8 @@ class Partition {
   ///
   /// The sample stands for all boxes: some hundred for each cell suffice. Its margins count.
   /// Bad input: a distance that is NaN or -infinity throws InvalidArgument.
-  /// Cost: O(s log(cells)) for a sample of s boxes.
-  Partition(const BoxView& sample, std::size_t cells, double distance = 0.0);
+  /// Cost: O(s log(cells)) for a sample of s boxes. If `stop` is given, it throws Stopped soon after this is set.
+  Partition(const BoxView& sample, std::size_t cells, double distance = 0.0, const StopFlag* stop = nullptr);
 
   /// The partition that has these cuts.
   ///
@@ -56,7 +57,13 @@ class Partition {
   /// The bounds of a cell; what cellsOf() says agrees with them.
   ///
   /// Bad input: a number that no cell has throws InvalidArgument.
+  /// Cost: O(cells).
   [[nodiscard]] Cell cell(std::size_t number) const;
+
+  /// The bounds of all cells, by number.
+  ///
+  /// Cost: O(cells).
+  [[nodiscard]] std::vector<Cell> cells() const;
 
   /// Whether a box that goes to so many cells is better kept apart than copied to each: more than 16, and more than a
   /// fourth of all.
