@@ -38,8 +38,9 @@ class Worlds {
 
   /// Two boxes of a world, by their indices in it, are no pair in any world, however they overlap: once for all worlds.
   ///
-  /// The order of the pairs, and that of a pair's boxes, do not matter. Pairs with shared boxes are not concerned.
-  /// Bad input: an index that no world has, or a box with itself, throws InvalidArgument.
+  /// The order of the pairs, and that of a pair's boxes, do not matter; a box with itself is no pair anyway. Pairs with
+  /// shared boxes are not concerned.
+  /// Bad input: an index that no world has throws InvalidArgument.
   void setIgnoredPairs(Span<const Pair> pairs);
 
   /// The number of worlds.

@@ -64,12 +64,9 @@ Worlds Worlds::ofEqualSize(const BoxView& boxes, std::size_t worlds) {
 
 void Worlds::setIgnoredPairs(Span<const Pair> pairs) {
   for (const Pair pair : pairs) {
-    const std::string name =
-        "the ignored pair (" + std::to_string(pair.first) + ", " + std::to_string(pair.second) + ')';
-    if (pair.first == pair.second) throw InvalidArgument(name + " is of one box");
-    if (std::max(pair.first, pair.second) >= m_largestSize) {
-      throw InvalidArgument(name + " is in no world: the largest has " + std::to_string(m_largestSize) + " boxes");
-    }
+    if (std::max(pair.first, pair.second) < m_largestSize) continue;
+    throw InvalidArgument("the ignored pair (" + std::to_string(pair.first) + ", " + std::to_string(pair.second) +
+                          ") is in no world: the largest has " + std::to_string(m_largestSize) + " boxes");
   }
   m_ignoredPairs = pairs;
 }
