@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from threading import Lock
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -14,12 +15,44 @@ from dask.array.core import Array as DaskArray
 from dask.delayed import delayed
 
 from . import _arguments
-from ._errors import InvalidArgument, InvalidBox
+from ._errors import Error, FileError, InvalidArgument, InvalidBox
 
 Array = npt.NDArray[Any]
 
 #: What each box may have: an array of one dimension, or a number for all.
 Values = dict[str, Any]
+
+
+class Place(NamedTuple):
+    """What errors call what a part is of: a file, or an array in which the part has its first box at ``begin``."""
+
+    called: str
+    begin: int = 0
+    is_file: bool = False
+
+
+def file_error(path: str, problem: object) -> FileError:
+    return FileError(f"{path}: {problem}", path, 0, 0)
+
+
+def reason(problem: Exception) -> str:
+    """Why the system refuses something, without the name of the file."""
+    return getattr(problem, "strerror", None) or str(problem)
+
+
+@contextmanager
+def at(place: Place) -> Iterator[None]:
+    """Errors of what is done to a part say of which file or box."""
+    try:
+        yield
+    except Error as problem:
+        if isinstance(problem, FileError):
+            raise
+        if place.is_file:
+            raise file_error(place.called, problem) from None
+        if isinstance(problem, InvalidBox):
+            raise InvalidArgument(f"box {place.begin + problem.index} of {place.called}: {problem}") from None
+        raise
 
 
 class BoxParts(NamedTuple):
@@ -29,8 +62,7 @@ class BoxParts(NamedTuple):
     sizes: list[int]
     values: list[Values]
     """Of each part, what was given."""
-    places: list[tuple[str, int]]
-    """Of each part, what errors call what it is of, and the number there of its first box."""
+    places: list[Place]
 
     @property
     def begins(self) -> list[int]:
@@ -56,17 +88,17 @@ if hasattr(os, "register_at_fork"):
 def _read(path: str) -> Array:
     """An array in a file, which is mapped."""
     if os.path.exists(path) and not os.path.isfile(path):
-        raise InvalidArgument(f"{path} is no file")
+        raise file_error(path, "is no file")
     try:
         with _READING:
             array = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, EOFError) as problem:
-        raise InvalidArgument(f"{path} cannot be read as .npy: {problem}") from None
+    except (OSError, ValueError, EOFError) as problem:
+        raise file_error(path, f"cannot be read as .npy: {reason(problem)}") from None
     if not isinstance(array, np.ndarray):
-        raise InvalidArgument(f"{path} cannot be read as .npy: it holds several arrays")
+        raise file_error(path, "cannot be read as .npy: it holds several arrays")
     end = getattr(array, "offset", 0) + array.nbytes
     if isinstance(array, np.memmap) and array.size and end != os.path.getsize(path):
-        raise InvalidArgument(f"{path} is {os.path.getsize(path)} bytes long; its array ends at {end}")
+        raise file_error(path, f"is {os.path.getsize(path)} bytes long; its array ends at {end}")
     return array
 
 
@@ -74,7 +106,7 @@ def _read_planned(path: str, shape: tuple[int, ...]) -> Array:
     """Boxes in a file that had that shape when the work was planned."""
     array = _read(path)
     if array.shape != shape:
-        raise InvalidArgument(f"{path} has shape {array.shape}; it had {shape} when the work was planned")
+        raise file_error(path, f"has shape {array.shape}; it had {shape} when the work was planned")
     return array
 
 
@@ -95,11 +127,16 @@ def _check_chunks(argument: str, array: Any) -> None:
         raise InvalidArgument(f"{argument} has chunks of unknown sizes; call compute_chunk_sizes() before")
 
 
+def _check_boxes(argument: str, shape: tuple[int, ...], dtype: np.dtype[Any]) -> None:
+    if len(shape) != 2 or shape[1] != 6:
+        raise InvalidArgument(f"{argument} has shape {shape}; it takes (n, 6)")
+    _arguments.floats(argument, np.zeros(1, dtype))
+
+
 def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int], list[str]]:
     """The boxes as parts that tasks read, the number of boxes in each, and the files, if they are of files."""
     if isinstance(boxes, DaskArray):
-        if boxes.ndim != 2 or boxes.shape[1] != 6:
-            raise InvalidArgument(f"{argument} has shape {boxes.shape}; it takes (n, 6)")
+        _check_boxes(argument, boxes.shape, boxes.dtype)
         _check_chunks(argument, boxes)
         rows = boxes.rechunk({1: 6})
         return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]], []
@@ -108,10 +145,12 @@ def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int], list[str
         raise TypeError(f"{argument} is {type(boxes).__name__}; it takes a dask array, or .npy files")
     if not names:
         raise InvalidArgument(f"{argument} names no file")
-    shapes = [_read(name).shape for name in names]
-    for name, shape in zip(names, shapes):
-        if len(shape) != 2 or shape[1] != 6:
-            raise InvalidArgument(f"{name} has shape {shape}; boxes are (n, 6)")
+    shapes = []
+    for name in names:
+        array = _read(name)
+        with at(Place(name, is_file=True)):
+            _check_boxes(argument, array.shape, array.dtype)
+        shapes.append(array.shape)
     read = delayed(_read_planned)
     return [read(name, shape) for name, shape in zip(names, shapes)], [shape[0] for shape in shapes], names
 
@@ -141,8 +180,9 @@ def _read_range(name: str, pieces: list[tuple[str, int, int]]) -> Array:
     for path, begin, end in pieces:
         values = _read(path)[begin:end]
         if len(values) != end - begin:
-            raise InvalidArgument(f"{path} has fewer than {end} numbers, which it had when the work was planned")
-        rows.append(_checked(name, values, path, begin))
+            raise file_error(path, f"has fewer than {end} numbers, which it had when the work was planned")
+        with at(Place(path, is_file=True)):
+            rows.append(_checked(name, values, name, begin))
     return np.concatenate(rows)
 
 
@@ -167,10 +207,12 @@ def _of_files(name: str, names: list[str], begins: Sequence[int]) -> list[Any]:
         raise InvalidArgument(f"{name} names no file")
     arrays = [_read(path) for path in names]
     for path, array in zip(names, arrays):
-        _check_type(name, path, array.shape, array.dtype)
+        with at(Place(path, is_file=True)):
+            _check_type(name, name, array.shape, array.dtype)
     sizes = [len(array) for array in arrays]
     if sum(sizes) != begins[-1]:
-        raise InvalidArgument(f"{', '.join(names)}: {sum(sizes)} numbers, a {name} for each of {begins[-1]} boxes")
+        problem = f"{', '.join(names)}: {sum(sizes)} numbers, a {name} for each of {begins[-1]} boxes"
+        raise FileError(problem, names[0], 0, 0)
     read = delayed(_read_range)
     return [read(name, _pieces(names, sizes, begin, end)) for begin, end in zip(begins, begins[1:])]
 
@@ -202,18 +244,18 @@ def _of_each_set(name: str, value: Any, sets: int) -> list[Any]:
     return list(_arguments.both(name, [value] if isinstance(value, str) else value))
 
 
-def box_parts(boxes: Sequence[Union[Any, None]], values: Values) -> list[BoxParts]:
+def box_parts(boxes: Sequence[Any], values: Values) -> list[BoxParts]:
     """One set, or two: what `boxes` and `second` are, with margins and labels of each."""
-    given = [each for each in boxes if each is not None]
+    given = boxes[:1] if boxes[1] is None else boxes
     own = {name: _of_each_set(name, values[name], len(given)) for name in _arguments.OF_EACH_BOX}
     called = ["all"] if len(given) == 1 else ["the first set", "the second set"]
     prefixes = [""] if len(given) == 1 else ["first set: ", "second set: "]
     sets = []
     for i, (argument, each) in enumerate(zip(("boxes", "second"), given)):
         parts, sizes, files = _boxes_of(argument, each)
-        plain = BoxParts(parts, sizes, [], [(file, 0) for file in files])
+        plain = BoxParts(parts, sizes, [], [Place(file, is_file=True) for file in files])
         if not files:
-            plain = plain._replace(places=[(called[i], begin) for begin in plain.begins[:-1]])
+            plain = plain._replace(places=[Place(called[i], begin) for begin in plain.begins[:-1]])
         columns = {
             name: _of_each_part(name, pair[i], plain.begins, prefixes[i]) for name, pair in own.items() if pair[i] is not None
         }

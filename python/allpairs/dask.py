@@ -22,7 +22,6 @@ from dask.delayed import delayed
 
 from . import _arguments
 from . import count as count_in_memory
-from ._errors import InvalidArgument, InvalidBox
 from ._partition import (
     Partition,
     count_between_in_cell,
@@ -30,7 +29,7 @@ from ._partition import (
     overlaps_between_in_cell,
     overlaps_in_cell,
 )
-from ._parts import Array, BoxParts, Values, box_parts
+from ._parts import Array, BoxParts, Place, Values, at, box_parts, file_error, reason
 
 __all__ = ["count", "overlaps"]
 
@@ -57,9 +56,14 @@ class _Plan(NamedTuple):
     """The greatest margin of any box."""
 
 
-def _sample(part: Array, margin: Any, step: int) -> tuple[Array, Array]:
+def _numbers(part: Array, place: Place) -> Array:
+    with at(place):
+        return _arguments.floats("boxes", _arguments.contiguous(part))
+
+
+def _sample(part: Array, margin: Any, step: int, place: Place) -> tuple[Array, Array]:
     """Some boxes, and their margins; NaNs are for _divide."""
-    rows = np.asarray(part[::step])
+    rows = _numbers(part[::step], place)
     margins = np.broadcast_to(margin, len(part))[::step]
     whole = ~np.isnan(rows).any(axis=1)
     return rows[whole], margins[whole]
@@ -73,15 +77,13 @@ def _chosen(value: Any, rows: Array) -> Any:
     return value if _arguments.is_one(value) else value[rows]
 
 
-def _divide(part: Array, values: Values, plan: _Plan, *, begin: int, place: tuple[str, int]) -> list[_Piece]:
-    """The boxes of a part by cell, with their numbers; errors call them by their place."""
-    boxes = _arguments.floats("boxes", _arguments.contiguous(part))
-    try:
+def _divide(part: Array, values: Values, plan: _Plan, *, begin: int, place: Place) -> list[_Piece]:
+    """The boxes of a part by cell, with their numbers."""
+    boxes = _numbers(part, place)
+    with at(place):
         homes = plan.partition.cells_of(
             boxes, distance=plan.distance, margin=values.get("margin"), max_margin=plan.greatest
         )
-    except InvalidBox as problem:
-        raise InvalidArgument(f"box {place[1] + problem.index} of {place[0]}: {problem}") from None
     order = np.argsort(homes[:, 1], kind="stable")
     bounds = np.searchsorted(homes[order, 1], np.arange(len(plan.partition) + 1))
     pieces = []
@@ -146,9 +148,11 @@ def _write(pairs: Array, path: str) -> int:
         with open(beside, "xb") as file:
             np.save(file, pairs)
         os.replace(beside, path)
-    except BaseException:
+    except BaseException as problem:
         with suppress(OSError):
             os.remove(beside)
+        if isinstance(problem, OSError):
+            raise file_error(path, f"cannot be written: {reason(problem)}") from None
         raise
     return len(pairs)
 
@@ -156,11 +160,14 @@ def _write(pairs: Array, path: str) -> int:
 def _names_in(output: PathLike, count: int) -> list[str]:
     """The files of a result in a folder, which is made if it is not there."""
     folder = Path(os.path.abspath(os.fsdecode(output)))
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise file_error(str(folder), f"cannot be made: {reason(problem)}") from None
     names = [str(folder / f"part-{number:05d}.npy") for number in range(count)]
     others = sorted({str(path) for path in folder.glob("part-*.npy")} - set(names))
     if others:
-        raise InvalidArgument(f"{others[0]} is of another result, with more parts than the {count} of this one: remove it")
+        raise file_error(others[0], f"is of another result, with more parts than the {count} of this one: remove it")
     return names
 
 
@@ -195,7 +202,11 @@ def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> li
     step = max(1, sum(each.begins[-1] for each in sets) // (count_of_cells * _SAMPLE_OF_A_CELL))
     margins = [[values.get("margin", 0.0) for values in each.values] for each in sets]
     samples = compute(
-        *[delayed(_sample)(part, own, step) for each, all in zip(sets, margins) for part, own in zip(each.parts, all)]
+        *[
+            delayed(_sample)(part, own, step, place)
+            for each, all in zip(sets, margins)
+            for part, own, place in zip(each.parts, all, each.places)
+        ]
     )
     rows, apart = (np.concatenate(column) for column in zip(*samples))
     partition = Partition(rows, cells=count_of_cells, distance=distance, margin=apart)

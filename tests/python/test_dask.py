@@ -206,16 +206,25 @@ def test_what_is_wrong_is_named(tmp_path):
         allpairs.dask.overlaps(good, second=dask.array.from_array(boxes[:, :5]))
     with pytest.raises(allpairs.InvalidArgument, match="second names no file"):
         allpairs.dask.overlaps(good, second=[])
+    with pytest.raises(allpairs.InvalidArgument, match="^boxes has dtype complex64"):
+        allpairs.dask.overlaps(good.astype(np.complex64))
+    with pytest.raises(allpairs.InvalidArgument, match=r"^boxes has integers beyond 2\*\*53"):
+        allpairs.dask.overlaps(dask.array.full((4, 6), 2**60, chunks=(2, 6)))
+    for function in (allpairs.dask.overlaps, allpairs.dask.count):
+        with pytest.raises(TypeError, match="^boxes is NoneType"):
+            function(None, second=good)
+        with pytest.raises(TypeError, match="^boxes is NoneType"):
+            function(None)
     np.save(tmp_path / "flat.npy", boxes.ravel())
-    with pytest.raises(allpairs.InvalidArgument, match="flat.npy has shape"):
+    with pytest.raises(allpairs.FileError, match="flat.npy: boxes has shape"):
         allpairs.dask.overlaps(tmp_path / "flat.npy")
 
 
 def test_what_is_wrong_with_values_is_named(tmp_path):
     boxes = dask.array.from_array(boxes_of("uniform", np.float32), chunks=(700, 6))
 
-    def refused(match, **options):
-        with pytest.raises(allpairs.InvalidArgument, match=match) as problem:
+    def refused(match, error=allpairs.InvalidArgument, **options):
+        with pytest.raises(error, match=match) as problem:
             result = allpairs.dask.overlaps(boxes, **options)
             result.compute()
         assert "\n" not in str(problem.value)
@@ -228,17 +237,19 @@ def test_what_is_wrong_with_values_is_named(tmp_path):
     margins[1234] = np.nan
     for given in (margins, dask.array.from_array(margins, chunks=500)):
         refused(r"^margin\[1234\] is nan; it takes numbers$", margin=given)
-    refused(r"/nan.npy\[1234\] is nan", margin=saved("nan.npy", margins))
-    refused(r"/two.npy\[234\] is nan", margin=[saved("one.npy", margins[:1000]), saved("two.npy", margins[1000:])])
+    file_error = allpairs.FileError
+    refused(r"/nan.npy: margin\[1234\] is nan", file_error, margin=saved("nan.npy", margins))
+    halves = [saved("one.npy", margins[:1000]), saved("two.npy", margins[1000:])]
+    refused(r"/two.npy: margin\[234\] is nan", file_error, margin=halves)
     refused(r"^margin\[0\] is -inf", margin=-np.inf)
     refused(r"^second set: margin\[1234\] is nan", second=boxes, margin=(None, margins))
     refused(r"^group\[7\] is -1; it takes 0 to 4294967295$", group=np.where(np.arange(3000) == 7, -1, 0))
-    refused(r"/labels.npy\[2999\] is 4294967296", mask=saved("labels.npy", np.arange(3000) // 2999 * 2**32))
+    refused(r"/labels.npy: mask\[2999\] is 4294967296", file_error, mask=saved("labels.npy", np.arange(3000) // 2999 * 2**32))
     refused(r"^category has dtype float64; it takes integers$", category=margins)
-    refused(r"/nan.npy has dtype float64; it takes integers$", group=tmp_path / "nan.npy")
+    refused(r"/nan.npy: group has dtype float64; it takes integers$", file_error, group=tmp_path / "nan.npy")
     refused(r"^margin has shape \(2999,\); for 3000 boxes it takes \(3000,\)$", margin=margins[1:])
-    refused(r"/short.npy: 5 numbers, a margin for each of 3000 boxes$", margin=saved("short.npy", np.zeros(5)))
-    refused(r"/flat.npy has shape \(3, 6\)", margin=saved("flat.npy", np.zeros((3, 6))))
+    refused(r"/short.npy: 5 numbers, a margin for each of 3000 boxes$", file_error, margin=saved("short.npy", np.zeros(5)))
+    refused(r"/flat.npy: margin has shape \(3, 6\)", file_error, margin=saved("flat.npy", np.zeros((3, 6))))
     refused("^margin has shape", margin=np.zeros((3000, 1)))
     refused("margin takes a number or a tuple of two", second=boxes, margin=str(tmp_path / "nan.npy"))
     refused("^group names no file", group=[])
@@ -301,16 +312,32 @@ def test_files_that_are_no_arrays_are_named(tmp_path):
         (tmp_path / f"{name}.npy").write_bytes(content)
     np.savez(tmp_path / "several.npz", boxes, boxes)
     os.mkfifo(tmp_path / "pipe.npy")
-    for name in ("empty.npy", "text.npy", "cut.npy", "longer.npy", "several.npz", "pipe.npy"):
-        with pytest.raises(allpairs.InvalidArgument, match=f"^/.*/{name} ") as problem:
+    np.save(tmp_path / "complex.npy", boxes.astype(complex))
+    (tmp_path / "folder").mkdir()
+    for name in ("empty.npy", "text.npy", "cut.npy", "longer.npy", "several.npz", "pipe.npy", "complex.npy", "missing", "folder"):
+        with pytest.raises(allpairs.FileError, match=f"^/.*/{name}: ") as problem:
             allpairs.dask.count([good, tmp_path / name])
-        assert "\n" not in str(problem.value)
-        with pytest.raises(allpairs.InvalidArgument, match=f"^/.*/{name} "):
+        assert "\n" not in str(problem.value) and str(problem.value).count(name) == 1
+        assert problem.value.path == str(tmp_path / name)
+        with pytest.raises(allpairs.FileError, match=f"^/.*/{name}: "):
             allpairs.dask.count([good], margin=tmp_path / name)
     boxes[7, 2] = np.nan
     np.save(tmp_path / "nan.npy", boxes)
-    with pytest.raises(allpairs.InvalidArgument, match="^box 7 of /.*/nan.npy: "):
+    with pytest.raises(allpairs.FileError, match="^/.*/nan.npy: box 7: min z is not a number"):
         allpairs.dask.count([good, tmp_path / "nan.npy"])
+    np.save(tmp_path / "large.npy", np.full((4, 6), 2**60))
+    with pytest.raises(allpairs.FileError, match=r"^/.*/large.npy: boxes has integers beyond 2\*\*53"):
+        allpairs.dask.count([good, tmp_path / "large.npy"])
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path):
+    boxes = dask.array.zeros((4, 6), chunks=(2, 6))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(allpairs.FileError, match="^/.*/file: cannot be made: File exists$"):
+        allpairs.dask.overlaps(boxes, tmp_path / "file")
+    (tmp_path / "pairs" / "part-00001.npy").mkdir(parents=True)
+    with pytest.raises(allpairs.FileError, match="^/.*/part-00001.npy: cannot be written: Is a directory$"):
+        allpairs.dask.overlaps(boxes, tmp_path / "pairs")
 
 
 def test_a_folder_holds_the_parts_of_one_result(tmp_path):
@@ -322,7 +349,7 @@ def test_a_folder_holds_the_parts_of_one_result(tmp_path):
     assert (folder / "part-00000.npy").stat().st_mode == (tmp_path / "plain").stat().st_mode
     before = [path.read_bytes() for path in sorted(folder.iterdir())]
     fewer = dask.array.from_array(boxes, chunks=(2000, 6))
-    with pytest.raises(allpairs.InvalidArgument, match="^/.*/pairs/part-00002.npy is of another result"):
+    with pytest.raises(allpairs.FileError, match="^/.*/pairs/part-00002.npy: is of another result"):
         allpairs.dask.overlaps(fewer, folder)
     assert [path.read_bytes() for path in sorted(folder.iterdir())] == before
     (folder / "part-00002.npy").unlink()
@@ -370,9 +397,9 @@ def test_files_that_change_before_the_work_are_noticed(tmp_path):
     np.save(margins, np.zeros(20))
     waiting = allpairs.dask.overlaps(boxes, margin=margins)
     np.save(margins, np.zeros(19))
-    with pytest.raises(allpairs.InvalidArgument, match=r"margins\.npy has fewer than 20 numbers, which it had"):
+    with pytest.raises(allpairs.FileError, match=r"margins\.npy: has fewer than 20 numbers, which it had"):
         waiting.compute()
     np.save(margins, np.zeros(20))
     np.save(boxes, np.tile(np.arange(6.0), (30, 1)))
-    with pytest.raises(allpairs.InvalidArgument, match=r"boxes\.npy has shape \(30, 6\); it had \(20, 6\) when"):
+    with pytest.raises(allpairs.FileError, match=r"boxes\.npy: has shape \(30, 6\); it had \(20, 6\) when"):
         waiting.compute()
