@@ -27,15 +27,12 @@ WorldOptions optionsOf(double distance, Order order, Executor* executor, const S
   return options;
 }
 
-/// Ids in an array, kept for as long as this lives.
-class IdView {
- public:
-  explicit IdView(const py::buffer& ids) : m_info(requestBuffer(ids, {"I", 0})) {}
-  [[nodiscard]] std::span<const BoxId> ids() const { return valuesOf<BoxId>(m_info); }
-
- private:
-  py::buffer_info m_info;
-};
+/// A copy of ids: another thread may change the array while a world without the GIL goes by what it has checked.
+std::vector<BoxId> boxIdsOf(const py::buffer& array) {
+  const py::buffer_info info = requestBuffer(array, {"I", 0});
+  const std::span<const BoxId> ids = valuesOf<BoxId>(info);
+  return {ids.begin(), ids.end()};
+}
 
 /// Copies pairs of a search, which may take as long as it does.
 std::unique_ptr<PairArray> copyOf(std::span<const Pair> pairs, const StopFlag& stop) {
@@ -128,26 +125,26 @@ MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properti
 }
 
 void MovingBoxes::move(const py::buffer& ids, const Boxes& boxes) {
-  const IdView view(ids);
-  alone([&](World& world) { world.move(view.ids(), boxes.set()); });
+  const std::vector<BoxId> chosen = boxIdsOf(ids);
+  alone([&](World& world) { world.move(chosen, boxes.set()); });
 }
 
 void MovingBoxes::moveSwept(const py::buffer& ids, const Boxes& starts, const Boxes& ends) {
-  const IdView view(ids);
-  alone([&](World& world) { world.moveSwept(view.ids(), starts.set(), ends.set()); });
+  const std::vector<BoxId> chosen = boxIdsOf(ids);
+  alone([&](World& world) { world.moveSwept(chosen, starts.set(), ends.set()); });
 }
 
 void MovingBoxes::remove(const py::buffer& ids) {
-  const IdView view(ids);
+  const std::vector<BoxId> chosen = boxIdsOf(ids);
   alone([&](World& world) {
-    world.remove(view.ids());
+    world.remove(chosen);
     m_size = world.size();
   });
 }
 
 void MovingBoxes::setProperties(const py::buffer& ids, const Properties& properties) {
-  const IdView view(ids);
-  alone([&](World& world) { world.setProperties(view.ids(), properties.values()); });
+  const std::vector<BoxId> chosen = boxIdsOf(ids);
+  alone([&](World& world) { world.setProperties(chosen, properties.values()); });
 }
 
 std::size_t MovingBoxes::size() {
@@ -159,11 +156,11 @@ bool MovingBoxes::contains(BoxId id) {
 }
 
 MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
-  const IdView view(ids);
+  const std::vector<BoxId> chosen = boxIdsOf(ids);
   std::vector<double> bounds;
-  bounds.reserve(6 * view.ids().size());
+  bounds.reserve(6 * chosen.size());
   alone([&](World& world) {
-    for (const BoxId id : view.ids()) {
+    for (const BoxId id : chosen) {
       const Box box = world.box(id);
       bounds.insert(bounds.end(), box.min.begin(), box.min.end());
       bounds.insert(bounds.end(), box.max.begin(), box.max.end());

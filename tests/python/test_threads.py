@@ -138,6 +138,35 @@ def test_a_program_may_end_while_a_daemon_thread_is_at_work(work):
         assert (done.returncode, done.stderr) == (0, "")
 
 
+CHANGING_IDS = """
+import allpairs, numpy as np, threading, time
+n = 40_000
+boxes = np.zeros((n, 6))
+world = allpairs.World()
+ids = world.add(boxes, group=1)
+until = time.monotonic() + 3
+
+def change():
+    while time.monotonic() < until:
+        ids[n // 2] = 4_000_000_000
+        ids[n // 2] = n // 2
+
+other = threading.Thread(target=change)
+other.start()
+while time.monotonic() < until:
+    for call in (lambda: world.move(ids, boxes), lambda: world.set_properties(ids, group=1), lambda: world.boxes(ids)):
+        try:
+            call()
+        except allpairs.InvalidBox:
+            pass
+other.join()
+"""
+
+
+def test_another_thread_may_change_the_ids_that_a_world_is_given():
+    assert subprocess.run([sys.executable, "-c", CHANGING_IDS], timeout=100).returncode == 0
+
+
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
 def test_batches_of_a_parent_are_refused():
     batches = allpairs.batches(BOXES, batch_size=100)
