@@ -57,7 +57,7 @@ def strategy_of(strategy: str) -> _core.Strategy:
 
 def integer(name: str, value: int) -> int:
     try:
-        return operator.index(value)
+        return operator.index(value.item() if isinstance(value, np.bool_) else value)  # as of Python's own bool
     except TypeError:
         raise TypeError(f"{name} is {_shown(value)}; it takes an integer") from None
 
@@ -355,9 +355,10 @@ def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     """Rays, all in space or all in the plane."""
-    if np.size(origins) and np.shape(origins)[-1:] != np.shape(directions)[-1:]:
-        raise InvalidArgument(f"origins has shape {np.shape(origins)}, directions {np.shape(directions)}: not of the same axes")
-    return points("origins", origins), points("directions", directions)
+    start, way = array_of("origins", origins), array_of("directions", directions)
+    if start.size and start.shape[-1:] != way.shape[-1:]:
+        raise InvalidArgument(f"origins has shape {start.shape}, directions {way.shape}: not of the same axes")
+    return points("origins", start), points("directions", way)
 
 
 def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.uint32]:

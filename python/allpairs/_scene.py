@@ -69,6 +69,7 @@ class Scene:
     def __init__(self, core: _files.Scene) -> None:
         self._core = core
         self.boxes: npt.NDArray[np.float32] | npt.NDArray[np.float64] = np.asarray(core)
+        self.boxes.setflags(write=False)  # of no boxes NumPy makes memory of its own
         self.method = core.method()
         self.alarm_distance = core.alarm_distance()
         bounds = core.region()

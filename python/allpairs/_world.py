@@ -84,7 +84,7 @@ class World:
     A world can be copied and pickled. The copy has the settings and all boxes, with their ids, bounds and properties. It
     has no last step: its next one lists all pairs among those that began. New boxes may get other ids.
 
-    Calls of several threads wait for each other. A world that another thread uses while the process forks is not to be
+    Calls of several threads wait for each other; the arrays that a call is given must not change before it returns. A world that another thread uses while the process forks is not to be
     used in the child, where that call never ends.
 
     Parameters
@@ -270,6 +270,9 @@ class World:
         world : int
             The pairs of its boxes with each other and with those of every world; with EVERY_WORLD, the pairs of two boxes
             of every world. A number that no box has gives empty lists.
+
+        A pair whose boxes are given another world is among those that ended in the one and began in the other, while
+        `step` has it among those that persisted.
         """
         return Step(*map(np.asarray, self._core.result_of(_arguments.bits("world", world))))
 
@@ -285,6 +288,8 @@ class World:
         world: int | None = None,
     ) -> Pairs:
         """The boxes of the world that overlap each of the given boxes.
+
+        Each box of the world extends by its margin, and the distance of the world does not count.
 
         Parameters
         ----------
@@ -319,6 +324,8 @@ class World:
         world: int | None = None,
     ) -> tuple[Ids, npt.NDArray[np.float64]]:
         """The first box that each ray hits.
+
+        Each box extends by its margin, and the distance of the world does not count.
 
         Parameters
         ----------
@@ -359,6 +366,8 @@ class World:
         world: int | None = None,
     ) -> tuple[Ids, npt.NDArray[np.float64]]:
         """The boxes nearest to each point, by Euclidean distance; 0 inside of a box.
+
+        Each box extends by its margin, and the distance of the world does not count.
 
         Parameters
         ----------

@@ -2,8 +2,9 @@
 """Overlapping pairs of boxes that lie on the ranks of an MPI communicator.
 
 Every function is collective: all ranks of the communicator call it, each with boxes of its own. The boxes of a rank are
-numbered after those of the ranks before it. What one rank raises is raised on all. Needs mpi4py (Debian:
-python3-mpi4py), and a build of this package for the same MPI.
+numbered after those of the ranks before it. What one rank raises is raised on all. Ctrl-C waits for the end of the
+search: MPI has no way out of it for one rank. Needs mpi4py (Debian: python3-mpi4py), and a build of this package for the
+same MPI.
 """
 
 from __future__ import annotations

@@ -110,6 +110,8 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: allpairs.overlaps(BOXES, threads=-(10**5000)), "threads is a large integer; it is at least 0"),
         (lambda: WORLD.first_hits(np.zeros((2, 3)), np.ones((3, 3))), "origins has 2 rows and directions 3"),
         (lambda: WORLD.first_hits([0, 0, 0], [1, 0, 0], [1.0, 2.0]), r"length has shape \(2,\)"),
+        (lambda: WORLD.first_hits([[1, 2], [3]], [1, 0, 0]), "origins is no array"),
+        (lambda: WORLD.first_hits([0, 0, 0], [[1, 2], [3]]), "directions is no array"),
         (lambda: WORLD.overlapping(BOXES, world=allpairs.EVERY_WORLD), "world is 4294967295; it is at most 4294967294"),
         (lambda: allpairs.overlaps([[1, 2], [3]]), "lower is no array"),
         (lambda: allpairs.overlaps_in_worlds([[np.ma.masked_less(BOXES, 2)] * 2]), ".* has masked entries"),
@@ -150,6 +152,11 @@ def test_values_of_another_type_are_named_on_one_line(call, message):
         call()
     assert len(str(caught.value)) < 200
     assert "\n" not in str(caught.value)
+
+
+def test_a_truth_value_of_numpy_counts_as_python_s(recwarn):
+    assert allpairs.overlaps(BOXES, threads=np.True_).tolist() == allpairs.overlaps(BOXES, threads=True).tolist()
+    assert not recwarn.list
 
 
 def test_what_is_no_id_is_in_no_world():

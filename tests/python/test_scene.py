@@ -65,6 +65,8 @@ def test_boxes_of_a_file_live_as_long_as_their_array(tmp_path):
     np.testing.assert_array_equal(boxes, np.arange(12.0).reshape(2, 6))
     with pytest.raises(ValueError):
         boxes[0, 0] = 1
+    np.save(tmp_path / "none.npy", np.empty((0, 6)))
+    assert not allpairs.load(tmp_path / "none.npy").boxes.flags.writeable
 
 
 def test_detect_names_the_pairs():
