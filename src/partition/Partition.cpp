@@ -186,7 +186,8 @@ std::vector<Cell> Partition::cells() const {
   for (std::size_t i = 0; i < m_cuts.size(); ++i) {
     const Cut& cut = m_cuts[i];
     for (const std::int32_t side : {cut.low, cut.high}) {
-      Cell& part = side < 0 ? cells[static_cast<std::size_t>(~side)] : parts[static_cast<std::size_t>(side)];
+      const auto number = static_cast<std::size_t>(side < 0 ? ~side : side);
+      Cell& part = side < 0 ? cells[number] : parts[number];
       part = parts[i];
       narrow(part, cut, side == cut.low);
     }

@@ -128,10 +128,10 @@ TEST_F(SofaSurprises, TheFirstOfTwoTopologiesCountsWhereComponentsSearchThemselv
   EXPECT_THAT(bound(triangle + edge), ElementsAre("/A/C/S 1 [0.5 0.5 -0.5] [1.5 1.5 0.5]"));
   EXPECT_THAT(bound(edge + triangle), ElementsAre("/A/C/S 1 [0.25 0.25 0.25] [1.25 1.25 1.25]"));
   EXPECT_THAT(
-      models("<Node name='A'>" + triangle + edge +
-             "<SubsetTopology name='e' rest_position='@B/t.position' "
-             "box='0 0 0 9 9 9'/><Node name='B'><MeshTopology name='t' " +
-             points + "/></Node><Node name='C'><MechanicalObject " + points +
+      models("<Node name='A'>" + triangle + edge + "<Node name='B'><MeshTopology name='t' " + points +
+             "/></Node><SubsetTopology name='e' rest_position='@B/t.position' box='0 0 0 9 9 9'/>"
+             "<Node name='C'><MechanicalObject " +
+             points +
              "/><MeshTopology triangles='@../e.trianglesInROI'/><TriangleCollisionModel name='T'/></Node></Node>"),
       ElementsAre("/A/C/T 1 [0 0 0] [4 4 0]"));
 }
