@@ -162,7 +162,7 @@ class Cells {
     reaches.width /= static_cast<double>(m_sides.size());
     const auto addAll = [&](const auto& cells) {
       for (const auto& corners : cells) {
-        std::array<Vec3, std::tuple_size_v<std::decay_t<decltype(corners)>>> points;
+        std::array<Vec3, std::tuple_size_v<std::decay_t<decltype(corners)>>> points{};
         std::ranges::transform(corners, points.begin(), [&](auto corner) { return in[corner]; });
         const auto [low, high] = boundsOf(points);
         reaches.boxes.push_back({reaches.placeOf(low), reaches.placeOf(high)});
