@@ -129,7 +129,8 @@ std::string describe(scene::Scene& scene) {
   std::string text = fmt::format("models   {}, with {}\n", grouped(scene.models.size()), counted(elements, "element"));
   text += fmt::format("method   {}\nbox      {}\n\n", methodText(scene), boxText(whole));
   text += tableOf(scene.models.size(), [&scene](std::size_t i) { return scene::modelRecord(scene, i); });
-  text += scene.remarks.empty() ? "\nnothing was ignored\n" : "\nignored\n";
+  if (!scene.remarks.empty()) text += "\nignored\n";
+  if (scene.remarks.empty() && scene.warnings.empty()) text += "\nnothing was ignored\n";
   for (const scene::Remark& remark : scene.remarks) text += remarkText(remark);
   return text + warningsText(scene.warnings);
 }

@@ -267,6 +267,8 @@ void checkIsOneFrame(const std::vector<std::string>& paths) {
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
   if (settings.folder == "-") throw UsageError("-o: a report is a folder, for which '-' is no name");
+  if (settings.failOn == "clash" && settings.view.boxes)
+    throw UsageError("--fail-on clash is of shapes, which --boxes does not test");
   if (settings.failOn == "new" && settings.since.empty()) throw UsageError("--fail-on new compares: add --since");
   if (const double length = settings.metresPerUnit.value_or(1.0); !(length > 0.0) || length > kMostMetres) {
     throw UsageError("--metres-per-unit must be above 0 and at most 1e18");
@@ -278,7 +280,7 @@ void runReport(const ReportSettings& settings) {
   checkIsOneFrame(settings.input.paths);
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
   if (settings.failOn == "clash" && !scene.isExact)
-    throw UsageError("--fail-on clash is of shapes, and none were tested; --fail-on pair is of boxes");
+    throw UsageError("--fail-on clash is of shapes, and none were tested");
   const std::size_t found = writeReport(scene, settings, date, earlier);
   if (settings.open) openInBrowser(std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html"));
   const std::string word = settings.failOn == "new" ? "new row" : settings.failOn == "pair" ? "row" : "row of clashes";

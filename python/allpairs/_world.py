@@ -84,8 +84,8 @@ class World:
     A world can be copied and pickled. The copy has the settings and all boxes, with their ids, bounds and properties. It
     has no last step: its next one lists all pairs among those that began. New boxes may get other ids.
 
-    Calls of several threads wait for each other; the arrays that a call is given must not change before it returns. A world that another thread uses while the process forks is not to be
-    used in the child, where that call never ends.
+    Calls of several threads wait for each other; the arrays that a call is given must not change before it returns. A
+    world that another thread uses while the process forks is not to be used in the child, where that call never ends.
 
     Parameters
     ----------

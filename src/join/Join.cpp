@@ -2,6 +2,7 @@
 #include "allpairs/join/Join.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -35,7 +36,7 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
 
 /// A file that is written beside its place and renamed. It is made when there is something to write, and removed if it
 /// is not complete. Its name is that of its place and a number of the work folder: no other join has it meanwhile, and
-/// one that goes on after a kill writes over what this left.
+/// one that goes on after a kill removes what this left.
 class PartFile {
  public:
   /// Bad input: a place that is taken by what is no file, such as a device, throws FileError.
@@ -54,7 +55,7 @@ class PartFile {
   PartFile& operator=(const PartFile&) = delete;
 
   void write(std::string_view bytes) {
-    if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::Create);
+    if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::CreateAnew);
     m_isThere = true;
     m_file.write(m_position, bytes.data(), bytes.size());
     m_position += bytes.size();
@@ -62,7 +63,7 @@ class PartFile {
 
   void commit() {
     std::error_code problem;
-    if (m_mode) fs::permissions(m_part, *m_mode, problem);
+    if (m_mode && !m_file.setPermissions(*m_mode)) problem.assign(errno, std::generic_category());
     if (!problem) fs::rename(m_part, m_target, problem);
     if (problem) throw FileError(m_target, "cannot be replaced: " + problem.message());
     m_isThere = false;

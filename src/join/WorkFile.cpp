@@ -22,8 +22,13 @@ namespace {
 
 int opened(const std::filesystem::path& path, WorkFile::Mode mode) {
   constexpr mode_t kPermissions = 0666;  // less what the umask takes away
-  const int flags = mode == WorkFile::Mode::Create ? O_RDWR | O_CREAT | O_TRUNC : O_RDWR;
-  return ::open(path.c_str(), flags | O_CLOEXEC, kPermissions);
+  int flags = O_RDWR | O_CLOEXEC;
+  if (mode == WorkFile::Mode::Create) flags |= O_CREAT | O_TRUNC;
+  if (mode == WorkFile::Mode::CreateAnew) {
+    flags |= O_CREAT | O_EXCL;
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
+  }
+  return ::open(path.c_str(), flags, kPermissions);
 }
 
 }  // namespace
@@ -52,6 +57,10 @@ WorkFile& WorkFile::operator=(WorkFile&& other) noexcept {
   std::swap(m_path, other.m_path);
   std::swap(m_descriptor, other.m_descriptor);
   return *this;
+}
+
+bool WorkFile::setPermissions(std::filesystem::perms permissions) const noexcept {
+  return ::fchmod(m_descriptor, static_cast<mode_t>(permissions)) == 0;
 }
 
 void WorkFile::write(std::uint64_t position, const void* bytes, std::size_t count) const {

@@ -14,7 +14,11 @@ namespace allpairs::join {
 /// Threads:   read() and write() from any number of threads, of different parts.
 class WorkFile {
  public:
-  enum class Mode { Create, Open };
+  enum class Mode {
+    Create,
+    CreateAnew,  ///< Removes what is there, which may be a link.
+    Open,
+  };
 
   WorkFile() = default;
   WorkFile(const std::filesystem::path& path, Mode mode);
@@ -32,6 +36,9 @@ class WorkFile {
 
   /// A file that ends before throws FileError.
   void read(std::uint64_t position, void* bytes, std::size_t count) const;
+
+  /// Sets who may read and write it; false where that cannot be.
+  [[nodiscard]] bool setPermissions(std::filesystem::perms permissions) const noexcept;
 
   /// Returns when what was written is on the disk.
   void sync() const;

@@ -77,17 +77,19 @@ std::optional<ExactState> stateNamed(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<double> numberIn(const std::string& cell) {
+/// A depth; none where there is no number, or none that is a depth.
+std::optional<double> depthIn(const std::string& cell) {
   double value = 0.0;
   const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (problem != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+  const bool isDepth = std::isfinite(value) && value >= 0.0;
+  if (problem != std::errc() || end != cell.data() + cell.size() || !isDepth) return std::nullopt;
   return value;
 }
 
 /// What has become of a row that an earlier report has too.
 Change changeOf(const EarlierClash& earlier, const Clash& clash) {
-  if (!earlier.state || clash.exact == nullptr) return Change::Persisting;
-  const bool was = isClash(*earlier.state);
+  if (clash.exact == nullptr) return Change::Persisting;
+  const bool was = earlier.state && isClash(*earlier.state);  // a pair of boxes was none
   const bool is = isClash(clash.exact->state);
   return was == is ? Change::Persisting : is ? Change::New : Change::Resolved;
 }
@@ -128,7 +130,7 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
     if (isResolved || !known.insert(fields[guid]).second) continue;
     EarlierClash& row = rows.emplace_back();
     if (state < head.size()) row.state = stateNamed(fields[state]);
-    if (depth < head.size()) row.depth = numberIn(fields[depth]);
+    if (depth < head.size()) row.depth = depthIn(fields[depth]);
     row.guid = std::move(fields[guid]);
     row.first = nameOf(std::move(fields[1]));
     row.second = nameOf(std::move(fields[2]));

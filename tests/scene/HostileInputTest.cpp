@@ -330,6 +330,11 @@ TEST(ReadMemory, IsWhatTheCallerAllows) {
   EXPECT_EQ(complaint(mesh), "");
   expectHolds(complaint(mesh, {.maxMemory = 1000}),
               "takes more than 1000 bytes of memory to read, which is what --max-memory");
+  const std::string points = repeated("1 2 3 ", 20'000);
+  const fs::path inElement =
+      folder.write("b.scn", sceneOf("<MechanicalObject><Attribute type='position'><Data value='" + points +
+                                    "'/></Attribute></MechanicalObject>"));
+  expectHolds(complaint(inElement, {.maxMemory = 300'000}), "which is what --max-memory");
   const fs::path grid = folder.write("a.scn", sceneOf("<RegularGridTopology n='80 80 80'/>"));
   expectHolds(complaint(grid), "--max-memory allows more");
   EXPECT_EQ(complaint(grid, {.maxMemory = 4ULL << 30}), "");

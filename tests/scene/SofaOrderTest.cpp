@@ -27,6 +27,20 @@ TEST_F(SofaOrder, ModelsOfPointsLinesAndTrianglesBeforeTheirStateAreNotMade) {
                   "/A/p: it needs MechanicalObject 'm' (/A/m), which " + late);
 }
 
+TEST_F(SofaOrder, OfAStateThatIsCopiedAgainAndWhoseTopologyComesLaterNothingIsBoundAtRest) {
+  // Written past the rest positions of a state that had none.
+  for (const SofaVersion sofa : kBoth)
+    EXPECT_NE(answer("<Node name='R'><MechanicalObject template='Rigid3d' position='1 2 3 0 0 0 1'/>"
+                     "<Node name='M'><MechanicalObject name='m' position='0 0 0'/><RigidMapping/></Node></Node>"
+                     "<Node name='A'><MechanicalObject name='p' position='@../R/M/m.position'/>"
+                     "<MeshTopology position='0 0 0' triangles='0 0 0'/>"
+                     "<Node name='C'><MechanicalObject position='0 0 0 1 1 1'/>"
+                     "<BarycentricMapping useRestPosition='1'/><PointCollisionModel name='q'/></Node></Node>",
+                     sofa)
+                  .find("/A/C/q "),
+              std::string::npos);
+}
+
 TEST_F(SofaOrder, AModelIsMadeIfAStateOfPointsAboveComesFirst) {
   const auto scene = [](const std::string& above) {
     return "<Node name='A'>" + above +

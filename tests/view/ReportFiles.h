@@ -17,6 +17,11 @@ namespace allpairs::test {
 
 namespace fs = std::filesystem;
 
+inline const std::string kDemoScene = ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn";
+
+/// The vertices and the face of a triangle in an OBJ file, which may have more before.
+inline const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -3 -2 -1\n";
+
 /// All files of a zip archive by their names.
 inline std::map<std::string, std::string> filesOf(const fs::path& path) {
   std::map<std::string, std::string> files;

@@ -114,9 +114,9 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
 
 /// The same into a file, which appears when it is complete, beside which it is written; options.commit and
-/// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", in whose place a
-/// join that is resumed writes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target is replaced; permissions
-/// stay. One that is there and is no file, or is one of the inputs, throws FileError.
+/// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", which a join that is
+/// resumed removes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target is
+/// replaced; permissions stay. One that is there and is no file, or is one of the inputs, throws FileError.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 

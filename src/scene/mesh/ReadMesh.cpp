@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -99,20 +100,24 @@ class MeshSearch {
   void look(const fs::path& folder) {
     checkStop(m_options.stop);
     const std::vector<fs::path> entries = sortedEntries(folder);
-    for (const fs::path& entry : entries) take(entry, entries);
+    std::set<std::string> meshes;  // by name, without extension
+    for (const fs::path& entry : entries) {
+      if (isMeshFile(entry)) meshes.insert(entry.stem().string());
+    }
+    for (const fs::path& entry : entries) take(entry, meshes);
   }
 
   [[nodiscard]] const std::vector<fs::path>& meshes() const { return m_meshes; }
   [[nodiscard]] bool hasPassedOverFolders() const { return m_hasPassedOverFolders; }
 
  private:
-  void take(const fs::path& entry, const std::vector<fs::path>& siblings) {
+  void take(const fs::path& entry, const std::set<std::string>& meshes) {
     std::error_code ignored;
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
       takeFolder(entry);
     } else if (!isSpecial && isCadFile(entry)) {
-      takeCad(entry, siblings);
+      takeCad(entry, meshes);
     } else if (isSpecial || !isMeshFile(entry)) {
       remarkOn(entry, isSpecial ? "is not a regular file" : "is no mesh file by its extension");
     } else {
@@ -121,9 +126,8 @@ class MeshSearch {
   }
 
   /// A part that cannot be read, unless it is there as a mesh too: leaving it out without a word would hide its clashes.
-  void takeCad(const fs::path& entry, const std::vector<fs::path>& siblings) {
-    const auto isItsMesh = [&](const fs::path& other) { return other.stem() == entry.stem() && isMeshFile(other); };
-    if (std::any_of(siblings.begin(), siblings.end(), isItsMesh))
+  void takeCad(const fs::path& entry, const std::set<std::string>& meshes) {
+    if (meshes.contains(entry.stem().string()))
       return remarkOn(entry, "is a CAD file beside a mesh of the same name, which is taken");
     if (!m_options.partial) throw FileError(entry, std::string(kIsCad) + "; --partial leaves it out");
     m_remarks.push_back(remarkOfMissing(entry, FileError(entry, kIsCad)));

@@ -256,6 +256,7 @@ void checkPointCount(const Component& mapping, Topology& topology, std::size_t p
 std::vector<Vec3> throughCells(const Cells& cells, const State& in, const State& child, bool boundAtRest) {
   if (cells.onlyTetrahedra() && !boundAtRest) return child.positions;
   if (cells.empty()) return {};
+  if (boundAtRest && in.rest.size() < in.positions.size()) return {};  // no cell is at rest anywhere
   std::vector<Vec3> result;
   for (const auto& at : cells.locate(boundAtRest ? child.rest : child.positions, boundAtRest ? in.rest : in.positions))
     result.push_back(cells.interpolate(at, in.positions));

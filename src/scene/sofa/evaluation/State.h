@@ -48,6 +48,8 @@ struct State {
   std::optional<AffineMap> fromTopology;
   /// That topology is a sparse grid: how it is moved is known, where its points are isn't.
   bool pointsUnknown = false;
+  /// A mapping writes it once all states are placed, or one that its position links to.
+  bool isWrittenAgain = false;
 
   /// How many numbers an entry has: a point's, and of a frame those of its turn too.
   [[nodiscard]] std::size_t width() const { return kind == Kind::Rigid ? 7 : 3; }

@@ -151,17 +151,11 @@ const Component* linkedState(const Component& state) {
   return isPosition || !state.attributes.has("position") ? from : nullptr;
 }
 
-/// Whether mappings write a state again once all states are placed, or one that its position links to.
-bool isWrittenAgain(const Evaluation& evaluation, const Component& state) {
-  if (evaluation.mappingOf(state) != nullptr) return true;
-  const auto* from = linkedState(state);
-  return from != nullptr && isWrittenAgain(evaluation, *from);
-}
-
 /// SOFA copies a linked position again when what it links to is written again.
 void copyAgain(Evaluation& evaluation, const Component& component, const Numbers& given, State& state) {
   const auto placed = state;
   state.setPositions(given);
+  if (state.rest.size() != state.positions.size()) state.rest = state.positions;
   state.fromTopology.reset();
   if (state.positions != placed.positions || state.orientations != placed.orientations)
     evaluation.warn(component,
@@ -265,8 +259,11 @@ State initialState(Evaluation& evaluation, const Component& component) {
 
   if (motion) state.fromTopology = motion->map;
   place(evaluation, component, state);
-  if (given && evaluation.mappingOf(component) == nullptr && isWrittenAgain(evaluation, component))
-    copyAgain(evaluation, component, *given, state);
+  const bool isMapped = evaluation.mappingOf(component) != nullptr;
+  const auto* const from = given ? linkedState(component) : nullptr;  // whose positions are given
+  const bool isOfMapped = from != nullptr && evaluation.state(*from).isWrittenAgain;
+  if (isOfMapped && !isMapped) copyAgain(evaluation, component, *given, state);
+  state.isWrittenAgain = isMapped || isOfMapped;
   return state;
 }
 

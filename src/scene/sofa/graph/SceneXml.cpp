@@ -200,11 +200,12 @@ class ElementReader {
   }
 
   /// <Attribute type="radius"><Data value="3"/></Attribute>; the last of several counts.
-  static void addAttributeElements(const pugi::xml_node& xml, Element& element) {
+  void addAttributeElements(const pugi::xml_node& xml, Element& element) {
     for (const auto& child : xml.children("Attribute")) {
       std::string value;
       for (const auto& data : child.children("Data")) value = data.attribute("value").value();
       const std::string_view name = child.attribute("type").value();
+      m_scope.take(kBytesPerValue + 2 * value.size());
       if (name == "name")
         element.name = value;
       else

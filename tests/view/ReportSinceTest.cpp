@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Reports that are compared with earlier ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <pugixml.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ReportFiles.h"
+#include "app/Expect.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+/// GUIDs of a report by the names of their two models, in order.
+std::map<std::string, std::string> guidsByNames(const fs::path& report) {
+  std::map<std::string, std::string> guids;
+  for (const std::string& line : tableOf(report)) {
+    std::istringstream text(line);
+    std::string number;
+    Names names(2);
+    std::getline(text, number, ',');
+    for (std::string& name : names) std::getline(text, name, ',');
+    std::sort(names.begin(), names.end());
+    guids[names[0] + ' ' + names[1]] = lastCell(line);
+  }
+  return guids;
+}
+
+TEST(ReportSince, GuidsStayWhenTheFolderMovesAndOtherPartsCome) {
+  const TempFolder folder;
+  for (const char* name : {"b", "c"})
+    folder.write("here/" + std::string(name) + ".obj", "o " + std::string(name) + '\n' + kTriangle);
+  expectSuccess(runProgram({"report", folder.path() / "here", "--boxes", "-o", folder.path() / "one"}));
+  fs::create_directory(folder.path() / "there");
+  fs::rename(folder.path() / "here", folder.path() / "there/new");
+  folder.write("there/new/a.obj", "o b\n" + kTriangle);  // now b is no name of one part alone
+  expectSuccess(runProgram({"report", folder.path() / "there/new", "--boxes", "-o", folder.path() / "two"}));
+  const auto one = guidsByNames(folder.path() / "one");
+  const auto two = guidsByNames(folder.path() / "two");
+  ASSERT_EQ(one.size(), 1U);
+  ASSERT_EQ(two.size(), 3U);
+  EXPECT_EQ(one.at("b c"), two.at("b.obj › b c"));
+}
+
+TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
+  const TempFolder folder;
+  const auto part = [&](const std::string& name, const std::string& text) {
+    folder.write("parts/" + name + ".obj", "o " + name + '\n' + text);
+  };
+  const std::string away = "v 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n";
+  part("a", kTriangle);
+  part("=b", kTriangle);
+  part("c", away);
+  const fs::path out = folder.path() / "out";
+  const std::string parts = folder.path() / "parts";
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", out}));
+  part("c", kTriangle);  // c comes in, and =b goes
+  part("=b", away);
+  part("d", away);
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", out, "--since", out}));
+  std::map<std::string, std::string> states;
+  for (const std::string& line : tableOf(out)) {
+    Names cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 9U) << line;
+    states[cells[1] + ' ' + cells[2]] = cells[7] + ' ' + (cells[0].empty() ? "-" : cells[0]);
+  }
+  // Before: a with =b. Now: a with c, and d with =b.
+  EXPECT_EQ(states,
+            (std::map<std::string, std::string>{{"c a", "new 1"}, {"d '=b", "new 2"}, {"a '=b", "resolved -"}}));
+  EXPECT_NE(readBytes(out / "index.html").find(": 2 new, 0 persisting, 1 resolved.</p>"), std::string::npos);
+  Names topics;
+  for (const auto& [name, bytes] : filesOf(out / "clashes.bcf")) {
+    if (!name.ends_with("markup.bcf")) continue;
+    const pugi::xml_document document = parse(bytes);
+    const pugi::xml_node topic = document.child("Markup").child("Topic");
+    topics.push_back(std::string(topic.child_value("Title")) + ' ' + topic.child_value("Labels") + ' ' +
+                     topic.attribute("TopicStatus").value());
+  }
+  std::sort(topics.begin(), topics.end());
+  EXPECT_EQ(topics, (Names{"a and =b resolved Closed", "c and a new Open", "d and =b new Open"}));
+  // The same again: nothing is new, and what was resolved before is not resolved again.
+  expectSuccess(
+      runProgram({"report", parts, "--boxes", "-o", folder.path() / "again", "--since", out / "clashes.csv"}));
+  const std::string nothingNew = ": 0 new, 2 persisting, 0 resolved.</p>";
+  EXPECT_NE(readBytes(folder.path() / "again/index.html").find(nothingNew), std::string::npos);
+  // A spreadsheet ends lines in another way.
+  const std::string table = std::regex_replace(readBytes(out / "clashes.csv"), std::regex("\n"), "\r\n");
+  const std::string saved = folder.write("saved.csv", table);
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", folder.path() / "again", "--since", saved}));
+  EXPECT_NE(readBytes(folder.path() / "again/index.html").find(nothingNew), std::string::npos);
+}
+
+TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
+  const TempFolder folder;
+  const auto write = [&](double lid, double d, double f) {
+    std::string text;
+    const auto add = [&text](const std::string& name, double x) {
+      text += name + ',' + std::to_string(x) + ",0,0," + std::to_string(x + 1.0) + ",1,1\n";
+    };
+    const std::vector<std::pair<std::string, double>> boxes{{"a", 0.0},  {"lid", lid}, {"c", 10.0}, {"d", d},
+                                                            {"e", 20.0}, {"f", f},     {"g", 30.0}, {"h", 30.75}};
+    for (const auto& [name, x] : boxes) add(name, x);
+    return folder.write("boxes.csv", text);
+  };
+  const fs::path out = folder.path() / "out";
+  expectSuccess(runProgram({"report", write(1.0, 10.75, 20.75), "--exact", "-o", out}));
+  expectSuccess(runProgram({"report", write(0.5, 11.0, 20.5), "--exact", "-o", out, "--since", out}));
+  std::map<std::string, std::string> changes;
+  for (const std::string& line : tableOf(out)) {
+    Names cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    changes[cells[1] + ' ' + cells[2]] = cells[3] + ' ' + cells[cells.size() - 2];
+  }
+  EXPECT_EQ(changes, (std::map<std::string, std::string>{{"lid a", "clash new"},
+                                                         {"d c", "touching resolved"},
+                                                         {"f e", "clash persisting"},
+                                                         {"h g", "clash persisting"}}));
+  const auto statusOf = [&](const std::string& what, const fs::path& earlier) {
+    const ProgramRun run = runProgram({"report", folder.path() / "boxes.csv", "--exact", "-o", folder.path() / "again",
+                                       "--since", earlier, "--fail-on", what});
+    return std::to_string(run.status) + run.err.substr(0, run.err.find('\n'));
+  };
+  EXPECT_EQ(statusOf("new", out), "0");  // out is what is there now
+  EXPECT_EQ(statusOf("clash", out), "4allpairs: --fail-on: found 3 rows of clashes");
+  EXPECT_EQ(statusOf("pair", out), "4allpairs: --fail-on: found 4 rows");
+  expectFailure(runProgram({"report", folder.path(), "-o", out, "--fail-on", "new"}), 2, "add --since");
+  // A report of boxes had no clashes, and one of unknown states may have had none.
+  const fs::path ofBoxes = folder.path() / "boxes";
+  expectSuccess(runProgram({"report", folder.path() / "boxes.csv", "--boxes", "-o", ofBoxes}));
+  EXPECT_EQ(statusOf("new", ofBoxes), "4allpairs: --fail-on: found 3 new rows");
+  const std::string page = readBytes(out / "index.html");
+  EXPECT_NE(page.find(": 1 new, 2 persisting, 1 resolved.</p>"), std::string::npos);
+  std::map<std::string, std::string> topics;
+  for (const auto& [name, bytes] : filesOf(out / "clashes.bcf")) {
+    if (!name.ends_with("markup.bcf")) continue;
+    const pugi::xml_document document = parse(bytes);
+    const pugi::xml_node topic = document.child("Markup").child("Topic");
+    const std::string words = topic.child_value("Description");
+    const std::size_t before = words.find(" Before: ");
+    topics[topic.child_value("Title")] = std::string(topic.attribute("TopicType").value()) + ' ' +
+                                         topic.attribute("TopicStatus").value() +
+                                         (before == std::string::npos ? "" : words.substr(before));
+    if (before != std::string::npos) {
+      EXPECT_NE(page.find(words.substr(before)), std::string::npos) << words;
+    }
+  }
+  EXPECT_EQ(topics, (std::map<std::string, std::string>{{"lid and a", "Clash Open Before: touching."},
+                                                        {"d and c", "Contact Closed Before: clash, 0.25 deep."},
+                                                        {"f and e", "Clash Open Before: clash, 0.25 deep."},
+                                                        {"h and g", "Clash Open"}}));
+}
+
+TEST(ReportSince, FilesOfOneNameAreKnownByTheirFolders) {
+  const TempFolder folder;
+  for (const char* name : {"left/bolt.obj", "right/bolt.obj", "base/plate.obj"}) {
+    folder.write(name, kTriangle);
+  }
+  // The GUID of each pair, which is known by the one that it is without.
+  const auto guids = [&](const Names& folders, const char* out) {
+    Names words{"report", "--boxes", "-o", folder.path() / out};
+    for (const std::string& name : folders) words.push_back(folder.path() / name);
+    expectSuccess(runProgram(words));
+    std::map<std::string, std::string> found;
+    for (const auto& [names, guid] : guidsByNames(folder.path() / out)) {
+      for (const char* name : {"left", "right", "plate"}) {
+        if (names.find(name) == std::string::npos) found[name] = guid;
+      }
+    }
+    return found;
+  };
+  const std::map<std::string, std::string> before = guids({"left", "right", "base"}, "before");
+  ASSERT_EQ(before.size(), 3U);
+  EXPECT_EQ(guids({"right", "base", "left"}, "turned"), before) << "whatever their order";
+  // Where there is one of the name it may be either: what is found is new.
+  const std::map<std::string, std::string> after = guids({"right", "base"}, "after");
+  ASSERT_EQ(after.size(), 2U) << "without one of the name, and so without its folder";
+  for (const auto& [name, guid] : before) EXPECT_NE(after.at("left"), guid) << name;
+}
+
+TEST(ReportSince, SaysWhatIsNoReport) {
+  const TempFolder folder;
+  const std::string out = folder.path() / "out";
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path()}), 3,
+                "holds no report to compare with");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", ""}), 2, "--since: the name is empty");
+  fs::create_directories(folder.path() / "odd/clashes.csv");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path() / "odd"}), 3,
+                "odd/clashes.csv: is a folder, not a file");
+  if (::geteuid() != 0) {
+    const std::string locked = folder.write("locked.csv", "");
+    fs::permissions(locked, fs::perms::none);
+    expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", locked}), 3,
+                  "locked.csv: cannot be opened: Permission denied");
+  }
+  const std::string table = folder.write("other.csv", "a,b\n1,2\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", table}), 3,
+                "other.csv: is no table of a report");
+  const std::string hostile =
+      folder.write("hostile.csv", "number,first,second,guid\n1,a,b,../../../../../../../../../../../../\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", hostile}), 3, "a line has other columns");
+  const std::string cut = folder.write("cut.csv", "number,first,second,guid\n1,a\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", cut}), 3, "a line has other columns");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+}  // namespace
+}  // namespace allpairs::test
