@@ -9,7 +9,6 @@ using scene::SofaVersion;
 /// SOFA makes and starts components in an order, and what comes later is not there for what comes first.
 class SofaOrder : public SofaAnswers {};
 
-constexpr SofaVersion kBoth[] = {SofaVersion::Sofa2006, SofaVersion::Sofa2612};
 constexpr const char* kBall = "<Node name='B'><MechanicalObject name='m'/><SphereCollisionModel name='s'/></Node>";
 constexpr const char* kBallAtZero = "/B/s 1 [-1 -1 -1] [1 1 1]\n";
 

@@ -21,7 +21,6 @@ class SofaRefusals : public SofaAnswers {
   }
 };
 
-constexpr SofaVersion kBoth[] = {SofaVersion::Sofa2006, SofaVersion::Sofa2612};
 constexpr const char* kHexa = "HexahedronSetTopologyContainer";
 const std::string kEmpty = "/A/Q/t 0\n/A/Q/map: SOFA refuses it, and it is left out: ";
 const std::string kNoElements = "/A/Q/t: it has no elements, and is in no pair\n";

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "SceneText.h"
-#include "allpairs/collision/BruteForceBroadPhase.h"
-#include "allpairs/scene/FileError.h"
-#include "allpairs/scene/ReadSofaScene.h"
-#include "support/TempFolder.h"
+#include "SofaAnswer.h"
 
 namespace allpairs::test {
 namespace {
@@ -21,66 +15,27 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Scenes that SOFA reads otherwise than one would think.
-class SofaSurprises : public testing::Test {
+class SofaSurprises : public SofaAnswers {
  protected:
-  struct Answer {
-    std::vector<std::string> models;  ///< "/A/S 1 [0 0 0] [1 1 1]": name, number of elements, and box if it has any.
-    std::string pairs;                ///< "/B/S-/A/S": the names of the two.
-    std::vector<std::string> warnings;
-  };
-
-  [[nodiscard]] Answer answer(const std::string& body, scene::SofaVersion sofa = scene::SofaVersion::Sofa2612) const {
-    const auto path =
-        m_folder.write("scene.scn", "<Node name='root'><CollisionPipeline/>" + m_method + body + "</Node>");
-    scene::Scene scene = scene::readSofaScene(path, {.sofa = sofa});
-    Answer result;
-    collision::BruteForceBroadPhase broadPhase;
-    broadPhase.setIntersectionMethod(scene.intersection.get());
-    broadPhase.init();
-    broadPhase.beginBroadPhase();
-    for (const auto& model : scene.models) {
-      result.models.push_back(textOf(*model));
-      broadPhase.addCollisionModel(model->getFirst());
-    }
-    broadPhase.endBroadPhase();
-    for (const auto& [first, second] : broadPhase.getCollisionModelPairs())
-      result.pairs +=
-          (result.pairs.empty() ? "" : " ") + first->getLast()->getName() + '-' + second->getLast()->getName();
-    for (const scene::Remark& remark : scene.warnings) result.warnings.push_back(remark.subject + ": " + remark.reason);
-    return result;
-  }
-
-  /// Minus zero is written as zero.
-  static std::string textOf(collision::CollisionModel& model) {
-    std::ostringstream text;
-    text << model.getName() << ' ' << model.getSize();
-    if (model.getSize() == 0) return text.str();
-    const auto [min, max] = boxOf(model);
-    text << " [" << min[0] + 0.0 << ' ' << min[1] + 0.0 << ' ' << min[2] + 0.0 << "] [" << max[0] + 0.0 << ' '
-         << max[1] + 0.0 << ' ' << max[2] + 0.0 << ']';
-    return text.str();
-  }
+  SofaSurprises() { m_method = "<MinProximityIntersection alarmDistance='0' contactDistance='0'/>"; }
 
   /// The models of a scene in which nothing overlaps and of which nothing is to be said.
   [[nodiscard]] std::vector<std::string> models(const std::string& body,
                                                 scene::SofaVersion sofa = scene::SofaVersion::Sofa2612) const {
-    const Answer result = answer(body, sofa);
-    EXPECT_EQ(result.pairs, "");
+    const SofaAnswer result = partsOfAnswer(body, sofa);
+    EXPECT_THAT(result.pairs, IsEmpty());
     EXPECT_THAT(result.warnings, IsEmpty());
     return result.models;
   }
 
   [[nodiscard]] std::string complaint(const std::string& body) const {
     try {
-      (void)answer(body);
+      (void)partsOfAnswer(body);
     } catch (const FileError& problem) {
       return problem.what();
     }
     return "read";
   }
-
-  TempFolder m_folder;
-  std::string m_method = "<MinProximityIntersection alarmDistance='0' contactDistance='0'/>";
 };
 
 constexpr auto kOld = scene::SofaVersion::Sofa2006;
@@ -108,11 +63,12 @@ TEST_F(SofaSurprises, PointsInABentCellOfAContainerMoveAsInOneOfAMesh) {
 
 TEST_F(SofaSurprises, AFlatGridBindsNothing) {
   for (const auto sofa : {kOld, kNew}) {
-    const Answer flat = answer("<Node name='A'><RegularGridTopology n='5 5 1' max='4 4 0'/><MechanicalObject/>" +
-                                   boundBall("1 1 5") + "</Node>" + ball("B", "1 1 5"),
-                               sofa);
+    const SofaAnswer flat =
+        partsOfAnswer("<Node name='A'><RegularGridTopology n='5 5 1' max='4 4 0'/><MechanicalObject/>" +
+                          boundBall("1 1 5") + "</Node>" + ball("B", "1 1 5"),
+                      sofa);
     EXPECT_THAT(flat.models, ElementsAre("/A/C/S 1 [0.5 0.5 4.5] [1.5 1.5 5.5]", "/B/S 1 [0.5 0.5 4.5] [1.5 1.5 5.5]"));
-    EXPECT_EQ(flat.pairs, "/B/S-/A/C/S");
+    EXPECT_THAT(flat.pairs, ElementsAre("/B/S - /A/C/S"));
     EXPECT_THAT(flat.warnings, ElementsAre(HasSubstr("the grid of its input is no volume, and it moves nothing")));
   }
 }
@@ -194,7 +150,7 @@ TEST_F(SofaSurprises, TetrahedraThatLackAnEdgeOfTheirsGetAllOfThem) {
 }
 
 TEST_F(SofaSurprises, StatesThatAreReadFromAFileAreNamed) {
-  const Answer read = answer(ball("A", "0 0 0", "<ReadState filename='a.state'/>"));
+  const SofaAnswer read = partsOfAnswer(ball("A", "0 0 0", "<ReadState filename='a.state'/>"));
   EXPECT_THAT(read.models, ElementsAre("/A/S 1 [-0.5 -0.5 -0.5] [0.5 0.5 0.5]"));
   EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("SOFA may move points by it before it detects anything")));
 }
@@ -218,10 +174,10 @@ TEST_F(SofaSurprises, TheScaleOfALoaderOfSpheresIsAlsoThatOfTheStateThatTakesIts
 
 TEST_F(SofaSurprises, TheDiscreteMethodHasNoAlarmDistance) {
   m_method = "<DiscreteIntersection name='d' alarmDistance='5'/>";
-  const Answer apart = answer(ball("A", "0 0 0") + ball("B", "4 0 0"));
+  const SofaAnswer apart = partsOfAnswer(ball("A", "0 0 0") + ball("B", "4 0 0"));
   EXPECT_THAT(apart.models,
               ElementsAre("/A/S 1 [-0.5 -0.5 -0.5] [0.5 0.5 0.5]", "/B/S 1 [3.5 -0.5 -0.5] [4.5 0.5 0.5]"));
-  EXPECT_EQ(apart.pairs, "");
+  EXPECT_THAT(apart.pairs, IsEmpty());
   EXPECT_THAT(apart.warnings, ElementsAre(HasSubstr("d: its alarmDistance is not read, as in SOFA")));
 }
 
@@ -246,16 +202,16 @@ TEST_F(SofaSurprises, GroupsAreRangesOrTheIntegersThatWordsStartWith) {
       return "<Node name='" + node + "'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='S' group='" +
              numbers + "'/></Node>";
     };
-    return answer(inGroup("A", group) + inGroup("B", other));
+    return partsOfAnswer(inGroup("A", group) + inGroup("B", other));
   };
-  for (const char* other : {"1", "2", "3"}) EXPECT_EQ(pairs("3-1", other).pairs, "") << other;
-  EXPECT_EQ(pairs("3-1", "4").pairs, "/B/S-/A/S");
-  EXPECT_EQ(pairs("0-4-2", "3").pairs, "/B/S-/A/S");
-  EXPECT_EQ(pairs("0-4-2", "4").pairs, "");
+  for (const char* other : {"1", "2", "3"}) EXPECT_THAT(pairs("3-1", other).pairs, IsEmpty()) << other;
+  EXPECT_THAT(pairs("3-1", "4").pairs, ElementsAre("/B/S - /A/S"));
+  EXPECT_THAT(pairs("0-4-2", "3").pairs, ElementsAre("/B/S - /A/S"));
+  EXPECT_THAT(pairs("0-4-2", "4").pairs, IsEmpty());
   for (const char* word : {"1,2", "1.9", "1e1"}) {
-    EXPECT_EQ(pairs(word, "1").pairs, "") << word;
-    const Answer outside = pairs(word, "2");
-    EXPECT_EQ(outside.pairs, "/B/S-/A/S") << word;
+    EXPECT_THAT(pairs(word, "1").pairs, IsEmpty()) << word;
+    const SofaAnswer outside = pairs(word, "2");
+    EXPECT_THAT(outside.pairs, ElementsAre("/B/S - /A/S")) << word;
     EXPECT_THAT(outside.warnings, ElementsAre(HasSubstr("only the integer that it starts with is read, as in SOFA")));
   }
 }
@@ -266,8 +222,8 @@ TEST_F(SofaSurprises, MappingsThatSofaDoesNotHaveMoveNothing) {
   const std::string point = "<MechanicalObject name='o' position='0 0 0'/>";
   const std::string frame = "<MechanicalObject name='o' template='Rigid3' position='0 0 0 0 0 0 1'/>";
   const auto mapped = [&](const std::string& from, const std::string& to, const std::string& mapping) {
-    return answer("<Node name='A'>" + from + "<Node name='C'>" + to + "<" + mapping +
-                  "/><SphereCollisionModel name='S' radius='0.5'/></Node></Node>");
+    return partsOfAnswer("<Node name='A'>" + from + "<Node name='C'>" + to + "<" + mapping +
+                         "/><SphereCollisionModel name='S' radius='0.5'/></Node></Node>");
   };
   const auto stays = ElementsAre("/A/C/S 1 [-0.5 -0.5 -0.5] [0.5 0.5 0.5]");
   const auto moves = ElementsAre("/A/C/S 1 [4.5 -0.5 -0.5] [5.5 0.5 0.5]");
@@ -275,7 +231,7 @@ TEST_F(SofaSurprises, MappingsThatSofaDoesNotHaveMoveNothing) {
   for (const std::string& mapping : {std::string("IdentityMapping"), std::string("SubsetMapping indices='0'"),
                                      "IdentityMultiMapping" + multi, "SubsetMultiMapping indexPairs='0 0'" + multi}) {
     const bool dropsTurns = mapping == "IdentityMapping" || mapping.starts_with("SubsetMulti");
-    const Answer toFrames = mapped(points, frame, mapping), toPoints = mapped(frames, point, mapping);
+    const SofaAnswer toFrames = mapped(points, frame, mapping), toPoints = mapped(frames, point, mapping);
     EXPECT_THAT(toFrames.models, stays) << mapping;
     EXPECT_THAT(toFrames.warnings, ElementsAre(HasSubstr("SOFA has no such mapping from points to frames")));
     EXPECT_THAT(mapped(points, point, mapping).models, moves) << mapping;
@@ -307,16 +263,17 @@ TEST_F(SofaSurprises, NamesAreReadAsSofaSpellsThem) {
 
 TEST_F(SofaSurprises, NewerRigidMappingsDoNotReadRepartition) {
   const auto carried = [&](const std::string& name, scene::SofaVersion sofa) {
-    return answer("<Node name='A'><MechanicalObject template='Rigid3' position='5 0 0 0 0 0 1 50 0 0 0 0 0 1'/>" +
-                      ball("C", "0 0 0 1 0 0", "<RigidMapping " + name + "='1 1'/>") + "</Node>",
-                  sofa);
+    return partsOfAnswer(
+        "<Node name='A'><MechanicalObject template='Rigid3' position='5 0 0 0 0 0 1 50 0 0 0 0 0 1'/>" +
+            ball("C", "0 0 0 1 0 0", "<RigidMapping " + name + "='1 1'/>") + "</Node>",
+        sofa);
   };
   const auto byOne = ElementsAre("/A/C/S 2 [4.5 -0.5 -0.5] [6.5 0.5 0.5]");
   const auto byBoth = ElementsAre("/A/C/S 2 [4.5 -0.5 -0.5] [51.5 0.5 0.5]");
   EXPECT_THAT(carried("repartition", kOld).models, byBoth);
   EXPECT_THAT(carried("d_repartition", kOld).models, byOne);
   EXPECT_THAT(carried("d_repartition", kNew).models, byBoth);
-  const Answer unread = carried("repartition", kNew);
+  const SofaAnswer unread = carried("repartition", kNew);
   EXPECT_THAT(unread.models, byOne);
   EXPECT_THAT(unread.warnings, ElementsAre(HasSubstr("its repartition is not read, as in SOFA since 25.06")));
 }
@@ -332,17 +289,17 @@ TEST_F(SofaSurprises, TopologiesReadTwoKindsOfFiles) {
   m_folder.write("t.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   m_folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const auto triangles = [&](const std::string& file) {
-    return answer("<Node name='A'><MeshTopology name='m' filename='" + file +
-                  "'/><MechanicalObject/><PointCollisionModel name='P'/></Node>");
+    return partsOfAnswer("<Node name='A'><MeshTopology name='m' filename='" + file +
+                         "'/><MechanicalObject/><PointCollisionModel name='P'/></Node>");
   };
   EXPECT_THAT(triangles("t.obj").models, ElementsAre("/A/P 3 [0 0 0] [1 1 0]"));
-  const Answer unread = triangles("t.off");
+  const SofaAnswer unread = triangles("t.off");
   EXPECT_THAT(unread.models, ElementsAre("/A/P 1 [0 0 0] [0 0 0]"));
   EXPECT_THAT(unread.warnings, ElementsAre(HasSubstr("/A/m: a topology reads files .obj and .msh alone")));
 }
 
 TEST_F(SofaSurprises, LinksWithoutADataAreNotRead) {
-  const Answer unread = answer(
+  const SofaAnswer unread = partsOfAnswer(
       "<Node name='A'><MeshTopology name='t' position='3 0 0 4 0 0'/><Node name='C'>"
       "<MechanicalObject position='@../t'/><SphereCollisionModel name='S'/></Node></Node>");
   EXPECT_THAT(unread.models, ElementsAre("/A/C/S 1 [-1 -1 -1] [1 1 1]"));
@@ -351,7 +308,7 @@ TEST_F(SofaSurprises, LinksWithoutADataAreNotRead) {
 }
 
 TEST_F(SofaSurprises, ASizeBesideTheLinkToATopologysPointsIsNamed) {
-  const Answer sized = answer(
+  const SofaAnswer sized = partsOfAnswer(
       "<Node name='A'><MeshTopology name='t' position='0 0 0 1 0 0 2 0 0'/>"
       "<MechanicalObject position='@t.position' size='2'/><PointCollisionModel name='P'/></Node>");
   EXPECT_THAT(sized.models, ElementsAre("/A/P 3 [0 0 0] [2 0 0]"));
