@@ -151,7 +151,7 @@ void addExact(const scene::Scene& from, const ViewRequest& request, view::ViewSc
   for (ExactPair& pair : report.pairs) pair.first = pair.second = nullptr;  // which end with the scene that was read
   to.isExact = true;
   if (to.method == "boxes") to.method = "shapes";
-  if (leastDepth > 0.0) to.method += fmt::format(", clashes deeper than {}", leastDepth);
+  if (leastDepth > 0.0) to.method += fmt::format("; clashes are deeper than {}", leastDepth);
   to.exact = std::move(report.pairs);
   to.exactSeconds = report.seconds;
   to.clearance = clearance;

@@ -124,8 +124,8 @@ std::string worstOf(const ViewScene& scene, std::span<const Clash> clashes) {
 
 /// What was left out, and of what.
 std::string scopeOf(const ViewScene& scene, std::size_t candidates) {
-  const std::string method =
-      scene.method == "boxes" || scene.method == "shapes" ? "" : ' ' + escapeHtml(scene.method) + '.';
+  std::string method = scene.method == "boxes" || scene.method == "shapes" ? "" : ' ' + escapeHtml(scene.method) + '.';
+  if (method.starts_with(" shapes")) method[1] = 'S';
   std::string text = fmt::format("<p>{}, {} by their boxes.{}", counted(scene.modelCount, "model"),
                                  counted(candidates, "candidate"), method);
   if (!scene.bodies.empty()) text += " Pairs that belong together are one row: the worst of them.";
