@@ -9,6 +9,7 @@
 #include "cli/ExitStatus.h"
 
 namespace allpairs::app {
+
 void refuseTerminal(const Output& output) {
   if (!output.isTerminal()) return;
   throw UsageError("--format npy is binary and is not written to a terminal: use -o FILE, or redirect the output");

@@ -33,15 +33,19 @@ std::string countedBoxes(std::uint64_t first, std::uint64_t second) {
 
 std::string printable(const std::string& text) { return escapedControls(text); }
 
+std::string betweenQuotes(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result;
+}
+
 std::string shellWord(const std::string& text) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=@%+";
   const auto isPlain = [&kPlain](char c) {
     return static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;
   };
   if (!text.empty() && std::all_of(text.begin(), text.end(), isPlain)) return text;
-  std::string word = "'";
-  for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
-  return word + '\'';
+  return '\'' + betweenQuotes(text) + '\'';
 }
 
 std::string coordinateText(double value) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "allpairs/Box.h"
 
@@ -20,7 +21,10 @@ namespace allpairs::app {
 /// The text with its control characters written as \x1b, so that a terminal shows them and does not obey them.
 [[nodiscard]] std::string printable(const std::string& text);
 
-/// The text as a shell reads it as one word: in quotes where it has spaces and the like.
+/// The text as it has to stand between single quotes in a shell of Bourne's kind.
+[[nodiscard]] std::string betweenQuotes(std::string_view text);
+
+/// The text as one word of a shell's command line: quoted where it contains spaces or other special characters.
 [[nodiscard]] std::string shellWord(const std::string& text);
 
 /// A coordinate with six digits, or with as many as it takes to tell hundredths apart.

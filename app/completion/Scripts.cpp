@@ -6,6 +6,8 @@
 
 #include <string_view>
 
+#include "cli/Text.h"
+
 namespace allpairs::app {
 namespace {
 
@@ -32,13 +34,6 @@ std::string escaped(std::string_view text, std::string_view which) {
     if (which.find(c) != std::string_view::npos) result += '\\';
     result += c;
   }
-  return result;
-}
-
-/// A text that holds no single quote any more, for use between them in a shell of Bourne's kind.
-std::string unquoted(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result;
 }
 
@@ -82,7 +77,7 @@ std::string zshOptions(const std::vector<OptionWords>& options) {
   std::string text;
   for (const OptionWords& option : options) {
     for (const std::string& name : option.names)
-      text += fmt::format(" \\\n        '{}'", unquoted(zshSpec(option, name)));
+      text += fmt::format(" \\\n        '{}'", betweenQuotes(zshSpec(option, name)));
   }
   return text;
 }
@@ -161,7 +156,7 @@ std::string zshCompletion(const ProgramWords& program) {
       "#compdef {0}\n# Completion of the command {0} for zsh; made by '{0} completion zsh'.\n\n", program.name);
   text += fmt::format("_{}() {{\n  local -a commands\n  commands=(\n", program.name);
   for (const CommandWords& command : program.commands)
-    text += fmt::format("    '{}:{}'\n", command.name, unquoted(escaped(command.description, ":\\")));
+    text += fmt::format("    '{}:{}'\n", command.name, betweenQuotes(escaped(command.description, ":\\")));
   text +=
       "    'help:Print the help of a command'\n  )\n  if ((CURRENT == 2)); then\n    if [[ $words[2] == -* ]]; then\n";
   text += fmt::format("      _arguments{}\n    else\n", zshOptions(program.options));

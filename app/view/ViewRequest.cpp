@@ -26,9 +26,9 @@ ViewRequest viewRequest(const ViewArguments& arguments) {
   if (arguments.exact && arguments.boxes) throw UsageError("--exact tests shapes, --boxes does not: give one of them");
   if (arguments.boxes && arguments.search.clearance)
     throw UsageError("--clearance is measured between shapes, which --boxes does not test; --distance is for boxes");
-  ViewRequest request{.detection = detectionOptions(arguments.search), .shapes = ShapeTest::WhereShapesAre};
   if (arguments.boxes && arguments.search.leastDepth)
     throw UsageError("--min-depth is of shapes, which --boxes does not test");
+  ViewRequest request{.detection = detectionOptions(arguments.search), .shapes = ShapeTest::WhereShapesAre};
   if (arguments.exact || arguments.search.clearance || arguments.search.leastDepth) request.shapes = ShapeTest::Always;
   if (arguments.boxes) request.shapes = ShapeTest::Never;
   if (request.shapes == ShapeTest::Always) requireExact();

@@ -38,8 +38,8 @@ class Worlds {
 
   /// Two boxes of a world, by their indices in it, are no pair in any world, however they overlap: once for all worlds.
   ///
-  /// The order of the pairs, and that of a pair's boxes, do not matter; a box with itself is no pair anyway. Pairs with
-  /// shared boxes are not concerned.
+  /// Neither the order of the pairs nor the order within a pair matters. A pair of a box with itself has no effect.
+  /// Pairs with shared boxes are not concerned.
   /// Bad input: an index that no world has throws InvalidArgument.
   void setIgnoredPairs(Span<const Pair> pairs);
 

@@ -112,7 +112,7 @@ def join(
         The folder of the join's own files; by default the name of the output, or of the first input, and ".work". It
         takes 32 bytes for each box and copy (56 in float64) and 8 for each pair, 8 more for each box with margins and 8
         for each two of groups, categories and masks. It stays after a failure, and after a kill the part of the output
-        that was written beside it too; the join that goes on writes over that.
+        that was written beside it too; the join that is resumed removes that.
     resume : bool
         Go on with what is complete in that folder.
 

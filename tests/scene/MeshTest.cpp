@@ -234,6 +234,9 @@ TEST(MeshFolder, ACadFileIsAnErrorUnlessPartialOrThereAsAMeshToo) {
   ASSERT_EQ(partial.remarks.size(), 1U);
   EXPECT_TRUE(partial.remarks[0].isPartial);
   EXPECT_EQ(textOf(partial.remarks[0]).find((folder.path() / "gear.STEP").string() + ": has the exact surfaces"), 0U);
+  std::filesystem::create_directory(folder.path() / "gear.stl");  // is no mesh
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "; --partial leaves it out");
+  std::filesystem::remove(folder.path() / "gear.stl");
   folder.write("gear.obj", mesh);
   const scene::Scene whole = scene::readInput(folder.path());
   EXPECT_EQ(whole.models.size(), 2U);

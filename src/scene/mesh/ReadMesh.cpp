@@ -83,7 +83,7 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   return entries;
 }
 
-/// The remark on a file or folder that is left out because it cannot be read.
+/// The remark on a file or folder that cannot be read and is therefore skipped.
 Remark remarkOfMissing(const fs::path& path, const FileError& problem) {
   return {.file = path,
           .line = problem.line(),
@@ -99,25 +99,27 @@ class MeshSearch {
 
   void look(const fs::path& folder) {
     checkStop(m_options.stop);
-    const std::vector<fs::path> entries = sortedEntries(folder);
-    std::set<std::string> meshes;  // by name, without extension
-    for (const fs::path& entry : entries) {
-      if (isMeshFile(entry)) meshes.insert(entry.stem().string());
-    }
-    for (const fs::path& entry : entries) take(entry, meshes);
+    const std::size_t before = m_meshes.size();
+    std::vector<fs::path> cadFiles;
+    for (const fs::path& entry : sortedEntries(folder)) take(entry, cadFiles);
+    std::set<fs::path> meshes;  // without their extensions
+    for (std::size_t i = before; i < m_meshes.size() && !cadFiles.empty(); ++i)
+      meshes.insert(fs::path(m_meshes[i]).replace_extension());
+    for (const fs::path& file : cadFiles) takeCad(file, meshes.contains(fs::path(file).replace_extension()));
   }
 
   [[nodiscard]] const std::vector<fs::path>& meshes() const { return m_meshes; }
   [[nodiscard]] bool hasPassedOverFolders() const { return m_hasPassedOverFolders; }
 
  private:
-  void take(const fs::path& entry, const std::set<std::string>& meshes) {
+  /// Takes meshes, looks into folders, remarks on the rest, and lists CAD files.
+  void take(const fs::path& entry, std::vector<fs::path>& cadFiles) {
     std::error_code ignored;
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
       takeFolder(entry);
     } else if (!isSpecial && isCadFile(entry)) {
-      takeCad(entry, meshes);
+      cadFiles.push_back(entry);
     } else if (isSpecial || !isMeshFile(entry)) {
       remarkOn(entry, isSpecial ? "is not a regular file" : "is no mesh file by its extension");
     } else {
@@ -125,10 +127,9 @@ class MeshSearch {
     }
   }
 
-  /// A part that cannot be read, unless it is there as a mesh too: leaving it out without a word would hide its clashes.
-  void takeCad(const fs::path& entry, const std::set<std::string>& meshes) {
-    if (meshes.contains(entry.stem().string()))
-      return remarkOn(entry, "is a CAD file beside a mesh of the same name, which is taken");
+  /// CAD files cannot be read. Where the part is not there as a mesh too, its clashes would be missing without a warning.
+  void takeCad(const fs::path& entry, bool isThereAsMesh) {
+    if (isThereAsMesh) return remarkOn(entry, "is a CAD file beside a mesh of the same name, which is taken");
     if (!m_options.partial) throw FileError(entry, std::string(kIsCad) + "; --partial leaves it out");
     m_remarks.push_back(remarkOfMissing(entry, FileError(entry, kIsCad)));
   }
