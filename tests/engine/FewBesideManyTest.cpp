@@ -106,7 +106,7 @@ TYPED_TEST_SUITE(FewBesideMany, Precisions);
 
 TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) {
   unsigned seed = 0;
-  for (const std::size_t many : {65U, 66U, 71U, 79U, 80U, 97U, 128U, 300U, 1025U, 2049U}) {
+  for (const std::size_t many : {65U, 66U, 71U, 79U, 80U, 97U, 128U, 300U, 1025U, 2049U, 5000U}) {
     for (const std::size_t few : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 9U}) {
       const std::vector<TypeParam> a = someRows<TypeParam>(few, ++seed, many < 1000 ? 1.5 : 0.1);
       const std::vector<TypeParam> b = someRows<TypeParam>(many, ++seed, many < 1000 ? 0.4 : 0.05);

@@ -147,9 +147,11 @@ TEST(Neighbors, OfMoreBoxesThanBucketsAreForAscend) {
   const std::vector<Box> solid = test::toDouble(test::randomBoxes(kBoxes / kApart, 13));
   std::vector<Box> boxes(kBoxes, kEmptyBox);
   for (std::size_t i = 0; i < solid.size(); ++i) boxes[i * kApart] = solid[i];
-  for (const NeighborRows kind : kKinds) {
+  parallel::TbbExecutor two(2);
+  for (int way = 0; way < 4; ++way) {
+    const NeighborRows kind = kKinds[way % 2];
     const Rows expected = rowsOf(test::oracle(solid), solid.size(), kind);
-    const Neighbors found = neighbors(boxes, kind, {.strategy = Strategy::Bvh});
+    const Neighbors found = neighbors(boxes, kind, {.strategy = Strategy::Bvh, .executor = way < 2 ? nullptr : &two});
     ASSERT_EQ(found.size(), kBoxes);
     std::vector<std::uint32_t> all;
     for (std::size_t i = 0; i < solid.size(); ++i) {

@@ -121,6 +121,7 @@ void Search::shrink() noexcept {
     Buffer<Pair>& pairs = m_runner.sink(i).pairs();
     if (!m_pairs.empty() && pairs.data() == m_pairs.data()) m_joined = std::move(pairs);
   }
+  m_bySecond.release();
   m_rows.release();
   m_columns.release();
   m_cull = BoxCull(m_memory);

@@ -114,6 +114,10 @@ class Search {
 
   NeighborsMemory roomForRows(std::size_t rows, std::size_t indices, const RowRoom* room);
   void writePairsAsRows(const Sets& sets, NeighborRows kind, const RowRoom* room);
+  void writeRowsInParts(std::size_t rows, bool areFull);
+
+  /// The pairs once more, by (second, first).
+  [[nodiscard]] std::span<const Pair> pairsBySecond(std::size_t boxes);
 
   /// The two ways to find rows without pairs; where one does not pay off, it does nothing and returns false.
   bool listRows(Plan& plan, NeighborRows kind, const RowRoom* room);
@@ -137,6 +141,7 @@ class Search {
   JoinRunner m_runner{m_memory};
   PairLists m_lists{m_memory};
   Buffer<Pair> m_joined{m_memory};
+  Buffer<Pair> m_bySecond{m_memory};
   Buffer<std::uint64_t> m_offsets{m_memory};
   Buffer<std::uint32_t> m_indices{m_memory};
   std::span<Pair> m_pairs;      ///< The result: concatenated from several tasks, or in the memory of a single one.

@@ -3,26 +3,46 @@
 #include <algorithm>
 #include <numeric>
 
+#include "input/Parts.h"
 #include "search/FewBoxes.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
 namespace {
 
-/// Writes pairs that are ordered by (first, second) as rows, in memory for exactly these.
-void writeHalfRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
-  std::size_t row = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    for (; row <= pairs[i].first; ++row) place.offsets[row] = i;
-    place.indices[i] = pairs[i].second;
+/// Rows, and the pairs of which they have the first box, and of which they have the second.
+struct RowsOfPairs {
+  std::size_t begin;
+  std::size_t end;
+  std::span<const Pair> firsts;   ///< By (first, second).
+  std::span<const Pair> seconds;  ///< By (second, first).
+};
+
+/// Writes the greater partners of each row, of which so many are before.
+void writeHalfRows(const RowsOfPairs& rows, std::size_t before, const NeighborsMemory& to) noexcept {
+  std::size_t row = rows.begin;
+  for (const Pair pair : rows.firsts) {
+    for (; row <= pair.first; ++row) to.offsets[row] = before;
+    to.indices[before++] = pair.second;
   }
-  std::fill(place.offsets.begin() + static_cast<std::ptrdiff_t>(row), place.offsets.end(), pairs.size());
+  for (; row < rows.end; ++row) to.offsets[row] = before;
 }
 
-/// The same with each pair in both rows. In the order of the pairs a box comes second to all that are less before it
-/// comes first to those that are greater: what is appended to its row ascends.
-void writeFullRows(std::span<const Pair> pairs, const NeighborsMemory& place) noexcept {
-  const std::span<std::uint64_t> offsets = place.offsets;
+/// Writes the partners of each row, of which so many are before: those that are less, then those that are greater.
+void writeFullRows(const RowsOfPairs& rows, std::size_t before, const NeighborsMemory& to) noexcept {
+  auto first = rows.firsts.begin();
+  auto second = rows.seconds.begin();
+  for (std::size_t row = rows.begin; row < rows.end; ++row) {
+    to.offsets[row] = before;
+    for (; second != rows.seconds.end() && second->second == row; ++second) to.indices[before++] = second->first;
+    for (; first != rows.firsts.end() && first->first == row; ++first) to.indices[before++] = first->second;
+  }
+}
+
+/// Writes each pair in both rows, in one pass over few pairs that are ordered by (first, second): there a box comes
+/// second to all that are less before it comes first to those that are greater.
+void writeBothRows(std::span<const Pair> pairs, const NeighborsMemory& to) noexcept {
+  const std::span<std::uint64_t> offsets = to.offsets;
   std::fill(offsets.begin(), offsets.end(), 0);
   // Only sums of what stands before stay between a row's offset and the next but one: the latter counts.
   const auto count = [&](std::size_t row) {
@@ -34,8 +54,8 @@ void writeFullRows(std::span<const Pair> pairs, const NeighborsMemory& place) no
   }
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   for (const Pair pair : pairs) {
-    place.indices[offsets[pair.first + std::size_t{1}]++] = pair.second;
-    place.indices[offsets[pair.second + std::size_t{1}]++] = pair.first;
+    to.indices[offsets[pair.first + std::size_t{1}]++] = pair.second;
+    to.indices[offsets[pair.second + std::size_t{1}]++] = pair.first;
   }
 }
 
@@ -45,6 +65,7 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
                                     const RowRoom* room) {
   if (areFew(sets, options)) {
     findAmongFew(sets, options, Order::ByFirst);
+    m_executor = &m_callExecutor.over(options.executor, options.stop);
     writePairsAsRows(sets, kind, room);
     return {m_rowsFound.offsets, m_rowsFound.indices};
   }
@@ -80,9 +101,46 @@ NeighborsMemory Search::roomForRows(std::size_t rows, std::size_t indices, const
 }
 
 void Search::writePairsAsRows(const Sets& sets, NeighborRows kind, const RowRoom* room) {
-  m_rowsFound = roomForRows(sets.first.size(), (kind == NeighborRows::Full ? 2 : 1) * m_pairs.size(), room);
-  kind == NeighborRows::Full ? writeFullRows(m_pairs, m_rowsFound) : writeHalfRows(m_pairs, m_rowsFound);
+  const bool isFull = kind == NeighborRows::Full;
+  const std::size_t rows = sets.first.size();
+  m_rowsFound = roomForRows(rows, (isFull ? 2 : 1) * m_pairs.size(), room);
+  m_rowsFound.offsets.back() = m_rowsFound.indices.size();
+  if (rows > kPartSize) {
+    writeRowsInParts(rows, isFull);
+  } else if (isFull) {
+    writeBothRows(m_pairs, m_rowsFound);
+  } else {
+    writeHalfRows({0, rows, m_pairs, {}}, 0, m_rowsFound);
+  }
   m_pairs = {};
+}
+
+void Search::writeRowsInParts(std::size_t rows, bool areFull) {
+  const std::span<const Pair> seconds = areFull ? pairsBySecond(rows) : std::span<const Pair>();
+  runInParts(rows, kPartSize, *m_executor, [&](std::size_t begin, std::size_t end) {
+    const auto ofPart = [=](std::span<const Pair> pairs, std::uint32_t Pair::*box) {
+      const auto placeOf = [=](std::size_t row) {
+        return std::partition_point(pairs.begin(), pairs.end(), [=](Pair pair) { return pair.*box < row; });
+      };
+      return std::span(placeOf(begin), placeOf(end));
+    };
+    const RowsOfPairs part{begin, end, ofPart(m_pairs, &Pair::first), ofPart(seconds, &Pair::second)};
+    const auto before =
+        static_cast<std::size_t>(part.firsts.data() - m_pairs.data() + (part.seconds.data() - seconds.data()));
+    areFull ? writeFullRows(part, before, m_rowsFound) : writeHalfRows(part, before, m_rowsFound);
+  });
+}
+
+/// The hierarchy is no longer needed: its memory is that of the copy, if there is enough, and the sort's.
+std::span<const Pair> Search::pairsBySecond(std::size_t boxes) {
+  const std::size_t size = m_pairs.size();
+  const std::span<Pair> idle = m_first.levels().memory<Pair>();
+  const bool fits = idle.size() >= 2 * size;
+  if (!fits) m_bySecond.require(size);
+  const std::span<Pair> copy(fits ? idle.data() : m_bySecond.data(), size);
+  std::copy(m_pairs.begin(), m_pairs.end(), copy.begin());
+  m_sort.sortList(copy, PairOrder(boxes, boxes, Order::BySecond), fits ? idle.subspan(size) : idle, *m_executor);
+  return copy;
 }
 
 bool Search::listRows(Plan& plan, NeighborRows kind, const RowRoom* room) {
