@@ -144,10 +144,21 @@ def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return value
     if _hides(value):
         raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
+    if hasattr(value, "__dlpack__") and not hasattr(value, "__array__"):  # which NumPy takes for an object
+        return _exchanged(name, value)
     try:
         return np.asarray(value)
     except ValueError as error:  # of rows of several lengths
         raise InvalidArgument(f"{name} is no array: {_shown(str(error))}") from None
+
+
+def _exchanged(name: str, value: Any) -> npt.NDArray[Any]:
+    """An array of another library, in the same memory; what its library or NumPy refuses may be any exception."""
+    try:
+        array: npt.NDArray[Any] = np.from_dlpack(value)
+        return array
+    except Exception as error:
+        raise InvalidArgument(f"{name} cannot be read by __dlpack__: {_shown(str(error))}") from error
 
 
 def _hides(value: object) -> bool:
@@ -191,13 +202,14 @@ def _plain(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 def _table(name: str, value: npt.ArrayLike, columns: Sequence[int], kind: str = "it", single: bool = False) -> npt.NDArray[Any]:
     """Rows of so many numbers; nothing at all is no row, and a list of them is one where that makes sense."""
     array = floats(name, value)
+    given = array.shape
     if array.ndim == 1 and array.size == 0:
         array = array.reshape(0, columns[0])
     elif array.ndim == 1 and single:
         array = array.reshape(1, -1)
     if array.ndim != 2 or array.shape[1] not in columns:
         takes = " or ".join(f"(n, {count})" for count in columns)
-        raise InvalidArgument(f"{name} has shape {np.shape(value)}; {kind} takes {takes}")
+        raise InvalidArgument(f"{name} has shape {given}; {kind} takes {takes}")
     return _plain(array)
 
 

@@ -16,14 +16,6 @@ from ._errors import InvalidArgument
 Offsets = npt.NDArray[np.int64]
 
 
-def _array(name: str, value: Any) -> npt.NDArray[Any]:
-    """An array of what is one, in the same memory where it can be."""
-    if not isinstance(value, np.ndarray) and not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):
-        array: npt.NDArray[Any] = np.from_dlpack(value)
-        return array
-    return _arguments.array_of(name, value)
-
-
 def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
     worlds, size = shape[0], shape[1]
     return np.arange(worlds + 1, dtype=np.uint64) * np.uint64(size)
@@ -31,7 +23,7 @@ def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
 
 def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
     """Integers as uint64, the same memory where they are of 64 bits."""
-    array = _array("offsets", value)
+    array = _arguments.array_of("offsets", value)
     if array.ndim != 1:
         raise InvalidArgument(f"offsets has shape {array.shape}; it takes (worlds + 1,)")
     if array.size == 0:
@@ -49,8 +41,8 @@ def _divided(
     lower: npt.ArrayLike, upper: npt.ArrayLike | None, offsets: npt.ArrayLike | None
 ) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None, npt.NDArray[np.uint64]]:
     """Boxes as tables, and where each world begins."""
-    low = _array("lower", lower)
-    high = None if upper is None else _array("upper", upper)
+    low = _arguments.array_of("lower", lower)
+    high = None if upper is None else _arguments.array_of("upper", upper)
     if offsets is not None:
         return low, high, _given_offsets(offsets)
     columns = 6 if high is None else 3
@@ -77,7 +69,7 @@ def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.u
     """A filter's array: for each box of all worlds, or, if they are of equal size, of one."""
     if _arguments.is_one(value):
         return _arguments.labels(name, value, boxes)
-    array = _flat(name, _array(name, value), begin)
+    array = _flat(name, _arguments.array_of(name, value), begin)
     sizes = np.diff(begin)
     one = int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else boxes
     return _arguments.labels(name, array, one if array.size == one else boxes)
@@ -149,7 +141,7 @@ def overlaps_in_worlds(
     """
     low, high, begin = _divided(lower, upper, offsets)
     if margin is not None and not _arguments.is_one(margin):
-        margin = _flat("margin", _array("margin", margin), begin)
+        margin = _flat("margin", _arguments.array_of("margin", margin), begin)
     boxes = _arguments.with_margins(_arguments.boxes_of(low, high), margin)
     values = dict(locals())
     options = _search._settings(values, 3)

@@ -79,6 +79,19 @@ def what_boxes_may_have(n, seed):
     return {"margin": margin, "group": rng.integers(0, 40, n).astype(np.uint32), "category": bits[0], "mask": bits[1]}
 
 
+class Capsule:
+    """What has nothing but __dlpack__."""
+
+    def __init__(self, held):
+        self.held = held
+
+    def __dlpack__(self, **settings):
+        return self.held.__dlpack__(**settings)
+
+    def __dlpack_device__(self):
+        return self.held.__dlpack_device__()
+
+
 @pytest.fixture
 def boxes():
     return random_boxes(400)

@@ -7,7 +7,7 @@ import allpairs
 import numpy as np
 import pytest
 from allpairs import _arguments, _core
-from conftest import every_pair, every_pair_between, random_boxes
+from conftest import Capsule, every_pair, every_pair_between, random_boxes
 
 
 def assert_pairs(found, expected):
@@ -177,3 +177,27 @@ def test_arrays_at_odd_addresses_are_read():
     world = allpairs.World()
     world.add(odd[:, :3], odd[:, 3:], margin=odd[:, 0])
     assert len(world.step().pairs) == allpairs.count(boxes, margin=boxes[:, 0])
+
+
+def test_arrays_that_have_nothing_but_dlpack_are_taken_everywhere():
+    lower, upper = random_boxes(60, seed=8)
+    group = np.arange(60, dtype=np.int64) % 7
+    expected = allpairs.overlaps(lower, upper, margin=lower[:, 0], group=group).tolist()
+    low, high, labels = Capsule(lower), Capsule(upper), Capsule(group)
+    assert allpairs.overlaps(low, high, margin=Capsule(lower[:, 0]), group=labels).tolist() == expected
+    assert allpairs.count_between((low, high), Capsule(np.hstack([lower, upper]))) == allpairs.count_between(
+        (lower, upper), (lower, upper)
+    )
+    world = allpairs.World()
+    world.add(low, high, margin=Capsule(lower[:, 0]), group=labels)
+    assert world.step().pairs.tolist() == expected
+    assert world.nearest(low)[1].tolist() == world.nearest(lower)[1].tolist()
+
+
+def test_what_cannot_be_exchanged_names_the_argument():
+    class Elsewhere(Capsule):
+        def __dlpack__(self, **settings):
+            raise BufferError("it lies in the memory of a GPU")
+
+    with pytest.raises(allpairs.InvalidArgument, match="^upper cannot be read by __dlpack__: .it lies in the memory of a GPU.$"):
+        allpairs.overlaps(np.zeros((2, 3)), Elsewhere(np.zeros((2, 3))))

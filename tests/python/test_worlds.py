@@ -6,7 +6,7 @@ import array
 import allpairs
 import numpy as np
 import pytest
-from conftest import every_pair, random_boxes
+from conftest import Capsule, every_pair, random_boxes
 
 SIZES = [0, 1, 2, 15, 16, 17, 33, 64, 65, 300, 20, 0, 5]
 
@@ -98,19 +98,6 @@ def test_shared_boxes_are_in_every_world():
     for settings in ({}, {"order": "second"}, {"ignore": [[0, 3], [1, 1]]}, {"distance": 1}):
         expected = each(lower, upper, offsets, lambda a, b, s=settings: alone(a, b, **s))
         assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, shared=shared, **settings), expected)
-
-
-class Capsule:
-    """What has nothing but __dlpack__."""
-
-    def __init__(self, held):
-        self.held = held
-
-    def __dlpack__(self, **settings):
-        return self.held.__dlpack__(**settings)
-
-    def __dlpack_device__(self):
-        return self.held.__dlpack_device__()
 
 
 def test_arrays_of_others_are_taken():
