@@ -284,9 +284,10 @@ def box_set(
     margin: npt.ArrayLike | None,
     depth_of_plane: Callable[[], float],
     prefix: str = "",
+    single: bool = False,
 ) -> BoxSet:
     """A set of boxes; those in the plane become so deep, up and down."""
-    low, high = _corners(lower, upper, prefix, (3, 2), single=False)
+    low, high = _corners(lower, upper, prefix, (3, 2), single)
     axes = low.shape[1]
     if axes == 2:
         flat = np.full((len(low), 1), depth_of_plane(), low.dtype)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -45,15 +46,24 @@ def _divided(
     high = None if upper is None else _arguments.array_of("upper", upper)
     if offsets is not None:
         return low, high, _given_offsets(offsets)
-    columns = 6 if high is None else 3
+    columns = (6, 4) if high is None else (3, 2)
     for name, array in (("lower", low), ("upper", high)):
-        if array is not None and (array.ndim != 3 or array.shape[2] != columns):
-            raise InvalidArgument(
-                f"{name} has shape {array.shape}; without offsets it takes (worlds, n, {columns})"
-            )
+        if array is not None and (array.ndim != 3 or array.shape[2] not in columns):
+            takes = " or ".join(f"(worlds, n, {count})" for count in columns)
+            raise InvalidArgument(f"{name} has shape {array.shape}; without offsets it takes {takes}")
     if high is not None and low.shape != high.shape:
         raise InvalidArgument(f"lower has shape {low.shape} and upper {high.shape}")
-    return low.reshape(-1, columns), None if high is None else high.reshape(-1, columns), _equal_offsets(low.shape)
+    width = low.shape[2]
+    return low.reshape(-1, width), None if high is None else high.reshape(-1, width), _equal_offsets(low.shape)
+
+
+def _shared(value: BoxesLike, boxes: _arguments.BoxSet, depth: Callable[[], float]) -> _arguments.BoxSet:
+    """Boxes that are in every world, of as many axes as those of the worlds."""
+    corners = _arguments.two_corners(value, "shared: ")
+    others = _arguments.box_set(*corners, None, depth, "shared: ", single=True)
+    if others.axes != boxes.axes and len(others.boxes) and len(boxes.boxes):
+        raise InvalidArgument(f"the boxes of the worlds have {boxes.axes} axes and the shared ones {others.axes}")
+    return others
 
 
 def _flat(name: str, array: npt.NDArray[Any], begin: npt.NDArray[np.uint64]) -> npt.NDArray[Any]:
@@ -101,8 +111,8 @@ def overlaps_in_worlds(
     Parameters
     ----------
     lower, upper : array_like, shape (worlds, n, 3), or (boxes, 3) with offsets
-        The corners of the boxes. Or ``lower`` alone, of shape (worlds, n, 6) or (boxes, 6). As in `overlaps`; anything
-        with ``__array__``, ``__dlpack__`` or the buffer protocol in the processor's memory is read without a copy.
+        The corners of the boxes. Or ``lower`` alone, of shape (worlds, n, 6) or (boxes, 6). As in `overlaps`; in the plane
+        with 2 and 4 instead of 3 and 6.
     offsets : array_like, shape (worlds + 1,), integers
         World k has the boxes ``offsets[k]`` to ``offsets[k + 1] - 1``. Not needed where worlds are of equal size.
     shared : array_like, shape (m, 6), or tuple of two array_like of shape (m, 3)
@@ -142,16 +152,20 @@ def overlaps_in_worlds(
     low, high, begin = _divided(lower, upper, offsets)
     if margin is not None and not _arguments.is_one(margin):
         margin = _flat("margin", _arguments.array_of("margin", margin), begin)
-    boxes = _arguments.with_margins(_arguments.boxes_of(low, high), margin)
+    depth = lambda: _arguments.depth_of(distance, [margin])
+    own = _arguments.box_set(low, high, margin, depth, single=True)
+    boxes, axes = own
+    others = None
+    if shared is not None:
+        others, shared_axes = _shared(shared, own, depth)
+        axes = axes if len(boxes) else shared_axes
     values = dict(locals())
-    options = _search._settings(values, 3)
+    options = _search._settings(values, axes)
     for name, setter in (("group", options.set_groups), ("category", options.set_categories), ("mask", options.set_masks)):
         if values[name] is not None:
             setter(_core.Side.FIRST, _labels(name, values[name], len(boxes), begin))
     ignored = np.empty((0, 2), dtype=np.uint32)
-    others = None
-    if shared is not None:
-        others = _arguments.boxes_of(*_arguments.two_corners(shared, "shared: "), "shared: ")
+    if others is not None:
         _search._ignore(options, ignore, int(np.diff(begin).max(initial=0)), len(others))
     elif ignore is not None:
         ignored = _arguments.index_rows("ignore", ignore, 2)

@@ -75,6 +75,30 @@ def test_a_set_without_boxes_has_any_number_of_axes():
     assert allpairs.count_between(plane, [], region=[0, 0, 1, 1]) == 0
 
 
+@pytest.mark.parametrize("settings", [{}, {"distance": -1.0}, {"margin": -0.5}, {"region": [3, 4, 12, 9], "order": "second"}])
+def test_worlds_in_the_plane_are_searched_like_each_alone(settings):
+    lower, upper = plane_boxes()
+    worlds, shared = np.hstack([lower, upper]).reshape(10, 30, 4), np.array([[2.0, 2, 9, 9], [5, 0, 6, 20]])
+    for given in ((worlds,), (lower.reshape(10, 30, 2), upper.reshape(10, 30, 2)), (lower, upper, np.arange(11) * 30)):
+        pairs, offsets = allpairs.overlaps_in_worlds(*given, **settings)
+        with_shared, begin = allpairs.overlaps_in_worlds(*given, shared=shared, **settings)
+        assert len(pairs) > 5 and len(with_shared) > 5
+        both = settings | ({"margin": (settings["margin"], None)} if "margin" in settings else {})
+        for k, world in enumerate(worlds):
+            assert pairs[offsets[k] : offsets[k + 1]].tolist() == allpairs.overlaps(world, **settings).tolist()
+            alone = allpairs.overlaps_between(world, shared, **both)
+            assert with_shared[begin[k] : begin[k + 1]].tolist() == alone.tolist()
+
+
+def test_worlds_and_what_they_share_have_the_same_axes():
+    with pytest.raises(allpairs.InvalidArgument, match="the boxes of the worlds have 2 axes and the shared ones 3"):
+        allpairs.overlaps_in_worlds(np.zeros((3, 2, 4)), shared=np.zeros((1, 6)))
+    pairs, offsets = allpairs.overlaps_in_worlds(np.zeros((3, 2, 4)), shared=[])
+    assert (len(pairs), offsets.tolist()) == (0, [0, 0, 0, 0])
+    with pytest.raises(allpairs.InvalidArgument, match=r"without offsets it takes \(worlds, n, 6\) or \(worlds, n, 4\)"):
+        allpairs.overlaps_in_worlds(np.zeros((3, 2, 5)))
+
+
 def test_a_nan_is_named_as_in_space():
     with pytest.raises(allpairs.InvalidBox, match="^box 1: max y"):
         allpairs.overlaps([[0, 0, 1, 1], [0, 0, 1, np.nan]])
