@@ -333,7 +333,10 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
         if outside.any():
             place = tuple(int(i) for i in np.argwhere(outside)[0])
             where = f"{name}[{', '.join(map(str, place))}]" if place else name
-            raise InvalidBox(f"{where} is {array[place]}; it takes 0 to {_UINT32_MAX}", place[0] if place else 0)
+            message = f"{where} is {array[place]}; it takes 0 to {_UINT32_MAX}"
+            if len(place) > 1:  # a row of pairs or triangles, which is no box
+                raise InvalidArgument(message)
+            raise InvalidBox(message, place[0] if place else 0)
     return contiguous(array, np.uint32)
 
 

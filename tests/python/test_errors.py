@@ -57,6 +57,7 @@ def test_a_label_that_does_not_fit_names_its_box():
         ({"lower": BOXES, "group": [1, 2, 3]}, r"group has shape \(3,\)"),
         ({"lower": BOXES, "group": [0.5] * 4}, "group has dtype float64"),
         ({"lower": BOXES, "ignore": [1, 2, 3]}, r"ignore has shape \(3,\)"),
+        ({"lower": BOXES, "ignore": [[0, 1], [0, -1]]}, r"ignore\[1, 1\] is -1"),
         ({"lower": BOXES, "ignore": [[0, 1], [7, 0]]}, r"ignore row 1 is \(7, 0\); the number of boxes is %d" % len(BOXES)),
         ({"lower": BOXES, "region": [1, 2, 3]}, r"region has shape \(3,\)"),
         ({"lower": BOXES, "region": [[1, 1, 1], [0, 0, 0]]}, "region"),
