@@ -13,7 +13,11 @@
 // a const one; else using the handle that is calling it, of allpairs_world_find_between() both, is an
 // ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
 //
-// Structures may grow at their end: struct_size tells the library which fields the caller has. All fields may be 0.
+// What a failed call would have written, a handle or a structure, is as it was, except the counts of memory of the
+// caller's; arrays of the caller's may have been written to. So set a handle to null before it is created.
+//
+// Structures may grow at their end: struct_size tells the library which fields the caller has. All other fields of
+// options may be 0. A category or mask of 0 is none: begin properties and filters of queries with their defaults.
 #pragma once
 
 #include <stdbool.h>
@@ -38,7 +42,8 @@ extern "C" {
 typedef enum allpairs_status {
   ALLPAIRS_OK = 0,
   ALLPAIRS_INVALID_ARGUMENT = 1,  ///< An invalid argument or setting.
-  ALLPAIRS_INVALID_BOX = 2,       ///< An invalid box or per-box value; allpairs_error_index() is its index.
+  ALLPAIRS_INVALID_BOX = 2,       ///< An invalid box, per-box value or id; allpairs_error_index() is its index in what
+                                  ///< was passed: in the set, or in the ids.
   ALLPAIRS_LIMIT_EXCEEDED = 3,  ///< More pairs than max_pairs, or than there is room for: allpairs_error_index() is the
                                 ///< number found so far, or in all.
   ALLPAIRS_STOPPED = 4,         ///< A visitor stopped the search.
@@ -179,7 +184,8 @@ static inline allpairs_options allpairs_default_options(void) {
 /// Finds overlapping boxes, and keeps its working memory between searches.
 typedef struct allpairs_search allpairs_search;
 
-/// What the options point to, except the region, must outlive their use. Null options are the defaults.
+/// What the options point to, except the region, must outlive their use. Null options are the defaults. A distance or
+/// region that is none is an ALLPAIRS_INVALID_ARGUMENT of the searches that use it.
 ALLPAIRS_C_API allpairs_status allpairs_search_create(const allpairs_options* options, allpairs_search** search);
 ALLPAIRS_C_API allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options);
 ALLPAIRS_C_API void allpairs_search_destroy(allpairs_search* search);
@@ -422,7 +428,8 @@ ALLPAIRS_C_API allpairs_status allpairs_world_result_of(allpairs_world* world, u
 /// ALLPAIRS_EVERY_WORLD, as at first, of all worlds. allpairs_world_find_between() is not concerned.
 ALLPAIRS_C_API allpairs_status allpairs_world_restrict_queries(allpairs_world* world, uint32_t number);
 
-/// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`.
+/// Which boxes a query considers: those whose category shares a bit with `mask` and whose mask with `category`: none if
+/// one of these is 0.
 typedef struct allpairs_query_filter {
   uint32_t category;
   uint32_t mask;
@@ -430,13 +437,19 @@ typedef struct allpairs_query_filter {
   bool skip_moving;
 } allpairs_query_filter;
 
+/// The defaults, which null stands for too: all categories and masks, static boxes and others.
+static inline allpairs_query_filter allpairs_default_query_filter(void) {
+  allpairs_query_filter filter = {UINT32_MAX, UINT32_MAX, false, false};
+  return filter;
+}
+
 /// The boxes that overlap a box of six numbers, by ascending id; valid until the next such query. As in all queries,
 /// boxes are enlarged by their margins, and the distance of the world does not count. Null filter: all categories and
 /// masks. No query finds a box of category 0 or mask 0.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const double* box,
                                                                const allpairs_query_filter* filter, allpairs_ids* ids);
 
-/// The points origin + t * direction with 0 <= t <= length.
+/// The points origin + t * direction with 0 <= t <= length, which may be INFINITY; if it is 0, the origin alone.
 typedef struct allpairs_ray {
   double origin[3];
   double direction[3];

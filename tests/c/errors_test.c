@@ -77,6 +77,27 @@ static void settingsThatMakeNoSenseAreRefused(void) {
   allpairs_set_destroy(set);
 }
 
+static void aFailedCallLeavesResultsAsTheyWere(void) {
+  static const allpairs_pair kNone[1];
+  double rows[18] = {0};
+  allpairs_set* set = NULL;
+  allpairs_set* other = NULL;
+  allpairs_search* search = NULL;
+  allpairs_pairs pairs = {kNone, 77};
+  uint64_t count = 77;
+  allpairs_options options = allpairs_default_options();
+  options.max_pairs = 1;
+  ALLPAIRS_CHECK(allpairs_set_create_f64(rows, 3, &set) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_search_create(&options, &search) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_find(search, set, &pairs) == ALLPAIRS_LIMIT_EXCEEDED);
+  ALLPAIRS_CHECK(pairs.data == kNone && pairs.count == 77);
+  ALLPAIRS_CHECK(allpairs_count(search, set, &count) == ALLPAIRS_LIMIT_EXCEEDED && count == 77);
+  rows[4] = NAN;
+  ALLPAIRS_CHECK(allpairs_set_create_f64(rows, 3, &other) == ALLPAIRS_INVALID_BOX && other == NULL);
+  allpairs_search_destroy(search);
+  allpairs_set_destroy(set);
+}
+
 /// A caller that was compiled against an earlier, shorter structure.
 static void shorterStructuresAreTaken(void) {
   allpairs_search* search = NULL;
@@ -113,6 +134,7 @@ int main(void) {
   aNanNamesItsBox();
   nullIsAnError();
   settingsThatMakeNoSenseAreRefused();
+  aFailedCallLeavesResultsAsTheyWere();
   shorterStructuresAreTaken();
   anUnknownIdIsNamed();
   return EXIT_SUCCESS;

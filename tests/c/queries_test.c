@@ -164,6 +164,30 @@ static void shrinkingReleasesResults(void) {
 static void shrinkingReleasesResults(void) {}
 #endif
 
+static void aFilterOfDefaultsLeavesNothingOut(allpairs_world* world) {
+  const double all[6] = {-99, -99, -99, 99, 99, 99};
+  allpairs_query_filter filter = allpairs_default_query_filter();
+  allpairs_ids ids;
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, all, &filter, &ids) == ALLPAIRS_OK && ids.count == kBoxes);
+  filter.skip_static = true;
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, all, &filter, &ids) == ALLPAIRS_OK && ids.count == kBoxes);
+  filter.skip_moving = true;
+  ALLPAIRS_CHECK(allpairs_world_find_overlapping(world, all, &filter, &ids) == ALLPAIRS_OK && ids.count == 0);
+}
+
+static void aRayMayHaveNoEnd(allpairs_world* world) {
+  const allpairs_ray endless = {{6, 6, -1e9}, {0, 0, 1}, INFINITY};
+  const allpairs_ray nowhere = {{6, 6, -1e9}, {0, 0, 1}, 0};
+  allpairs_hits hits;
+  size_t above = 0;
+  for (size_t i = 0; i < kBoxes; ++i) {
+    const double* box = &rows[6 * i];
+    above += box[0] <= 6 && 6 <= box[3] && box[1] <= 6 && 6 <= box[4];
+  }
+  ALLPAIRS_CHECK(allpairs_world_find_all(world, &endless, NULL, &hits) == ALLPAIRS_OK && hits.count == above);
+  ALLPAIRS_CHECK(above > 0 && allpairs_world_find_all(world, &nowhere, NULL, &hits) == ALLPAIRS_OK && hits.count == 0);
+}
+
 int main(void) {
   checkFill(rows, kBoxes, 3);
   checkFill(others, kBoxes, 4);
@@ -173,6 +197,8 @@ int main(void) {
   theNearestComeFirst(world);
   twoWorldsMeet(world, other);
   nonsenseIsRefused(world);
+  aFilterOfDefaultsLeavesNothingOut(world);
+  aRayMayHaveNoEnd(world);
   allpairs_world_destroy(world);
   allpairs_world_destroy(other);
   shrinkingReleasesResults();
