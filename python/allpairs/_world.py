@@ -36,7 +36,7 @@ class Step(NamedTuple):
 
 
 def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
-    """Fields of boxes from numbers or arrays; what is None keeps its default."""
+    """Fields of boxes from numbers or arrays; what is None is not set."""
     properties = _core.Properties(size)
     for name, setter in (
         ("category", properties.set_category),
@@ -230,7 +230,7 @@ class World:
         static: npt.ArrayLike | None = None,
         world: npt.ArrayLike | None = None,
     ) -> None:
-        """Sets all properties of boxes, those of `add`; an omitted one gets its default."""
+        """Sets properties of boxes, those of `add`; an omitted one stays as it is."""
         chosen = _arguments.ids(ids)
         self._core.set_properties(chosen, _properties(len(chosen), locals()))
 

@@ -95,6 +95,7 @@ void Properties::setField(std::uint32_t BoxProperties::*field, const py::buffer&
   const auto numbers = valuesOf<std::uint32_t>(info);
   if (numbers.size() != m_values.size()) throw InvalidArgument("properties of another length");
   for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].*field = numbers[i];
+  m_fields.push_back(field);
 }
 
 void Properties::setMargins(const py::buffer& values) {
@@ -102,6 +103,7 @@ void Properties::setMargins(const py::buffer& values) {
   const auto numbers = valuesOf<double>(info);
   if (numbers.size() != m_values.size()) throw InvalidArgument("margins of another length");
   for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].margin = numbers[i];
+  m_hasMargins = true;
 }
 
 void Properties::setStatic(const py::buffer& values) {
@@ -109,6 +111,15 @@ void Properties::setStatic(const py::buffer& values) {
   const auto numbers = valuesOf<std::uint32_t>(info);
   if (numbers.size() != m_values.size()) throw InvalidArgument("flags of another length");
   for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].isStatic = numbers[i] != 0;
+  m_hasStatic = true;
+}
+
+BoxProperties Properties::over(BoxProperties before, std::size_t box) const {
+  const BoxProperties& set = m_values[box];
+  for (const auto field : m_fields) before.*field = set.*field;
+  if (m_hasMargins) before.margin = set.margin;
+  if (m_hasStatic) before.isStatic = set.isStatic;
+  return before;
 }
 
 MovingBoxes::MovingBoxes(double distance, Order order, std::size_t threads)
@@ -144,7 +155,16 @@ void MovingBoxes::remove(const py::buffer& ids) {
 
 void MovingBoxes::setProperties(const py::buffer& ids, const Properties& properties) {
   const std::vector<BoxId> chosen = boxIdsOf(ids);
-  alone([&](World& world) { world.setProperties(chosen, properties.values()); });
+  if (properties.values().size() != chosen.size()) throw InvalidArgument("properties of another length");
+  alone([&](World& world) {
+    std::vector<BoxProperties> each;
+    each.reserve(chosen.size());
+    for (const BoxId id : chosen) {
+      // An id that is not there is refused below.
+      each.push_back(properties.over(world.contains(id) ? world.properties(id) : BoxProperties(), each.size()));
+    }
+    world.setProperties(chosen, each);
+  });
 }
 
 std::size_t MovingBoxes::size() {

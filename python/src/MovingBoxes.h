@@ -32,8 +32,14 @@ class Properties {
 
   [[nodiscard]] std::span<const BoxProperties> values() const noexcept { return m_values; }
 
+  /// What a box that has had other properties has now: those fields that were set, and else what it had.
+  [[nodiscard]] BoxProperties over(BoxProperties before, std::size_t box) const;
+
  private:
   std::vector<BoxProperties> m_values;
+  std::vector<std::uint32_t BoxProperties::*> m_fields;  ///< Those that were set.
+  bool m_hasMargins = false;
+  bool m_hasStatic = false;
 };
 
 /// A World that Python may use from several threads, which wait for each other without the GIL.

@@ -84,10 +84,27 @@ def test_properties_decide_about_pairs(properties, pairs):
     world = allpairs.World()
     ids = world.add(boxes, **properties)
     assert world.step().pairs.tolist() == pairs
-    world.set_properties(ids)
+    world.set_properties(ids, static=False, group=0, category=0xFFFFFFFF, mask=0xFFFFFFFF, margin=0)
     assert len(world.step().pairs) == 3
     world.set_properties(ids, **properties)
     assert world.step().pairs.tolist() == pairs
+
+
+def test_a_property_that_is_not_set_stays():
+    given = {"static": [1, 0, 0], "group": [1, 2, 3], "category": [1, 2, 4], "mask": [7, 6, 5], "margin": [0.5, 1, 2], "world": [4, 5, 6]}
+    world = allpairs.World()
+    ids = world.add(np.zeros((3, 6)), **given)
+    changed = {"static": [1, 1], "group": [8, 9], "category": [3, 5], "mask": [2, 1], "margin": [4, 3], "world": [5, 7]}
+    for name, values in changed.items():
+        world.set_properties(ids[[2, 0]], **{name: values})
+        given[name] = [values[1], given[name][1], values[0]]
+        state = world.__getstate__()
+        assert {key: state[key].tolist() for key in given} == given
+    world.set_properties(ids)
+    assert {key: world.__getstate__()[key].tolist() for key in given} == given
+    with pytest.raises(allpairs.InvalidBox, match="there is no box with the id 3, entry 1 of the ids"):
+        world.set_properties([0, 3], margin=9)
+    assert world.__getstate__()["margin"].tolist() == given["margin"]
 
 
 def test_boxes_of_different_worlds_are_no_pairs():
