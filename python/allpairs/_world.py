@@ -81,7 +81,7 @@ class World:
     pairs and are not tested against each other, wherever they are. A step then searches the worlds in which a box has
     changed.
 
-    A world can be copied and pickled. The copy has the settings and all boxes, with their ids, bounds and properties. It
+    A world can be copied and pickled. The copy has the settings and all boxes, with their `ids`, bounds and properties. It
     has no last step: its next one lists all pairs among those that began. New boxes may get other ids.
 
     Calls of several threads wait for each other; the arrays that a call is given must not change before it returns. A
@@ -243,6 +243,10 @@ class World:
     def __contains__(self, id: object) -> bool:
         number = int(id) if isinstance(id, (int, np.integer)) else -1
         return 0 <= number < NO_BOX and self._core.contains(number)
+
+    def ids(self) -> Ids:
+        """The ids of all boxes, in ascending order; ``world.boxes(world.ids())`` are all bounds."""
+        return np.asarray(self._core.ids())
 
     def boxes(self, ids: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The bounds of boxes.

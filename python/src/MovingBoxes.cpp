@@ -189,6 +189,17 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
 }
 
+MovingBoxes::Ids MovingBoxes::ids() {
+  std::vector<BoxId> ids;
+  alone([&](World& world) {
+    ids.reserve(world.size());
+    for (BoxId id = 0; id < world.idBound(); ++id) {
+      if (world.contains(id)) ids.push_back(id);
+    }
+  });
+  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
+}
+
 py::tuple MovingBoxes::state() {
   std::vector<BoxId> ids;
   std::vector<double> bounds;

@@ -58,6 +58,10 @@ class MovingBoxes {
 
   [[nodiscard]] std::size_t size();
   [[nodiscard]] bool contains(BoxId id);
+
+  /// Of all boxes, ascending.
+  [[nodiscard]] Ids ids();
+
   [[nodiscard]] Numbers boxes(const pybind11::buffer& ids);
 
   /// All ids, and for each the box; in each row category, mask, group, whether the box is static, and its world; and the

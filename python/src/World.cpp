@@ -54,6 +54,7 @@ void bindWorld(py::module_& module) {
       .def("set_properties", &MovingBoxes::setProperties)
       .def("size", &MovingBoxes::size)
       .def("contains", &MovingBoxes::contains)
+      .def("ids", &MovingBoxes::ids)
       .def("boxes", &MovingBoxes::boxes)
       .def("state", &MovingBoxes::state)
       .def("step", &MovingBoxes::step)

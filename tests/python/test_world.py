@@ -107,6 +107,18 @@ def test_a_property_that_is_not_set_stays():
     assert world.__getstate__()["margin"].tolist() == given["margin"]
 
 
+def test_a_world_lists_its_boxes():
+    world = allpairs.World()
+    assert world.ids().tolist() == []
+    boxes = np.arange(30.0).reshape(5, 6)
+    world.add(boxes)
+    world.remove([1, 3])
+    for each in (world, copy.copy(world), pickle.loads(pickle.dumps(world))):
+        assert each.ids().dtype == np.uint32
+        assert each.ids().tolist() == [0, 2, 4]
+        assert each.boxes(each.ids()).tolist() == boxes[::2].tolist()
+
+
 def test_boxes_of_different_worlds_are_no_pairs():
     boxes = np.zeros((5, 6)) + [0, 0, 0, 1, 1, 1]
     world = allpairs.World()
