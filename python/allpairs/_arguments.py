@@ -179,6 +179,9 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return array.astype(np.float32)
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)
+    if array.dtype.names is not None:
+        rows = "numpy.lib.recfunctions.structured_to_unstructured()"
+        raise InvalidArgument(f"{name} has fields, {', '.join(array.dtype.names)}; {rows} makes rows of numbers of them")
     if array.dtype.kind not in "iub":
         raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes numbers that float32 or float64 holds")
     if array.dtype.itemsize == 8 and (array > _EXACT_INTEGERS).any() | (array < -_EXACT_INTEGERS).any():
@@ -311,6 +314,8 @@ def two_corners(value: BoxesLike, name: str) -> tuple[npt.ArrayLike, npt.ArrayLi
         if len(value) != 2:
             raise InvalidArgument(f"{name}boxes are a tuple of {len(value)}; it takes (lower, upper)")
         return value[0], value[1]
+    if isinstance(value, list) and len(value) == 2 and all(isinstance(corner, np.ndarray) and corner.ndim == 2 for corner in value):
+        raise InvalidArgument(f"{name}boxes are a list of two arrays; as corners it takes a tuple (lower, upper)")
     return value, None
 
 

@@ -29,6 +29,22 @@ def test_a_nan_of_one_of_two_sets_names_the_set():
     assert caught.value.index == 2
 
 
+def test_corners_in_a_list_are_told_to_be_a_tuple():
+    corners = [np.zeros((4, 3)), np.ones((4, 3))]
+    with pytest.raises(allpairs.InvalidArgument, match=r"^second set: boxes are a list of two arrays; .* a tuple \(lower, upper\)"):
+        allpairs.overlaps_between(BOXES, corners)
+    assert allpairs.count_between(BOXES[:2], [np.zeros(6), np.ones(6)]) == 2  # rows are rows, in a list too
+
+
+def test_fields_are_told_how_to_become_rows():
+    from numpy.lib.recfunctions import structured_to_unstructured
+
+    table = np.ones(3, dtype=[(name, np.float32) for name in ("minx", "miny", "minz", "maxx", "maxy", "maxz")])
+    with pytest.raises(allpairs.InvalidArgument, match="^lower has fields, minx, miny, .*structured_to_unstructured"):
+        allpairs.overlaps(table)
+    assert allpairs.count(structured_to_unstructured(table)) == 3
+
+
 def test_a_margin_that_is_none_names_its_box():
     with pytest.raises(allpairs.InvalidBox) as caught:
         allpairs.overlaps(BOXES, margin=[0, 1, np.nan, 0])
