@@ -179,7 +179,8 @@ class World:
         Returns
         -------
         ndarray, shape (n,), uint32
-            The ids of the boxes. Ids of removed boxes are reused.
+            The ids of the boxes, small numbers. Those of removed boxes are reused, but only after the step that reports
+            that their pairs have ended.
         """
         boxes = _arguments.world_boxes(lower, upper)
         return np.asarray(self._core.add(boxes, _properties(len(boxes), locals())))

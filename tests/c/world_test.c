@@ -219,7 +219,28 @@ static void aWorldIsNotUsedByItsOwnCallback(size_t threads) {
   allpairs_set_destroy(set);
 }
 
+static void idsAreReusedAfterTheNextStep(void) {
+  const uint32_t middle = 1;
+  const allpairs_ids gone = {&middle, 1};
+  allpairs_world* world = NULL;
+  allpairs_set* three = setOf(rows, 3);
+  allpairs_set* one = setOf(rows, 1);
+  allpairs_step step;
+  uint32_t given[3];
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(world, three, NULL, given) == ALLPAIRS_OK && given[0] == 0 && given[2] == 2);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_remove(world, gone) == ALLPAIRS_OK && !allpairs_world_contains(world, 1));
+  ALLPAIRS_CHECK(allpairs_world_add(world, one, NULL, given) == ALLPAIRS_OK && given[0] == 3);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(world, one, NULL, given) == ALLPAIRS_OK && given[0] == 1);
+  allpairs_world_destroy(world);
+  allpairs_set_destroy(three);
+  allpairs_set_destroy(one);
+}
+
 int main(void) {
+  idsAreReusedAfterTheNextStep();
   aWorldIsNotUsedByItsOwnCallback(0);
   aWorldIsNotUsedByItsOwnCallback(2);
   worldsAreApart();
