@@ -75,14 +75,27 @@ def _flat(name: str, array: npt.NDArray[Any], begin: npt.NDArray[np.uint64]) -> 
     return array
 
 
+def _equal_size(begin: npt.NDArray[np.uint64]) -> int | None:
+    """The number of boxes of each world, where they all have as many."""
+    sizes = np.diff(begin)
+    return int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else None
+
+
 def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint32]:
     """A filter's array: for each box of all worlds, or, if they are of equal size, of one."""
     if _arguments.is_one(value):
         return _arguments.labels(name, value, boxes)
     array = _flat(name, _arguments.array_of(name, value), begin)
-    sizes = np.diff(begin)
-    one = int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else boxes
+    one = _equal_size(begin)
     return _arguments.labels(name, array, one if array.size == one else boxes)
+
+
+def _margins(value: npt.ArrayLike | None, begin: npt.NDArray[np.uint64]) -> npt.ArrayLike | None:
+    """A margin for all boxes, or for each box of all worlds; those of one world, if they are of equal size, are repeated."""
+    if value is None or _arguments.is_one(value):
+        return value
+    array = _flat("margin", _arguments.array_of("margin", value), begin)
+    return np.tile(array, len(begin) - 1) if array.size == _equal_size(begin) else array
 
 
 def overlaps_in_worlds(
@@ -118,11 +131,10 @@ def overlaps_in_worlds(
     shared : array_like, shape (m, 6), or tuple of two array_like of shape (m, 3)
         Boxes that are in every world, such as the ground. The pairs are then those of a box of the world and one of
         these, as `overlaps_between` returns them.
-    margin : float or array_like, one for each box of all worlds
-        As in `overlaps`. Shared boxes have none.
+    margin : float or array_like
     group, category, mask : int or array_like of integers 0 to 2**32 - 1
         As in `overlaps`: one for each box of all worlds, or, if worlds are of equal size, of one world for all. Shared
-        boxes have no group, and every category and mask.
+        boxes have no margin and no group, and every category and mask.
     ignore : array_like, shape (k, 2), integers
         Pairs to exclude in every world, numbered within a world; with ``shared``, pairs of a box, of the largest
         world, and a shared one.
@@ -150,8 +162,7 @@ def overlaps_in_worlds(
     ([[0, 0], [0, 0]], [0, 1, 2])
     """
     low, high, begin = _divided(lower, upper, offsets)
-    if margin is not None and not _arguments.is_one(margin):
-        margin = _flat("margin", _arguments.array_of("margin", margin), begin)
+    margin = _margins(margin, begin)
     depth = lambda: _arguments.depth_of(distance, [margin])
     own = _arguments.box_set(low, high, margin, depth, single=True)
     boxes, axes = own

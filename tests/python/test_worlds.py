@@ -161,6 +161,9 @@ def test_values_for_each_box_have_the_shape_of_the_worlds():
     for group in (rows, rows.ravel()):
         assert allpairs.overlaps_in_worlds(boxes, group=group)[0].tolist() == [[0, 2], [1, 2]] * 2
     assert len(allpairs.overlaps_in_worlds(boxes, margin=np.full((2, 3), -0.25))[0]) == 6
+    margin = np.array([0, -2.0, 0])  # of each world the second box is in no pair
+    assert allpairs.overlaps_in_worlds(boxes, margin=margin)[0].tolist() == [[0, 2]] * 2
+    assert allpairs.overlaps_in_worlds(boxes[:, :, [0, 1, 3, 4]], margin=margin)[0].tolist() == [[0, 2]] * 2
     for name in ("group", "category", "mask", "margin"):
         for wrong in (rows.T, rows[np.newaxis]):
             with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has shape .* worlds of n boxes"):
