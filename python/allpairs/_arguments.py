@@ -179,6 +179,8 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return array.astype(np.float32)
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)
+    if array.dtype.kind in "OSU" and array.ndim == 0:  # of what is no array, such as None, a path or a generator
+        raise InvalidArgument(f"{name} is {_shown(value)}; it takes numbers")
     if array.dtype.names is not None:
         rows = "numpy.lib.recfunctions.structured_to_unstructured()"
         raise InvalidArgument(f"{name} has fields, {', '.join(array.dtype.names)}; {rows} makes rows of numbers of them")
