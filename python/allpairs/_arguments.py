@@ -144,21 +144,15 @@ def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return value
     if _hides(value):
         raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
-    if hasattr(value, "__dlpack__") and not hasattr(value, "__array__"):  # which NumPy takes for an object
-        return _exchanged(name, value)
+    is_exchanged = hasattr(value, "__dlpack__") and not hasattr(value, "__array__")  # NumPy takes it for an object
     try:
-        return np.asarray(value)
-    except ValueError as error:  # of rows of several lengths
-        raise InvalidArgument(f"{name} is no array: {_shown(str(error))}") from None
-
-
-def _exchanged(name: str, value: Any) -> npt.NDArray[Any]:
-    """An array of another library, in the same memory; what its library or NumPy refuses may be any exception."""
-    try:
-        array: npt.NDArray[Any] = np.from_dlpack(value)
+        array: npt.NDArray[Any] = np.from_dlpack(value) if is_exchanged else np.asarray(value)
         return array
-    except Exception as error:
-        raise InvalidArgument(f"{name} cannot be read by __dlpack__: {_shown(str(error))}") from error
+    except MemoryError:
+        raise
+    except Exception as error:  # rows of several lengths, or what another library refuses: memory of a GPU, say
+        reason = " ".join(str(error).split())
+        raise InvalidArgument(f"{name} cannot be read as an array: {reason[:140]}") from error
 
 
 def _hides(value: object) -> bool:

@@ -194,10 +194,21 @@ def test_arrays_that_have_nothing_but_dlpack_are_taken_everywhere():
     assert world.nearest(low)[1].tolist() == world.nearest(lower)[1].tolist()
 
 
-def test_what_cannot_be_exchanged_names_the_argument():
-    class Elsewhere(Capsule):
-        def __dlpack__(self, **settings):
-            raise BufferError("it lies in the memory of a GPU")
+def test_what_another_library_refuses_names_the_argument():
+    reason = "it lies in the memory of a GPU"
 
-    with pytest.raises(allpairs.InvalidArgument, match="^upper cannot be read by __dlpack__: .it lies in the memory of a GPU.$"):
-        allpairs.overlaps(np.zeros((2, 3)), Elsewhere(np.zeros((2, 3))))
+    class Exchanged(Capsule):
+        def __dlpack__(self, **settings):
+            raise BufferError(reason)
+
+    class Converted:
+        def __array__(self, *settings, **more):
+            raise TypeError(reason)
+
+    corners = np.zeros((2, 3))
+    for elsewhere in (Exchanged(corners), Converted()):
+        for call in (allpairs.overlaps, allpairs.count, allpairs.neighbors, allpairs.World().add):
+            with pytest.raises(allpairs.InvalidArgument, match=f"^upper cannot be read as an array: {reason}$"):
+                call(corners, elsewhere)
+        with pytest.raises(allpairs.InvalidArgument, match=f"^group cannot be read as an array: {reason}$"):
+            allpairs.overlaps(corners, corners, group=elsewhere)
