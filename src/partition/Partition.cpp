@@ -93,7 +93,6 @@ void narrow(Cell& cell, const Cut& cut, bool isLow) {
 void checkCuts(std::span<const Cut> cuts) {
   std::vector<bool> isCutSeen(cuts.size());
   std::vector<bool> isCellSeen(cuts.size() + 1);
-  if (!cuts.empty()) isCutSeen[0] = true;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     bool isRight = cuts[i].axis < 3 && std::isfinite(cuts[i].at);
     for (const std::int32_t side : {cuts[i].low, cuts[i].high}) {

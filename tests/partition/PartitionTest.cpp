@@ -48,6 +48,29 @@ TEST(Partition, WhatNoCutDividesStaysOneCell) {
   EXPECT_LE(sumOf(boxesPerCell(partition, nested)), 100U * partition.size());
 }
 
+TEST(Partition, TwoBoxesApartAreCutFromEachOther) {
+  const Partition partition(test::lent(std::vector<Box>{cube(0, 0, 0), cube(5, 0, 0)}), 2);
+  ASSERT_EQ(partition.size(), 2U);
+  EXPECT_NE(partition.cellOf({0, 0, 0}), partition.cellOf({5, 0, 0}));
+}
+
+TEST(Partition, BoxesThatBeginTogetherAreCutFromTheRest) {
+  std::vector<Box> boxes(60, cube(0, 0, 0));
+  boxes.resize(100, cube(5, 0, 0));
+  const Partition partition(boxes, 2);
+  ASSERT_EQ(partition.size(), 2U) << "the minimum in the middle is the least, and no box is below that";
+  EXPECT_EQ(boxesPerCell(partition, boxes), (std::vector<std::uint64_t>{60, 40}));
+}
+
+TEST(Partition, BoxesThatBeginBeforeACellDoNotDecideWhereItIsCut) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 80; ++i) boxes.push_back({{0.1 * i, 0, 0}, {50.2, 1, 1}});  // over the first cut, at 50
+  for (int i = 0; i < 20; ++i) boxes.push_back({{10.0 + i, 0, 0}, {10.5 + i, 1, 1}});
+  for (int i = 0; i < 100; ++i) boxes.push_back({{50.0 + i, 0, 0}, {50.5 + i, 1, 1}});
+  const Partition partition(boxes, 4);
+  EXPECT_NE(partition.cellOf({50, 0, 0}), partition.cellOf({149, 0, 0}));
+}
+
 TEST(Partition, VisitsTheCellsOfManyBoxesAsOfEachAlone) {
   std::vector<Box> boxes = test::toDouble(test::randomBoxes(5'000, 6));
   const Partition partition(boxes, 40);
@@ -101,6 +124,19 @@ TEST(Partition, ACellIsCutAgainAndTheOthersStay) {
   const std::vector<std::uint64_t> counts = boxesPerCell(partition, boxes);
   EXPECT_TRUE(std::all_of(counts.begin(), counts.end(), [](std::uint64_t count) { return count > 100; }));
   EXPECT_FALSE(partition.cutAgain(2, BoxView(), 4)) << "nothing to go by";
+}
+
+TEST(Partition, ACellThatIsCutInTwoKeepsItsNumberForOneHalf) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 8; ++i) boxes.push_back(cube(2 * i, 0, 0));
+  Partition partition = Partition::fromCuts(std::vector<Cut>{{8.0, 0, ~0, ~1}});
+  ASSERT_TRUE(partition.cutAgain(0, boxes, 2));
+  const auto bounded = [](double low, double high) {
+    return Cell{{low, -kInfinity, -kInfinity}, {high, kInfinity, kInfinity}};
+  };
+  const std::vector<Cell> expected{bounded(-kInfinity, 4), bounded(8, kInfinity), bounded(4, 8)};
+  EXPECT_EQ(partition.cells(), expected);
+  EXPECT_NO_THROW((void)Partition::fromCuts(partition.cuts())) << "which no cut leads back to itself in";
 }
 
 TEST(Partition, BoundsOfAllCellsAreThoseOfEach) {
