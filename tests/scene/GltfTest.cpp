@@ -2,8 +2,10 @@
 // What the numbers of a glTF file mean, and what its specification does not allow.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Expect.h"
@@ -23,15 +25,17 @@ struct Gltf {
   std::string accessors{};
   std::string views{};
   std::string bytes{};
+  std::string uri = "bytes.bin";
+  std::string file = "bytes.bin";  ///< In which the bytes are.
 
   [[nodiscard]] scene::Scene read() const {
     const TempFolder folder;
-    folder.write("bytes.bin", bytes);
+    folder.write(file, bytes);
     return scene::readInput(folder.write(
         "a.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0)" + node +
                       R"(}], "meshes": [{"primitives": [{)" + primitive + "}]" + mesh + R"(}], "accessors": [)" +
-                      accessors + R"(], "bufferViews": [)" + views + R"(], "buffers": [{"uri": "bytes.bin", )" +
-                      R"("byteLength": )" + std::to_string(bytes.size()) + "}]}"));
+                      accessors + R"(], "bufferViews": [)" + views + R"(], "buffers": [{"uri": ")" + uri +
+                      R"(", "byteLength": )" + std::to_string(bytes.size()) + "}]}"));
   }
 
   void expectRefused(const std::string& part) const {
@@ -133,6 +137,47 @@ TEST(Gltf, EntriesThatAreGivenOneByOneTakeTheirPlaces) {
   sparse(3).expectRefused("'sparse' names an entry that isn't there");
 }
 
+TEST(Gltf, AViewEndsWithItsBuffer) {
+  Gltf gltf = triangle();
+  gltf.views = view(1, 36);
+  gltf.expectRefused("bufferView 0 promises 36 bytes from 1, its buffer has 36");
+  gltf.views = view(37, 0);
+  gltf.expectRefused("bufferView 0 promises 0 bytes from 37, its buffer has 36");
+}
+
+/// The digits of base64 in their order: the numbers from 0 to 63, four of which are three bytes.
+TEST(Gltf, AllDigitsOfBase64AreRead) {
+  Gltf gltf{.primitive = R"("mode": 0, "attributes": {"POSITION": 0})",
+            .views = view(0, 48),
+            .bytes = std::string(48, '\0'),  // of which only the number is used
+            .uri =
+                "data:application/octet-stream;base64,ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                "+/"};
+  for (int i = 0; i < 16; ++i) {
+    gltf.accessors = accessor(0, 5121, 1, "VEC3", R"(, "byteOffset": )" + std::to_string(3 * i));
+    int digits = 0;
+    for (int k = 0; k < 4; ++k) digits = 64 * digits + 4 * i + k;
+    const std::array<double, 3> place{static_cast<double>(digits / 65536), static_cast<double>(digits / 256 % 256),
+                                      static_cast<double>(digits % 256)};
+    EXPECT_EQ(boxOf(*gltf.read().models.at(0)), (Box{place, place})) << i;
+  }
+}
+
+TEST(Gltf, NamesOfFilesMayHaveEscapes) {
+  const std::vector<std::pair<const char*, const char*>> uris{
+      {"a%20b%30%39%4A%4F%6a%6f.bin", "a b09JOjo.bin"},
+      {"%61.bi%6E", "a.bin"},
+      {"5%.bin", "5%.bin"},
+      {"%4g%g4%/4%4:.bin%6", "%4g%g4%/4%4:.bin%6"},
+  };
+  for (const auto& [uri, file] : uris) {
+    Gltf gltf = triangle();
+    gltf.uri = uri;
+    gltf.file = file;
+    EXPECT_EQ(boxOf(*gltf.read().models.at(0)), (Box{{0, 0, 0}, {2, 0, 0}})) << uri;
+  }
+}
+
 TEST(Gltf, ModesAreThoseOfTheSpecification) {
   Gltf gltf = triangle();
   gltf.primitive += R"(, "mode": 7)";
@@ -166,6 +211,30 @@ TEST(Gltf, RotationsHaveALengthOfAboutOne) {
   Gltf gltf = triangle();
   gltf.node = R"(, "rotation": [0, 0, 0, 0.9999])";
   EXPECT_EQ(boxOf(*gltf.read().models.at(0)), (Box{{0, 0, 0}, {2, 0, 0}}));
+}
+
+std::array<double, 3> crossOf(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// As a quaternion with the vector u and the scalar w turns a vector v: v + 2 w (u x v) + 2 u x (u x v).
+TEST(Gltf, RotationsTurnAboutAnyAxis) {
+  const std::array<double, 3> u{0.1, 0.5, -0.5};
+  const double w = 0.7;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<double, 3> v{};
+    v[axis] = 1.0;
+    Gltf gltf{.node = R"(, "rotation": [0.1, 0.5, -0.5, 0.7])",
+              .primitive = R"("mode": 0, "attributes": {"POSITION": 0})",
+              .accessors = accessor(0, 5126, 1, "VEC3"),
+              .views = view(0, 12)};
+    for (const double coordinate : v) appendNumber(gltf.bytes, static_cast<float>(coordinate), false);
+    const auto once = crossOf(u, v);
+    const auto twice = crossOf(u, once);
+    const Box box = boxOf(*gltf.read().models.at(0));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(box.min[k], v[k] + 2 * w * once[k] + 2 * twice[k], 1e-12) << axis << k;
+  }
 }
 
 TEST(Gltf, RotationsAndMatricesMayBeRounded) {
