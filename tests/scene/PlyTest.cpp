@@ -3,6 +3,7 @@
 
 #include "Expect.h"
 #include "SceneText.h"
+#include "allpairs/collision/LineModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "support/Npy.h"
@@ -60,6 +61,16 @@ TEST(PlyMesh, EdgesAreLinesStripsAreTrianglesAndVerticesAlonePoints) {
   EXPECT_EQ(namesOf(read(ascii(kVertices, body))), "mesh.ply TPointModel 4\n");
 }
 
+TEST(PlyMesh, EdgesMayHaveMoreThanTheirEnds) {
+  const auto scene = read(ascii(std::string(kVertices) +
+                                    "element edge 2\nproperty int before\nproperty int vertex1\nproperty int between\n"
+                                    "property int vertex2\nproperty int weight\n",
+                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 2 3 2\n2 1 0 2 3\n"));
+  const auto& model = dynamic_cast<const collision::LineModel&>(*scene.models[0]);
+  using Lines = std::vector<collision::LineModel::Line>;
+  EXPECT_EQ(model.lines(), (Lines{{0, 3}, {1, 2}}));
+}
+
 TEST(PlyMesh, OfStripsNothingIsThereThatOnlyLeadsToTheNextPiece) {
   const std::string body = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 0 0\n8 0 0\n9 1 0\n";
   const auto scene =
@@ -89,6 +100,8 @@ TEST(PlyMesh, ListsAndIndicesAreWholeNumbersFromZeroOn) {
   expectRefused(faces, "-1\n", "face 0 has a list without a proper length");
   expectRefused(faces, "2.5 0 1 2\n", "face 0 has a list without a proper length");
   expectRefused(faces, "3 0 1 1.5\n", "face 0 has an index that names no vertex");
+  expectRefused("element face 1\nproperty list uchar double vertex_indices\n", "3 0 1 4294967298\n",
+                "face 0 has an index that names no vertex");
   expectRefused("element tristrips 1\nproperty list int int vertex_indices\n", "4 0 1 2 -2\n",
                 "has an index that names no vertex");
   expectRefused("element edge 1\nproperty int vertex1\nproperty int vertex2\n", "0 4\n", "edge 0 names vertex 4 of 4");
