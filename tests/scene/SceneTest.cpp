@@ -109,6 +109,19 @@ TEST(SceneNames, OfOneFileStayAsTheyAre) {
   EXPECT_EQ(namesOf(scene::readInput(path)), "default TTriangleModel 1\nCube.001 TTriangleModel 1\n");
 }
 
+/// "wheel#9" is the ninth wheel of a file; "bolt#" has no number, and is no bolt.
+TEST(SceneNames, NumbersOfAFileAreNoPartOfANameThatIsShared) {
+  const TempFolder folder;
+  std::string wheels;
+  for (int i = 0; i < 10; ++i) wheels += triangle("wheel");
+  scene::Scene scene = scene::readInput(folder.write("a.obj", wheels + triangle("bolt#")));
+  scene::append(scene, scene::readInput(folder.write("b.obj", triangle("wheel") + triangle("bolt"))));
+  std::string expected = "a.obj › wheel TTriangleModel 1\n";
+  for (int i = 2; i <= 10; ++i) expected += "a.obj › wheel#" + std::to_string(i) + " TTriangleModel 1\n";
+  EXPECT_EQ(namesOf(scene),
+            expected + "bolt# TTriangleModel 1\nb.obj › wheel TTriangleModel 1\nbolt TTriangleModel 1\n");
+}
+
 TEST(SceneNames, OfFilesThatAreCalledAlikeHaveTheirFolders) {
   const TempFolder folder;
   const auto left = folder.write("left/wheel.obj", triangle("wheel"));
@@ -178,6 +191,10 @@ TEST(Scene, TheFirstRegionCounts) {
   scene::append(scene, std::move(other));
   EXPECT_EQ(scene.region, cube(0, 0, 0));
   EXPECT_EQ(scene.remarks.size(), 1U);
+  scene::Scene same = scene::emptyScene();
+  same.region = cube(0, 0, 0);
+  scene::append(scene, std::move(same));
+  EXPECT_EQ(scene.remarks.size(), 1U) << "of the same one there is nothing to say";
 }
 
 }  // namespace
