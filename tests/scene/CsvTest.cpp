@@ -72,6 +72,26 @@ TEST(Csv, AQuotedNameMayHaveLineBreaks) {
 
 TEST(Csv, AnEmptyFileHoldsNoBoxes) { EXPECT_EQ(readText("# nothing\n"), std::vector<Named>{}); }
 
+TEST(Csv, OfSemicolonsAHintIsGivenWhereNothingIsSeparatedByCommas) {
+  const std::string hint = "; commas separate them, not semicolons";
+  const auto problemOf = [](const std::string& text) {
+    try {
+      (void)readText(text);
+    } catch (const FileError& error) {
+      return error.problem();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(problemOf("1;2;3;4;5;6\n"), "has 1 column where a box has 6, or 7 with a name" + hint);
+  EXPECT_EQ(problemOf("1 2 3 4 5 6\n"), "has 1 column where a box has 6, or 7 with a name");
+  EXPECT_EQ(problemOf("a;b,1\n"), "has 2 columns where a box has 6, or 7 with a name");
+}
+
+TEST(Csv, ASignIsThereOnce) {
+  expectCsvProblem("1,2,3,4,5,+-6\n", "bad.csv:1:11: '+-6' is not a number");
+  expectCsvProblem("1,2,3,4,5,++6\n", "bad.csv:1:11: '++6' is not a number");
+}
+
 TEST(Csv, ErrorsNameLineAndColumn) {
   expectCsvProblem("1,2,3,4,5,6\n\n1,2,x,4,5,6\n", "bad.csv:3:5: 'x' is not a number");
   expectCsvProblem("1,2,3,4,5,6\n1,2,,4,5,6\n", "bad.csv:2:5: a number is missing");
