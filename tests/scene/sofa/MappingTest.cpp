@@ -117,6 +117,16 @@ TEST_F(SofaMapping, PointsInAGridFollowIt) {
               IsBox(Corners{11, 3, 2, 14, 4, 4}));
 }
 
+TEST_F(SofaMapping, AGridThatIsNoVolumeMovesNothing) {
+  for (const char* n : {"1 3 3", "3 1 3", "3 3 1"}) {
+    const auto scene = readIn("<RegularGridTopology n='" + std::string{n} + R"(' min='0 0 0' max='2 2 2'/>
+        <MechanicalObject dx='10'/><Node><MechanicalObject position='0.5 1.5 1'/><BarycentricMapping/><PointModel/>
+        </Node>)");
+    EXPECT_THAT(onlyBox(scene), IsBox(Corners{0.5, 1.5, 1, 0.5, 1.5, 1})) << n;
+    EXPECT_THAT(scene.warnings.back().reason, HasSubstr("is no volume")) << n;
+  }
+}
+
 TEST_F(SofaMapping, PointsOutsideAGridGoOnAsTheNearestCell) {
   const std::string grid = "<RegularGridTopology n='2 2 2'/><MechanicalObject scale='3'/>";
   EXPECT_THAT(box(grid, "<MechanicalObject position='-1 0 0 0 5 0'/><BarycentricMapping/>"),
@@ -157,6 +167,49 @@ TEST_F(SofaMapping, PointsInAHexahedronOfAMeshFollowItsCorners) {
     <MeshTopology hexahedra="0 1 2 3 4 5 6 7"/>)";
   EXPECT_THAT(box(hexahedron, "<MechanicalObject position='0.5 0.5 0.5'/><BarycentricMapping/>"),
               IsBox(Corners{0.75, 0.75, 0.75, 0.75, 0.75, 0.75}));
+}
+
+std::string textOf(const std::vector<Vec3>& points) {
+  std::string text;
+  for (const auto& p : points)
+    for (const double coordinate : p) text += std::to_string(coordinate) + ' ';
+  return text;
+}
+
+/// The points, made larger and moved.
+std::vector<Vec3> placed(std::vector<Vec3> points, double scale, const Vec3& at) {
+  for (auto& p : points)
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scale * p[axis] + at[axis];
+  return points;
+}
+
+/// A large cell and a small one beside it, which leaves. The middle of the small one is nearer.
+TEST_F(SofaMapping, PointsAreBoundToTheCellInWhichTheyLie) {
+  const std::vector<Vec3> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const std::vector<Vec3> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto expectBound = [&](const std::string& cells, const std::vector<Vec3>& cell, const Vec3& at,
+                               const Vec3& point) {
+    const auto large = textOf(placed(cell, 10, {}));
+    const auto parent = "<MechanicalObject rest_position='" + large + textOf(placed(cell, 1, at)) + "' position='" +
+                        large + textOf(placed(cell, 1, at + Vec3{100, 0, 0})) + "'/><MeshTopology " + cells + "/>";
+    EXPECT_THAT(
+        box(parent, "<MechanicalObject position='" + textOf({point}) + "'/><BarycentricMapping useRestPosition='1'/>"),
+        IsBox(Corners{point[0], point[1], point[2], point[0], point[1], point[2]}))
+        << cells << ' ' << textOf({at});
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 10.0}) {
+      Vec3 at{4.5, 4.5, 4.5}, point{5, 5, 5};
+      at[axis] = side;
+      point[axis] = side < 0 ? 0.5 : 9.5;
+      expectBound("hexahedra='0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15'", cube, at, point);
+      at[2] = point[2] = 0;
+      if (axis < 2) expectBound("quads='0 1 2 3 4 5 6 7'", {cube.begin(), cube.begin() + 4}, at, point);
+    }
+  }
+  expectBound("triangles='0 1 2 3 4 5'", triangle, {5.1, 5.1, 0}, {4.5, 4.5, 0});
+  expectBound("triangles='0 1 2 3 4 5'", triangle, {-1, 2, 0}, {0.5, 2.5, 0});
+  expectBound("triangles='0 1 2 3 4 5'", triangle, {2, -1, 0}, {2.5, 0.5, 0});
 }
 
 constexpr auto kTwoStates =
