@@ -37,6 +37,10 @@ TEST_F(SofaEngine, ABoxChoosesPointsAndElements) {
   EXPECT_EQ(pointsOf(chosen("") + "<Node><MechanicalObject position='@../roi.pointsInROI'/><PointModel/></Node>"),
             (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}))
       << "without a box it is that of one by one by one";
+  EXPECT_EQ(pointsOf(chosen("box='-0.5 -0.5 -1 0.5 0.5 1  2.5 0.5 -1 3.5 1.5 1'") +
+                     "<Node><MechanicalObject position='@../roi.pointsInROI'/><PointModel/></Node>"),
+            (std::vector<Vec3>{{0, 0, 0}, {3, 1, 0}}))
+      << "there may be several boxes";
   EXPECT_EQ(pointsOf(std::string{kRow} + "<BoxROI name='roi' box='12.5 -1 -1 20 0.5 1'/><Node><MechanicalObject/>"
                                          "<SubsetMapping indices='@../roi.indices'/><PointModel/></Node>"),
             (std::vector<Vec3>{{13, 0, 0}}))

@@ -135,6 +135,34 @@ TEST_F(SofaModel, OrientedBoxesTurnWithTheirFrames) {
   EXPECT_THAT(onlyBox(scene), IsBox(Corners{8, -1, -3, 12, 1, 3}));
 }
 
+/// As a quaternion with the vector u and the scalar w turns a vector v: v + 2 w (u x v) + 2 u x (u x v).
+Vec3 turned(const Vec3& u, double w, const Vec3& v) {
+  const auto across = [&u](const Vec3& a) {
+    return Vec3{u[1] * a[2] - u[2] * a[1], u[2] * a[0] - u[0] * a[2], u[0] * a[1] - u[1] * a[0]};
+  };
+  const auto once = across(v), twice = across(once);
+  return v + once * (2 * w) + twice * 2;
+}
+
+TEST_F(SofaModel, OrientedBoxesTurnWithFramesThatAreTurnedThemselves) {
+  const auto scene = readIn(R"(<MechanicalObject template="Rigid" position="1 2 3 0.1 0.5 -0.5 0.7"/>
+                            <Node><MechanicalObject template="Rigid" position="4 5 6 -0.7 0.1 0.5 0.5"/>
+                            <RigidRigidMapping/><OBBModel extents="3 2 1"/></Node>)");
+  Corners expected{1e9, 1e9, 1e9, -1e9, -1e9, -1e9};
+  for (const double x : {-3.0, 3.0})
+    for (const double y : {-2.0, 2.0})
+      for (const double z : {-1.0, 1.0}) {
+        const auto inChild = turned({-0.7, 0.1, 0.5}, 0.5, {x, y, z});
+        const auto corner = turned({0.1, 0.5, -0.5}, 0.7, {4 + inChild[0], 5 + inChild[1], 6 + inChild[2]});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double at = corner[axis] + 1.0 + static_cast<double>(axis);
+          expected[axis] = std::min(expected[axis], at);
+          expected[axis + 3] = std::max(expected[axis + 3], at);
+        }
+      }
+  EXPECT_THAT(onlyBox(scene), IsBox(expected));
+}
+
 TEST_F(SofaModel, CapsulesJoinEdgesOrLieAlongTheYAxisOfFrames) {
   const auto edges = readIn(R"(<MechanicalObject position="0 0 0 4 0 0"/><MeshTopology edges="0 1"/>
     <CapsuleModel defaultRadius="0.25" proximity="9"/>)");
@@ -174,6 +202,8 @@ TEST_F(SofaModel, WhatAModelLacksIsNamed) {
 TEST_F(SofaModel, IndicesBeyondThePointsAreNamed) {
   EXPECT_THAT(complaintIn("<MechanicalObject position='0 0 0 1 1 1'/><MeshTopology edges='0 7'/><LineModel/>"),
               HasSubstr("names point 7, its state has 2"));
+  EXPECT_THAT(complaintIn("<MechanicalObject position='0 0 0 1 1 1'/><MeshTopology edges='0 2'/><LineModel/>"),
+              HasSubstr("names point 2, its state has 2"));
 }
 
 TEST_F(SofaModel, PartialReadingLeavesOutWhatCannotBePlacedAndSaysWhy) {
