@@ -68,6 +68,7 @@ TEST_F(SofaMeshFile, ObjNamesTheLineOfWhatIsWrong) {
   EXPECT_THAT(problem("a.obj", "v 0 0 nan\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(problem("a.obj", "v 0 0 1e999\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 1 2 3\n"), HasSubstr("a point that isn't there"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"), HasSubstr("a point that isn't there"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr("count from 1"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf -2 1 1\n"), HasSubstr("before the first point"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n"), HasSubstr("not an integer"));
@@ -193,6 +194,15 @@ TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
 TEST_F(SofaMeshFile, OffAndTrianAreRead) {
   EXPECT_THAT(mesh("a.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n").quads, SizeIs(1));
   EXPECT_THAT(mesh("a.trian", "3\n0 0 0\n1 0 0\n1 1 0\n1\n0 1 2 -1 -1 -1\n").triangles, SizeIs(1));
+}
+
+TEST_F(SofaMeshFile, FacesOfOffAndTrianNameThePointsThatAreThere) {
+  const std::string points = "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const auto read = mesh("a.off", points + "3 3 1 2\n4 1 0 3 2\n2 0 1\n");
+  EXPECT_EQ(read.triangles, (Elements<3>{{3, 1, 2}}));
+  EXPECT_EQ(read.quads, (Elements<4>{{1, 0, 3, 2}}));
+  EXPECT_THAT(problem("a.off", points + "3 1 2 4\n"), HasSubstr("a point that isn't there"));
+  EXPECT_THAT(problem("a.trian", "3\n0 0 0\n1 0 0\n1 1 0\n1\n0 1 3 -1 -1 -1\n"), HasSubstr("a point that isn't there"));
 }
 
 TEST_F(SofaMeshFile, OtherKindsOfFilesAreNamed) {

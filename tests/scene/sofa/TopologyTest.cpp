@@ -230,6 +230,18 @@ TEST_F(SofaTopology, PointsAreMadeOnPointsEdgesFacesAndCells) {
             (std::vector<Vec3>{{0.5, 0.25, 0.125}}));
   EXPECT_EQ(points(made("<RegularGridTopology name='from' n='2 2 2'/>", "hexaBaryCoords='0.5 0.25 0.125'")),
             (std::vector<Vec3>{{0.5, 0.25, 0.125}}));
+  // The first corner counts too: here it is not at zero.
+  const std::string away =
+      "<MeshTopology name='from' position='1 1 1 3 1 1 3 3 1 1 3 1' triangles='0 1 2' quads='0 1 2 3' edges='0 1'/>";
+  EXPECT_EQ(points(made(away, "edgeBaryCoords='0.25 0 0'")), (std::vector<Vec3>{{1.5, 1, 1}}));
+  EXPECT_EQ(points(made(away, "triangleBaryCoords='0.5 0.25 0'")), (std::vector<Vec3>{{2.5, 1.5, 1}}));
+  EXPECT_EQ(points(made(away, "quadBaryCoords='0.25 0.5 0'")), (std::vector<Vec3>{{2, 2, 1}}));
+  EXPECT_EQ(points(made("<MeshTopology name='from' position='1 1 1 2 1 1 1 2 1 1 1 2' tetrahedra='0 1 2 3'/>",
+                        "tetraBaryCoords='0.5 0.25 0.125'")),
+            (std::vector<Vec3>{{1.5, 1.25, 1.125}}));
+  EXPECT_EQ(points(made("<RegularGridTopology name='from' n='2 2 2' min='1 1 1' max='2 2 2'/>",
+                        "hexaBaryCoords='0.5 0.25 0.125'")),
+            (std::vector<Vec3>{{1.5, 1.25, 1.125}}));
   const auto both = made(square, "pointBaryCoords='0 0 0 0 0 9' edgeBaryCoords='0.5 0 0' copyEdges='1'");
   EXPECT_EQ(points(both).size(), 9U);
   EXPECT_EQ(both.models.at(1).lines, (Elements<2>{{0, 2}}));
